@@ -8,6 +8,7 @@
   cycle.
 """
 
+import os
 import pathlib
 import re
 import sys
@@ -40,9 +41,10 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 def layer_of(path):
     """Layer of a file in include/meniscus/<layer>/ or src/<layer>/; None if it is in none."""
-    parts = path.parts
-    folder = parts[1] if parts[0] == "src" else parts[2]
-    layer = LEAVES.get(folder, folder) if parts[0] == "src" else folder
+    if path.parts[0] == "src":
+        layer = LEAVES.get(path.parts[1], path.parts[1])
+    else:
+        layer = path.parts[2] if len(path.parts) > 3 else None
     return layer if layer in MAY_INCLUDE else None
 
 
@@ -60,8 +62,8 @@ def resolve(path, delimiter, name):
     folders = [pathlib.Path("include"), path.parent]
     if path.parts[0] == "tests":
         folders.append(pathlib.Path("tests"))
-    found = [folder / name for folder in folders if (ROOT / folder / name).is_file()]
-    return found[0] if found else folders[0] / name
+    files = [pathlib.Path(os.path.normpath(folder / name)) for folder in folders]
+    return next((file for file in files if (ROOT / file).is_file()), files[0])
 
 
 def check_file(path, graph, users, report):
