@@ -21,7 +21,7 @@ packages() {
 }
 
 need() {
-  local list missing admin=()
+  local list missing apt=(env DEBIAN_FRONTEND=noninteractive apt-get -qq)
   list=$(packages "$@")
   command -v dpkg-query >/dev/null ||
     fail "not a Debian system. Install what corresponds to ${list//$'\n'/ } and use cmake."
@@ -33,14 +33,13 @@ need() {
   [[ $missing ]] || return 0
   if ((EUID)); then
     command -v sudo >/dev/null || fail "ask an administrator for: apt-get install $missing"
-    admin=(sudo)
-    [[ -t 0 ]] || admin+=(-n)
+    if [[ -t 0 ]]; then apt=(sudo "${apt[@]}"); else apt=(sudo -n "${apt[@]}"); fi
   fi
   echo "Installing Debian packages: $missing" >&2
-  admin+=(env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0)
   # shellcheck disable=SC2086
-  { "${admin[@]}" update && "${admin[@]}" install -y --no-install-recommends $missing; } \
-    </dev/null >&2 || fail "could not install them. By hand: apt-get install $missing"
+  { quietly "$root/build/apt.txt" "${apt[@]}" update &&
+    quietly "$root/build/apt.txt" "${apt[@]}" install -y --no-install-recommends $missing; } ||
+    fail "could not install them. By hand: apt-get install $missing"
 }
 
 quietly() {
