@@ -85,9 +85,10 @@ inline Real log1p(Real x) {
   return std::log1p(x);
 }
 
+/// For real part > -1.
 inline Complex log1p(Complex x) {
-  const Real a = x.real(), b = x.imag();
-  return {Real(0.5) * std::log1p(2 * a + a * a + b * b), std::atan2(b, 1 + a)};
+  const Real a = x.real(), tangent = x.imag() / (1 + a);
+  return {std::log1p(a) + std::log1p(tangent * tangent) / 2, std::atan(tangent)};
 }
 
 /// Relative error < 4e-16.
