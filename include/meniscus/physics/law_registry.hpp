@@ -2,6 +2,7 @@
 // The table of material laws by name. Laws enter themselves before main() begins.
 #pragma once
 #include "meniscus/physics/law.hpp"
+#include "meniscus/physics/material.hpp"
 
 #include <map>
 #include <memory>
@@ -47,6 +48,16 @@ struct LawEntry {
   std::vector<KeyText> keys;
   std::unique_ptr<AnyLaw> (*typical)();           ///< with the typical numbers of its rows
   std::unique_ptr<AnyLaw> (*read)(const Block&);  ///< uniform numbers from a scene; notes problems
+  std::unique_ptr<Material<2>> (*material_2d)(const Block&);  ///< for a body; notes problems
+  std::unique_ptr<Material<3>> (*material_3d)(const Block&);
+
+  template <int D>
+  std::unique_ptr<Material<D>> material(const Block& block) const {
+    if constexpr (D == 2)
+      return material_2d(block);
+    else
+      return material_3d(block);
+  }
 };
 
 /// All laws, sorted by name.
@@ -96,7 +107,8 @@ class AnyLawOf final : public AnyLaw {
 
 template <Law L>
 LawEntry make_entry() {
-  LawEntry entry{L::type_name, L::viscous, {}, nullptr, nullptr};
+  LawEntry entry{L::type_name, L::viscous, {}, nullptr, nullptr, read_material<2, L>,
+                 read_material<3, L>};
   for (const Row<L>& row : L::rows())
     entry.keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
   entry.typical = []() -> std::unique_ptr<AnyLaw> {
