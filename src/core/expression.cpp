@@ -113,9 +113,11 @@ std::string explain(const mu::ParserError& error, const mu::Parser& parser,
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN: {
       const std::string name = token.substr(0, token.find_first_not_of(parser.ValidNameChars()));
-      if (name.empty()) return fmt::format("unexpected '{}'{}", token, place());
-      return fmt::format("unknown name '{}'{}; {}", name, place(),
-                         allowed_names(name, known_names(parser)));
+      if (name.empty())
+        return fmt::format("unexpected '{}'{}", token.substr(0, token.find(' ')), place());
+      return fmt::format(
+          "unknown name '{}'{}; allowed are x, y, z, t, pi, e and functions such as sqrt{}", name,
+          place(), did_you_mean(name, known_names(parser)));
     }
     case mu::ecEMPTY_EXPRESSION:
       return "it is empty";

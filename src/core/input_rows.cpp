@@ -29,6 +29,13 @@ std::string Range::text() const {
   return above ? lower : below ? upper : "any";
 }
 
+std::string Range::refusal(Real value, const std::string& unit) const {
+  const std::string number = std::isnan(value) ? "nan" : fmt::format("{}", value);  // never "-nan"
+  const std::string allowed = text();
+  return fmt::format("{}{}{} is out of range; allowed is {}", number, unit.empty() ? "" : " ", unit,
+                     allowed == "any" ? "a finite number" : allowed);
+}
+
 namespace rows {
 
 std::string fallback_text(Real value) {
@@ -68,9 +75,8 @@ Range in_scene_units(const Range& range, Dimension d, const Block& block) {
 
 void throw_out_of_range(const std::string& place, Real value, const Range& allowed,
                         const Eigen::Vector3d& X) {
-  throw InputError(fmt::format("{}: the formula gives {} at x = {}, y = {}, z = {}; allowed is {}",
-                               place, value, X[0], X[1], X[2],
-                               allowed.text() == "any" ? "a finite number" : allowed.text()));
+  throw InputError(fmt::format("{}: at x = {}, y = {}, z = {} the value {}", place, X[0], X[1],
+                               X[2], allowed.refusal(value)));
 }
 
 void print_table(std::ostream& out, const std::string& heading,

@@ -19,11 +19,6 @@ std::optional<Real> plain_number(const Value& value) {
   return std::nullopt;
 }
 
-std::string allowed_range(const Range& range, const std::string& if_any) {
-  const std::string text = range.text();
-  return text == "any" ? if_any : text;
-}
-
 }  // namespace
 
 std::string toml(bool value) {
@@ -55,7 +50,7 @@ std::string allowed_integer(const Range& range) {
 std::int64_t integer(const Value& value, const Range& range) {
   const auto found = exactly<std::int64_t>(value, allowed_integer(range));
   if (range.contains(static_cast<Real>(found))) return found;
-  throw InputError(fmt::format("{} is out of range; allowed is {}", found, range.text()));
+  throw InputError(range.refusal(static_cast<Real>(found)));
 }
 
 Real harmless(const Range& range) {
@@ -77,9 +72,7 @@ std::string Number::allowed_or(const std::string& formula) const {
 
 Real Number::checked(Real value) const {
   if (range.contains(value)) return value;
-  throw InputError(fmt::format("{}{}{} is out of range; allowed is {}", value,
-                               unit().empty() ? "" : " ", unit(),
-                               allowed_range(range, "a finite number")));
+  throw InputError(range.refusal(value, unit()));
 }
 
 Real Number::real(const Value& value) const {

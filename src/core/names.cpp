@@ -28,12 +28,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::string allowed_names(std::string_view given, const std::vector<std::string>& known) {
-  if (known.empty()) return "none is allowed";
-  std::string sentence =
-      fmt::format("allowed {} {}", known.size() == 1 ? "is" : "are", fmt::join(known, ", "));
+std::string did_you_mean(std::string_view given, const std::vector<std::string>& known) {
   constexpr std::size_t longest = 64;  // beyond, nobody misspelt anything, and the table is large
-  if (given.size() > longest) return sentence;
+  if (given.size() > longest) return "";
   const std::string* nearest = nullptr;
   std::size_t least = 0;
   for (const std::string& name : known) {
@@ -44,8 +41,13 @@ std::string allowed_names(std::string_view given, const std::vector<std::string>
       least = distance;
     }
   }
-  if (nearest != nullptr) sentence += fmt::format("; did you mean '{}'?", *nearest);
-  return sentence;
+  return nearest == nullptr ? "" : fmt::format("; did you mean '{}'?", *nearest);
+}
+
+std::string allowed_names(std::string_view given, const std::vector<std::string>& known) {
+  if (known.empty()) return "none is allowed";
+  return fmt::format("allowed {} {}{}", known.size() == 1 ? "is" : "are", fmt::join(known, ", "),
+                     did_you_mean(given, known));
 }
 
 }  // namespace meniscus

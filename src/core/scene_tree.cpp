@@ -81,8 +81,9 @@ std::vector<std::string> Table::keys() const {
 }
 
 std::string_view kind(const Value& value) {
-  static constexpr std::string_view names[] = {"true or false",  "an integer", "a number", "a text",
-                                               "a date or time", "an array",   "a table"};
+  static constexpr std::string_view names[] = {"a boolean", "an integer",     "a decimal number",
+                                               "a text",    "a date or time", "an array",
+                                               "a table"};
   return at(names, value.data.index());
 }
 

@@ -25,6 +25,8 @@ struct Range {
   bool contains(Real value) const;
   /// "> 0", ">= 0 and < 0.5", "any".
   std::string text() const;
+  /// "-1 Pa is out of range; allowed is > 0".
+  std::string refusal(Real value, const std::string& unit = "") const;
 };
 namespace range {
 inline constexpr Range any{}, positive{0, 1e300, true}, non_negative{0, 1e300};
