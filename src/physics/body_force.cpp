@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Loads per mass from formulas.
 #include "meniscus/physics/body_force.hpp"
 
 namespace meniscus {
@@ -8,7 +9,9 @@ template <int D>
 class BodyForce final : public ForceTerm {
  public:
   BodyForce(const Body<D>& body, std::vector<Expression> acceleration)
-      : body_(body), acceleration_(std::move(acceleration)), load_(body.mass.size()) {}
+      : body_(body), acceleration_(std::move(acceleration)), load_(body.mass.size()) {
+    for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
+  }
 
   std::string name() const override { return "body force on '" + body_.name + "'"; }
 
@@ -26,7 +29,7 @@ class BodyForce final : public ForceTerm {
 
  private:
   void evaluate(Real time) {
-    if (time == evaluated_at_) return;
+    if (time == evaluated_at_ || (steady_ && evaluated_at_ > never)) return;
     for (Index A = 0; A < body_.size(); ++A) {
       Eigen::Vector3d X = Eigen::Vector3d::Zero();
       X.head<D>() = at(body_.particles.X(), A);
@@ -40,7 +43,9 @@ class BodyForce final : public ForceTerm {
   const Body<D>& body_;
   std::vector<Expression> acceleration_;
   NodalVectors load_;
-  Real evaluated_at_ = -1e300;
+  bool steady_ = true;
+  static constexpr Real never = -1e300;
+  Real evaluated_at_ = never;
 };
 
 }  // namespace
