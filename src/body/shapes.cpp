@@ -29,7 +29,7 @@ Geometry<D> read_geometry(const Block& block) {
   std::vector<std::string> names;
   for (const auto& [name, kind] : shapes<D>()) names.push_back(name);
   const std::string name = block.choice("shape", names, {});
-  const Real jitter = block.real("jitter", dimension::none, {0, 0.5}, 0.0).value_or(0);
+  const Real jitter = block.real("jitter", dimension::none, {0, 0.5}, 0.0);
   const auto seed = block.integer("jitter_seed", range::non_negative, 1);
   const auto kind = shapes<D>().find(name);
   if (kind == shapes<D>().end()) return stand_in<D>();

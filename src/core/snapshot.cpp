@@ -2,12 +2,12 @@
 // Named arrays of the state of a run.
 #include "meniscus/core/snapshot.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
-
-#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -23,9 +23,10 @@ constexpr auto bytes_of_values = [](const auto& values) {
 };
 
 [[noreturn]] void wrong_count(std::string_view name, std::size_t found, std::size_t expected) {
-  throw FileError(fmt::format(
-      "The saved state '{}' holds {} numbers where {} are expected: it was written by another scene.",
-      name, found, expected));
+  throw FileError(
+      fmt::format("The saved state '{}' holds {} numbers where {} are expected: it was written by "
+                  "another scene.",
+                  name, found, expected));
 }
 
 }  // namespace
@@ -57,10 +58,11 @@ const T& Snapshot::find(std::string_view name, std::string_view type) const {
   if (values) return *values;
   std::vector<std::string_view> names;
   for (const auto& entry : arrays_) names.push_back(entry.first);
-  throw FileError(fmt::format(
-      "The saved state has no {} named '{}': it was written by another scene or another version. It "
-      "has: {}.",
-      type, name, fmt::join(names, ", ")));
+  throw FileError(
+      fmt::format("The saved state has no {} named '{}': it was written by another scene or "
+                  "another version. It "
+                  "has: {}.",
+                  type, name, fmt::join(names, ", ")));
 }
 
 const std::vector<Real>& Snapshot::reals(std::string_view name) const {
@@ -111,9 +113,10 @@ void Snapshot::require_finite() const {
     if (!values) continue;
     for (std::size_t i = 0; i < values->size(); ++i)
       if (!std::isfinite((*values)[i]))
-        throw SolveError(fmt::format(
-            "The state '{}' is {} at entry {} and was not saved; the last saved state is still good.",
-            name, (*values)[i], i));
+        throw SolveError(
+            fmt::format("The state '{}' is {} at entry {} and was not saved; the last saved state "
+                        "is still good.",
+                        name, (*values)[i], i));
   }
 }
 

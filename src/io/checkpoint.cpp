@@ -2,6 +2,8 @@
 // Writing checkpoints in turn, and finding the newest valid one.
 #include "meniscus/io/checkpoint.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 
 #include "files.hpp"
 #include "hdf5_file.hpp"
-#include "meniscus/core/error.hpp"
 #include "meta.hpp"
 
 namespace meniscus {
@@ -90,7 +91,8 @@ ReadCheckpoint read_newest(const std::filesystem::path& directory) {
   Newest newest = newest_checkpoint(directory);
   if (newest.file.empty()) {
     std::string found = newest.warnings.empty() ? "there is none" : "";
-    for (const std::string& warning : newest.warnings) found += (found.empty() ? "" : " ") + warning;
+    for (const std::string& warning : newest.warnings)
+      found += (found.empty() ? "" : " ") + warning;
     throw FileError(fmt::format(
         "Found no checkpoint to continue from in '{}': {}{}", directory.string(), found,
         newest.warnings.empty() ? "." : " Continue from a frame of run.h5 that holds the state."));
@@ -132,8 +134,7 @@ CheckpointWriter::CheckpointWriter(const RunDirectory& directory, Provenance pro
   newest_ = newest.file;
 }
 
-std::filesystem::path CheckpointWriter::write(std::int64_t step, Real time,
-                                              const Snapshot& state) {
+std::filesystem::path CheckpointWriter::write(std::int64_t step, Real time, const Snapshot& state) {
   const auto target = directory_ / file_names[newest_ == directory_ / file_names[0] ? 1 : 0];
   const auto temporary = temporary_name(target);
   hdf5::File file = hdf5::File::create(temporary, header_size);

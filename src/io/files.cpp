@@ -2,6 +2,8 @@
 // Small text files through the C library, whose errors carry a reason.
 #include "files.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,8 +12,6 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
-
-#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arrays of an HDF5 group, series that grow by one row per frame, and views over frames.
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 #include <hdf5.h>
 
@@ -7,7 +9,6 @@
 
 #include "hdf5_file.hpp"
 #include "hdf5_types.hpp"
-#include "meniscus/core/error.hpp"
 
 namespace meniscus::hdf5 {
 namespace {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Attributes of HDF5 groups and arrays.
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 #include <hdf5.h>
 
@@ -7,7 +9,6 @@
 
 #include "hdf5_file.hpp"
 #include "hdf5_types.hpp"
-#include "meniscus/core/error.hpp"
 
 namespace meniscus::hdf5 {
 namespace {
@@ -16,22 +17,22 @@ bool exists(std::int64_t object, const std::string& name) {
   return H5Aexists(object, name.c_str()) > 0;
 }
 
-Handle create(std::int64_t object, const std::string& name, std::int64_t type, const Handle& space) {
+Handle create(std::int64_t object, const std::string& name, std::int64_t type,
+              const Handle& space) {
   return {H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
           fmt::format("write the attribute '{}'", name)};
 }
 
 Handle open(std::int64_t object, const std::string& name) {
-  return {H5Aopen(object, name.c_str(), H5P_DEFAULT),
-          fmt::format("read the attribute '{}'", name)};
+  return {H5Aopen(object, name.c_str(), H5P_DEFAULT), fmt::format("read the attribute '{}'", name)};
 }
 
 /// A number is replaced in place: the file changes by its eight bytes alone.
 template <class T>
 void write_number(std::int64_t object, const std::string& name, Type type, T value) {
   const Handle scalar(H5Screate(H5S_SCALAR), "describe an attribute");
-  const Handle attribute = exists(object, name) ? open(object, name)
-                                                : create(object, name, file_type(type), scalar);
+  const Handle attribute =
+      exists(object, name) ? open(object, name) : create(object, name, file_type(type), scalar);
   check(H5Awrite(attribute, memory_type<T>(), &value),
         fmt::format("write the attribute '{}'", name));
 }
@@ -43,8 +44,7 @@ T read_number(std::int64_t object, const std::string& name) {
   if (H5Sget_simple_extent_npoints(space) != 1)
     throw FileError(fmt::format("Cannot read the attribute '{}': it is not one number.", name));
   T value{};
-  check(H5Aread(attribute, memory_type<T>(), &value),
-        fmt::format("read the attribute '{}'", name));
+  check(H5Aread(attribute, memory_type<T>(), &value), fmt::format("read the attribute '{}'", name));
   return value;
 }
 
@@ -112,7 +112,9 @@ void Group::set(const std::string& name, const std::string& text) {
   write_text_attribute(handle_, name, text);
 }
 
-bool Group::has_attribute(const std::string& name) const { return exists(handle_, name); }
+bool Group::has_attribute(const std::string& name) const {
+  return exists(handle_, name);
+}
 
 std::vector<std::string> Group::attribute_names() const {
   std::vector<std::string> names;
@@ -125,7 +127,9 @@ std::vector<std::string> Group::attribute_names() const {
   return names;
 }
 
-Real Group::real(const std::string& name) const { return read_number<Real>(handle_, name); }
+Real Group::real(const std::string& name) const {
+  return read_number<Real>(handle_, name);
+}
 
 std::int64_t Group::integer(const std::string& name) const {
   return read_number<std::int64_t>(handle_, name);

@@ -2,10 +2,12 @@
 // HDF5 files, groups and their closing.
 #include "hdf5_file.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 #include <hdf5.h>
 
-#include "meniscus/core/error.hpp"
+#include "hdf5_driver.hpp"
 
 namespace meniscus::hdf5 {
 namespace {
@@ -35,20 +37,21 @@ std::string reason() {
 }
 
 /// Files are opened without HDF5's own locks: results can be looked at while a run writes them.
-/// Two writers are kept apart by RunDirectory. Version bounds stay at their defaults: a raised bound
-/// makes the file unreadable after an interruption.
-Handle access_properties() {
+/// Two writers are kept apart by RunDirectory. Version bounds stay at their defaults: a raised
+/// bound makes the file unreadable after an interruption.
+Handle access_properties(bool writing) {
   be_quiet();
   Handle access(H5Pcreate(H5P_FILE_ACCESS), "prepare HDF5");
   check(H5Pset_file_locking(access, false, true), "prepare HDF5");
   check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "prepare HDF5");
+  if (writing) use_ordered_writes(access);
   return access;
 }
 
 Handle open_file(const std::filesystem::path& path, unsigned mode) {
   if (std::error_code ignored; !std::filesystem::exists(path, ignored))
     throw FileError(fmt::format("Cannot open '{}': there is no such file.", path.string()));
-  const Handle access = access_properties();
+  const Handle access = access_properties(mode == H5F_ACC_RDWR);
   return {H5Fopen(path.c_str(), mode, access), fmt::format("open '{}'", path.string())};
 }
 
@@ -58,7 +61,9 @@ void check(std::int64_t status, std::string_view doing) {
   if (status < 0) throw FileError(fmt::format("Cannot {}: {}.", doing, reason()));
 }
 
-Handle::Handle(std::int64_t id, std::string_view doing) : id_(id) { check(id, doing); }
+Handle::Handle(std::int64_t id, std::string_view doing) : id_(id) {
+  check(id, doing);
+}
 
 Handle& Handle::operator=(Handle&& other) noexcept {
   std::swap(id_, other.id_);
@@ -105,21 +110,6 @@ Group Group::group(const std::string& name) const {
   return {std::move(handle), path_ + '/' + name};
 }
 
-Group Group::create_unlinked_group(const std::string& future_name) const {
-  Handle handle(H5Gcreate_anon(handle_, H5P_DEFAULT, H5P_DEFAULT), doing("create", future_name));
-  return {std::move(handle), path_ + '/' + future_name};
-}
-
-void Group::link(const Group& unlinked, const std::string& name) {
-  check(H5Olink(unlinked.handle_, handle_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-        doing("write", name));
-}
-
-void Group::link_to(const std::string& target, const std::string& name) {
-  check(H5Lcreate_hard(handle_, target.c_str(), handle_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-        doing("write", name));
-}
-
 void Group::remove(const std::string& name) {
   check(H5Ldelete(handle_, name.c_str(), H5P_DEFAULT), doing("remove", name));
 }
@@ -128,7 +118,7 @@ File::File(Handle handle, const std::filesystem::path& path)
     : handle_(std::move(handle)), path_(path) {}
 
 File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
-  const Handle access = access_properties();
+  const Handle access = access_properties(true);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), "prepare HDF5");
   check(H5Pset_userblock(creation, user_block), "prepare HDF5");
   Handle handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access),
@@ -149,25 +139,8 @@ Group File::root() const {
   return {std::move(handle), path_.string() + ":"};
 }
 
-void File::hold_changes() {
-  H5AC_cache_config_t config{};
-  config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
-  check(H5Fget_mdc_config(handle_, &config), "prepare HDF5");
-  config.evictions_enabled = false;
-  // HDF5 allows this only for a cache of fixed size.
-  config.incr_mode = H5C_incr__off;
-  config.flash_incr_mode = H5C_flash_incr__off;
-  config.decr_mode = H5C_decr__off;
-  check(H5Fset_mdc_config(handle_, &config), "prepare HDF5");
-}
-
 void File::flush() {
   check(H5Fflush(handle_, H5F_SCOPE_LOCAL), fmt::format("write '{}'", path_.string()));
-  H5AC_cache_config_t config{};
-  config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
-  check(H5Fget_mdc_config(handle_, &config), "prepare HDF5");
-  config.evictions_enabled = true;
-  check(H5Fset_mdc_config(handle_, &config), "prepare HDF5");
 }
 
 void File::close() {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of HDF5 that results need: groups, arrays, texts, attributes, and views that gather one
 // array from all frames. No HDF5 header is seen outside hdf5_file.cpp, hdf5_array.cpp,
-// hdf5_attribute.cpp.
+// hdf5_attribute.cpp, hdf5_driver.cpp.
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -10,8 +12,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "meniscus/core/types.hpp"
 
 namespace meniscus::hdf5 {
 
@@ -65,12 +65,6 @@ class Group {
   std::vector<std::string> names() const;
   Group create_group(const std::string& name);
   Group group(const std::string& name) const;
-  /// A group that no name leads to until link() gives it one: readers of an interrupted file never
-  /// meet a half-written member.
-  Group create_unlinked_group(const std::string& future_name) const;
-  void link(const Group& unlinked, const std::string& name);
-  /// A second name of the array `target` (a path from the root of the file).
-  void link_to(const std::string& target, const std::string& name);
   void remove(const std::string& name);
 
   // Arrays. A '/' in a name makes the groups in between.
@@ -123,9 +117,8 @@ class File {
   static File open_to_append(const std::filesystem::path& path);
 
   Group root() const;
-  /// Keeps all changes of existing structures in memory until flush(): an interruption before it
-  /// leaves the file as it was.
-  void hold_changes();
+  /// Makes all changes since the last flush lasting, in an order that survives a kill at any moment
+  /// (hdf5_driver.hpp).
   void flush();
   /// Flushes, closes, and reports what went wrong in doing so, as a destructor cannot.
   void close();

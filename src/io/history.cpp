@@ -2,6 +2,8 @@
 // Writing, continuing and reading history.csv.
 #include "meniscus/io/history.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,7 +14,6 @@
 #include <stdexcept>
 
 #include "files.hpp"
-#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -123,7 +124,8 @@ History History::read(const std::filesystem::path& file) {
 }
 
 bool History::has(std::string_view name) const {
-  return std::any_of(columns_.begin(), columns_.end(), [&](const auto& c) { return c.name == name; });
+  return std::any_of(columns_.begin(), columns_.end(),
+                     [&](const auto& c) { return c.name == name; });
 }
 
 const std::vector<Real>& History::column(std::string_view name) const {
@@ -132,8 +134,8 @@ const std::vector<Real>& History::column(std::string_view name) const {
     if (columns_[c].name == name) return values_[c];
     names.push_back(columns_[c].name);
   }
-  throw FileError(fmt::format("The history has no column '{}'. It has: {}.", name,
-                              fmt::join(names, ", ")));
+  throw FileError(
+      fmt::format("The history has no column '{}'. It has: {}.", name, fmt::join(names, ", ")));
 }
 
 }  // namespace meniscus

@@ -2,12 +2,13 @@
 // Summaries of result files and checkpoints.
 #include "meniscus/io/info.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 
 #include <iterator>
 
 #include "hdf5_file.hpp"
-#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -114,8 +115,8 @@ std::string describe_file(const std::filesystem::path& path) {
   else if (root.has("state"))
     describe_checkpoint(root, out);
   else
-    throw FileError(fmt::format("'{}' is neither a result file nor a checkpoint.",
-                                file_path.string()));
+    throw FileError(
+        fmt::format("'{}' is neither a result file nor a checkpoint.", file_path.string()));
   return text;
 }
 

@@ -2,15 +2,17 @@
 // Provenance and snapshots as HDF5 groups.
 #include "meta.hpp"
 
-#include <fmt/format.h>
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/sha256.hpp"
+
+#include <fmt/format.h>
 
 namespace meniscus {
 namespace {
 
-std::string hash_text(const Snapshot& state) { return fmt::format("{:016x}", state.hash()); }
+std::string hash_text(const Snapshot& state) {
+  return fmt::format("{:016x}", state.hash());
+}
 
 void read_arrays(const hdf5::Group& group, const std::string& prefix, Snapshot& state) {
   for (const std::string& name : group.names()) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Provenance and snapshots as HDF5 groups; used by result files and checkpoints.
 #pragma once
+#include "meniscus/core/snapshot.hpp"
+#include "meniscus/io/provenance.hpp"
+
 #include <string>
 
 #include "hdf5_file.hpp"
-#include "meniscus/core/snapshot.hpp"
-#include "meniscus/io/provenance.hpp"
 
 namespace meniscus {
 

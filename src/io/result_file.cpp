@@ -2,6 +2,8 @@
 // Writing and continuing a result file.
 #include "meniscus/io/result_file.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,7 +13,6 @@
 #include <stdexcept>
 
 #include "hdf5_file.hpp"
-#include "meniscus/core/error.hpp"
 #include "meta.hpp"
 #include "vtkhdf.hpp"
 #include "xdmf.hpp"
@@ -119,18 +120,12 @@ class ResultFile::Writer {
     hdf5::Group root = file_.root(), steps = root.group("steps");
     const std::string name = fmt::format("{}", frames_);
 
-    // First everything new, in places no reader is led to; then the few bytes that make it known.
-    file_.hold_changes();
-    hdf5::Group frame = steps.create_unlinked_group(name);
+    hdf5::Group frame = steps.create_group(name);
     frame.set("step", step);
     frame.set("time", time);
     for (const Field& field : fields) write_field(frame, field, storage());
     if (state) write_state(frame, *state);
-    if (!root.has("VTKHDF"))
-      vtkhdf::create(root, *layout_, body_of_particle(), options_.time_unit);
-    file_.flush();
-    file_.hold_changes();
-    steps.link(frame, name);
+    if (!root.has("VTKHDF")) vtkhdf::create(root, *layout_, body_of_particle(), options_.time_unit);
     vtkhdf::append(root, *layout_, frames_, time);
     file_.flush();
 
@@ -177,16 +172,18 @@ class ResultFile::Writer {
     require_field_name(field.name);
     require_size(field, particles_);
     const bool single = storage().type == hdf5::Type::float32;
-    const Real limit = single ? std::numeric_limits<float>::max() : std::numeric_limits<Real>::max();
+    const Real limit =
+        single ? std::numeric_limits<float>::max() : std::numeric_limits<Real>::max();
     for (std::size_t i = 0; i < field.values.size(); ++i) {
       if (std::abs(field.values[i]) <= limit) continue;
       const auto I = static_cast<std::int64_t>(i) / field.components;
       const auto body = std::find_if(bodies_.rbegin(), bodies_.rend(),
                                      [&](const BodyRange& b) { return b.first_particle <= I; });
-      throw SolveError(fmt::format(
-          "The field '{}' is {} at particle {} of body '{}' in step {}{}; the frame was not written.",
-          field.name, field.values[i], I - body->first_particle, body->name, step,
-          std::isfinite(field.values[i]) ? ", too large for float32" : ""));
+      throw SolveError(
+          fmt::format("The field '{}' is {} at particle {} of body '{}' in step {}{}; the frame "
+                      "was not written.",
+                      field.name, field.values[i], I - body->first_particle, body->name, step,
+                      std::isfinite(field.values[i]) ? ", too large for float32" : ""));
     }
   }
 
@@ -230,10 +227,10 @@ class ResultFile::Writer {
              group.integer("first_particle") == bodies_[b].first_particle;
     }
     if (!same)
-      throw FileError(
-          fmt::format("Cannot continue '{}': its bodies are not those of this scene. Choose another "
-                      "directory with --output.",
-                      path_.string()));
+      throw FileError(fmt::format(
+          "Cannot continue '{}': its bodies are not those of this scene. Choose another "
+          "directory with --output.",
+          path_.string()));
   }
 
   void drop_later_frames() {
@@ -287,7 +284,11 @@ std::int64_t ResultFile::write_frame(std::int64_t step, Real time, std::span<con
   return writer_->write_frame(step, time, fields, state);
 }
 
-std::int64_t ResultFile::frames() const { return writer_->frames(); }
-std::int64_t ResultFile::dropped_frames() const { return writer_->dropped_frames(); }
+std::int64_t ResultFile::frames() const {
+  return writer_->frames();
+}
+std::int64_t ResultFile::dropped_frames() const {
+  return writer_->dropped_frames();
+}
 
 }  // namespace meniscus

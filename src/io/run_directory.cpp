@@ -2,6 +2,8 @@
 // Making, locking and clearing the directory of a run.
 #include "meniscus/io/run_directory.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -10,13 +12,12 @@
 #include <cerrno>
 
 #include "files.hpp"
-#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
 
 /// Everything a run writes. One of the first four makes a directory count as used.
-constexpr const char* run_files[] = {"run.h5",     "checkpoint-a.h5", "checkpoint-b.h5",
+constexpr const char* run_files[] = {"run.h5",      "checkpoint-a.h5", "checkpoint-b.h5",
                                      "history.csv", "run.xdmf",        "run.log"};
 constexpr int telling_files = 4;
 
@@ -58,7 +59,9 @@ RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
   }
 }
 
-RunDirectory::~RunDirectory() { close(lock_); }
+RunDirectory::~RunDirectory() {
+  close(lock_);
+}
 
 void RunDirectory::lock() {
   lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -67,9 +70,10 @@ void RunDirectory::lock() {
   const int error_number = errno;
   if (error_number == EWOULDBLOCK) {
     close(lock_);
-    throw FileError(fmt::format("Another run is writing its results to '{}'. Wait for it, or choose "
-                                "another directory with --output.",
-                                path_.string()));
+    throw FileError(
+        fmt::format("Another run is writing its results to '{}'. Wait for it, or choose "
+                    "another directory with --output.",
+                    path_.string()));
   }
   // A file system without locks: nothing can be known, and nothing is refused.
 }

@@ -2,13 +2,13 @@
 // The log of a run by spdlog; no other file sees spdlog.
 #include "meniscus/io/run_log.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 #include <spdlog/logger.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
-
-#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -47,8 +47,14 @@ RunLog::~RunLog() = default;
 RunLog::RunLog(RunLog&&) noexcept = default;
 RunLog& RunLog::operator=(RunLog&&) noexcept = default;
 
-void RunLog::info(std::string_view message) { logger_->log.info(message); }
-void RunLog::warning(std::string_view message) { logger_->log.warn(message); }
-void RunLog::error(std::string_view message) { logger_->log.error(message); }
+void RunLog::info(std::string_view message) {
+  logger_->log.info(message);
+}
+void RunLog::warning(std::string_view message) {
+  logger_->log.warn(message);
+}
+void RunLog::error(std::string_view message) {
+  logger_->log.error(message);
+}
 
 }  // namespace meniscus

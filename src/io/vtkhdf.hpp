@@ -3,11 +3,12 @@
 // over /steps/<k>/<field> that grow by themselves; only the small index arrays are written.
 // Source: VTK File Formats, "VTKHDF File Format" 2.x, sections PolyData and Temporal Data.
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <span>
 #include <string>
 
 #include "frame_layout.hpp"
-#include "meniscus/core/types.hpp"
 
 namespace meniscus::vtkhdf {
 

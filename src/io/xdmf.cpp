@@ -9,7 +9,8 @@
 namespace meniscus {
 namespace {
 
-/// "Matrix" leaves six numbers in the order they have, which is VTK's; XDMF's own Tensor6 has another.
+/// "Matrix" leaves six numbers in the order they have, which is VTK's; XDMF's own Tensor6 has
+/// another.
 const char* attribute_type(int components) {
   switch (components) {
     case 1:

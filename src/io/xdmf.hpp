@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// run.xdmf: describes the frames of run.h5 to the XDMF readers of ParaView and VisIt. Each frame has
-// its own arrays (the Xdmf3 reader shows nothing where parts of arrays are named).
+// run.xdmf: describes the frames of run.h5 to the XDMF readers of ParaView and VisIt. Each frame
+// has its own arrays (the Xdmf3 reader shows nothing where parts of arrays are named).
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <filesystem>
 #include <string>
 
 #include "frame_layout.hpp"
-#include "meniscus/core/types.hpp"
 
 namespace meniscus {
 

@@ -2,14 +2,14 @@
 // Writes a run whose numbers are known, for check_results.py and kill_writer.py:
 //   result_writer DIR FRAMES float32|float64 COMPRESSION
 // A line "frame k" on stdout says that frame k is safe.
+#include "meniscus/io/checkpoint.hpp"
+#include "meniscus/io/history.hpp"
+#include "meniscus/io/result_file.hpp"
+
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
-
-#include "meniscus/io/checkpoint.hpp"
-#include "meniscus/io/history.hpp"
-#include "meniscus/io/result_file.hpp"
 
 using namespace meniscus;
 
@@ -18,7 +18,9 @@ namespace {
 constexpr Index particles = 300, first_body = 100;
 
 /// Value c of particle I in frame k; exact in single precision.
-Real value(std::int64_t k, Index I, int c) { return static_cast<Real>(k) + I / 512.0 + c / 8.0; }
+Real value(std::int64_t k, Index I, int c) {
+  return static_cast<Real>(k) + I / 512.0 + c / 8.0;
+}
 
 std::vector<Real> values(std::int64_t k, Index count, int components) {
   std::vector<Real> all;
@@ -49,8 +51,10 @@ void write_run(const std::string& path, std::int64_t frames, const ResultOptions
     Snapshot state;
     state.add_reals("velocity", three, "m/s");
     state.add_integers("step", std::vector<std::int64_t>{10 * k});
-    const Field fields[] = {{"position", 3, "m", three},   {"pressure", 1, "Pa", one},
-                            {"velocity", 2, "m/s", two},   {"strain", 6, "1", six},
+    const Field fields[] = {{"position", 3, "m", three},
+                            {"pressure", 1, "Pa", one},
+                            {"velocity", 2, "m/s", two},
+                            {"strain", 6, "1", six},
                             {"stress", 9, "Pa", nine}};
     const Real time = 0.5 * static_cast<Real>(k);
     history.write(std::vector<Real>{time, 1.0 / 3.0});

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The complete state of a run as named arrays: what a restart needs and what two runs are compared by.
+// The complete state of a run as named arrays: what a restart needs and what two runs are compared
+// by.
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <cstdint>
 #include <map>
 #include <span>
@@ -8,8 +11,6 @@
 #include <string_view>
 #include <variant>
 #include <vector>
-
-#include "meniscus/core/types.hpp"
 
 namespace meniscus {
 

@@ -2,18 +2,18 @@
 // Saved states of a run, and reading one to continue from it.
 //
 // DIR/checkpoint-a.h5 and DIR/checkpoint-b.h5 are written in turn, each beside its old version and
-// then put in its place: at every moment one complete checkpoint is on the disk. The first 512 bytes
-// of a file are a text (`head -n 3`) with the serial number and a checksum over the rest; then come
-// /state, /meta with the complete input, and the attributes step and time.
+// then put in its place: at every moment one complete checkpoint is on the disk. The first 512
+// bytes of a file are a text (`head -n 3`) with the serial number and a checksum over the rest;
+// then come /state, /meta with the complete input, and the attributes step and time.
 #pragma once
+#include "meniscus/core/snapshot.hpp"
+#include "meniscus/io/provenance.hpp"
+#include "meniscus/io/run_directory.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "meniscus/core/snapshot.hpp"
-#include "meniscus/io/provenance.hpp"
-#include "meniscus/io/run_directory.hpp"
 
 namespace meniscus {
 
@@ -37,7 +37,7 @@ class CheckpointWriter {
  private:
   std::filesystem::path directory_;
   Provenance provenance_;
-  std::int64_t serial_ = 0;      ///< of the newest checkpoint
+  std::int64_t serial_ = 0;       ///< of the newest checkpoint
   std::filesystem::path newest_;  ///< empty if there is none
 };
 

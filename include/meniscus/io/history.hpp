@@ -4,10 +4,12 @@
 //   # time,kinetic_energy
 //   # s,J
 //   0,1.25
-// Two comment lines with names and units, then rows with 17 digits (they read back bit for bit), each
-// on the disk's side of the program as soon as it is written (`tail -f`). In Python:
+// Two comment lines with names and units, then rows with 17 digits (they read back bit for bit),
+// each on the disk's side of the program as soon as it is written (`tail -f`). In Python:
 //   names = open(f).readline()[2:].strip().split(','); numpy.loadtxt(f, delimiter=',')
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -16,8 +18,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "meniscus/core/types.hpp"
 
 namespace meniscus {
 

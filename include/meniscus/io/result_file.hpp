@@ -6,21 +6,22 @@
 //   /steps/<k>/state/...    the complete state at double precision, if the frame has it
 //   /reference/<body>/...   X, volume, support, ...: what does not change
 //   /meta                   provenance and the complete input
-//   /VTKHDF                 the same frames as a temporal PolyData (VTK 9.3, ParaView 5.12 or newer)
+//   /VTKHDF                 the same frames as a temporal PolyData (VTK 9.3, ParaView 5.12 or
+//   newer)
 // Every array has an attribute "units". run.xdmf describes the frames to older ParaView.
 // After an interruption, even kill -9, the file opens and has every frame that write_frame() had
 // returned from. It can be read while the run goes on.
 #pragma once
+#include "meniscus/core/snapshot.hpp"
+#include "meniscus/core/types.hpp"
+#include "meniscus/io/provenance.hpp"
+#include "meniscus/io/run_directory.hpp"
+
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "meniscus/core/snapshot.hpp"
-#include "meniscus/core/types.hpp"
-#include "meniscus/io/provenance.hpp"
-#include "meniscus/io/run_directory.hpp"
 
 namespace meniscus {
 
@@ -55,7 +56,7 @@ struct ResultOptions {
   std::string time_unit = "s";
   /// Continue DIR/run.h5 after this step: frames of later steps are dropped (the run will make them
   /// again), the others stay. Without the file a new one is begun.
-  std::optional<std::int64_t> continue_after;
+  std::optional<std::int64_t> continue_after{};
 };
 
 class ResultFile {
@@ -68,8 +69,8 @@ class ResultFile {
 
   /// Adds a frame and returns its number. One field is "position" (2 or 3 components); all frames
   /// have the same fields. When it returns, the frame survives a kill.
-  /// Throws SolveError naming field and particle if a value is NaN or infinite, FileError if the disk
-  /// does not take it or if a continued file has other fields; the frames before are safe.
+  /// Throws SolveError naming field and particle if a value is NaN or infinite, FileError if the
+  /// disk does not take it or if a continued file has other fields; the frames before are safe.
   std::int64_t write_frame(std::int64_t step, Real time, std::span<const Field> fields,
                            const Snapshot* state = nullptr);
 
