@@ -56,6 +56,36 @@ int find_patch(const Grid<D>& unit, const Facet<D>& facet,
                                facet.side, facet.cell, patches.size()));
 }
 
+/// Local corners of a facet at the ends of edge 2 t + upper, on which facet direction t is
+/// constant.
+std::array<int, 2> edge_corners(int edge) {
+  const int t = edge / 2, fixed = (edge % 2) << t, along = 1 << (1 - t);
+  return {fixed, fixed | along};
+}
+
+void find_patches_beyond(Grid<3>& grid) {
+  struct Edge {
+    std::array<Index, 2> nodes;  // ascending
+    std::size_t facet;
+    int edge;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t f = 0; f < grid.facets.size(); ++f)
+    for (int edge = 0; edge < 4; ++edge) {
+      const auto local = edge_corners(edge);
+      const Index a = at(grid.facets[f].nodes, local[0]), b = at(grid.facets[f].nodes, local[1]);
+      edges.push_back({{std::min(a, b), std::max(a, b)}, f, edge});
+    }
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const Edge& a, const Edge& b) { return a.nodes < b.nodes; });
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const Edge &a = edges[i], &b = edges[i + 1];
+    if (a.nodes != b.nodes) continue;
+    at(grid.facets[a.facet].patch_beyond, a.edge) = grid.facets[b.facet].patch;
+    at(grid.facets[b.facet].patch_beyond, b.edge) = grid.facets[a.facet].patch;
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -63,6 +93,7 @@ Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bo
                           SmoothMap<D> map) {
   find_boundary(unit);
   for (auto& facet : unit.facets) facet.patch = find_patch(unit, facet, patches);
+  if constexpr (D == 3) find_patches_beyond(unit);
   Geometry<D> geometry{std::move(unit), {}, std::move(patches), std::move(map), smooth};
   geometry.unit_X = geometry.grid.X;
   for (auto& X : geometry.grid.X) X = geometry.map(X).x;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundary, checks, volume, jitter and Gauss points of grids.
+// Boundary, checks, volume and Gauss points of grids.
 #include "meniscus/body/grid.hpp"
 
 #include "meniscus/body/gauss.hpp"
@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <utility>
 
 namespace meniscus {
@@ -35,27 +34,10 @@ std::array<int, (1 << (D - 1))> side_corners(int side) {
   return local;
 }
 
-/// Uniform in [-1, 1) from the top 53 bits, the same with every standard library.
-Real symmetric_uniform(std::mt19937_64& bits) {
-  return 2 * (static_cast<Real>(bits() >> 11) * 0x1p-53) - 1;
-}
-
 template <int D>
 std::string place(const Vec<D>& X) {
   return D == 2 ? fmt::format("({:g}, {:g})", X[0], X[1])
                 : fmt::format("({:g}, {:g}, {:g})", X[0], X[1], X[D - 1]);
-}
-
-template <int D>
-std::vector<Real> shortest_edges(const Grid<D>& grid) {
-  std::vector<Real> shortest(grid.X.size(), std::numeric_limits<Real>::max());
-  for (const auto& cell : grid.cells)
-    for (int a = 0; a < Grid<D>::corners; ++a)
-      for (int k = 0; k < D; ++k) {
-        const Index i = at(cell, a), j = at(cell, a ^ (1 << k));
-        at(shortest, i) = std::min(at(shortest, i), (at(grid.X, i) - at(grid.X, j)).norm());
-      }
-  return shortest;
 }
 
 }  // namespace
@@ -104,21 +86,40 @@ void find_boundary(Grid<D>& grid) {
 }
 
 template <int D>
-void check_jacobians(const Grid<D>& grid, const std::string& cause) {
+std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell) {
   constexpr int points = D == 2 ? 9 : 27;
-  for (Index e = 0; e < grid.cell_count(); ++e) {
-    const auto corners = grid.corner_points(at(grid.cells, e));
-    for (int q = 0; q < points; ++q) {
-      Vec<D> xi;
-      for (int k = 0, rest = q; k < D; ++k, rest /= 3) xi[k] = rest % 3 - 1;
-      const CellPoint<D, D> p = multilinear<D, D>(corners, xi);
-      const Real J = p.J.determinant();
-      if (!(J > 0))
-        throw InputError(
-            fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive.",
-                        cause, e, place<D>(p.X), J));
-    }
+  const auto corners = grid.corner_points(at(grid.cells, cell));
+  for (int q = 0; q < points; ++q) {
+    Vec<D> xi;
+    for (int k = 0, rest = q; k < D; ++k, rest /= 3) xi[k] = rest % 3 - 1;
+    const CellPoint<D, D> point = multilinear<D, D>(corners, xi);
+    if (!(point.J.determinant() > 0)) return point;
   }
+  return {};
+}
+
+template <int D>
+void check_jacobians(const Grid<D>& grid, const std::string& cause) {
+  for (Index e = 0; e < grid.cell_count(); ++e)
+    if (const auto fold = find_fold(grid, e))
+      throw InputError(
+          fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive.",
+                      cause, e, place<D>(fold->X), fold->J.determinant()));
+}
+
+template <int D>
+NodeCells cells_of_nodes(const Grid<D>& grid) {
+  NodeCells result;
+  result.row.assign(grid.X.size() + 1, 0);
+  for (const auto& cell : grid.cells)
+    for (const Index node : cell) ++at(result.row, node + 1);
+  std::partial_sum(result.row.begin(), result.row.end(), result.row.begin());
+  result.entry.resize(static_cast<std::size_t>(result.row.back()));
+  std::vector<Offset> next(result.row.begin(), result.row.end() - 1);
+  for (Index e = 0; e < grid.cell_count(); ++e)
+    for (int a = 0; a < Grid<D>::corners; ++a)
+      at(result.entry, at(next, at(at(grid.cells, e), a))++) = {e, a};
+  return result;
 }
 
 template <int D>
@@ -160,20 +161,6 @@ std::vector<std::array<Index, D>> triangulate_boundary(const Grid<D>& grid) {
 }
 
 template <int D>
-void jitter_interior(Grid<D>& grid, Real fraction, std::uint64_t seed) {
-  const std::vector<Real> edge = shortest_edges(grid);
-  std::vector<char> fixed(grid.X.size(), 0);
-  for (const Index i : boundary_nodes(grid)) at(fixed, i) = 1;
-  std::mt19937_64 bits(seed);
-  for (Index i = 0; i < grid.node_count(); ++i) {
-    if (at(fixed, i)) continue;
-    for (int k = 0; k < D; ++k)
-      at(grid.X, i)[k] += fraction * at(edge, i) * symmetric_uniform(bits);
-  }
-  check_jacobians(grid, fmt::format("A jitter of {:g} (use a smaller one)", fraction));
-}
-
-template <int D>
 CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
   const TensorRule<D> rule = tensor_rule<D>(k);
   CellPoints<D> points;
@@ -194,10 +181,11 @@ CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
 #define MENISCUS_INSTANTIATE(D)                                                       \
   template void find_boundary(Grid<D>&);                                              \
   template void check_jacobians(const Grid<D>&, const std::string&);                  \
+  template std::optional<CellPoint<D, D>> find_fold<D>(const Grid<D>&, Index);        \
+  template NodeCells cells_of_nodes<D>(const Grid<D>&);                               \
   template Real volume(const Grid<D>&);                                               \
   template std::vector<Index> boundary_nodes(const Grid<D>&);                         \
   template std::vector<std::array<Index, D>> triangulate_boundary<D>(const Grid<D>&); \
-  template void jitter_interior(Grid<D>&, Real, std::uint64_t);                       \
   template CellPoints<D> cell_gauss_points(const Grid<D>&, int);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

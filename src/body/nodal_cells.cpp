@@ -122,35 +122,22 @@ void append_facet(CellQuadrature<D>& q, const Corners<D>& corners,
 }  // namespace
 
 template <int D>
-NodalCells<D>::NodalCells(const Grid<D>& grid) : grid_(&grid) {
-  find_octants();
-  volume_.resize(grid.X.size());
-  centroid_.resize(grid.X.size());
-  covariance_.resize(grid.X.size());
+NodalCells<D>::NodalCells(const Grid<D>& grid)
+    : grid_(&grid),
+      octants_(cells_of_nodes(grid)),
+      boundary_sides_(grid.cells.size(), 0),
+      volume_(grid.X.size()),
+      centroid_(grid.X.size()),
+      covariance_(grid.X.size()) {
+  for (Index node = 0; node < grid.node_count(); ++node)
+    if (octants_.of(node).empty())
+      throw InputError(fmt::format("Node {} of the grid belongs to no cell.", node));
+  for (const auto& facet : grid.facets)
+    at(boundary_sides_, facet.cell) |= static_cast<std::uint8_t>(1u << facet.side);
   for_chunks(grid.node_count(), [&](Index, Index begin, Index end) {
     CellQuadrature<D> q;
     for (Index node = begin; node < end; ++node) integrate(node, q);
   });
-}
-
-template <int D>
-void NodalCells<D>::find_octants() {
-  row_.assign(grid_->X.size() + 1, 0);
-  for (const auto& cell : grid_->cells)
-    for (const Index node : cell) ++at(row_, node + 1);
-  for (std::size_t i = 1; i < row_.size(); ++i) {
-    if (row_[i] == 0)
-      throw InputError(fmt::format("Node {} of the grid belongs to no cell.", i - 1));
-    row_[i] += row_[i - 1];
-  }
-  octants_.resize(static_cast<std::size_t>(row_.back()));
-  std::vector<Offset> next(row_.begin(), row_.end() - 1);
-  for (Index e = 0; e < grid_->cell_count(); ++e)
-    for (int a = 0; a < Grid<D>::corners; ++a)
-      at(octants_, at(next, at(at(grid_->cells, e), a))++) = {e, a};
-  boundary_sides_.assign(grid_->cells.size(), 0);
-  for (const auto& facet : grid_->facets)
-    at(boundary_sides_, facet.cell) |= static_cast<std::uint8_t>(1u << facet.side);
 }
 
 template <int D>
@@ -160,8 +147,7 @@ void NodalCells<D>::quadrature(Index node, CellQuadrature<D>& q) const {
   q.volume_w.clear();
   q.facet_X.clear();
   q.facet_dA.clear();
-  for (Offset o = at(row_, node); o < at(row_, node + 1); ++o) {
-    const auto [cell, corner] = at(octants_, o);
+  for (const auto& [cell, corner] : octants_.of(node)) {
     const Corners<D> corners = gather(*grid_, cell);
     for (const auto& p : table.volume(corner)) {
       const Mat<D> J = corners * p.dN;
@@ -172,8 +158,7 @@ void NodalCells<D>::quadrature(Index node, CellQuadrature<D>& q) const {
       append_facet<D>(q, corners, table.inner(corner, k), k, -corner_sign(corner, k));
   }
   q.body_facets_begin = q.facet_X.size();
-  for (Offset o = at(row_, node); o < at(row_, node + 1); ++o) {
-    const auto [cell, corner] = at(octants_, o);
+  for (const auto& [cell, corner] : octants_.of(node)) {
     for (int k = 0; k < D; ++k) {
       const int side = 2 * k + ((corner >> k) & 1);
       if ((at(boundary_sides_, cell) >> side) & 1)

@@ -30,19 +30,48 @@ void append(SurfacePoints<D>& points, const Vec<D>& X, const Vec<D>& N, const Ma
   points.facet.push_back(facet);
 }
 
-/// Calls f(facet, its number, facet point, Gauss weight) for the k^(D-1) points of every facet,
-/// with facets spanned by the node positions X.
+template <int D>
+using FacetCorners = std::array<Vec<D>, (1 << (D - 1))>;
+
+template <int D>
+FacetCorners<D> facet_corners(const Facet<D>& facet, const std::vector<Vec<D>>& X) {
+  FacetCorners<D> corners;
+  for (std::size_t a = 0; a < corners.size(); ++a) corners[a] = at(X, facet.nodes[a]);
+  return corners;
+}
+
+/// Calls f(facet number, xi, weight) for the Gauss points of every facet; returns points per facet.
 template <int D, class F>
-int for_facet_points(const Grid<D>& grid, const std::vector<Vec<D>>& X, int k, F&& f) {
+int for_facet_points(const Grid<D>& grid, int k, F&& f) {
   const TensorRule<D - 1> rule = tensor_rule<D - 1>(k);
-  for (std::size_t i = 0; i < grid.facets.size(); ++i) {
-    const Facet<D>& facet = grid.facets[i];
-    std::array<Vec<D>, (1 << (D - 1))> corners;
-    for (std::size_t a = 0; a < corners.size(); ++a) corners[a] = at(X, facet.nodes[a]);
-    for (std::size_t q = 0; q < rule.x.size(); ++q)
-      f(facet, static_cast<Index>(i), multilinear<D, D - 1>(corners, rule.x[q]), rule.w[q]);
-  }
+  for (std::size_t i = 0; i < grid.facets.size(); ++i)
+    for (std::size_t q = 0; q < rule.x.size(); ++q) f(static_cast<Index>(i), rule.x[q], rule.w[q]);
   return static_cast<int>(rule.x.size());
+}
+
+/// Facet point whose edges towards other patches lie on those too, e.g. on the rim of a cylinder:
+/// the move of an edge onto the other patch fades out linearly across the facet.
+template <int D>
+CellPoint<D, D - 1> blended(const Geometry<D>& geometry, const Facet<D>& facet,
+                            const Vec<D - 1>& xi) {
+  const FacetCorners<D> corners = facet_corners(facet, geometry.unit_X);
+  CellPoint<D, D - 1> point = multilinear<D, D - 1>(corners, xi);
+  if constexpr (D == 3)
+    for (int edge = 0; edge < 4; ++edge) {
+      const int beyond = at(facet.patch_beyond, edge), across = edge / 2, along = 1 - across;
+      if (beyond < 0 || beyond == facet.patch) continue;
+      const Real end = edge % 2 ? 1 : -1;
+      Vec<2> on_edge = xi;
+      on_edge[across] = end;
+      const CellPoint<3, 2> straight = multilinear<3, 2>(corners, on_edge);
+      const auto foot = at(geometry.patches, beyond).project(straight.X);
+      const Vec<3> tangent = straight.J.col(along), move = foot.X - straight.X;
+      const Real fade = 0.5 * (1 + end * xi[across]);
+      point.X += fade * move;
+      point.J.col(across) += 0.5 * end * move;
+      point.J.col(along) += fade * (foot.derivative * tangent - tangent);
+    }
+  return point;
 }
 
 }  // namespace
@@ -50,11 +79,11 @@ int for_facet_points(const Grid<D>& grid, const std::vector<Vec<D>>& X, int k, F
 template <int D>
 SurfacePoints<D> facet_points(const Grid<D>& grid, int k) {
   SurfacePoints<D> points;
-  points.per_facet = for_facet_points(
-      grid, grid.X, k, [&](const Facet<D>&, Index i, const CellPoint<D, D - 1>& p, Real w) {
-        const Vec<D> normal = area_normal<D>(p.J);
-        append<D>(points, p.X, normal.normalized(), Mat<D>::Zero(), w * normal.norm(), i);
-      });
+  points.per_facet = for_facet_points(grid, k, [&](Index i, const Vec<D - 1>& xi, Real w) {
+    const auto p = multilinear<D, D - 1>(facet_corners(at(grid.facets, i), grid.X), xi);
+    const Vec<D> normal = area_normal<D>(p.J);
+    append<D>(points, p.X, normal.normalized(), Mat<D>::Zero(), w * normal.norm(), i);
+  });
   return points;
 }
 
@@ -62,13 +91,13 @@ template <int D>
 SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k) {
   SurfacePoints<D> points;
   points.exact = true;
-  points.per_facet =
-      for_facet_points(geometry.grid, geometry.unit_X, k,
-                       [&](const Facet<D>& facet, Index i, const CellPoint<D, D - 1>& p, Real w) {
-                         const auto foot = at(geometry.patches, facet.patch).project(p.X);
-                         const Real area = area_normal<D>(foot.derivative * p.J).norm();
-                         append<D>(points, foot.X, foot.N, foot.grad_N, w * area, i);
-                       });
+  points.per_facet = for_facet_points(geometry.grid, k, [&](Index i, const auto& xi, Real w) {
+    const Facet<D>& facet = at(geometry.grid.facets, i);
+    const CellPoint<D, D - 1> p = blended(geometry, facet, xi);
+    const auto foot = at(geometry.patches, facet.patch).project(p.X);
+    const Real area = area_normal<D>(foot.derivative * p.J).norm();
+    append<D>(points, foot.X, foot.N, foot.grad_N, w * area, i);
+  });
   carry(points, geometry.map);
   return points;
 }

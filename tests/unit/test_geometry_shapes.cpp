@@ -213,9 +213,18 @@ TEST(Grid, JitterSequenceIsFixed) {
   EXPECT_EQ(at(grid.X, 4)[1], number(4620546740167642908ull));
 }
 
-TEST(Grid, TooMuchJitterIsRefused) {
-  Grid<3> grid = Ball{}.geometry().grid;
-  EXPECT_THROW(jitter_interior(grid, 0.9, 1), InputError);
+TEST(Grid, StrongJitterFoldsNoCell) {
+  Brick<3> brick;
+  brick.cells = {6, 6, 6};
+  Grid<3> grid = brick.geometry().grid;
+  jitter_interior(grid, 0.4, 1);
+  EXPECT_NO_THROW(check_jacobians(grid, "Jitter"));
+}
+
+TEST(Grid, ImpossibleJitterIsRefused) {
+  Grid<2> grid = Disk{}.geometry().grid;
+  EXPECT_THROW(jitter_interior(grid, 1e6, 1), InputError);
+  EXPECT_THROW(jitter_interior(grid, -0.1, 1), InputError);
 }
 
 TEST(Grid, GaussPointsIntegratePolynomials) {

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,15 @@ struct Facet {
   Index cell = 0;
   int side = 0;    ///< 2 k at the lower end of cell direction k, 2 k + 1 at the upper
   int patch = -1;  ///< number of the surface patch it lies on; -1: none is known
+  /// 3D: patch of the facet beyond the lower (2 t) and upper (2 t + 1) end of facet direction t.
+  std::array<int, 2 * (D - 1)> patch_beyond = no_patches();
+
+ private:
+  static constexpr std::array<int, 2 * (D - 1)> no_patches() {
+    std::array<int, 2 * (D - 1)> none{};
+    none.fill(-1);
+    return none;
+  }
 };
 
 /// Node positions X and cells. Corners of a cell in tensor order: bit k of the corner number is the
@@ -79,11 +90,32 @@ CellPoint<D, P> multilinear(const std::array<Vec<D>, (1 << P)>& corners, const V
 template <int D>
 void find_boundary(Grid<D>& grid);
 
-/// Throws InputError naming the first cell, place and Jacobian where det J <= 0. Tested at the 3^D
-/// points {-1, 0, 1}^D of every cell (in 2D this proves det J > 0 everywhere).
-/// `cause` begins the message, e.g. "The shape".
+/// A place of the cell where det J <= 0, if there is one. Looks at the 3^D points {-1, 0, 1}^D (in
+/// 2D this proves det J > 0 everywhere).
+template <int D>
+std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell);
+
+/// Throws InputError naming the first folded cell, place and Jacobian. `cause` begins the message,
+/// e.g. "The shape".
 template <int D>
 void check_jacobians(const Grid<D>& grid, const std::string& cause);
+
+/// The cells at each node, ascending, and which of their corners the node is.
+struct NodeCells {
+  struct Entry {
+    Index cell;
+    std::int32_t corner;
+  };
+  std::vector<Offset> row;  ///< cells of node i: entry[row[i]] .. entry[row[i + 1]]
+  std::vector<Entry> entry;
+
+  std::span<const Entry> of(Index node) const {
+    return {entry.data() + at(row, node), entry.data() + at(row, node + 1)};
+  }
+};
+
+template <int D>
+NodeCells cells_of_nodes(const Grid<D>& grid);
 
 /// Volume (2D: area) enclosed by the cells, exact for their multilinear maps.
 template <int D>
@@ -98,9 +130,10 @@ std::vector<Index> boundary_nodes(const Grid<D>& grid);
 template <int D>
 std::vector<std::array<Index, D>> triangulate_boundary(const Grid<D>& grid);
 
-/// Moves every interior node, each coordinate by a number uniform in +- `fraction` times the
-/// shortest cell edge at that node; boundary nodes stay. The same seed gives the same grid on every
-/// machine. Throws InputError if a cell folds.
+/// Moves the interior nodes one after the other, each coordinate by a number uniform in +-
+/// `fraction` times the shortest cell edge at that node; a move that would fold a cell is drawn
+/// again. Boundary nodes stay. The same seed gives the same grid on every machine. Throws
+/// InputError if a node finds no place in 100 draws or `fraction` is negative.
 template <int D>
 void jitter_interior(Grid<D>& grid, Real fraction, std::uint64_t seed);
 

@@ -41,16 +41,10 @@ class NodalCells {
   void quadrature(Index node, CellQuadrature<D>& q) const;
 
  private:
-  struct Octant {
-    Index cell;
-    std::int32_t corner;
-  };
-  void find_octants();
   void integrate(Index node, CellQuadrature<D>& q);
 
   const Grid<D>* grid_;
-  std::vector<Offset> row_;  // octants of node L: [row_[L], row_[L + 1])
-  std::vector<Octant> octants_;
+  NodeCells octants_;
   std::vector<std::uint8_t> boundary_sides_;  // per cell: bit `side` set if on the body's boundary
   std::vector<Real> volume_;
   std::vector<Vec<D>> centroid_;
