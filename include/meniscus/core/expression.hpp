@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formulas in scenes, such as "2e9*(1 + 0.1*x)". The only place that knows muParser.
+// Formulas in scenes, such as "2e9*(1 + 0.1*x)".
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <memory>
 #include <string>
-#include <string_view>
-
-#include "meniscus/core/types.hpp"
 
 namespace meniscus {
 
-/// A real function of reference position x, y, z and time t (pi is known). Copies share the parsed
-/// formula; evaluation is not meant for the time loop and not for several threads at once.
+/// A real function of reference position x, y, z and time t. A formula may use
+/// - the constants pi and e, numbers, brackets, + - * / ^ (with -x^2 = -(x^2)),
+/// - comparisons < > <= >= == !=, && and ||, and `condition ? a : b`,
+/// - sin cos tan asin acos atan atan2 sinh cosh tanh exp log (natural) log10 sqrt cbrt abs sign
+///   floor ceil erf pow min max (the last two with any number of arguments).
+///
+/// Copies share the parsed formula. Several threads may evaluate at once, but they take turns at
+/// one lock: fill arrays before the time loop instead of evaluating inside it. Constants, also
+/// formulas without variables, take no lock.
 class Expression {
  public:
   /// A constant.
@@ -18,13 +24,22 @@ class Expression {
   /// Throws InputError (without a place) naming the offending part of the formula.
   explicit Expression(std::string formula);
 
+  /// The value at X (units of the scene) and t. It may be infinite or not a number.
   Real operator()(const Eigen::Vector3d& X, Real t = 0) const;
+
+  /// The formula as given; the shortest decimal that reads back as the same number for a constant.
   const std::string& text() const { return text_; }
+  /// No variable occurs.
+  bool constant() const { return parsed_ == nullptr; }
+  /// The variable t occurs.
+  bool depends_on_time() const { return depends_on_time_; }
 
  private:
   struct Parsed;
   std::string text_;
-  std::shared_ptr<const Parsed> parsed_;
+  Real value_ = 0;  ///< of a constant
+  bool depends_on_time_ = false;
+  std::shared_ptr<Parsed> parsed_;
 };
 
 }  // namespace meniscus

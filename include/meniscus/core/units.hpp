@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Physical dimensions and the unit system of a scene.
 #pragma once
+#include "meniscus/core/types.hpp"
+
+#include <array>
 #include <string>
 #include <string_view>
-
-#include "meniscus/core/types.hpp"
 
 namespace meniscus {
 
@@ -17,22 +18,27 @@ struct Dimension {
 namespace dimension {
 inline constexpr Dimension none{}, length{1, 0, 0}, area{2, 0, 0}, volume{3, 0, 0}, time{0, 1, 0},
     rate{0, -1, 0}, velocity{1, -1, 0}, acceleration{1, -2, 0}, mass{0, 0, 1}, density{-3, 0, 1},
-    pressure{-1, -2, 1}, viscosity{-1, -1, 1}, tension{0, -2, 1}, force{1, -2, 1},
-    energy{2, -2, 1}, power{2, -3, 1}, momentum{1, -1, 1}, angular_momentum{2, -1, 1};
+    pressure{-1, -2, 1}, viscosity{-1, -1, 1}, tension{0, -2, 1}, force{1, -2, 1}, energy{2, -2, 1},
+    power{2, -3, 1}, momentum{1, -1, 1}, angular_momentum{2, -1, 1};
 }
 
 /// The system in which plain numbers of a scene, all results, and all sums inside the program are
 /// written: "SI" (m, s, kg) or a length-time-mass triple such as "nm-ps-ag".
+///
+/// Units are m, s, g, N, Pa, J, W, Hz and L with the prefixes z a f p n u (or the micro sign) m c k
+/// M G T, and min, h, angstrom, rad, deg without. They are combined by spaces, *, /, brackets and
+/// integer powers: "kg/(m s^2)". A unit after a divisor needs brackets: "Pa/m s" is refused.
 class UnitSystem {
  public:
-  /// Throws InputError (without a place) that lists the known units.
+  /// Throws InputError (without a place) that names the known units.
   explicit UnitSystem(std::string_view name = "SI");
 
-  /// The number of `text`, e.g. "72.8 mN/m" or "2.2 GPa", in this system.
+  /// The number of `text`, e.g. "72.8 mN/m" or "2.2 GPa", in this system. Powers of ten are moved
+  /// into the decimal exponent, so "72.8 mN/m" is exactly the double 0.0728 in SI.
   /// Throws InputError (without a place) on an unknown unit or one of another dimension.
   Real quantity(std::string_view text, Dimension expected) const;
 
-  /// How a dimension is written in this system: "Pa" or "kg/(m s^2)"; "1" for none.
+  /// How a dimension is written in this system: "Pa" or "ag/(nm ps^2)"; "1" for none.
   std::string symbol(Dimension dimension) const;
 
   const std::string& name() const { return name_; }
@@ -40,8 +46,17 @@ class UnitSystem {
   Real in_si(Dimension dimension) const;
 
  private:
-  std::string name_, length_, time_, mass_;
-  Real length_si_, time_si_, mass_si_;
+  /// A base unit: `factor` * 10^`tens` in SI.
+  struct Base {
+    std::string symbol;
+    int tens = 0;
+    Real factor = 1;
+  };
+  int tens(Dimension dimension) const;
+  Real factor(Dimension dimension) const;
+
+  std::string name_;
+  Base length_, time_, mass_;
 };
 
 }  // namespace meniscus

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Help with misspelt names.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace meniscus {
+
+/// Insertions, deletions, replacements and swaps of neighbouring characters that turn a into b.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// "; did you mean 'b'?", or nothing when no known name is near, i.e. within a third of its
+/// letters.
+std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);
+
+/// The end of a message about an unknown name: "allowed are a, b, c; did you mean 'b'?".
+std::string allowed_names(std::string_view given, const std::vector<std::string>& known);
+
+}  // namespace meniscus

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading the keys of one table.
+#include "meniscus/core/input.hpp"
+
+#include "meniscus/core/names.hpp"
+
+#include <algorithm>
+
+#include "input_node.hpp"
+#include "input_values.hpp"
+
+namespace meniscus {
+
+using scene_tree::Array;
+using scene_tree::Entry;
+using scene_tree::joined;
+using scene_tree::Table;
+using scene_tree::Value;
+
+// ---- node
+// ----------------------------------------------------------------------------------------
+
+const Entry* Block::Node::ask(std::string_view key) {
+  if (std::find(asked.begin(), asked.end(), key) == asked.end()) asked.emplace_back(key);
+  return table == nullptr ? nullptr : table->find(key);
+}
+
+void Block::Node::note(const scene_tree::Place& where, const std::string& full_path,
+                       const std::string& what) {
+  document->problems.push_back({where, full_path.empty() ? what : full_path + ": " + what});
+}
+
+void Block::Node::note_missing(std::string_view key, const std::string& allowed) {
+  if (!quiet) note(place, joined(path, key), "missing; allowed is " + allowed);
+}
+
+void Block::Node::echo(std::string_view key, std::string value, const std::string& unit,
+                       bool fallback) {
+  const auto same = std::find_if(echoes.begin(), echoes.end(),
+                                 [&](const Echo& earlier) { return earlier.key == key; });
+  if (same != echoes.end()) return;
+  const char* separator = !unit.empty() && fallback ? ", " : "";
+  echoes.push_back(
+      {std::string(key), std::move(value), unit + separator + (fallback ? "default" : "")});
+}
+
+std::shared_ptr<Block::Node> Block::Node::child(std::string_view key, bool in_array,
+                                                const std::string& full_path, const Table* of,
+                                                const scene_tree::Place& where) {
+  for (const Child& known : children)
+    if (known.node->path == full_path) return known.node;
+  auto node = std::make_shared<Node>();
+  node->document = document;
+  node->table = of;
+  node->path = full_path;
+  node->place = where;
+  children.push_back({std::string(key), in_array, node});
+  return node;
+}
+
+template <class T, class Convert>
+T Block::Node::read(std::string_view key, const std::string& allowed, const std::string& unit,
+                    const std::optional<T>& fallback, const T& harmless, Convert convert) {
+  const Entry* entry = ask(key);
+  if (entry == nullptr) {
+    if (!fallback) {
+      note_missing(key, allowed);
+      return harmless;
+    }
+    echo(key, input_values::toml(*fallback), unit, true);
+    return *fallback;
+  }
+  const std::optional<T> value = attempt(entry->value, joined(path, key), convert);
+  if (!value) return fallback.value_or(harmless);
+  echo(key, input_values::toml(*value), unit, false);
+  return *value;
+}
+
+template <class T, class Convert>
+std::vector<T> Block::Node::read_list(std::string_view key, std::size_t count,
+                                      const std::string& allowed, const std::string& unit,
+                                      const std::optional<std::vector<T>>& fallback,
+                                      const T& harmless, Convert convert) {
+  const std::string number = count == 0 ? "any number" : std::to_string(count);
+  const std::string allowed_list = "an array of " + number + " of: " + allowed;
+  const std::string full_path = joined(path, key);
+  return read<std::vector<T>>(
+      key, allowed_list, unit, fallback, std::vector<T>(count, harmless), [&](const Value& value) {
+        const auto* array = std::get_if<Array>(&value.data);
+        if (array == nullptr) input_values::refuse_kind(value, allowed_list);
+        if (count != 0 && array->size() != count)
+          throw InputError(fmt::format("has {} {}; allowed is {}", array->size(),
+                                       array->size() == 1 ? "entry" : "entries", allowed_list));
+        std::vector<T> elements;
+        for (std::size_t i = 0; i < array->size(); ++i)
+          elements.push_back(attempt((*array)[i], fmt::format("{}[{}]", full_path, i), convert)
+                                 .value_or(harmless));
+        return elements;
+      });
+}
+
+// ---- keys
+// ----------------------------------------------------------------------------------------
+
+bool Block::has(std::string_view key) const {
+  return node_->ask(key) != nullptr;
+}
+const std::string& Block::path() const {
+  return node_->path;
+}
+const UnitSystem& Block::units() const {
+  return node_->document->units;
+}
+
+std::string Block::place(std::string_view key) const {
+  const Entry* entry = node_->table == nullptr ? nullptr : node_->table->find(key);
+  const std::string where =
+      node_->document->place_text(entry == nullptr ? node_->place : entry->value.place);
+  const std::string full_path = key.empty() ? path() : joined(path(), key);
+  return full_path.empty() ? where : where + ": " + full_path;
+}
+
+Real Block::real(std::string_view key, Dimension dimension, Range range,
+                 std::optional<Real> fallback) const {
+  const input_values::Number number{units(), dimension, range};
+  return node_->read<Real>(key, number.allowed(), number.unit(), fallback,
+                           input_values::harmless(range),
+                           [&](const Value& value) { return number.real(value); });
+}
+
+std::int64_t Block::integer(std::string_view key, Range range,
+                            std::optional<std::int64_t> fallback) const {
+  return node_->read<std::int64_t>(
+      key, input_values::allowed_integer(range), "", fallback,
+      static_cast<std::int64_t>(input_values::harmless(range)),
+      [&](const Value& value) { return input_values::integer(value, range); });
+}
+
+bool Block::flag(std::string_view key, std::optional<bool> fallback) const {
+  const std::string allowed = "true or false";
+  return node_->read<bool>(key, allowed, "", fallback, false, [&](const Value& value) {
+    return input_values::exactly<bool>(value, allowed);
+  });
+}
+
+std::string Block::text(std::string_view key, std::optional<std::string> fallback) const {
+  const std::string allowed = "a text";
+  return node_->read<std::string>(key, allowed, "", fallback, "", [&](const Value& value) {
+    return input_values::exactly<std::string>(value, allowed);
+  });
+}
+
+std::string Block::choice(std::string_view key, const std::vector<std::string>& allowed,
+                          std::optional<std::string> fallback) const {
+  const std::string list = fmt::format("one of {}", fmt::join(allowed, ", "));
+  return node_->read<std::string>(
+      key, list, "", fallback, allowed.front(), [&](const Value& value) {
+        const auto name = input_values::exactly<std::string>(value, list);
+        if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
+          throw InputError(fmt::format("'{}' is unknown; {}", name, allowed_names(name, allowed)));
+        return name;
+      });
+}
+
+std::vector<std::string> Block::texts(std::string_view key,
+                                      std::optional<std::vector<std::string>> fallback) const {
+  const std::string allowed = "a text";
+  return node_->read_list<std::string>(key, 0, allowed, "", fallback, "", [&](const Value& value) {
+    return input_values::exactly<std::string>(value, allowed);
+  });
+}
+
+std::vector<Real> Block::reals(std::string_view key, std::size_t count, Dimension dimension,
+                               Range range, std::optional<std::vector<Real>> fallback) const {
+  const input_values::Number number{units(), dimension, range};
+  return node_->read_list<Real>(key, count, number.allowed(), number.unit(), fallback,
+                                input_values::harmless(range),
+                                [&](const Value& value) { return number.real(value); });
+}
+
+Expression Block::expression(std::string_view key, Dimension dimension,
+                             std::optional<Expression> fallback, Range range) const {
+  const input_values::Number number{units(), dimension, range};
+  return node_->read<Expression>(key, number.allowed_or_formula(), number.unit(), fallback,
+                                 input_values::harmless(range),
+                                 [&](const Value& value) { return number.expression(value); });
+}
+
+std::vector<Expression> Block::expressions(std::string_view key, std::size_t count,
+                                           Dimension dimension,
+                                           std::optional<std::vector<Expression>> fallback) const {
+  const input_values::Number number{units(), dimension, range::any};
+  return node_->read_list<Expression>(key, count, number.allowed_or_formula(), number.unit(),
+                                      fallback, Expression(0),
+                                      [&](const Value& value) { return number.expression(value); });
+}
+
+// ---- tables
+// --------------------------------------------------------------------------------------
+
+std::optional<Block> Block::table(std::string_view key, bool required) const {
+  const Entry* entry = node_->ask(key);
+  if (entry == nullptr) {
+    if (required) node_->note_missing(key, "a table");
+    return std::nullopt;
+  }
+  const auto* found = std::get_if<Table>(&entry->value.data);
+  const std::string full_path = joined(path(), key);
+  if (found == nullptr) {
+    node_->note(entry->value.place, full_path,
+                fmt::format("is {}; allowed is a table", scene_tree::kind(entry->value)));
+    return std::nullopt;
+  }
+  return Block(node_->child(key, false, full_path, found, entry->value.place));
+}
+
+Block Block::table_or_defaults(std::string_view key) const {
+  if (const auto present = table(key)) return *present;
+  const auto node = node_->child(key, false, joined(path(), key), nullptr, node_->place);
+  node->quiet = node_->quiet || has(key);
+  return Block(node);
+}
+
+std::vector<Block> Block::tables(std::string_view key) const {
+  const Entry* entry = node_->ask(key);
+  if (entry == nullptr) return {};
+  const std::string full_path = joined(path(), key);
+  const auto refuse = [&](const Value& value, const std::string& where) {
+    node_->note(value.place, where,
+                fmt::format("is {}; allowed is an array of tables, [[{}]]", scene_tree::kind(value),
+                            scene_tree::key_text(key)));
+  };
+  const auto* array = std::get_if<Array>(&entry->value.data);
+  if (array == nullptr) {
+    refuse(entry->value, full_path);
+    return {};
+  }
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const Value& value = (*array)[i];
+    const std::string element_path = fmt::format("{}[{}]", full_path, i);
+    if (const auto* found = std::get_if<Table>(&value.data))
+      blocks.push_back(Block(node_->child(key, true, element_path, found, value.place)));
+    else
+      refuse(value, element_path);
+  }
+  return blocks;
+}
+
+std::vector<std::pair<std::string, Block>> Block::named_tables() const {
+  node_->any_table = true;
+  std::vector<std::pair<std::string, Block>> result;
+  if (node_->table == nullptr) return result;
+  for (const Entry& entry : node_->table->entries)
+    if (std::holds_alternative<Table>(entry.value.data))
+      result.emplace_back(entry.key, *table(entry.key));
+  return result;
+}
+
+void Block::problem(std::string_view key, const std::string& what) const {
+  const Entry* entry = node_->table == nullptr ? nullptr : node_->table->find(key);
+  node_->note(entry == nullptr ? node_->place : entry->value.place,
+              key.empty() ? path() : joined(path(), key), what);
+}
+
+void Block::done() const {
+  if (node_->table == nullptr) return;
+  const std::vector<std::string>& asked = node_->asked;
+  for (const Entry& entry : node_->table->entries) {
+    if (std::find(asked.begin(), asked.end(), entry.key) != asked.end()) continue;
+    const std::string full_path = joined(path(), entry.key);
+    if (node_->any_table)
+      node_->note(entry.value.place, full_path,
+                  fmt::format("is {}; allowed is a table", scene_tree::kind(entry.value)));
+    else
+      node_->note(entry.place, full_path, "unknown key; " + allowed_names(entry.key, asked));
+  }
+}
+
+}  // namespace meniscus

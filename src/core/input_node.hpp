@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stands behind Block and SceneInput: the document with its list of problems, and one node per
+// table that was asked for, which remembers the values it handed out.
+#pragma once
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/input.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene_tree.hpp"
+
+namespace meniscus {
+
+struct Problem {
+  scene_tree::Place place;
+  std::string text;  ///< "key.path: what is wrong; allowed"
+};
+
+/// A scene and everything found wrong with it.
+struct Document {
+  std::string name;
+  std::string text;
+  std::vector<std::string> settings;  ///< of --set
+  scene_tree::Value root;
+  UnitSystem units;
+  std::vector<Problem> problems;
+
+  /// "file:line:column" or "--set 'text'".
+  std::string place_text(const scene_tree::Place& place) const;
+};
+
+/// A table, or an absent one in which everything has its default.
+struct Block::Node {
+  /// A value handed out, as it is written in the complete input.
+  struct Echo {
+    std::string key, value, comment;
+  };
+  struct Child {
+    std::string key;
+    bool in_array;
+    std::shared_ptr<Node> node;
+  };
+
+  std::shared_ptr<Document> document;
+  const scene_tree::Table* table = nullptr;  ///< points into the document; null when absent
+  std::string path;
+  scene_tree::Place place;
+  bool quiet = false;      ///< not a table at all, so that missing keys are not worth a line
+  bool any_table = false;  ///< sub-tables may have any name
+  std::vector<std::string> asked;
+  std::vector<Echo> echoes;
+  std::vector<Child> children;
+
+  /// The entry `key` if present; ticks it off.
+  const scene_tree::Entry* ask(std::string_view key);
+  void note(const scene_tree::Place& where, const std::string& full_path, const std::string& what);
+  void note_missing(std::string_view key, const std::string& allowed);
+  void echo(std::string_view key, std::string value, const std::string& unit, bool fallback);
+  /// The node of a sub-table, the same one each time it is asked for.
+  std::shared_ptr<Node> child(std::string_view key, bool in_array, const std::string& full_path,
+                              const scene_tree::Table* table, const scene_tree::Place& where);
+
+  /// What `convert(value)` makes of a value; if it throws InputError, notes that and gives nothing.
+  template <class Convert>
+  auto attempt(const scene_tree::Value& value, const std::string& full_path, Convert convert)
+      -> std::optional<decltype(convert(value))> {
+    try {
+      return convert(value);
+    } catch (const InputError& error) {
+      note(value.place, full_path, error.what());
+      return std::nullopt;
+    }
+  }
+
+  /// The value of a key by `convert`; the fallback if it is absent; after a problem the fallback or
+  /// else `harmless`. `allowed` ends the message about a missing key.
+  template <class T, class Convert>
+  T read(std::string_view key, const std::string& allowed, const std::string& unit,
+         const std::optional<T>& fallback, const T& harmless, Convert convert);
+
+  /// The same for an array of `count` values (0: any number), each by `convert`.
+  template <class T, class Convert>
+  std::vector<T> read_list(std::string_view key, std::size_t count, const std::string& allowed,
+                           const std::string& unit, const std::optional<std::vector<T>>& fallback,
+                           const T& harmless, Convert convert);
+
+  /// Appends this table and those below as TOML, with `header` as its full name.
+  void write(std::string& toml, const std::string& header, bool in_array) const;
+};
+
+}  // namespace meniscus

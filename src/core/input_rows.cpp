@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of rows that do not depend on the struct: texts, units and the printed table.
+#include "meniscus/core/input_rows.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace meniscus {
+
+namespace {
+constexpr Real unbounded = 1e300;
+}
+
+bool Range::contains(Real value) const {
+  if (!std::isfinite(value)) return false;
+  return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+std::string Range::text() const {
+  const bool above = low > -unbounded, below = high < unbounded;
+  const std::string lower = fmt::format("{} {}", low_open ? ">" : ">=", low);
+  const std::string upper = fmt::format("{} {}", high_open ? "<" : "<=", high);
+  if (above && below) return lower + " and " + upper;
+  return above ? lower : below ? upper : "any";
+}
+
+std::string Range::refusal(Real value, const std::string& unit) const {
+  const std::string number = std::isnan(value) ? "nan" : fmt::format("{}", value);  // never "-nan"
+  const std::string allowed = text();
+  return fmt::format("{}{}{} is out of range; allowed is {}", number, unit.empty() ? "" : " ", unit,
+                     allowed == "any" ? "a finite number" : allowed);
+}
+
+namespace rows {
+
+std::string fallback_text(Real value) {
+  return fmt::format("{}", value);
+}
+std::string fallback_text(int value) {
+  return fmt::format("{}", value);
+}
+std::string fallback_text(bool value) {
+  return value ? "true" : "false";
+}
+std::string fallback_text(const std::string& value) {
+  return '"' + value + '"';
+}
+std::string fallback_text(const Expression& value) {
+  return value.constant() ? value.text() : fallback_text(value.text());
+}
+
+std::string list_text(const std::vector<std::string>& items, std::string_view separator) {
+  return fmt::format("{}", fmt::join(items, separator));
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+  return count == 0 ? what : fmt::format("{} {}", count, what);
+}
+
+std::string si_symbol(Dimension d) {
+  return d == dimension::none ? "" : UnitSystem("SI").symbol(d);
+}
+
+Range in_scene_units(const Range& range, Dimension d, const Block& block) {
+  Range scaled = range;
+  if (range.low > -unbounded) scaled.low = in_scene_units(range.low, d, block);
+  if (range.high < unbounded) scaled.high = in_scene_units(range.high, d, block);
+  return scaled;
+}
+
+void throw_out_of_range(const std::string& place, Real value, const Range& allowed,
+                        const Eigen::Vector3d& X) {
+  throw InputError(fmt::format("{}: at x = {}, y = {}, z = {} the value {}", place, X[0], X[1],
+                               X[2], allowed.refusal(value)));
+}
+
+void print_table(std::ostream& out, const std::string& heading,
+                 const std::vector<std::array<std::string, 6>>& lines) {
+  std::array<std::string, 6> head{"key", "type", "unit", "range", "default", "meaning"};
+  std::array<std::size_t, 6> width{};
+  const auto widen = [&](const std::array<std::string, 6>& line) {
+    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
+  };
+  widen(head);
+  for (const auto& line : lines) widen(line);
+  const auto print = [&](const std::array<std::string, 6>& line) {
+    out << " ";
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      out << fmt::format(" {:<{}} ", line[i], width[i]);
+    out << " " << line.back() << "\n";
+  };
+  out << heading << "\n";
+  print(head);
+  for (const auto& line : lines) print(line);
+}
+
+}  // namespace rows
+}  // namespace meniscus

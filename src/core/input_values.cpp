@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From values of a scene to values of the program, and back to TOML for the complete input.
+#include "input_values.hpp"
+
+#include <limits>
+#include <optional>
+
+namespace meniscus::input_values {
+
+using scene_tree::Value;
+
+namespace {
+
+/// A number that stands without quotes.
+std::optional<Real> plain_number(const Value& value) {
+  if (const Real* real = std::get_if<Real>(&value.data)) return *real;
+  if (const auto* integer = std::get_if<std::int64_t>(&value.data))
+    return static_cast<Real>(*integer);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string toml(bool value) {
+  return value ? "true" : "false";
+}
+std::string toml(std::int64_t value) {
+  return fmt::format("{}", value);
+}
+std::string toml(Real value) {
+  const std::string text = fmt::format("{}", value);
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+std::string toml(const std::string& value) {
+  return scene_tree::quoted(value);
+}
+std::string toml(const Expression& value) {
+  return value.constant() ? toml(value({0, 0, 0})) : toml(value.text());
+}
+
+void refuse_kind(const Value& value, const std::string& allowed) {
+  throw InputError(fmt::format("is {}; allowed is {}", scene_tree::kind(value), allowed));
+}
+
+std::string allowed_integer(const Range& range) {
+  const std::string text = range.text();
+  return text == "any" ? "an integer" : "an integer " + text;
+}
+
+std::int64_t integer(const Value& value, const Range& range) {
+  const auto found = exactly<std::int64_t>(value, allowed_integer(range));
+  if (range.contains(static_cast<Real>(found))) return found;
+  throw InputError(range.refusal(static_cast<Real>(found)));
+}
+
+Real harmless(const Range& range) {
+  for (const Real candidate : {1.0, 0.0, range.low, range.high, range.low / 2 + range.high / 2})
+    if (range.contains(candidate)) return candidate;
+  return 0;
+}
+
+std::string Number::unit() const {
+  return dimension == dimension::none ? "" : units.symbol(dimension);
+}
+
+std::string Number::allowed_or(const std::string& formula) const {
+  std::string text = "a number";
+  if (!unit().empty()) text += " in " + unit() + " or a text with a unit";
+  text += formula;
+  return range.text() == "any" ? text : text + ", " + range.text();
+}
+
+Real Number::checked(Real value) const {
+  if (range.contains(value)) return value;
+  throw InputError(range.refusal(value, unit()));
+}
+
+Real Number::real(const Value& value) const {
+  if (const auto number = plain_number(value)) return checked(*number);
+  if (const auto* text = std::get_if<std::string>(&value.data))
+    return checked(units.quantity(*text, dimension));
+  refuse_kind(value, allowed());
+}
+
+Expression Number::expression(const Value& value) const {
+  if (const auto number = plain_number(value)) return checked(*number);
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (text == nullptr) refuse_kind(value, allowed_or_formula());
+  std::optional<Real> quantity;
+  std::string not_quantity;
+  try {
+    quantity = units.quantity(*text, dimension);
+  } catch (const InputError& error) {
+    not_quantity = error.what();
+  }
+  if (quantity) return checked(*quantity);
+  try {
+    Expression formula(*text);
+    if (!formula.constant()) return formula;
+    quantity = formula({0, 0, 0});
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("neither a quantity ({}) nor a formula ({})", not_quantity, error.what()));
+  }
+  return checked(*quantity);
+}
+
+}  // namespace meniscus::input_values

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From values of a scene to values of the program, and back to TOML for the complete input.
+#pragma once
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/input.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene_tree.hpp"
+
+namespace meniscus::input_values {
+
+std::string toml(bool value);
+std::string toml(std::int64_t value);
+std::string toml(Real value);
+std::string toml(const std::string& value);
+std::string toml(const Expression& value);
+template <class T>
+std::string toml(const std::vector<T>& values) {
+  std::vector<std::string> items;
+  for (const T& value : values) items.push_back(toml(value));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+/// Throws "is an integer; allowed is `allowed`".
+[[noreturn]] void refuse_kind(const scene_tree::Value& value, const std::string& allowed);
+
+/// The value as it stands. Throws InputError (without a place) if it is of another type.
+template <class T>
+T exactly(const scene_tree::Value& value, const std::string& allowed) {
+  if (const T* found = std::get_if<T>(&value.data)) return *found;
+  refuse_kind(value, allowed);
+}
+
+std::int64_t integer(const scene_tree::Value& value, const Range& range);
+/// "an integer, > 0".
+std::string allowed_integer(const Range& range);
+
+/// Some number of the range, to go on with after a problem.
+Real harmless(const Range& range);
+
+/// Numbers of one dimension and range. The conversions throw InputError without a place.
+struct Number {
+  const UnitSystem& units;
+  Dimension dimension;
+  Range range;
+
+  /// As written behind a number; empty for a plain number.
+  std::string unit() const;
+  /// "a number in Pa or a text with a unit, > 0".
+  std::string allowed() const { return allowed_or(""); }
+  std::string allowed_or_formula() const { return allowed_or(" or a formula of x, y, z, t"); }
+
+  Real real(const scene_tree::Value& value) const;
+  /// A text is a quantity if it can be one, else a formula.
+  Expression expression(const scene_tree::Value& value) const;
+
+ private:
+  std::string allowed_or(const std::string& formula) const;
+  Real checked(Real value) const;
+};
+
+}  // namespace meniscus::input_values

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Help with misspelt names: edit distance and the sentence built on it.
+#include "meniscus/core/names.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace meniscus {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Rows i-2, i-1 and i of the table of distances between the first i letters of a and j of b.
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before.swap(above);
+    above.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+std::string did_you_mean(std::string_view given, const std::vector<std::string>& known) {
+  constexpr std::size_t longest = 64;  // beyond, nobody misspelt anything, and the table is large
+  if (given.size() > longest) return "";
+  const std::string* nearest = nullptr;
+  std::size_t least = 0;
+  for (const std::string& name : known) {
+    const std::size_t distance = edit_distance(given, name);
+    if (distance > std::max<std::size_t>(1, name.size() / 3) || distance >= name.size()) continue;
+    if (nearest == nullptr || distance < least) {
+      nearest = &name;
+      least = distance;
+    }
+  }
+  return nearest == nullptr ? "" : fmt::format("; did you mean '{}'?", *nearest);
+}
+
+std::string allowed_names(std::string_view given, const std::vector<std::string>& known) {
+  if (known.empty()) return "none is allowed";
+  return fmt::format("allowed {} {}{}", known.size() == 1 ? "is" : "are", fmt::join(known, ", "),
+                     did_you_mean(given, known));
+}
+
+}  // namespace meniscus

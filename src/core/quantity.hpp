@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Units by name, and texts such as "72.8 mN/m" taken apart.
+#pragma once
+#include "meniscus/core/units.hpp"
+
+#include <string_view>
+
+namespace meniscus {
+
+/// `factor` * 10^`tens` in SI. Powers of ten are kept apart so that they stay exact.
+struct Unit {
+  Dimension dimension;
+  int tens = 0;
+  Real factor = 1;
+};
+
+/// The unit called `symbol`, prefix included, e.g. "mPa". Throws InputError (without a place).
+Unit unit_called(std::string_view symbol);
+
+/// digits * 10^exponent times a unit.
+struct Quantity {
+  std::string_view digits;  ///< points into the text
+  int exponent = 0;
+  Unit unit;
+};
+
+/// Throws InputError (without a place) if `text` is not a number with or without a unit.
+Quantity read_quantity(std::string_view text);
+
+}  // namespace meniscus
