@@ -92,8 +92,8 @@ struct Newtonian {
     Row<Newtonian> row;
     row.key = "equation_of_state";
     row.type = "text";
-    row.unit = "1";
-    row.range = "linear, log or tait";
+    row.unit = "";
+    row.range = "linear | log | tait";
     row.fallback = "log";
     row.meaning = "how the pressure depends on J; equal to first order";
     row.read = [](Newtonian& fluid, const Block& block) {
