@@ -1,31 +1,144 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// log(1 + x) for every scalar that materials are evaluated with.
+// log(1 + x), e^x - 1, and what they are beyond their linear part, for every scalar that materials
+// are evaluated with. All are accurate near x = 0.
 #pragma once
+#include "meniscus/core/simd.hpp"
+
+#include <bit>
 #include <cmath>
 #include <complex>
-
-#include "meniscus/core/simd.hpp"
+#include <numbers>
 
 namespace meniscus {
 
-inline Real log1p(Real x) { return std::log1p(x); }
+using Complex = std::complex<Real>;
 
-inline std::complex<Real> log1p(std::complex<Real> x) {
-  const Real a = x.real(), b = x.imag();
-  return {Real(0.5) * std::log1p(2 * a + a * a + b * b), std::atan2(b, 1 + a)};
+namespace series {
+
+/// Where the series below are exact to rounding.
+inline bool log_converges(Real x) {
+  return x > -0.5 && x < 1.0;
+}
+inline bool exp_converges(Real x) {
+  return x > -0.35 && x < 0.35;
 }
 
-/// 2 atanh(x / (2 + x)) by its series, relative error < 4e-16 for -1/2 < x < 1; std::log1p outside.
-inline Lanes log1p(Lanes x) {
-  const Lanes z = x / (2.0 + x), y = z * z, y2 = y * y, y4 = y2 * y2, y8 = y4 * y4;
+/// (atanh(z)/z - 1)/y with y = z^2: 1/3 + y/5 + y^2/7 ..., relative error 2e-17 for y < 1/9.
+template <class T>
+T atanh_tail(T y) {
+  const T y2 = y * y, y4 = y2 * y2, y8 = y4 * y4;
   const auto four = [&](int k) {
     return (1.0 / k + y * (1.0 / (k + 2))) + y2 * (1.0 / (k + 4) + y * (1.0 / (k + 6)));
   };
-  const Lanes series = (four(1) + y4 * four(9)) + y8 * (four(17) + y4 * four(25));
-  Lanes result = 2.0 * z * series;
+  return (four(3) + y4 * four(11)) + y8 * (four(19) + y4 * four(27));
+}
+
+/// log(1 + x) - x, with log(1 + x) = 2 atanh(z) and z = x/(2 + x), so that x - 2 z = x z.
+template <class T>
+T log1p_remainder(T x) {
+  const T z = x / (2.0 + x), y = z * z;
+  return (2.0 * z) * (y * atanh_tail(y)) - x * z;
+}
+
+/// e^x - 1 - x = x^2 (1/2! + x/3! + ... + x^12/14!).
+template <class T>
+T exp_remainder(T x) {
+  constexpr auto inverse_factorial = [](int n) {
+    Real f = 1;
+    for (int k = 2; k <= n; ++k) f *= k;
+    return 1 / f;
+  };
+  const T x2 = x * x, x4 = x2 * x2, x8 = x4 * x4;
+  const auto four = [&](int k) {
+    return (inverse_factorial(k) + x * inverse_factorial(k + 1)) +
+           x2 * (inverse_factorial(k + 2) + x * inverse_factorial(k + 3));
+  };
+  return x2 * ((four(2) + x4 * four(6)) + x8 * (four(10) + x4 * inverse_factorial(14)));
+}
+
+/// Lane by lane `scalar(x)` where `converges(x)` is false.
+template <class Converges, class Scalar>
+Lanes mend(Lanes x, Lanes result, Converges converges, Scalar scalar) {
   for (int lane = 0; lane < Lanes::width; ++lane)
-    if (!(x[lane] > -0.5 && x[lane] < 1.0)) result.set(lane, std::log1p(x[lane]));
+    if (!converges(x[lane])) result.set(lane, scalar(x[lane]));
   return result;
+}
+
+/// x = n log 2 + r with |r| <= log(2)/2; `scale` = 2^n. Saturates at |x| = 709.
+struct ExpReduction {
+  Lanes x, r, scale;
+
+  explicit ExpReduction(Lanes argument) {
+    using Bits = std::int64_t __attribute__((vector_size(32)));
+    constexpr Real round = 0x1.8p52;  // adding it leaves n in the low bits
+    constexpr Real log2_high = 0x1.62e42feep-1, log2_low = 0x1.a39ef35793c76p-33;
+    x = max(-709.0, min(709.0, argument));  // in this order NaN stays NaN
+    const Lanes shifted = x * std::numbers::log2e + round, n = shifted - round;
+    r = (x - n * log2_high) - n * log2_low;
+    scale = std::bit_cast<Lanes::Native>((std::bit_cast<Bits>(shifted.v) + 1023) << 52);
+  }
+};
+
+}  // namespace series
+
+inline Real log1p(Real x) {
+  return std::log1p(x);
+}
+
+/// For real part > -1.
+inline Complex log1p(Complex x) {
+  const Real a = x.real(), tangent = x.imag() / (1 + a);
+  return {std::log1p(a) + std::log1p(tangent * tangent) / 2, std::atan(tangent)};
+}
+
+/// Relative error < 4e-16.
+inline Lanes log1p(Lanes x) {
+  const Lanes z = x / (2.0 + x), y = z * z;
+  return series::mend(x, 2.0 * z + (2.0 * z) * (y * series::atanh_tail(y)), series::log_converges,
+                      [](Real lane) { return std::log1p(lane); });
+}
+
+/// log(1 + x) - x, which is -x^2/2 near 0.
+inline Real log1p_remainder(Real x) {
+  return series::log_converges(x) ? series::log1p_remainder(x) : std::log1p(x) - x;
+}
+
+inline Complex log1p_remainder(Complex x) {
+  return series::log_converges(x.real()) ? series::log1p_remainder(x) : log1p(x) - x;
+}
+
+inline Lanes log1p_remainder(Lanes x) {
+  return series::mend(x, series::log1p_remainder(x), series::log_converges,
+                      [](Real lane) { return std::log1p(lane) - lane; });
+}
+
+inline Real expm1(Real x) {
+  return std::expm1(x);
+}
+
+inline Complex expm1(Complex x) {
+  const Real a = std::expm1(x.real()), half_sine = std::sin(x.imag() / 2);
+  return {a - 2 * (1 + a) * half_sine * half_sine, (1 + a) * std::sin(x.imag())};
+}
+
+/// Relative error < 4e-16; saturates at |x| = 709.
+inline Lanes expm1(Lanes x) {
+  const series::ExpReduction e(x);
+  return e.scale * series::exp_remainder(e.r) + (e.scale * e.r + (e.scale - 1.0));
+}
+
+/// e^x - 1 - x, which is x^2/2 near 0.
+inline Real exp_remainder(Real x) {
+  return series::exp_converges(x) ? series::exp_remainder(x) : std::expm1(x) - x;
+}
+
+inline Complex exp_remainder(Complex x) {
+  return series::exp_converges(x.real()) ? series::exp_remainder(x) : expm1(x) - x;
+}
+
+inline Lanes exp_remainder(Lanes x) {
+  const series::ExpReduction e(x);
+  return e.scale * series::exp_remainder(e.r) + ((e.scale * e.r - e.x) + (e.scale - 1.0));
 }
 
 }  // namespace meniscus

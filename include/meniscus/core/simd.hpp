@@ -2,6 +2,8 @@
 // Four doubles that are computed together. The compiler maps them to one AVX register, or to two SSE
 // registers: the arithmetic, and so every bit of the result, is the same.
 #pragma once
+#include <immintrin.h>
+
 #include <array>
 #include <cmath>
 
@@ -56,8 +58,6 @@ inline Lanes max(Lanes a, Lanes b) { return select(a.v > b.v, a, b); }
 /// Sum of the four lanes, in a fixed order.
 inline Real sum(Lanes a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
-inline Lanes sqrt(Lanes a) {
-  return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
-}
+inline Lanes sqrt(Lanes a) { return Lanes::Native(_mm256_sqrt_pd(a.v)); }
 
 }  // namespace meniscus

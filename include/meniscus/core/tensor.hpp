@@ -31,7 +31,8 @@ struct Tensor {
     return map([&](int i, int j) { return s * x(i, j); });
   }
   friend Tensor operator*(const Tensor& x, const Tensor& y) {
-    return map([&](int i, int j) { return x(i, 0) * y(0, j) + x(i, 1) * y(1, j) + x(i, 2) * y(2, j); });
+    return map(
+        [&](int i, int j) { return x(i, 0) * y(0, j) + x(i, 1) * y(1, j) + x(i, 2) * y(2, j); });
   }
 
   /// The tensor whose components are f(i, j).
@@ -78,20 +79,37 @@ T determinant(const Tensor<T>& x) {
          x(0, 2) * (x(1, 0) * x(2, 1) - x(1, 1) * x(2, 0));
 }
 
+/// x + s I.
+template <class T>
+Tensor<T> add_diagonal(Tensor<T> x, const T& s) {
+  for (int i = 0; i < 3; ++i) x(i, i) = x(i, i) + s;
+  return x;
+}
+
 /// F = I + H.
 template <class T>
 Tensor<T> deformation_gradient(const Tensor<T>& H) {
-  Tensor<T> F = H;
-  for (int i = 0; i < 3; ++i) F(i, i) = F(i, i) + T(1.0);
-  return F;
+  return add_diagonal(H, T(1.0));
 }
 
-/// J - 1 from H = F - I without cancellation: tr H + (tr^2 H - tr H^2)/2 + det H.
+/// J - 1 - tr H from H = F - I: (tr^2 H - tr H^2)/2 + det H, the volume change beyond first order.
 template <class T>
-T volume_change(const Tensor<T>& H) {
+T higher_volume_change(const Tensor<T>& H) {
   const T second = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0) + H(1, 1) * H(2, 2) - H(1, 2) * H(2, 1) +
                    H(2, 2) * H(0, 0) - H(2, 0) * H(0, 2);
-  return trace(H) + second + determinant(H);
+  return second + determinant(H);
+}
+
+/// J - 1 from H = F - I without cancellation.
+template <class T>
+T volume_change(const Tensor<T>& H) {
+  return trace(H) + higher_volume_change(H);
+}
+
+/// cof F = J F^-T from H = F - I: (1 + tr H) I - H^T + cof H.
+template <class T>
+Tensor<T> cofactor_of_deformation(const Tensor<T>& H) {
+  return add_diagonal(cofactor(H) - transpose(H), 1.0 + trace(H));
 }
 
 /// Green strain E = (H + H^T + H^T H)/2 from H = F - I, accurate near the identity.

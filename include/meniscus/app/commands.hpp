@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the program can be asked to do.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_internal = 1,
+  exit_usage = 2,
+  exit_input = 3,
+  exit_numerical = 4,
+  exit_file = 5,
+  exit_expectation = 7,
+  exit_signal = 128  ///< + number of the signal, after a checkpoint; 14 (alarm) for --max-walltime
+};
+
+struct RunRequest {
+  std::string scene, output, restart, max_walltime, command_line;
+  std::vector<std::string> set;
+  std::optional<std::int64_t> frame;
+  std::optional<double> until;
+  int threads = 0;  ///< 0: all cores
+  bool overwrite = false, quiet = false;
+};
+
+/// Runs a scene to its end; returns an exit code. Throws InputError, SolveError, FileError.
+int run(const RunRequest& request);
+
+/// Everything short of running: reads, builds, estimates step, memory and duration, and prints them.
+int check(const RunRequest& request);
+
+}  // namespace meniscus

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Asking a run to stop: signals and a limit on wall-clock time.
+#pragma once
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace meniscus {
+
+/// SIGINT and SIGTERM are noted and acted on at the end of the step; a second one ends the program
+/// at once. One object at a time.
+class Interruption {
+ public:
+  /// `max_walltime` is "H:M:S", "M:S" or seconds; empty: none. Throws InputError if it is neither.
+  explicit Interruption(const std::string& max_walltime);
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+
+  /// Number of the signal to stop for; SIGALRM (14) when the time is up.
+  std::optional<int> requested() const;
+  double elapsed_seconds() const;
+
+ private:
+  std::chrono::steady_clock::time_point begin_;
+  double limit_seconds_;
+};
+
+}  // namespace meniscus

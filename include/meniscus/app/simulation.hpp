@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene in motion: state, step control and audit, and their snapshot.
+#pragma once
+#include "meniscus/core/snapshot.hpp"
+#include "meniscus/scene/scene.hpp"
+#include "meniscus/solve/audit.hpp"
+#include "meniscus/solve/step_controller.hpp"
+
+namespace meniscus {
+
+template <int D>
+class Simulation {
+ public:
+  /// `scene` must outlive the simulation.
+  explicit Simulation(Scene<D>& scene);
+
+  /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
+  void begin();
+  /// One step towards `end`.
+  void advance(Real end);
+
+  const Scene<D>& scene() const { return scene_; }
+  const State& state() const { return state_; }
+  Real last_step() const { return last_step_; }
+  StepController<D>& controller() { return controller_; }
+  const Audit& audit() const { return audit_; }
+  /// The ledger of now; widens the scales of the audit.
+  Ledger audit_now();
+
+  /// Everything that decides how the run goes on, bit for bit.
+  Snapshot snapshot() const;
+  /// Throws FileError if the snapshot is of another scene.
+  void restore(const Snapshot& snapshot);
+
+ private:
+  Scene<D>& scene_;
+  State state_;
+  StepController<D> controller_;
+  Audit audit_;
+  Real last_step_ = 0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Search in a cloud of points: the one interface for kernel neighbours and contact pairs.
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "meniscus/core/types.hpp"
+
+namespace meniscus {
+
+/// A kd-tree over a cloud. Queries are const and may run on several threads at once.
+template <int D>
+  requires SpaceDim<D>
+class NeighborSearch {
+ public:
+  explicit NeighborSearch(std::span<const Vec<D>> points);
+  ~NeighborSearch();
+  NeighborSearch(NeighborSearch&&) noexcept;
+  NeighborSearch& operator=(NeighborSearch&&) noexcept;
+
+  /// Indices with |points[i] - x| <= radius, ascending (a fixed order of summation).
+  void within(const Vec<D>& x, Real radius, std::vector<Index>& found) const;
+
+  /// Distance from x to its k-th nearest point (x itself counts if it is in the cloud). Clouds of
+  /// fewer than k points give the distance of the farthest.
+  Real distance_of_nearest(const Vec<D>& x, int k) const;
+
+  /// The cloud moved, its point count did not: rebuilds the tree in place.
+  void rebuild(std::span<const Vec<D>> points);
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+extern template class NeighborSearch<2>;
+extern template class NeighborSearch<3>;
+
+}  // namespace meniscus

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The particles of one body in the reference configuration, and their kernel supports.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "meniscus/approx/neighbor_search.hpp"
+#include "meniscus/approx/reproducing_kernel.hpp"
+
+namespace meniscus {
+
+/// Reference positions and supports, with the search tree over them. Never changes once rows are
+/// built on it.
+template <int D>
+class ParticleSet {
+ public:
+  /// Support of particle A = factor x distance to its rank-th nearest neighbour.
+  struct AdaptiveSupport {
+    Real factor = 1.8;
+    int rank = D == 3 ? 20 : 8;
+  };
+
+  ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window);
+  /// The same support for all particles.
+  ParticleSet(std::vector<Vec<D>> X, Real support, Window window);
+
+  Index size() const { return static_cast<Index>(X_.size()); }
+  std::span<const Vec<D>> X() const { return X_; }
+  std::span<const Real> support() const { return support_; }
+  Window window() const { return window_; }
+  const NeighborSearch<D>& search() const { return search_; }
+
+  /// All particles whose support reaches into the ball around `centre`, by ascending number.
+  void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
+
+  /// Deficiency monitor (RKPM note 2.4) at `points`: where the moment matrix is poor, the supports of
+  /// the particles around are enlarged by 10 % until it is not, at most to 2.5 times the support
+  /// asked for. Returns how many particles were enlarged. Throws SolveError naming `body`, the
+  /// point and its neighbour count when a point stays unusable.
+  Index ensure_quality(std::span<const Vec<D>> points, const std::string& body);
+
+  /// Throws SolveError naming `body`, the point x and its neighbour count if `quality` (of the moment
+  /// matrix at x) is below unusable_quality or not a number.
+  void require_quality(Real quality, const Vec<D>& x, const std::string& body,
+                       Real least = unusable_quality) const {
+    if (!(quality >= least)) refuse(quality, x, body);
+  }
+
+  static constexpr Real unusable_quality = 1e-3;
+  static constexpr Real poor_quality = 1e-2;
+
+ private:
+  [[noreturn]] void refuse(Real quality, const Vec<D>& x, const std::string& body) const;
+
+  std::vector<Vec<D>> X_;
+  std::vector<Real> support_;
+  Real largest_support_ = 0;
+  Window window_;
+  NeighborSearch<D> search_;
+};
+
+extern template class ParticleSet<2>;
+extern template class ParticleSet<3>;
+
+}  // namespace meniscus

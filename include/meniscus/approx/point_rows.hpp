@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shape functions at evaluation points, stored as compressed rows: a row per point, an entry per
+// particle that reaches it. Only the derivative orders asked for exist.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "meniscus/approx/particle_set.hpp"
+#include "meniscus/core/aligned.hpp"
+
+namespace meniscus {
+
+/// What a row stores. Second derivatives are packed as in hessian_index().
+struct RowContent {
+  bool value = false, gradient = false, hessian = false;
+};
+
+template <int D>
+struct PointRows {
+  std::vector<Offset> start{0};      ///< [point + 1]
+  std::vector<Index> particle;       ///< [entry], ascending within a row
+  AlignedVector<Real> value;         ///< [entry]
+  AlignedVector<Real> gradient;      ///< [entry][i]
+  AlignedVector<Real> hessian;       ///< [entry][ij]
+
+  Index size() const { return static_cast<Index>(start.size()) - 1; }
+  Offset entries() const { return start.back(); }
+  /// Bytes of all arrays.
+  std::size_t bytes() const;
+};
+
+/// Rows at `points` (neighbours in the array should be neighbours in space: points are treated in
+/// groups that share one search). Throws SolveError naming `body` and the point where the moment
+/// matrix is unusable.
+template <int D, int Degree = 2>
+PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
+                              RowContent content, const std::string& body);
+
+}  // namespace meniscus

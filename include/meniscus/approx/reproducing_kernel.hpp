@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reproducing-kernel shape functions N_A and their complete first and second derivatives at four
+// evaluation points at once (RKPM note 2.1, fixed-origin form: the derivatives of the moment matrix
+// are never formed).
+#pragma once
+#include <span>
+#include <vector>
+
+#include "meniscus/approx/monomials.hpp"
+#include "meniscus/approx/window.hpp"
+
+namespace meniscus {
+
+enum class Derivatives { none, first, second };
+
+/// A particle that may reach an evaluation point.
+template <int D>
+struct Candidate {
+  Index particle;
+  Real support;
+  Vec<D> X;
+};
+
+/// Shape functions of complete polynomials up to `Degree`, evaluated for batches of four points that
+/// share a list of candidate particles. Candidates that do not reach a point get N = 0 there.
+///
+/// At each point x: p(s) are the monomials of s = (y - x)/H, P_A = p((x_A - x)/H), with one H for
+/// the whole batch, and
+///   M = sum P_A P_A^T Phi_A,                     M c     = e_0
+///   M c,i  = p,i  - sum Phi_A,i P_A (P_A.c)
+///   M c,ij = p,ij - sum P_A [Phi_A,ij (P_A.c) + Phi_A,i (P_A.c,j) + Phi_A,j (P_A.c,i)]
+///   N_A    = (P_A.c) Phi_A, N_A,i and N_A,ij by the product rule at fixed P_A.
+template <int D, int Degree = 2>
+class ReproducingKernel {
+ public:
+  static constexpr int basis_size = monomial_count(D, Degree);
+
+  explicit ReproducingKernel(Window window) : window_(window) {}
+
+  /// Evaluates at four points (repeat one to fill up). Results are valid until the next call.
+  void evaluate(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
+                Derivatives order);
+
+  /// Whether candidate k reaches the point of this lane.
+  bool reaches(std::size_t k, int lane) const { return kernel_[k].phi[lane] > 0; }
+  /// N_A, N_A,i and N_A,ij (packed as in hessian_index) of candidate k, a lane per point.
+  Lanes value(std::size_t k) const { return value_[k]; }
+  Lanes gradient(std::size_t k, int i) const {
+    return gradient_[k * D + static_cast<std::size_t>(i)];
+  }
+  Lanes hessian(std::size_t k, int ij) const {
+    return hessian_[k * hessian_count(D) + static_cast<std::size_t>(ij)];
+  }
+  /// Smallest squared pivot of the Jacobi-scaled moment matrix, a lane per point: the deficiency
+  /// monitor of RKPM note 2.4 (>= 3e-2 good; < 1e-3, or not a number, unusable).
+  Lanes quality() const { return quality_; }
+
+ private:
+  using BasisVector = std::array<Lanes, static_cast<std::size_t>(basis_size)>;
+  struct Kernel {
+    std::array<Lanes, D> s;  // (x_A - x) / H
+    Lanes phi;
+    std::array<Lanes, D> phi_i;
+    std::array<Lanes, hessian_count(D)> phi_ij;
+  };
+
+  template <class W>
+  void evaluate_window(const std::array<Vec<D>, 4>& points,
+                       std::span<const Candidate<D>> candidates, Derivatives order);
+  void factorise_moments();
+  BasisVector solve(const BasisVector& right_hand_side) const;
+  static BasisVector basis(const std::array<Lanes, D>& s);
+
+  Window window_;
+  std::vector<Kernel> kernel_;
+  std::vector<Lanes> value_, gradient_, hessian_;
+  std::array<Lanes, static_cast<std::size_t>(basis_size * basis_size)> factor_;
+  BasisVector scale_, inverse_pivot_;
+  Lanes quality_ = Lanes::zero();
+};
+
+}  // namespace meniscus

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two integration rules of the internal force as operators of the time loop. Both treat stress
+// points in groups of up to four: gather() turns a nodal field into its gradient at the points of a
+// group, a lane per point; scatter() is the exact transpose. Lanes without a point have weight zero.
+#pragma once
+#include <span>
+
+#include "meniscus/approx/force_windows.hpp"
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/tensor.hpp"
+
+namespace meniscus {
+
+namespace detail {
+
+inline const Real* components(const Lanes& x) { return reinterpret_cast<const Real*>(&x); }
+
+/// (a_q, b_q, c_q, 0) of lane q.
+inline std::array<Lanes, 4> by_lane(Lanes a, Lanes b, Lanes c) {
+  const __m256d ab0 = _mm256_unpacklo_pd(a.v, b.v), ab1 = _mm256_unpackhi_pd(a.v, b.v);
+  const __m256d zero = _mm256_setzero_pd();
+  const __m256d c0 = _mm256_unpacklo_pd(c.v, zero), c1 = _mm256_unpackhi_pd(c.v, zero);
+  return {Lanes::Native(_mm256_permute2f128_pd(ab0, c0, 0x20)),
+          Lanes::Native(_mm256_permute2f128_pd(ab1, c1, 0x20)),
+          Lanes::Native(_mm256_permute2f128_pd(ab0, c0, 0x31)),
+          Lanes::Native(_mm256_permute2f128_pd(ab1, c1, 0x31))};
+}
+
+}  // namespace detail
+
+/// Nodal cells with linear moments, "q_scni" (RKPM note 5.3): in cell L the gradient of a field is
+/// sum_A f_A (a_A + B_A xi), evaluated at D + 1 points xi_q of equal weight that reproduce volume,
+/// centroid and covariance of the cell. A group is a cell.
+template <int D>
+struct CellRule {
+  std::vector<Offset> start{0};     ///< [cell + 1]
+  std::vector<Index> particle;      ///< [entry]
+  AlignedVector<Lanes> coefficient; ///< [entry][K]: (a_AK, B_AK0, B_AK1, B_AK2)
+  AlignedVector<Lanes> point;       ///< [cell][M]: xi_qM, a lane per stress point q
+  std::vector<Real> volume;         ///< [cell]
+
+  Index groups() const { return static_cast<Index>(volume.size()); }
+  Index points_per_group() const { return D + 1; }
+  /// Number of the cell (= particle) that a lane of a group belongs to.
+  Index owner(Index group, int) const { return group; }
+  Lanes weight(Index group) const {
+    const Real w = at(volume, group) / (D + 1);
+    return {w, w, w, D == 3 ? w : 0.0};
+  }
+
+  /// H_iK = f_i,K at the stress points of a cell.
+  [[gnu::always_inline]] void gather(Index cell, const Lanes* field, Tensor<Lanes>& H) const {
+    Lanes moment[D][D];
+    for (auto& row : moment)
+      for (auto& m : row) m = Lanes::zero();
+    const Lanes* g = coefficient.data() + at(start, cell) * D;
+    const Index* A = particle.data() + at(start, cell);
+    const Index* const end = particle.data() + at(start, cell + 1);
+    const char* ahead = prefetch_begin(cell);
+    for (; A != end; ++A, g += D, ahead += cache_line) {
+      _mm_prefetch(ahead, _MM_HINT_T1);
+      const Real* f = detail::components(field[*A]);
+      for (int i = 0; i < D; ++i)
+        for (int K = 0; K < D; ++K) moment[i][K] += f[i] * g[K];
+    }
+    const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
+    H = Tensor<Lanes>::zero();
+    for (int i = 0; i < D; ++i)
+      for (int K = 0; K < D; ++K) {
+        const Real* m = detail::components(moment[i][K]);
+        H(i, K) = Lanes(m[0]);
+        for (int M = 0; M < D; ++M) H(i, K) += m[M + 1] * xi[M];
+      }
+  }
+
+  /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM).
+  [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P, Lanes* force) const {
+    const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
+    Lanes moment[D][D + 1];  // [K][0] = sum P_.K, [K][1 + M] = sum P_.K xi_M; a lane per i
+    for (int K = 0; K < D; ++K) {
+      const auto Pq = detail::by_lane(P(0, K), P(1, K), P(2, K));
+      moment[K][0] = (Pq[0] + Pq[1]) + (Pq[2] + Pq[3]);
+      for (int M = 0; M < D; ++M) {
+        const Real* x = detail::components(xi[M]);
+        moment[K][1 + M] = (Pq[0] * x[0] + Pq[1] * x[1]) + (Pq[2] * x[2] + Pq[3] * x[3]);
+      }
+    }
+    const Lanes* g = coefficient.data() + at(start, cell) * D;
+    const Index* A = particle.data() + at(start, cell);
+    const Index* const end = particle.data() + at(start, cell + 1);
+    const char* ahead = prefetch_begin(cell) + (end - A) * cache_line;
+    for (; A != end; ++A, g += D, ahead += cache_line) {
+      _mm_prefetch(ahead, _MM_HINT_T1);
+      Lanes f = force[*A], second = Lanes::zero();
+      for (int K = 0; K < D; ++K) {
+        const Real* c = detail::components(g[K]);
+        f += moment[K][0] * c[0];
+        second += moment[K][1] * c[1];
+        f += moment[K][2] * c[2];
+        if constexpr (D == 3) second += moment[K][3] * c[3];
+      }
+      force[*A] = f + second;
+    }
+  }
+
+  ForceWindows windows(Index particles) const { return {start, particle, particles}; }
+  Offset pairs() const { return start.back(); }
+  std::size_t bytes() const {
+    return start.size() * sizeof(Offset) + particle.size() * sizeof(Index) +
+           (coefficient.size() + point.size()) * sizeof(Lanes) + volume.size() * sizeof(Real);
+  }
+
+ private:
+  // The coefficients are read once from memory and once, in scatter(), from cache. Fetching those of
+  // the next cell a line per pair in both loops lets memory and arithmetic overlap.
+  static constexpr std::ptrdiff_t cache_line = 64;
+  const char* prefetch_begin(Index cell) const {
+    return reinterpret_cast<const char*>(coefficient.data() + at(start, cell + 1) * D);
+  }
+};
+
+/// Stress at evaluation points with gradients of shape functions: Gauss points, or the particles
+/// themselves. A group is `per_group` consecutive points (one where neighbouring points have
+/// different material numbers).
+template <int D>
+struct PointRule {
+  PointRows<D> rows;               ///< gradients
+  std::vector<Real> point_weight;  ///< [point]: reference volume
+  std::vector<Index> point_owner;  ///< [point]: nearest particle, for messages and output
+  Index per_group = 4;
+
+  Index groups() const { return (rows.size() + per_group - 1) / per_group; }
+  Index points_per_group() const { return per_group; }
+  Index owner(Index group, int lane) const {
+    return at(point_owner, std::min(group * per_group + lane, rows.size() - 1));
+  }
+  Lanes weight(Index group) const {
+    Lanes w = Lanes::zero();
+    for (int lane = 0; lane < count(group); ++lane)
+      w.set(lane, at(point_weight, group * per_group + lane));
+    return w;
+  }
+
+  [[gnu::always_inline]] void gather(Index group, const Lanes* field, Tensor<Lanes>& H) const {
+    H = Tensor<Lanes>::zero();
+    for (int lane = 0; lane < count(group); ++lane) {
+      const auto column = gradient_at(rows, group * per_group + lane, field);
+      for (int K = 0; K < D; ++K)
+        for (int i = 0; i < D; ++i) H(i, K).set(lane, at(column, K)[i]);
+    }
+  }
+
+  [[gnu::always_inline]] void scatter(Index group, const Tensor<Lanes>& P, Lanes* force) const {
+    std::array<Lanes, 4> column[D];
+    for (int K = 0; K < D; ++K) column[K] = detail::by_lane(P(0, K), P(1, K), P(2, K));
+    for (int lane = 0; lane < count(group); ++lane) {
+      const Index q = group * per_group + lane;
+      const Real* g = rows.gradient.data() + at(rows.start, q) * D;
+      const Index* A = rows.particle.data() + at(rows.start, q);
+      const Index* const end = rows.particle.data() + at(rows.start, q + 1);
+      for (; A != end; ++A, g += D) {
+        Lanes f = at(column[0], lane) * g[0];
+        for (int K = 1; K < D; ++K) f += at(column[K], lane) * g[K];
+        force[*A] += f;
+      }
+    }
+  }
+
+  Offset pairs() const { return rows.entries(); }
+  ForceWindows windows(Index particles) const {
+    // Windows count groups as rows.
+    std::vector<Offset> group_start;
+    for (Index g = 0; g < groups(); ++g) group_start.push_back(at(rows.start, g * per_group));
+    group_start.push_back(rows.entries());
+    return {group_start, rows.particle, particles};
+  }
+  std::size_t bytes() const {
+    return rows.bytes() + point_weight.size() * sizeof(Real) + point_owner.size() * sizeof(Index);
+  }
+
+ private:
+  int count(Index group) const { return std::min(per_group, rows.size() - group * per_group); }
+};
+
+}  // namespace meniscus

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A body: particles, cells and surface in the reference configuration, and the operators that terms
+// build on them.
+#pragma once
+#include <string>
+
+#include "meniscus/approx/stress_rules.hpp"
+#include "meniscus/body/geometry.hpp"
+#include "meniscus/body/nodal_cells.hpp"
+
+namespace meniscus {
+
+template <int D>
+struct Body {
+  std::string name;
+  Index first = 0;  ///< number of its first particle in the arrays of all bodies
+  Geometry<D> geometry;
+  ParticleSet<D> particles;
+  NodalCells<D> cells;  ///< refers to `geometry`: a body does not move in memory
+  std::vector<Real> mass;
+  /// Values of the shape functions at the particles: places x(X_A) = sum_B N_B(X_A) d_B. Particle
+  /// coefficients d_A are not places.
+  PointRows<D> at_particles;
+
+  Index size() const { return particles.size(); }
+  Body(const Body&) = delete;
+  Body(Body&&) = delete;
+  Body(std::string body_name, Geometry<D> body_geometry, ParticleSet<D> body_particles)
+      : name(std::move(body_name)),
+        geometry(std::move(body_geometry)),
+        particles(std::move(body_particles)),
+        cells(geometry.grid) {}
+};
+
+/// q_scni: smoothed gradients with linear moments over nodal cells (RKPM note 5.3). Also returns
+/// the integrals of the shape functions over the body, for row-sum masses.
+template <int D>
+struct CellOperator {
+  CellRule<D> rule;
+  std::vector<Real> shape_integral;  ///< [particle] integral of N_A over the body
+};
+template <int D>
+CellOperator<D> build_cell_rule(const Body<D>& body);
+
+/// `points_per_direction` Gauss points in every cell of the grid.
+template <int D>
+PointRule<D> build_gauss_rule(const Body<D>& body, int points_per_direction);
+
+/// One point per particle with the volume of its nodal cell: unstable, for comparison only.
+template <int D>
+PointRule<D> build_nodal_rule(const Body<D>& body);
+
+/// Integrals of the shape functions over the body, without building a rule.
+template <int D>
+std::vector<Real> shape_integrals(const Body<D>& body);
+
+/// m_A = integral of density N_A, with the floor m_A >= 0.3 density V_A (tiny and negative row sums
+/// at corners are unstable at any step; performance note 3). `density` per particle.
+struct MassReport {
+  Index raised = 0;     ///< particles at the floor
+  Real added = 0;       ///< relative change of the total mass
+};
+template <int D>
+MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
+                     const std::vector<Real>& shape_integral);
+
+}  // namespace meniscus

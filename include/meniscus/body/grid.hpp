@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Curvilinear grids of hexahedra (2D: quadrilaterals): where the particles of a body come from, and
+// the cells over which it is integrated.
+#pragma once
+#include "meniscus/core/types.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// A side of a cell that no other cell shares. Nodes in tensor order: bit k of the corner number is
+/// the upper end of the facet's k-th direction; the directions are such that the facet normal
+/// (3D: first x second tangent; 2D: tangent turned clockwise by 90 degrees) points outwards.
+template <int D>
+struct Facet {
+  std::array<Index, 1 << (D - 1)> nodes;
+  Index cell = 0;
+  int side = 0;    ///< 2 k at the lower end of cell direction k, 2 k + 1 at the upper
+  int patch = -1;  ///< number of the surface patch it lies on; -1: none is known
+  /// 3D: patch of the facet beyond the lower (2 t) and upper (2 t + 1) end of facet direction t.
+  std::array<int, 2 * (D - 1)> patch_beyond = no_patches();
+
+ private:
+  static constexpr std::array<int, 2 * (D - 1)> no_patches() {
+    std::array<int, 2 * (D - 1)> none{};
+    none.fill(-1);
+    return none;
+  }
+};
+
+/// Node positions X and cells. Corners of a cell in tensor order: bit k of the corner number is the
+/// upper end of cell direction k; the directions form a right-handed system.
+template <int D>
+struct Grid {
+  static_assert(SpaceDim<D>);
+  static constexpr int corners = 1 << D;
+  using Cell = std::array<Index, corners>;
+
+  std::vector<Vec<D>> X;
+  std::vector<Cell> cells;
+  std::vector<Facet<D>> facets;  ///< the boundary; find_boundary() fills it
+
+  Index node_count() const { return static_cast<Index>(X.size()); }
+  Index cell_count() const { return static_cast<Index>(cells.size()); }
+  std::array<Vec<D>, corners> corner_points(const Cell& cell) const {
+    std::array<Vec<D>, corners> points;
+    for (int a = 0; a < corners; ++a) at(points, a) = at(X, at(cell, a));
+    return points;
+  }
+};
+
+/// -1 or +1: coordinate xi_k of corner a of the reference cell [-1, 1]^D.
+constexpr Real corner_sign(int a, int k) {
+  return (a >> k) & 1 ? 1.0 : -1.0;
+}
+
+/// A point of a P-dimensional cell in D dimensions and J(i, k) = dX_i / dxi_k.
+template <int D, int P>
+struct CellPoint {
+  Vec<D> X;
+  Eigen::Matrix<Real, D, P> J;
+};
+
+/// Multilinear map of xi in [-1, 1]^P for corners in tensor order (cells: P = D; facets: P = D -
+/// 1).
+template <int D, int P>
+CellPoint<D, P> multilinear(const std::array<Vec<D>, (1 << P)>& corners, const Vec<P>& xi) {
+  CellPoint<D, P> point{Vec<D>::Zero(), Eigen::Matrix<Real, D, P>::Zero()};
+  for (int a = 0; a < (1 << P); ++a) {
+    Real N = 1;
+    Vec<P> dN = Vec<P>::Ones();
+    for (int k = 0; k < P; ++k) {
+      const Real value = 0.5 * (1 + corner_sign(a, k) * xi[k]);
+      N *= value;
+      for (int l = 0; l < P; ++l) dN[l] *= l == k ? 0.5 * corner_sign(a, k) : value;
+    }
+    point.X += N * at(corners, a);
+    point.J += at(corners, a) * dN.transpose();
+  }
+  return point;
+}
+
+/// Fills grid.facets, ordered by cell and side, from the cells of any conforming grid.
+/// Throws InputError naming the cells if more than two of them share a side.
+template <int D>
+void find_boundary(Grid<D>& grid);
+
+/// A place of the cell where det J <= 0, if there is one. Looks at the 3^D points {-1, 0, 1}^D (in
+/// 2D this proves det J > 0 everywhere).
+template <int D>
+std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell);
+
+/// Throws InputError naming the first folded cell, place and Jacobian. `cause` begins the message,
+/// e.g. "The shape".
+template <int D>
+void check_jacobians(const Grid<D>& grid, const std::string& cause);
+
+/// The cells at each node, ascending, and which of their corners the node is.
+struct NodeCells {
+  struct Entry {
+    Index cell;
+    std::int32_t corner;
+  };
+  std::vector<Offset> row;  ///< cells of node i: entry[row[i]] .. entry[row[i + 1]]
+  std::vector<Entry> entry;
+
+  std::span<const Entry> of(Index node) const {
+    return {entry.data() + at(row, node), entry.data() + at(row, node + 1)};
+  }
+};
+
+template <int D>
+NodeCells cells_of_nodes(const Grid<D>& grid);
+
+/// Volume (2D: area) enclosed by the cells, exact for their multilinear maps.
+template <int D>
+Real volume(const Grid<D>& grid);
+
+/// Nodes that lie on a boundary facet, ascending.
+template <int D>
+std::vector<Index> boundary_nodes(const Grid<D>& grid);
+
+/// Boundary facets cut into simplices (3D: triangles, along the shorter diagonal; 2D: segments),
+/// outward; those of facet f stand at [f * (D - 1), (f + 1) * (D - 1)).
+template <int D>
+std::vector<std::array<Index, D>> triangulate_boundary(const Grid<D>& grid);
+
+/// Moves the interior nodes one after the other, each coordinate by a number uniform in +-
+/// `fraction` times the shortest cell edge at that node; a move that would fold a cell is drawn
+/// again. Boundary nodes stay. The same seed gives the same grid on every machine. Throws
+/// InputError if a node finds no place in 100 draws or `fraction` is negative.
+template <int D>
+void jitter_interior(Grid<D>& grid, Real fraction, std::uint64_t seed);
+
+/// Gauss points of the cells.
+template <int D>
+struct CellPoints {
+  std::vector<Vec<D>> X;
+  std::vector<Real> weight;  ///< reference volume
+  int per_cell = 0;          ///< points of cell e: [e * per_cell, (e + 1) * per_cell)
+};
+
+/// k Gauss points per direction in every cell, 1 <= k <= 20.
+template <int D>
+CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k);
+
+}  // namespace meniscus

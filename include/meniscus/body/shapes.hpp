@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shapes a scene can name, and how a new one is added: one file in src/body/shapes with a
+// struct like those below and the line `const bool registered = register_shape<D, MyShape>();`.
+#pragma once
+#include "meniscus/body/geometry.hpp"
+#include "meniscus/core/input.hpp"
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// Cubed sphere: a core of core^3 cells inside `layers` shells of 6 core^2 cells each, so
+/// (core + 1)^3 + layers (6 core^2 + 2) nodes.
+struct Ball {
+  static constexpr const char* name = "ball";
+  static constexpr const char* meaning = "ball, meshed as a cubed sphere";
+  Real radius = 1;
+  int core = 10, layers = 5;
+  std::vector<Real> centre{0, 0, 0};
+
+  static Rows<Ball> rows();
+  Geometry<3> geometry() const;
+};
+
+/// The cubed sphere stretched along the axes.
+struct Ellipsoid {
+  static constexpr const char* name = "ellipsoid";
+  static constexpr const char* meaning = "ellipsoid, a stretched ball";
+  std::vector<Real> semi_axes{1, 1, 1};
+  int core = 10, layers = 5;
+  std::vector<Real> centre{0, 0, 0};
+
+  static Rows<Ellipsoid> rows();
+  Geometry<3> geometry() const;
+};
+
+/// Cylinder about z, a flat one being a disc: the cells of Disk in `layers` equal layers.
+struct Cylinder {
+  static constexpr const char* name = "cylinder";
+  static constexpr const char* meaning = "cylinder or disc about z";
+  Real radius = 1, height = 1;
+  int core = 18, rings = 9, layers = 3;
+  std::vector<Real> centre{0, 0, 0};
+
+  static Rows<Cylinder> rows();
+  Geometry<3> geometry() const;
+};
+
+/// Core of core^2 cells inside `rings` rings of 4 core cells.
+struct Disk {
+  static constexpr const char* name = "disk";
+  static constexpr const char* meaning = "disk";
+  Real radius = 1;
+  int core = 18, rings = 9;
+  std::vector<Real> centre{0, 0};
+
+  static Rows<Disk> rows();
+  Geometry<2> geometry() const;
+};
+
+/// The disk stretched along the axes.
+struct Ellipse {
+  static constexpr const char* name = "ellipse";
+  static constexpr const char* meaning = "ellipse, a stretched disk";
+  std::vector<Real> semi_axes{1, 1};
+  int core = 18, rings = 9;
+  std::vector<Real> centre{0, 0};
+
+  static Rows<Ellipse> rows();
+  Geometry<2> geometry() const;
+};
+
+/// Box (3D) or rectangle (2D) of equal cells along the axes.
+template <int D>
+struct Brick {
+  static constexpr const char* name = D == 3 ? "box" : "rectangle";
+  static constexpr const char* meaning = D == 3 ? "box of equal cells" : "rectangle of equal cells";
+  std::vector<Real> size = std::vector<Real>(D, 1);
+  std::vector<Real> cells;  ///< number per direction; empty: from `spacing`
+  Real spacing = 0;         ///< largest edge of a cell
+  std::vector<Real> centre = std::vector<Real>(D, 0);
+  std::vector<Real> corner;  ///< lowest corner; empty: from `centre`
+
+  static Rows<Brick> rows();
+  Geometry<D> geometry() const;
+};
+
+/// A key of a shape as `meniscus keys` prints it.
+struct ShapeKey {
+  std::string key, type, unit, range, fallback, meaning;
+};
+
+template <int D>
+struct ShapeKind {
+  std::string meaning;
+  std::function<std::vector<ShapeKey>()> keys;
+  std::function<Geometry<D>(const Block&)> make;
+};
+
+/// All shapes of D dimensions by name.
+template <int D>
+std::map<std::string, ShapeKind<D>>& shapes();
+
+/// Adds S: name, meaning, rows(), and geometry(), which throws InputError for numbers that make no
+/// shape. Returns true.
+template <int D, class S>
+bool register_shape() {
+  ShapeKind<D> kind;
+  kind.meaning = S::meaning;
+  kind.keys = [] {
+    std::vector<ShapeKey> keys;
+    for (const Row<S>& row : S::rows())
+      keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
+    return keys;
+  };
+  kind.make = [](const Block& block) { return read<S>(block).geometry(); };
+  shapes<D>()[S::name] = std::move(kind);
+  return true;
+}
+
+/// The body that a table of the scene describes: `shape` names a registered shape, its own keys
+/// follow in the same table, and `jitter` (fraction of the shortest edge, default 0) with
+/// `jitter_seed` moves the interior nodes. Numbers that make no body are noted in the block as a
+/// problem and a coarse stand-in is returned. The caller calls block.done().
+template <int D>
+Geometry<D> read_geometry(const Block& block);
+
+}  // namespace meniscus

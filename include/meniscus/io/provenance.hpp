@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a result comes from: program, libraries, command and input. Nothing in it names a machine
+// or a person.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace meniscus {
+
+/// What was built.
+struct Build {
+  std::string version;   ///< "0.1.0"
+  std::string git_hash;  ///< of the sources, "unknown" outside of a repository
+  bool git_dirty;        ///< the sources differed from that commit
+  std::string compiler;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+};
+Build build();
+
+/// What is stored under /meta of every file.
+struct Provenance {
+  Build build;
+  int threads;
+  std::string command_line;
+  std::string input;        ///< the complete input, defaults included
+  std::string started_utc;  ///< "2026-01-31T12:00:00Z"
+};
+
+/// Provenance of a run that starts now.
+Provenance provenance(std::string command_line, std::string input);
+
+/// The command line with every absolute path shortened to its last name.
+std::string portable_command_line(int argc, const char* const* argv);
+
+}  // namespace meniscus

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// DIR/run.h5 and DIR/run.xdmf: the frames of a run, for people, plotting tools and ParaView.
+//
+// run.h5:
+//   /steps/<k>/<field>      one array per field of frame k = 0, 1, ...; attributes step, time
+//   /steps/<k>/state/...    the complete state at double precision, if the frame has it
+//   /reference/<body>/...   X, volume, support, ...: what does not change
+//   /meta                   provenance and the complete input
+//   /VTKHDF                 the same frames as a temporal PolyData (VTK 9.3, ParaView 5.12 or
+//   newer)
+// Every array has an attribute "units". run.xdmf describes the frames to older ParaView.
+// After an interruption, even kill -9, the file opens and has every frame that write_frame() had
+// returned from. It can be read while the run goes on.
+#pragma once
+#include "meniscus/core/snapshot.hpp"
+#include "meniscus/core/types.hpp"
+#include "meniscus/io/provenance.hpp"
+#include "meniscus/io/run_directory.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// Values per particle, particle by particle: values[components * I + c].
+struct Field {
+  std::string name;  ///< letters, digits, '_'
+  /// 1 scalar; 2 or 3 vector (of a 2D run: stored with z = 0); 6 symmetric tensor in the order
+  /// xx, yy, zz, xy, yz, xz; 9 tensor by rows.
+  int components = 1;
+  std::string unit = "1";
+  std::span<const Real> values;
+};
+
+/// Particle numbers in rows, e.g. the corners of surface quads; counted from 0 inside the body.
+struct Connectivity {
+  std::string name;
+  int columns = 1;
+  std::span<const Index> values;
+};
+
+/// What does not change of a body. Particles of the bodies follow each other in every field.
+struct BodyReference {
+  std::string name;           ///< not empty, without '/'
+  std::vector<Field> arrays;  ///< at least one; all have one value per particle of the body
+  std::vector<Connectivity> connectivity;
+};
+
+struct ResultOptions {
+  enum class Precision { float32, float64 };
+  Precision precision = Precision::float64;  ///< of fields; a state is always double
+  int compression = 0;                       ///< deflate level, 0 (none) to 9
+  std::string time_unit = "s";
+  /// Continue DIR/run.h5 after this step: frames of later steps are dropped (the run will make them
+  /// again), the others stay. Without the file a new one is begun.
+  std::optional<std::int64_t> continue_after{};
+};
+
+class ResultFile {
+ public:
+  /// Throws FileError if the file cannot be made, or if the run to be continued has other bodies,
+  /// particle counts, or is damaged.
+  ResultFile(const RunDirectory&, const Provenance&, std::span<const BodyReference>,
+             const ResultOptions&);
+  ~ResultFile();
+
+  /// Adds a frame and returns its number. One field is "position" (2 or 3 components); all frames
+  /// have the same fields. When it returns, the frame survives a kill.
+  /// Throws SolveError naming field and particle if a value is NaN or infinite, FileError if the
+  /// disk does not take it or if a continued file has other fields; the frames before are safe.
+  std::int64_t write_frame(std::int64_t step, Real time, std::span<const Field> fields,
+                           const Snapshot* state = nullptr);
+
+  std::int64_t frames() const;
+  /// How many frames continue_after removed.
+  std::int64_t dropped_frames() const;
+
+ private:
+  class Writer;
+  std::unique_ptr<Writer> writer_;
+};
+
+}  // namespace meniscus

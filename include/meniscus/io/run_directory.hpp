@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The directory of the results of one run, and who may write there.
+#pragma once
+#include <filesystem>
+
+namespace meniscus {
+
+/// What may happen to a run that is already in the directory.
+enum class ExistingRun {
+  refuse,   ///< FileError if there is one
+  replace,  ///< its files are removed (--overwrite); files of other names stay
+  keep      ///< it is continued
+};
+
+/// DIR/run.h5, run.xdmf, history.csv, run.log, checkpoint-a.h5, checkpoint-b.h5. While the object
+/// lives no other program can write results there; the lock ends with the process, however it ends.
+class RunDirectory {
+ public:
+  /// Makes the directory if needed. Throws FileError if it cannot be made or written to, is not a
+  /// directory, holds a run (ExistingRun::refuse), or another program is writing to it.
+  RunDirectory(std::filesystem::path path, ExistingRun existing);
+  ~RunDirectory();
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path result_file() const { return path_ / "run.h5"; }
+  std::filesystem::path history_file() const { return path_ / "history.csv"; }
+  std::filesystem::path log_file() const { return path_ / "run.log"; }
+
+ private:
+  void lock();
+
+  std::filesystem::path path_;
+  int lock_ = -1;  ///< file descriptor of the directory
+};
+
+}  // namespace meniscus

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run has to say: everything to run.log, warnings and errors also to stderr.
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace meniscus {
+
+class RunLog {
+ public:
+  /// A log on stderr alone (for what happens before there is a directory, and for tests).
+  RunLog();
+  /// Appends to `file`, each line with its time (UTC) and level, written at once. Throws FileError.
+  explicit RunLog(const std::filesystem::path& file);
+  ~RunLog();
+  RunLog(RunLog&&) noexcept;
+  RunLog& operator=(RunLog&&) noexcept;
+
+  void info(std::string_view message);
+  void warning(std::string_view message);
+  void error(std::string_view message);
+
+ private:
+  struct Logger;
+  std::unique_ptr<Logger> logger_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one interface of all physical effects. A scene's system is a list of terms; an effect that the
+// scene does not name is not in the list and costs nothing.
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "meniscus/core/aligned.hpp"
+#include "meniscus/core/units.hpp"
+
+namespace meniscus {
+
+/// What forces depend on. Displacement and velocity coefficients of the particles of all bodies.
+struct Motion {
+  Real time;
+  std::span<const Lanes> u, v;
+};
+
+/// Why a term could not compute a force that makes sense.
+struct Failure {
+  Index particle;      ///< global number of the particle nearest to the failure
+  std::string cause;   ///< e.g. "J = -0.3 at a stress point; F = [...]"
+};
+
+/// A result per particle that a term can compute for output.
+struct FieldSource {
+  std::string name;     ///< e.g. "pressure"
+  int components;       ///< 1 or 9 (row-major tensor)
+  Dimension dimension;
+  std::string meaning;
+  /// Fills `components` numbers for each particle of the term's body.
+  std::function<void(const Motion&, std::span<Real>)> compute;
+};
+
+/// A scalar result that a term can compute for the history.
+struct MeasureSource {
+  std::string name;     ///< e.g. "area"
+  Dimension dimension;
+  std::string meaning;
+  std::function<Real(const Motion&)> compute;
+};
+
+class ForceTerm {
+ public:
+  virtual ~ForceTerm() = default;
+
+  /// Name in messages, timings and the audit: "internal force of 'drop'".
+  virtual std::string name() const = 0;
+
+  /// force[A] += ... over all particles. Same bits for any thread count. Called for any motion, also
+  /// trial ones; what dissipation() and failure() say is about the last call.
+  virtual void add_force(const Motion& motion, std::span<Lanes> force) = 0;
+
+  /// Whether the force depends on the velocity.
+  virtual bool viscous() const { return false; }
+
+  /// Stored energy and the column of the audit it belongs to ("strain", "surface"); none if the
+  /// force has no potential.
+  virtual std::optional<Real> stored_energy(const Motion&) const { return std::nullopt; }
+  virtual std::string_view energy_kind() const { return ""; }
+
+  /// Power turned into heat at the last add_force().
+  virtual Real dissipation() const { return 0; }
+  /// Power that the outside world puts in.
+  virtual Real external_power(const Motion&) const { return 0; }
+
+  virtual std::optional<Failure> failure() const { return std::nullopt; }
+  /// Doubtful but possible states, looked for at output times; one sentence.
+  virtual std::optional<std::string> warning(const Motion&) const { return std::nullopt; }
+
+  virtual std::vector<FieldSource> fields() const { return {}; }
+  virtual std::vector<MeasureSource> measures() const { return {}; }
+
+  /// Bytes held for the time loop.
+  virtual std::size_t bytes() const = 0;
+  /// Pairs (evaluation point or cell, particle) visited by one add_force().
+  virtual Offset pairs() const = 0;
+};
+
+}  // namespace meniscus

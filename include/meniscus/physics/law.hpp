@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a material law is: a plain struct of numbers with pure functions of the deformation.
+//
+// A law lives in its own file in src/materials, in an anonymous namespace, and ends with
+//   const bool registered = register_law<MyLaw>();
+// It always sees three dimensions (2D is plane strain) and H = F - I, never F, because everything
+// near the reference state has to be computed without cancellation: volume_change, green_strain,
+// log1p, expm1 and their remainders are made for that.
+//
+// The functions are templates of the scalar T: Real, Lanes (four stress points at once, the time
+// loop) and Complex (complex-step derivatives). Hence the rules for law code:
+//   - no comparison, abs, min or max of anything that depends on the argument;
+//   - transpose never conjugates; no norm; sqrt only where its argument cannot vanish;
+//   - a choice that the whole body shares (an equation of state) may be a branch on a number of the
+//     law: it is predicted, and measured to cost nothing;
+//   - laws are defined for J > 0 and do not test it: the caller stops the run at J <= 0.
+#pragma once
+#include "meniscus/core/elementary.hpp"
+#include "meniscus/core/input.hpp"
+#include "meniscus/core/tensor.hpp"
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace meniscus {
+
+/// L can be evaluated with the scalar T.
+template <class L, class T>
+concept ElasticIn = requires(const L law, const Tensor<T> H) {
+  /// Energy W per reference volume; W(0) = 0.
+  { law.energy_density(H) } -> std::same_as<T>;
+  /// First Piola stress P = dW/dF, P_iA: i force direction, A normal in the reference.
+  { law.stress(H) } -> std::same_as<Tensor<T>>;
+};
+
+template <class L, class T>
+concept ViscousIn = requires(const L law, const Tensor<T> H, const Tensor<T> F_rate) {
+  /// First Piola stress, linear in F_rate = dF/dt, added to stress(H); viscous_stress : F_rate >= 0
+  /// is the power turned into heat per reference volume.
+  { law.viscous_stress(H, F_rate) } -> std::same_as<Tensor<T>>;
+};
+
+/// A law with viscous stress; it says `static constexpr bool viscous = true`.
+template <class L>
+concept ViscousLaw = L::viscous && ViscousIn<L, Real> && ViscousIn<L, Lanes>;
+
+/// A material law. `density` is the mass per reference volume; p_wave_modulus() is rho c^2 of a
+/// plane compression wave at the reference state; rows() are its numbers in the scene.
+template <class L>
+concept Law = std::is_trivially_copyable_v<L> && ElasticIn<L, Real> && ElasticIn<L, Lanes> &&
+              ElasticIn<L, Complex> &&(ViscousLaw<L> || !L::viscous) &&
+              requires(const L law) {
+  { L::type_name } -> std::convertible_to<std::string_view>;
+  { law.density } -> std::convertible_to<Real>;
+  { L::rows() } -> std::same_as<Rows<L>>;
+  { law.p_wave_modulus() } -> std::same_as<Real>;
+};
+
+/// What is wrong with the numbers of `law` taken together (each alone is in its range already);
+/// nothing for laws without a member check().
+template <Law L>
+std::optional<std::string> check(const L& law) {
+  if constexpr (requires {
+                  { law.check() } -> std::same_as<std::optional<std::string>>;
+                })
+    return law.check();
+  else
+    return {};
+}
+
+/// Why the law should not be trusted at H = F - I, e.g. a loss of ellipticity; nothing for laws
+/// without a member warning(H). Asked at output times only.
+template <Law L>
+std::optional<std::string> warning(const L& law, const Tensor<Real>& H) {
+  if constexpr (requires {
+                  { law.warning(H) } -> std::same_as<std::optional<std::string>>;
+                })
+    return law.warning(H);
+  else
+    return {};
+}
+
+/// The law with the typical numbers of its rows.
+template <Law L>
+L typical_law() {
+  L law{};
+  for (const Row<L>& row : L::rows())
+    if (row.member) law.*row.member = row.typical;
+  return law;
+}
+
+}  // namespace meniscus

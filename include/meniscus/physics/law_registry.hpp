@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of material laws by name. Laws enter themselves before main() begins.
+#pragma once
+#include "meniscus/physics/law.hpp"
+#include "meniscus/physics/material.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace meniscus {
+
+/// A law with numbers, its type forgotten: for tests, wave speeds and other things that are not
+/// done at every step. H = F - I; meaning of the functions as in law.hpp.
+class AnyLaw {
+ public:
+  virtual ~AnyLaw() = default;
+
+  virtual Real density() const = 0;
+  virtual Real p_wave_modulus() const = 0;
+  virtual Real energy_density(const Tensor<Real>& H) const = 0;
+  virtual Lanes energy_density(const Tensor<Lanes>& H) const = 0;
+  virtual Complex energy_density(const Tensor<Complex>& H) const = 0;
+  virtual Tensor<Real> stress(const Tensor<Real>& H) const = 0;
+  virtual Tensor<Lanes> stress(const Tensor<Lanes>& H) const = 0;
+  virtual Tensor<Complex> stress(const Tensor<Complex>& H) const = 0;
+  /// Zero for laws that are not viscous.
+  virtual Tensor<Real> viscous_stress(const Tensor<Real>& H, const Tensor<Real>& F_rate) const = 0;
+  virtual Tensor<Lanes> viscous_stress(const Tensor<Lanes>& H,
+                                       const Tensor<Lanes>& F_rate) const = 0;
+  virtual std::optional<std::string> check() const = 0;
+  virtual std::optional<std::string> warning(const Tensor<Real>& H) const = 0;
+};
+
+/// One line of the reference of input keys.
+struct KeyText {
+  std::string key, type, unit, range, fallback, meaning;
+};
+
+/// What the program knows of a law by its name.
+struct LawEntry {
+  std::string_view name;
+  bool viscous;
+  std::vector<KeyText> keys;
+  std::unique_ptr<AnyLaw> (*typical)();           ///< with the typical numbers of its rows
+  std::unique_ptr<AnyLaw> (*read)(const Block&);  ///< uniform numbers from a scene; notes problems
+  std::unique_ptr<Material<2>> (*material_2d)(const Block&);  ///< for a body; notes problems
+  std::unique_ptr<Material<3>> (*material_3d)(const Block&);
+
+  template <int D>
+  std::unique_ptr<Material<D>> material(const Block& block) const {
+    if constexpr (D == 2)
+      return material_2d(block);
+    else
+      return material_3d(block);
+  }
+};
+
+/// All laws, sorted by name.
+const std::map<std::string_view, LawEntry>& laws();
+
+/// Throws InputError (without a place) that lists the known laws.
+const LawEntry& law_named(std::string_view name);
+
+/// Throws std::logic_error if the name is taken.
+bool add_law(LawEntry entry);
+
+template <Law L>
+class AnyLawOf final : public AnyLaw {
+ public:
+  explicit AnyLawOf(const L& law) : law_(law) {}
+
+  Real density() const override { return law_.density; }
+  Real p_wave_modulus() const override { return law_.p_wave_modulus(); }
+  Real energy_density(const Tensor<Real>& H) const override { return law_.energy_density(H); }
+  Lanes energy_density(const Tensor<Lanes>& H) const override { return law_.energy_density(H); }
+  Complex energy_density(const Tensor<Complex>& H) const override { return law_.energy_density(H); }
+  Tensor<Real> stress(const Tensor<Real>& H) const override { return law_.stress(H); }
+  Tensor<Lanes> stress(const Tensor<Lanes>& H) const override { return law_.stress(H); }
+  Tensor<Complex> stress(const Tensor<Complex>& H) const override { return law_.stress(H); }
+  Tensor<Real> viscous_stress(const Tensor<Real>& H, const Tensor<Real>& F_rate) const override {
+    return viscous(H, F_rate);
+  }
+  Tensor<Lanes> viscous_stress(const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const override {
+    return viscous(H, F_rate);
+  }
+  std::optional<std::string> check() const override { return meniscus::check(law_); }
+  std::optional<std::string> warning(const Tensor<Real>& H) const override {
+    return meniscus::warning(law_, H);
+  }
+
+ private:
+  template <class T>
+  Tensor<T> viscous(const Tensor<T>& H, const Tensor<T>& F_rate) const {
+    if constexpr (ViscousLaw<L>)
+      return law_.viscous_stress(H, F_rate);
+    else
+      return Tensor<T>::zero();
+  }
+
+  L law_;
+};
+
+template <Law L>
+LawEntry make_entry() {
+  LawEntry entry{L::type_name, L::viscous, {}, nullptr, nullptr, read_material<2, L>,
+                 read_material<3, L>};
+  for (const Row<L>& row : L::rows())
+    entry.keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
+  entry.typical = []() -> std::unique_ptr<AnyLaw> {
+    return std::make_unique<AnyLawOf<L>>(typical_law<L>());
+  };
+  entry.read = [](const Block& block) -> std::unique_ptr<AnyLaw> {
+    const L law = meniscus::read<L>(block);
+    if (const auto wrong = check(law)) block.problem("", *wrong);
+    return std::make_unique<AnyLawOf<L>>(law);
+  };
+  return entry;
+}
+
+/// Enters the law into the table: the last line of every file in src/materials.
+template <Law L>
+bool register_law() {
+  return add_law(make_entry<L>());
+}
+
+}  // namespace meniscus

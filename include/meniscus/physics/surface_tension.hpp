@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surface tension of the whole surface of a body, in three discrete forms (RKPM note 4).
+#pragma once
+#include <memory>
+
+#include "meniscus/body/body.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+namespace meniscus {
+
+/// f_A,i = -gamma sum_q da (I - n n)_ij F^-1_Kj N_A,K: the exact gradient of gamma x the discrete
+/// area sum_q da. Needs first derivatives only; `points` Gauss points per facet direction.
+template <int D>
+std::unique_ptr<ForceTerm> weak_surface_tension(const Body<D>& body, Real gamma, int points);
+
+/// f_A = sum_q N_A gamma 2 kappa n da with 2 kappa = T_KL (n_i G_iKL - N_K,L / s), the corrected
+/// (2.42) of Fan 2014: purely normal, least nodal scatter, not a gradient. The surface must be smooth
+/// (else InputError). The only form that needs second derivatives.
+template <int D>
+std::unique_ptr<ForceTerm> curvature_surface_tension(const Body<D>& body, Real gamma, int points);
+
+/// Flat triangles (2D: segments) between the places x(X_B) of the boundary particles: the exact
+/// gradient of the triangulated area, of low order. The corrected (2.44) of Fan 2014.
+template <int D>
+std::unique_ptr<ForceTerm> triangle_surface_tension(const Body<D>& body, Real gamma);
+
+}  // namespace meniscus

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scene says, as structs whose rows are the reference of the input keys.
+#pragma once
+#include <optional>
+
+#include "meniscus/core/input.hpp"
+
+namespace meniscus {
+
+/// [time]
+struct TimeSettings {
+  Real end = 0;
+  std::optional<Real> step;  ///< given: checked against the stable step; else chosen
+  Real safety = 0.9;
+  int check_every = 0;  ///< steps between new estimates of the stable step
+  static Rows<TimeSettings> rows();
+};
+
+/// [output]
+struct OutputSettings {
+  Real frames_every = 0, history_every = 0;  ///< time; 0: 50 frames, 200 records over the run
+  std::vector<std::string> fields, measures;
+  std::string precision;
+  int compression = 0;
+  bool restartable = true;
+  Real checkpoint_minutes = 0;
+  static Rows<OutputSettings> rows();
+};
+
+/// The keys of [[body]] besides those of its shape, and the tables in it.
+struct BodySettings {
+  std::string name, integration, window;
+  int gauss_points = 3;
+  Real support_factor = 0;    ///< x distance to the rank-th neighbour
+  int support_rank = 0;       ///< 0: 20 in 3D, 8 in 2D
+  Real support_spacings = 0;  ///< > 0: the same support everywhere, x mean cell size
+  std::vector<Expression> initial_displacement, initial_velocity;  ///< empty: zero
+  static Rows<BodySettings> rows();
+};
+
+/// [[surface_tension]]
+struct TensionSettings {
+  std::string body, form;
+  Real gamma = 0;
+  int points = 3;
+  static Rows<TensionSettings> rows();
+};
+
+/// [[body_force]]
+struct BodyForceSettings {
+  std::string body;
+  std::vector<Expression> acceleration;
+  static Rows<BodyForceSettings> rows();
+};
+
+/// [[exact]]
+struct ExactSettings {
+  std::string body;
+  std::vector<Expression> displacement, velocity;
+  Real rate = 0;
+  static Rows<ExactSettings> rows();
+};
+
+/// [expect.NAME]
+struct ExpectSettings {
+  std::string of;      ///< column of the history; the name of the table if empty
+  std::string reduce;  ///< how the record becomes one number
+  Real at = -1, from = -1, to = -1;  ///< times; < 0: the end, the begin, the end
+  Real value = 0, within = -1, within_relative = -1;  ///< < 0: not given
+  static Rows<ExpectSettings> rows();
+};
+
+/// Prints every key of a scene with unit, range, default and meaning.
+void describe_keys(std::ostream& out);
+
+}  // namespace meniscus

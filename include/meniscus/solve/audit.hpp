@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the energy is, and whether energy and momenta are kept.
+#pragma once
+#include <map>
+#include <string>
+
+#include "meniscus/solve/system.hpp"
+
+namespace meniscus {
+
+struct Ledger {
+  Real kinetic = 0;
+  std::map<std::string, Real> stored;  ///< by kind of energy: "strain", "surface", ...
+  Real dissipated = 0, external_work = 0;
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< about the origin; 2D: z only
+
+  /// What does not change in an exact solution: kinetic + stored + dissipated - external work.
+  Real balance() const;
+};
+
+template <int D>
+Ledger take_ledger(const System<D>& system, const State& state);
+
+/// Follows a ledger from the start of a run. Part of a checkpoint.
+struct Audit {
+  Real initial_balance = 0;
+  std::map<std::string, Real> initial_stored;
+  Eigen::Vector3d initial_momentum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d initial_angular_momentum = Eigen::Vector3d::Zero();
+  Real energy_scale = 0;            ///< largest energy that was exchanged so far
+  Real momentum_scale = 0;          ///< largest sqrt(2 M E_kin) so far
+  Real angular_momentum_scale = 0;  ///< the same times the radius of gyration
+
+  void begin(const Ledger& ledger);
+  /// Widens the scales.
+  template <int D>
+  void follow(const System<D>& system, const State& state, const Ledger& ledger);
+
+  /// Change of the balance relative to the energy exchanged so far; 0 before anything was.
+  Real balance_error(const Ledger& ledger) const;
+  /// Change of the momentum relative to its scale. Meaningful without external forces.
+  Real momentum_error(const Ledger& ledger) const;
+  Real angular_momentum_error(const Ledger& ledger) const;
+};
+
+}  // namespace meniscus

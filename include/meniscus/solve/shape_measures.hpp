@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers that describe where a body is and what shape it has.
+#pragma once
+#include <vector>
+
+#include "meniscus/body/body.hpp"
+#include "meniscus/core/expression.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+namespace meniscus {
+
+/// Measures of the surface particles of a body: extents along the axes, aspect (largest over
+/// smallest extent), p2 (amplitude of the second Legendre mode about the axis of the largest
+/// reference extent, relative to the mean radius; in 2D of the mode cos 2 phi), radius (mean).
+template <int D>
+std::vector<MeasureSource> shape_measures(const Body<D>& body);
+
+/// An exact solution to compare with.
+struct ExactSolution {
+  std::vector<Expression> displacement, velocity;  ///< of reference position and time
+  Real rate = 0;  ///< weighs displacement against velocity, 1/time; the frequency of an oscillation
+};
+
+/// "state_error": sqrt(sum V [rate^2 |u - u_ex|^2 + |v - v_ex|^2] / sum V [rate^2 |u_ex|^2 +
+/// |v_ex|^2]) over the particles, at places (performance note 3).
+template <int D>
+MeasureSource state_error(const Body<D>& body, ExactSolution exact);
+
+}  // namespace meniscus

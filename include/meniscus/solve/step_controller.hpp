@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Chooses the time step of a run: a fraction of the stable step, or the step that was asked for.
+#pragma once
+#include <optional>
+
+#include "meniscus/core/snapshot.hpp"
+#include "meniscus/solve/time_step.hpp"
+
+namespace meniscus {
+
+template <int D>
+class StepController {
+ public:
+  struct Choice {
+    std::optional<Real> fixed;  ///< step asked for
+    Real safety = 0.9;          ///< else this fraction of the stable step
+    int check_every = 250;      ///< steps between estimates
+  };
+
+  StepController(System<D>& system, Choice choice) : estimator_(system), choice_(choice) {}
+
+  /// Estimates the stable step at the start of a run. Throws InputError if a fixed step exceeds it.
+  void begin(const State& state);
+
+  /// The next step; the last ones are shortened to arrive at `end` exactly. Throws SolveError when
+  /// the stable step has collapsed to a millionth of the first.
+  Real next(const State& state, Real end);
+
+  const StableStep& stable() const { return stable_; }
+  /// Said once when a fixed step has come close to the stable one, or above it.
+  std::optional<std::string> take_warning() { return std::exchange(warning_, std::nullopt); }
+
+  void save(Snapshot& snapshot) const;
+  void restore(const Snapshot& snapshot);
+
+ private:
+  void reconsider(const State& state);
+
+  StableStepEstimator<D> estimator_;
+  Choice choice_;
+  StableStep stable_;
+  Real step_ = 0, first_limit_ = 0;
+  std::int64_t next_check_ = 0;
+  bool warned_ = false;
+  std::optional<std::string> warning_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All that moves and all that acts: bodies, force terms, and the state that changes in time.
+#pragma once
+#include <deque>
+#include <memory>
+
+#include "meniscus/body/body.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+namespace meniscus {
+
+/// What changes from step to step. A run continues bit for bit from a copy of it.
+struct State {
+  Real time = 0;
+  std::int64_t step = 0;
+  NodalVectors u, v;      ///< displacement and velocity coefficients at `time`
+  NodalVectors force;     ///< at u and the velocity of the last half step
+  Real dissipated = 0;    ///< heat so far
+  Real external_work = 0; ///< work of the outside world so far
+  Real dissipation_power = 0, external_power = 0;  ///< at `time`
+
+  Motion motion() const { return {time, u, v}; }
+};
+
+template <int D>
+struct System {
+  std::deque<Body<D>> bodies;
+  std::vector<std::unique_ptr<ForceTerm>> terms;
+  std::vector<Real> mass;  ///< of all particles, bodies one after the other
+
+  Index size() const { return static_cast<Index>(mass.size()); }
+  bool viscous() const;
+
+  /// Forces of all terms. Throws SolveError naming body, particle, place and cause where a term
+  /// cannot compute one (J <= 0) or a force is not a number; `force` is then not to be used.
+  void compute_forces(const Motion& motion, std::span<Lanes> force);
+
+  /// Same, without the checks: for trial motions of the time-step estimate.
+  void add_up(const Motion& motion, std::span<Lanes> force);
+
+  /// The body that holds a particle.
+  const Body<D>& body_of(Index particle) const;
+};
+
+}  // namespace meniscus

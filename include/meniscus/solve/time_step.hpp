@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The largest stable step of central differences, from the discretised operator itself.
+#pragma once
+#include "meniscus/solve/system.hpp"
+
+namespace meniscus {
+
+/// With K the stiffness, C the viscous matrix and M the lumped masses, central differences with a
+/// lagged viscous force are stable if dt^2/4 K + dt/2 C < M. For the mode w that is the first to
+/// break this, k = w.Kw / w.Mw and c = w.Cw / w.Mw give dt = 4 / (c + sqrt(c^2 + 4 k)): 2/omega
+/// without viscosity, 2/c without stiffness.
+struct StableStep {
+  Real dt = 0;          ///< the limit
+  Real stiffness = 0;   ///< omega = sqrt(k) of the critical mode, 1/time
+  Real viscosity = 0;   ///< c of the critical mode, 1/time
+  int evaluations = 0;  ///< force evaluations spent
+};
+
+/// Finds the critical mode by power iteration on differences of the force, starting with the mode
+/// found before: a new estimate of a slowly changing body takes a few evaluations.
+template <int D>
+class StableStepEstimator {
+ public:
+  explicit StableStepEstimator(System<D>& system);
+
+  /// Throws SolveError if no finite limit can be found.
+  StableStep estimate(const State& state);
+
+  /// The mode found last: part of a checkpoint, since later estimates start from it.
+  const NodalVectors& mode() const { return mode_; }
+  void set_mode(NodalVectors mode) { mode_ = std::move(mode); }
+
+ private:
+  /// result = - (f(u + du mode, v + dv mode) - f(u, v)).
+  void force_change(const State& state, Real du, Real dv, NodalVectors& result);
+  Real dot(const NodalVectors& a, const NodalVectors& b) const;
+
+  System<D>& system_;
+  Real spacing_;  ///< smallest particle distance: scale of the trial displacements
+  NodalVectors mode_, u_, v_, base_, elastic_, viscous_;
+};
+
+}  // namespace meniscus

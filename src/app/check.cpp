@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pre-flight: what a run of the scene would be.
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "meniscus/app/commands.hpp"
+#include "meniscus/app/simulation.hpp"
+
+namespace meniscus {
+namespace {
+
+template <int D>
+void check_scene(const SceneInput& input, const RunRequest& request) {
+  Scene<D> scene = build_scene<D>(input);
+  const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
+  if (!scene.title.empty()) fmt::print("{}\n", scene.title);
+  for (const auto& note : scene.notes) fmt::print("{}\n", note);
+  for (const Body<D>& body : scene.system.bodies) {
+    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
+    Real least = 1e300, largest = 0;
+    for (Index A = 0; A < body.size(); ++A) {
+      low = low.cwiseMin(at(body.particles.X(), A));
+      high = high.cwiseMax(at(body.particles.X(), A));
+      least = std::min(least, at(body.particles.support(), A));
+      largest = std::max(largest, at(body.particles.support(), A));
+    }
+    std::string box;
+    for (int i = 0; i < D; ++i) box += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", low[i], high[i]);
+    fmt::print("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}\n", body.name, box,
+               unit(dimension::length), least, largest, unit(dimension::length));
+  }
+  std::size_t bytes = 0;
+  for (const auto& term : scene.system.terms) {
+    fmt::print("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),
+               1e-6 * static_cast<Real>(term->bytes()));
+    bytes += term->bytes();
+  }
+
+  Simulation<D> simulation(scene);
+  simulation.begin();
+  const StableStep& stable = simulation.controller().stable();
+  const Real dt = scene.time.step.value_or(scene.time.safety * stable.dt);
+  const Real end = std::min(scene.time.end, request.until.value_or(1e300));
+  fmt::print("stable step {:.6g} {} (stiffness alone {:.3g}, viscosity alone {:.3g}), used {:.6g}\n",
+             stable.dt, unit(dimension::time), 2 / stable.stiffness,
+             stable.viscosity > 0 ? 2 / stable.viscosity : INFINITY, dt);
+
+  const auto begin = std::chrono::steady_clock::now();
+  constexpr int trial_steps = 10;
+  for (int k = 0; k < trial_steps; ++k) simulation.advance(1e300);
+  const double per_step =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / trial_steps;
+  const Real steps = std::ceil(end / dt);
+  fmt::print("{:.0f} steps, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
+             "forces\n",
+             steps, steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
+             1e-6 * static_cast<Real>(bytes));
+  for (const auto& warning : scene.warnings) fmt::print("warning: {}\n", warning);
+  fmt::print("the scene is in order\n");
+}
+
+}  // namespace
+
+int check(const RunRequest& request) {
+  if (request.threads > 0) omp_set_num_threads(request.threads);
+  const SceneInput input = SceneInput::from_file(request.scene, request.set);
+  scene_dimension(input) == 2 ? check_scene<2>(input, request) : check_scene<3>(input, request);
+  return exit_ok;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "meniscus/app/commands.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/io/info.hpp"
+#include "meniscus/io/provenance.hpp"
+#include "meniscus/scene/settings.hpp"
+
+namespace {
+
+using namespace meniscus;
+
+void print_version() {
+  const Build b = build();
+  fmt::print("meniscus {}\ngit {}{}\ncompiler {}\n", b.version, b.git_hash, b.git_dirty ? " (modified)" : "",
+             b.compiler);
+  for (const auto& library : b.libraries) fmt::print("{} {}\n", library.first, library.second);
+}
+
+void add_scene_options(CLI::App& command, RunRequest& request) {
+  command.add_option("SCENE", request.scene, "scene file (TOML)")->required();
+  command.add_option("--set", request.set, "key=value: replace a key of the scene, e.g. time.end='1 ns'")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command.add_option("--threads", request.threads, "number of threads; all cores by default")
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--until", request.until, "end the run at this time, in the unit of the scene")
+      ->check(CLI::PositiveNumber);
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app("Meniscus: a meshfree simulator of drops, solids and cells");
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 ok, 1 internal error, 2 usage, 3 input, 4 numerical failure, 5 files,\n"
+      "7 an expectation of the scene was missed, 128 + n stopped by signal n after a checkpoint\n"
+      "(142: the limit on wall-clock time).");
+  RunRequest request;
+  request.command_line = portable_command_line(argc, argv);
+  std::string file;
+
+  CLI::App* run_command = app.add_subcommand("run", "run a scene");
+  add_scene_options(*run_command, request);
+  run_command->add_option("--output", request.output, "directory of the results (results/SCENE)");
+  run_command->add_option("--restart", request.restart,
+                          "continue from a checkpoint file or from the directory of a run");
+  run_command->add_option("--frame", request.frame, "with --restart DIR: continue from this frame");
+  run_command->add_option("--max-walltime", request.max_walltime,
+                          "H:M:S after which the run writes a checkpoint and ends");
+  run_command->add_flag("--overwrite", request.overwrite, "replace results that are already there");
+  run_command->add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
+  CLI::App* check_command = app.add_subcommand("check", "do everything short of running");
+  add_scene_options(*check_command, request);
+  CLI::App* keys_command = app.add_subcommand("keys", "print every key of a scene");
+  CLI::App* info_command = app.add_subcommand("info", "print what is in a result file or checkpoint");
+  info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")->required();
+  CLI::App* version_command = app.add_subcommand("version", "print version and build");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? exit_ok : exit_usage;
+  }
+  if (run_command->parsed()) return run(request);
+  if (check_command->parsed()) return check(request);
+  if (keys_command->parsed()) describe_keys(std::cout);
+  if (info_command->parsed()) std::cout << describe_file(file);
+  if (version_command->parsed()) print_version();
+  return exit_ok;
+}
+
+int complain(const char* kind, const std::exception& e, int code) {
+  fmt::print(stderr, "{}{}\n", kind, e.what());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const meniscus::InputError& e) {
+    return complain("", e, meniscus::exit_input);
+  } catch (const meniscus::SolveError& e) {
+    return complain("the run failed: ", e, meniscus::exit_numerical);
+  } catch (const meniscus::FileError& e) {
+    return complain("", e, meniscus::exit_file);
+  } catch (const std::bad_alloc& e) {
+    return complain("not enough memory: ", e, meniscus::exit_numerical);
+  } catch (const std::exception& e) {
+    return complain("internal error: ", e, meniscus::exit_internal);
+  }
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Beginning, advancing, saving and restoring a run.
+#include "meniscus/app/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/solve/central_difference.hpp"
+
+namespace meniscus {
+namespace {
+
+/// The D components of a nodal field, without padding.
+template <int D>
+std::vector<Real> packed(const NodalVectors& field) {
+  std::vector<Real> values;
+  values.reserve(field.size() * D);
+  for (const Lanes& x : field)
+    for (int i = 0; i < D; ++i) values.push_back(x[i]);
+  return values;
+}
+
+template <int D>
+void unpack(const Snapshot& snapshot, const char* name, NodalVectors& field) {
+  std::vector<Real> values(field.size() * D);
+  snapshot.copy_to(name, values);
+  for (std::size_t A = 0; A < field.size(); ++A) {
+    field[A] = Lanes::zero();
+    for (int i = 0; i < D; ++i) field[A].set(i, values[A * D + static_cast<std::size_t>(i)]);
+  }
+}
+
+std::span<const Real> three(const Eigen::Vector3d& x) { return {x.data(), 3}; }
+
+}  // namespace
+
+template <int D>
+Simulation<D>::Simulation(Scene<D>& scene)
+    : scene_(scene),
+      state_(scene.initial),
+      controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every}) {}
+
+template <int D>
+void Simulation<D>::begin() {
+  start(scene_.system, state_);
+  controller_.begin(state_);
+  audit_.begin(take_ledger(scene_.system, state_));
+}
+
+template <int D>
+void Simulation<D>::advance(Real end) {
+  last_step_ = controller_.next(state_, end);
+  try {
+    meniscus::advance(scene_.system, state_, last_step_);
+  } catch (const SolveError& e) {
+    throw SolveError(fmt::format("step {}, t = {:.9g}, dt = {:.4g}: {}", state_.step + 1,
+                                 state_.time + last_step_, last_step_, e.what()));
+  }
+}
+
+template <int D>
+Ledger Simulation<D>::audit_now() {
+  const Ledger ledger = take_ledger(scene_.system, state_);
+  audit_.follow(scene_.system, state_, ledger);
+  return ledger;
+}
+
+template <int D>
+Snapshot Simulation<D>::snapshot() const {
+  Snapshot s;
+  s.add_reals("displacement", packed<D>(state_.u), scene_.units.symbol(dimension::length));
+  s.add_reals("velocity", packed<D>(state_.v), scene_.units.symbol(dimension::velocity));
+  s.add_reals("force", packed<D>(state_.force), scene_.units.symbol(dimension::force));
+  const Real numbers[] = {state_.time,           state_.dissipated,
+                          state_.external_work,  state_.dissipation_power,
+                          state_.external_power, last_step_};
+  s.add_reals("numbers", numbers);
+  const std::int64_t step[] = {state_.step};
+  s.add_integers("step", step);
+  controller_.save(s);
+
+  const Real scales[] = {audit_.initial_balance, audit_.energy_scale, audit_.momentum_scale,
+                         audit_.angular_momentum_scale};
+  s.add_reals("audit/scales", scales);
+  s.add_reals("audit/momentum", three(audit_.initial_momentum));
+  s.add_reals("audit/angular_momentum", three(audit_.initial_angular_momentum));
+  for (const auto& [kind, energy] : audit_.initial_stored)
+    s.add_reals("audit/stored/" + kind, {&energy, 1});
+  return s;
+}
+
+template <int D>
+void Simulation<D>::restore(const Snapshot& s) {
+  unpack<D>(s, "displacement", state_.u);
+  unpack<D>(s, "velocity", state_.v);
+  unpack<D>(s, "force", state_.force);
+  Real numbers[6];
+  s.copy_to("numbers", numbers);
+  state_.time = numbers[0];
+  state_.dissipated = numbers[1];
+  state_.external_work = numbers[2];
+  state_.dissipation_power = numbers[3];
+  state_.external_power = numbers[4];
+  last_step_ = numbers[5];
+  state_.step = s.integer("step");
+  controller_.restore(s);
+
+  Real scales[4];
+  s.copy_to("audit/scales", scales);
+  audit_.initial_balance = scales[0];
+  audit_.energy_scale = scales[1];
+  audit_.momentum_scale = scales[2];
+  audit_.angular_momentum_scale = scales[3];
+  s.copy_to("audit/momentum", {audit_.initial_momentum.data(), 3});
+  s.copy_to("audit/angular_momentum", {audit_.initial_angular_momentum.data(), 3});
+  audit_.initial_stored.clear();
+  for (const auto& [kind, energy] : take_ledger(scene_.system, state_).stored)
+    audit_.initial_stored[kind] = s.real("audit/stored/" + kind);
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+
+}  // namespace meniscus

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Supports of particles and the deficiency monitor.
+#include "meniscus/approx/particle_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
+
+namespace meniscus {
+
+template <int D>
+ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window)
+    : X_(std::move(X)), support_(X_.size()), window_(window), search_(X_) {
+  parallel_for(size(), [&](Index A) {
+    // The particle is its own nearest point.
+    at(support_, A) = rule.factor * search_.distance_of_nearest(at(X_, A), rule.rank + 1);
+  });
+  for (const Real support : support_) largest_support_ = std::max(largest_support_, support);
+}
+
+template <int D>
+ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, Window window)
+    : X_(std::move(X)),
+      support_(X_.size(), support),
+      largest_support_(support),
+      window_(window),
+      search_(X_) {}
+
+template <int D>
+void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
+                                std::vector<Candidate<D>>& found) const {
+  thread_local std::vector<Index> near;
+  search_.within(centre, radius + largest_support_, near);
+  found.clear();
+  for (const Index A : near)
+    if ((at(X_, A) - centre).norm() < radius + at(support_, A))
+      found.push_back({A, at(support_, A), at(X_, A)});
+}
+
+template <int D>
+Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::string& body) {
+  const std::vector<Real> asked_for = support_;
+  std::vector<Real> quality(points.size());
+  std::vector<Index> poor(points.size());
+  std::iota(poor.begin(), poor.end(), 0);
+  constexpr int rounds = 10;  // 1.1^10 = 2.6
+  for (int round = 0; round <= rounds; ++round) {
+    parallel_for(static_cast<Index>(poor.size()), [&](Index k) {
+      thread_local std::vector<Candidate<D>> near;
+      const Vec<D>& x = at(points, at(poor, k));
+      candidates(x, 0, near);
+      ReproducingKernel<D> kernel(window_);
+      if (static_cast<int>(near.size()) >= kernel.basis_size)
+        kernel.evaluate({x, x, x, x}, near, Derivatives::none);
+      at(quality, at(poor, k)) = kernel.quality()[0];
+    });
+    std::erase_if(poor, [&](Index q) { return at(quality, q) >= poor_quality; });
+    if (poor.empty() || round == rounds) break;
+    std::vector<char> enlarge(X_.size(), 0);
+    for (const Index q : poor) {
+      std::vector<Index> near;
+      search_.within(at(points, q), 1.1 * largest_support_, near);
+      for (const Index A : near)
+        if ((at(X_, A) - at(points, q)).norm() < 1.1 * at(support_, A)) at(enlarge, A) = 1;
+    }
+    for (Index A = 0; A < size(); ++A)
+      if (at(enlarge, A)) at(support_, A) *= 1.1;
+    largest_support_ = *std::max_element(support_.begin(), support_.end());
+  }
+  for (const Index q : poor) require_quality(at(quality, q), at(points, q), body);
+  Index enlarged = 0;
+  for (Index A = 0; A < size(); ++A) enlarged += at(support_, A) != at(asked_for, A);
+  return enlarged;
+}
+
+template <int D>
+void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& body) const {
+  std::vector<Candidate<D>> near;
+  candidates(x, 0, near);
+  std::string place;
+  for (int i = 0; i < D; ++i) place += fmt::format("{}{:.6g}", i ? ", " : "", x[i]);
+  throw SolveError(fmt::format(
+      "body '{}': the shape functions are not determined at point ({}): {} neighbours, quality of the "
+      "moment matrix {:.2g}, at least {:.0e} is needed. Use a larger support or a less distorted "
+      "cloud.",
+      body, place, near.size(), quality, unusable_quality));
+}
+
+template class ParticleSet<2>;
+template class ParticleSet<3>;
+
+}  // namespace meniscus

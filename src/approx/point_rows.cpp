@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Building compressed rows of shape functions, in groups of points that share one search.
+#include "meniscus/approx/point_rows.hpp"
+
+#include <algorithm>
+
+#include "meniscus/core/parallel.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr Index group_size = 8;
+
+template <int D>
+void append_row(PointRows<D>& rows, const std::vector<Candidate<D>>& candidates, RowContent content,
+                const auto& kernel, int lane) {
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (!kernel.reaches(k, lane)) continue;
+    rows.particle.push_back(candidates[k].particle);
+    if (content.value) rows.value.push_back(kernel.value(k)[lane]);
+    if (content.gradient)
+      for (int i = 0; i < D; ++i) rows.gradient.push_back(kernel.gradient(k, i)[lane]);
+    if (content.hessian)
+      for (int ij = 0; ij < hessian_count(D); ++ij)
+        rows.hessian.push_back(kernel.hessian(k, ij)[lane]);
+  }
+  rows.start.push_back(static_cast<Offset>(rows.particle.size()));
+}
+
+template <int D, int Degree>
+PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
+                        RowContent content, const std::string& body) {
+  const Derivatives order = content.hessian    ? Derivatives::second
+                            : content.gradient ? Derivatives::first
+                                               : Derivatives::none;
+  Vec<D> centre = Vec<D>::Zero();
+  for (const Vec<D>& x : points) centre += x / static_cast<Real>(points.size());
+  Real radius = 0;
+  for (const Vec<D>& x : points) radius = std::max(radius, (x - centre).norm());
+  thread_local std::vector<Candidate<D>> candidates;
+  particles.candidates(centre, radius * (1 + 1e-12), candidates);
+
+  // The limit is known for the quadratic basis; a cubic one is worse conditioned by nature.
+  const Real least = Degree > 2 ? 1e-6 : ParticleSet<D>::unusable_quality;
+  PointRows<D> rows;
+  ReproducingKernel<D, Degree> kernel(particles.window());
+  for (std::size_t q = 0; q < points.size(); q += 4) {
+    std::array<Vec<D>, 4> batch;
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      batch[lane] = points[std::min(q + lane, points.size() - 1)];
+    if (candidates.size() < static_cast<std::size_t>(kernel.basis_size))
+      particles.require_quality(0, batch[0], body);
+    kernel.evaluate(batch, candidates, order);
+    for (std::size_t lane = 0; lane < std::min<std::size_t>(4, points.size() - q); ++lane) {
+      particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane], body, least);
+      append_row(rows, candidates, content, kernel, static_cast<int>(lane));
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+template <int D>
+std::size_t PointRows<D>::bytes() const {
+  return start.size() * sizeof(Offset) + particle.size() * sizeof(Index) +
+         (value.size() + gradient.size() + hessian.size()) * sizeof(Real);
+}
+
+template <int D, int Degree>
+PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
+                              RowContent content, const std::string& body) {
+  const auto n = static_cast<Index>(points.size());
+  const Index groups = (n + group_size - 1) / group_size;
+  std::vector<PointRows<D>> part(static_cast<std::size_t>(groups));
+  parallel_for(
+      groups,
+      [&](Index g) {
+        const auto first = static_cast<std::size_t>(g) * group_size;
+        const auto count = std::min<std::size_t>(group_size, points.size() - first);
+        at(part, g) = group_rows<D, Degree>(particles, points.subspan(first, count), content, body);
+      },
+      1);
+
+  PointRows<D> rows;
+  std::size_t entries = 0;
+  for (const auto& p : part) entries += p.particle.size();
+  rows.start.reserve(points.size() + 1);
+  rows.particle.reserve(entries);
+  rows.value.reserve(content.value ? entries : 0);
+  rows.gradient.reserve(content.gradient ? entries * D : 0);
+  rows.hessian.reserve(content.hessian ? entries * static_cast<std::size_t>(hessian_count(D)) : 0);
+  const auto append = [](auto& all, auto& some) {
+    all.insert(all.end(), some.begin(), some.end());
+    some = {};
+  };
+  for (auto& p : part) {
+    const Offset base = rows.start.back();
+    for (std::size_t q = 1; q < p.start.size(); ++q) rows.start.push_back(base + p.start[q]);
+    append(rows.particle, p.particle);
+    append(rows.value, p.value);
+    append(rows.gradient, p.gradient);
+    append(rows.hessian, p.hessian);
+  }
+  return rows;
+}
+
+template struct PointRows<2>;
+template struct PointRows<3>;
+#define MENISCUS_INSTANTIATE(D, Degree)                                                          \
+  template PointRows<D> build_point_rows<D, Degree>(const ParticleSet<D>&,                       \
+                                                    std::span<const Vec<D>>, RowContent,         \
+                                                    const std::string&);
+MENISCUS_INSTANTIATE(2, 1)
+MENISCUS_INSTANTIATE(2, 2)
+MENISCUS_INSTANTIATE(2, 3)
+MENISCUS_INSTANTIATE(3, 1)
+MENISCUS_INSTANTIATE(3, 2)
+MENISCUS_INSTANTIATE(3, 3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surface patches, and the assembly of a body from unit shape and map.
+#include "meniscus/body/geometry.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace meniscus {
+
+template <int D>
+SurfacePatch<D> SurfacePatch<D>::plane(const Vec<D>& point, const Vec<D>& normal) {
+  return {point, Mat<D>::Zero(), normal.normalized(), 0};
+}
+
+template <int D>
+SurfacePatch<D> SurfacePatch<D>::sphere(const Vec<D>& centre, Real radius) {
+  return {centre, Mat<D>::Identity(), Vec<D>::Zero(), radius};
+}
+
+template <int D>
+SurfacePatch<D> SurfacePatch<D>::cylinder(const Vec<D>& point, const Vec<D>& axis, Real radius) {
+  return {point, Mat<D>::Identity() - axis * axis.transpose(), Vec<D>::Zero(), radius};
+}
+
+template <int D>
+typename SurfacePatch<D>::Foot SurfacePatch<D>::project(const Vec<D>& X) const {
+  if (radius == 0)
+    return {X - normal * normal.dot(X - origin), normal, Mat<D>::Zero(),
+            Mat<D>::Identity() - normal * normal.transpose()};
+  const Vec<D> arm = round * (X - origin);
+  const Real r = arm.norm();
+  const Vec<D> N = arm / r;
+  const Mat<D> tangential = round - N * N.transpose();
+  return {X - arm + radius * N, N, tangential / radius,
+          Mat<D>::Identity() - round + (radius / r) * tangential};
+}
+
+namespace {
+
+/// The patch on which all nodes of the facet lie.
+template <int D>
+int find_patch(const Grid<D>& unit, const Facet<D>& facet,
+               const std::vector<SurfacePatch<D>>& patches) {
+  const Real size = (at(unit.X, facet.nodes.front()) - at(unit.X, facet.nodes.back())).norm();
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const bool on_patch = std::all_of(facet.nodes.begin(), facet.nodes.end(), [&](Index i) {
+      return patches[p].distance(at(unit.X, i)) < 1e-8 * size;
+    });
+    if (on_patch) return static_cast<int>(p);
+  }
+  throw InputError(fmt::format("Side {} of cell {} lies on none of the {} surface patches.",
+                               facet.side, facet.cell, patches.size()));
+}
+
+/// Local corners of a facet at the ends of edge 2 t + upper, on which facet direction t is
+/// constant.
+std::array<int, 2> edge_corners(int edge) {
+  const int t = edge / 2, fixed = (edge % 2) << t, along = 1 << (1 - t);
+  return {fixed, fixed | along};
+}
+
+void find_patches_beyond(Grid<3>& grid) {
+  struct Edge {
+    std::array<Index, 2> nodes;  // ascending
+    std::size_t facet;
+    int edge;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t f = 0; f < grid.facets.size(); ++f)
+    for (int edge = 0; edge < 4; ++edge) {
+      const auto local = edge_corners(edge);
+      const Index a = at(grid.facets[f].nodes, local[0]), b = at(grid.facets[f].nodes, local[1]);
+      edges.push_back({{std::min(a, b), std::max(a, b)}, f, edge});
+    }
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const Edge& a, const Edge& b) { return a.nodes < b.nodes; });
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const Edge &a = edges[i], &b = edges[i + 1];
+    if (a.nodes != b.nodes) continue;
+    at(grid.facets[a.facet].patch_beyond, a.edge) = grid.facets[b.facet].patch;
+    at(grid.facets[b.facet].patch_beyond, b.edge) = grid.facets[a.facet].patch;
+  }
+}
+
+}  // namespace
+
+template <int D>
+Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bool smooth,
+                          SmoothMap<D> map) {
+  find_boundary(unit);
+  for (auto& facet : unit.facets) facet.patch = find_patch(unit, facet, patches);
+  if constexpr (D == 3) find_patches_beyond(unit);
+  Geometry<D> geometry{std::move(unit), {}, std::move(patches), std::move(map), smooth};
+  geometry.unit_X = geometry.grid.X;
+  for (auto& X : geometry.grid.X) X = geometry.map(X).x;
+  check_jacobians(geometry.grid, "The shape");
+  return geometry;
+}
+
+template <int D>
+Geometry<D> apply_map(const SmoothMap<D>& map, Geometry<D> geometry) {
+  for (auto& X : geometry.grid.X) X = map(X).x;
+  geometry.map = compose<D>(map, std::move(geometry.map));
+  check_jacobians(geometry.grid, "The map");
+  return geometry;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                                  \
+  template struct SurfacePatch<D>;                                                               \
+  template Geometry<D> make_geometry(Grid<D>, std::vector<SurfacePatch<D>>, bool, SmoothMap<D>); \
+  template Geometry<D> apply_map(const SmoothMap<D>&, Geometry<D>);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

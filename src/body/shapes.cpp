@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The registry of shapes and the reading of a body's geometry.
+#include "meniscus/body/shapes.hpp"
+
+#include "meniscus/core/error.hpp"
+
+namespace meniscus {
+
+template <int D>
+std::map<std::string, ShapeKind<D>>& shapes() {
+  static std::map<std::string, ShapeKind<D>> registry;
+  return registry;
+}
+
+namespace {
+
+/// What stands in for a body that cannot be made while the other problems of a scene are collected.
+template <int D>
+Geometry<D> stand_in() {
+  Brick<D> brick;
+  brick.cells.assign(D, 2);
+  return brick.geometry();
+}
+
+}  // namespace
+
+template <int D>
+Geometry<D> read_geometry(const Block& block) {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : shapes<D>()) names.push_back(name);
+  const std::string name = block.choice("shape", names, {});
+  const Real jitter = block.real("jitter", dimension::none, {0, 0.5}, 0.0);
+  const auto seed = block.integer("jitter_seed", range::non_negative, 1);
+  const auto kind = shapes<D>().find(name);
+  if (kind == shapes<D>().end()) return stand_in<D>();
+  try {
+    Geometry<D> geometry = kind->second.make(block);
+    if (jitter > 0) jitter_interior(geometry.grid, jitter, static_cast<std::uint64_t>(seed));
+    return geometry;
+  } catch (const InputError& error) {
+    block.problem("shape", error.what());
+    return stand_in<D>();
+  }
+}
+
+template std::map<std::string, ShapeKind<2>>& shapes();
+template std::map<std::string, ShapeKind<3>>& shapes();
+template Geometry<2> read_geometry(const Block&);
+template Geometry<3> read_geometry(const Block&);
+
+}  // namespace meniscus

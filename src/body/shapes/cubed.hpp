@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grids of the unit disk and ball: a lattice core whose boundary cells continue in shells to the
+// surface. One construction for both, used by their shape files only.
+#pragma once
+#include "meniscus/body/grid.hpp"
+
+namespace meniscus {
+
+/// Shape of the core. A core point q in [-1, 1]^D with s = max|q| goes to
+///   X = a [(1 - w s) q + b w s^2 dir(q/s)],   dir(p) = tan(pi p / 4) / |tan(pi p / 4)|,
+/// and shell l of m to X + (dir(q) - X) l / m for |q|_max = 1.
+struct CubedCore {
+  Real a, w, b;
+};
+
+/// Nodes and cells of the unit disk (D = 2) or ball (D = 3) with core^D + shells 2 D core^(D-1)
+/// cells. Throws InputError unless core >= 1 and shells >= 1.
+template <int D>
+Grid<D> cubed_ball(int core, int shells);
+
+}  // namespace meniscus

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cylinder: the disk repeated along z.
+#include "meniscus/body/shapes.hpp"
+
+#include "cubed.hpp"
+
+namespace meniscus {
+
+namespace {
+
+constexpr Range count{1, 1000};
+
+/// Radius 1, -1/2 <= z <= 1/2.
+Grid<3> unit_cylinder(int core, int rings, int layers) {
+  const Grid<2> disk = cubed_ball<2>(core, rings);
+  Grid<3> grid;
+  for (int layer = 0; layer <= layers; ++layer)
+    for (const auto& X : disk.X) grid.X.emplace_back(X[0], X[1], Real(layer) / layers - 0.5);
+  for (int layer = 0; layer < layers; ++layer)
+    for (const auto& quad : disk.cells) {
+      Grid<3>::Cell cell;
+      for (int a = 0; a < 8; ++a)
+        at(cell, a) = at(quad, a % 4) + (layer + a / 4) * disk.node_count();
+      grid.cells.push_back(cell);
+    }
+  return grid;
+}
+
+const bool registered = register_shape<3, Cylinder>();
+
+}  // namespace
+
+Rows<Cylinder> Cylinder::rows() {
+  return {
+      real_row("radius", &Cylinder::radius, dimension::length, range::positive, "radius"),
+      real_row("height", &Cylinder::height, dimension::length, range::positive, "extent along z"),
+      integer_row("core", &Cylinder::core, count, "cells along an edge of the core square", 18),
+      integer_row("rings", &Cylinder::rings, count, "rings of cells around the core", 9),
+      integer_row("layers", &Cylinder::layers, count, "layers of cells along z", 3),
+      reals_row("centre", &Cylinder::centre, 3, dimension::length, range::any, "centre",
+                std::vector<Real>{0, 0, 0})};
+}
+
+Geometry<3> Cylinder::geometry() const {
+  const Vec<3> z = Vec<3>::UnitZ(), top = 0.5 * z;
+  return make_geometry<3>(
+      unit_cylinder(core, rings, layers),
+      {SurfacePatch<3>::cylinder(Vec<3>::Zero(), z, 1), SurfacePatch<3>::plane(-top, -z),
+       SurfacePatch<3>::plane(top, z)},
+      false,
+      affine_map<3>(Vec<3>(radius, radius, height).asDiagonal(), Vec<3>::Map(centre.data())));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writing checkpoints in turn, and finding the newest valid one.
+#include "meniscus/io/checkpoint.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+
+#include "files.hpp"
+#include "hdf5_file.hpp"
+#include "meta.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t header_size = 512;  // the smallest user block of HDF5
+constexpr const char* file_names[] = {"checkpoint-a.h5", "checkpoint-b.h5"};
+
+struct Header {
+  std::int64_t serial = 0;
+  std::uint64_t checksum = 0;
+};
+
+std::string header_text(const Header& header) {
+  std::string text = fmt::format("meniscus checkpoint 1\nserial {}\nchecksum {:016x}\n",
+                                 header.serial, header.checksum);
+  text.resize(header_size, '\0');
+  return text;
+}
+
+std::uint64_t checksum(std::string_view content) {
+  Fnv1a hash;
+  hash.add(content.substr(header_size));
+  return hash.value();
+}
+
+/// The header of the file if all bytes are as they were written.
+std::optional<Header> valid_header(const std::filesystem::path& file) {
+  const std::string content = read_file(file);
+  Header header;
+  if (content.size() <= header_size ||
+      std::sscanf(content.c_str(), "meniscus checkpoint 1\nserial %" SCNd64 "\nchecksum %" SCNx64,
+                  &header.serial, &header.checksum) != 2 ||
+      header_text(header) != std::string_view(content).substr(0, header_size) ||
+      checksum(content) != header.checksum)
+    return {};
+  return header;
+}
+
+std::string damaged(const std::filesystem::path& file) {
+  return fmt::format("'{}' is damaged or not a checkpoint.", file.string());
+}
+
+Checkpoint read_state_and_input(const hdf5::Group& holder, const hdf5::Group& root) {
+  return {holder.integer("step"), holder.real("time"), read_state(holder), read_input(root)};
+}
+
+ReadCheckpoint read_file_of_checkpoint(const std::filesystem::path& path) {
+  if (!valid_header(path))
+    throw FileError(damaged(path) + " To continue from a frame of a result file, name the frame.");
+  const hdf5::File file = hdf5::File::open(path);
+  const hdf5::Group root = file.root();
+  return {read_state_and_input(root, root), path, {}};
+}
+
+struct Newest {
+  std::filesystem::path file;  ///< empty: none is valid
+  std::int64_t serial = 0;
+  std::vector<std::string> warnings;
+};
+
+Newest newest_checkpoint(const std::filesystem::path& directory) {
+  Newest newest;
+  for (const char* name : file_names) {
+    const auto file = directory / name;
+    if (!std::filesystem::exists(file)) continue;
+    const auto header = valid_header(file);
+    if (!header)
+      newest.warnings.push_back(damaged(file));
+    else if (newest.file.empty() || header->serial > newest.serial)
+      newest.file = file, newest.serial = header->serial;
+  }
+  return newest;
+}
+
+ReadCheckpoint read_newest(const std::filesystem::path& directory) {
+  Newest newest = newest_checkpoint(directory);
+  if (newest.file.empty()) {
+    std::string found = newest.warnings.empty() ? "there is none" : "";
+    for (const std::string& warning : newest.warnings)
+      found += (found.empty() ? "" : " ") + warning;
+    throw FileError(fmt::format(
+        "Found no checkpoint to continue from in '{}': {}{}", directory.string(), found,
+        newest.warnings.empty() ? "." : " Continue from a frame of run.h5 that holds the state."));
+  }
+  ReadCheckpoint read = read_file_of_checkpoint(newest.file);
+  read.warnings = std::move(newest.warnings);
+  return read;
+}
+
+std::string frames_with_state(const hdf5::Group& steps) {
+  std::int64_t frames = 0, last = -1;
+  for (; steps.has(fmt::format("{}", frames)); ++frames)
+    if (steps.group(fmt::format("{}", frames)).has("state")) last = frames;
+  if (frames == 0) return "It has no frames.";
+  const std::string all = fmt::format("It has the frames 0 to {}", frames - 1);
+  return last < 0 ? all + ", all without the state."
+                  : fmt::format("{}; the last one with the state is {}.", all, last);
+}
+
+ReadCheckpoint read_frame(const std::filesystem::path& path, std::int64_t frame) {
+  const hdf5::File file = hdf5::File::open(path);
+  const hdf5::Group root = file.root();
+  if (!root.has("steps"))
+    throw FileError(fmt::format("'{}' has no frames: it is not a result file.", path.string()));
+  const hdf5::Group steps = root.group("steps");
+  const std::string name = fmt::format("{}", frame);
+  if (!steps.has(name) || !steps.group(name).has("state"))
+    throw FileError(fmt::format("Cannot continue from frame {} of '{}'. {}", frame, path.string(),
+                                frames_with_state(steps)));
+  return {read_state_and_input(steps.group(name), root), path, {}};
+}
+
+}  // namespace
+
+CheckpointWriter::CheckpointWriter(const RunDirectory& directory, Provenance provenance)
+    : directory_(directory.path()), provenance_(std::move(provenance)) {
+  const Newest newest = newest_checkpoint(directory_);
+  serial_ = newest.serial;
+  newest_ = newest.file;
+}
+
+std::filesystem::path CheckpointWriter::write(std::int64_t step, Real time, const Snapshot& state) {
+  const auto target = directory_ / file_names[newest_ == directory_ / file_names[0] ? 1 : 0];
+  const auto temporary = temporary_name(target);
+  hdf5::File file = hdf5::File::create(temporary, header_size);
+  {
+    hdf5::Group root = file.root();
+    root.set("step", step);
+    root.set("time", time);
+    write_state(root, state);
+    write_meta(root, provenance_);
+  }
+  file.close();
+  overwrite_beginning(temporary, header_text({serial_ + 1, checksum(read_file(temporary))}));
+  sync_to_disk(temporary);
+  rename_file(temporary, target);
+  sync_to_disk(directory_);
+  ++serial_;
+  newest_ = target;
+  return target;
+}
+
+ReadCheckpoint read_checkpoint(const std::filesystem::path& path,
+                               std::optional<std::int64_t> frame) {
+  const bool directory = std::filesystem::is_directory(path);
+  if (frame) return read_frame(directory ? path / "run.h5" : path, *frame);
+  return directory ? read_newest(path) : read_file_of_checkpoint(path);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small text files through the C library, whose errors carry a reason.
+#include "files.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+namespace meniscus {
+namespace {
+
+void write_to(const std::filesystem::path& path, const char* mode, std::string_view content) {
+  std::FILE* file = std::fopen(path.c_str(), mode);
+  if (!file) throw_file_error("write", path, errno);
+  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
+  const int write_error = errno;
+  if (std::fclose(file) != 0) throw_file_error("write", path, errno);
+  if (!written) throw_file_error("write", path, write_error);
+}
+
+}  // namespace
+
+void throw_file_error(std::string_view doing, const std::filesystem::path& path, int error_number) {
+  throw FileError(
+      fmt::format("Cannot {} '{}': {}.", doing, path.string(), std::strerror(error_number)));
+}
+
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+  return path.string() + ".new";
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             std::fclose);
+  if (!file) throw_file_error("read", path, errno);
+  std::string content;
+  char piece[65536];
+  while (const std::size_t n = std::fread(piece, 1, sizeof piece, file.get()))
+    content.append(piece, n);
+  if (std::ferror(file.get())) throw_file_error("read", path, errno);
+  return content;
+}
+
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  write_to(path, "wb", content);
+}
+
+void overwrite_beginning(const std::filesystem::path& path, std::string_view content) {
+  write_to(path, "r+b", content);
+}
+
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (std::rename(from.c_str(), to.c_str()) != 0) throw_file_error("replace", to, errno);
+}
+
+void replace_file(const std::filesystem::path& path, std::string_view content) {
+  const auto temporary = temporary_name(path);
+  write_file(temporary, content);
+  rename_file(temporary, path);
+}
+
+void sync_to_disk(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw_file_error("open", path, errno);
+  const int status = fsync(file);
+  const int error_number = errno;
+  close(file);
+  if (status != 0) throw_file_error("write", path, error_number);
+}
+
+}  // namespace meniscus

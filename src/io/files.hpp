@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small text files, written so that a reader never meets half of one. All throw FileError with the
+// reason of the operating system.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace meniscus {
+
+/// "Cannot <doing> '<path>': <reason of errno>."
+[[noreturn]] void throw_file_error(std::string_view doing, const std::filesystem::path& path,
+                                   int error_number);
+
+/// The name under which a file is written before it takes the place of `path`.
+std::filesystem::path temporary_name(const std::filesystem::path& path);
+
+std::string read_file(const std::filesystem::path& path);
+void write_file(const std::filesystem::path& path, std::string_view content);
+void overwrite_beginning(const std::filesystem::path& path, std::string_view content);
+/// Moves `from` over `to` in one step.
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+/// Writes under the temporary name, then renames.
+void replace_file(const std::filesystem::path& path, std::string_view content);
+/// Returns when the file (or the list of names of a directory) is on the disk.
+void sync_to_disk(const std::filesystem::path& path);
+
+}  // namespace meniscus

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all frames of a result file have in common.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hdf5_file.hpp"
+
+namespace meniscus {
+
+/// A field as stored.
+struct StoredField {
+  std::string name;
+  int components = 1;  ///< 1, 3, 6 or 9
+  std::string unit;
+  friend bool operator==(const StoredField&, const StoredField&) = default;
+};
+
+struct FrameLayout {
+  std::int64_t particles = 0;
+  hdf5::Type precision = hdf5::Type::float64;
+  std::vector<StoredField> fields;  ///< sorted by name
+  friend bool operator==(const FrameLayout&, const FrameLayout&) = default;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How HDF5 files are written so that they survive an interruption at any moment.
+//
+// HDF5 adds a frame by writing new structures and changing a few old ones (group index, superblock,
+// array sizes), in an order of its own; a file whose writer is killed among these changes does not
+// open. This driver sends everything that lies behind the end of the file as it was at the last
+// flush straight to the disk, where nothing refers to it, and keeps changes inside that end in
+// memory. A flush then makes the changes in an order in which each one is harmless without the
+// next: raw data, superblock (end of file), names, index nodes from the root down, group entries,
+// object headers. If a write fails, the file stays as it was at the last flush.
+#pragma once
+#include <cstdint>
+
+namespace meniscus::hdf5 {
+
+/// Makes files opened with the access properties `access` be written this way. Throws FileError.
+void use_ordered_writes(std::int64_t access);
+
+}  // namespace meniscus::hdf5

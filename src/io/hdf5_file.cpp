@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// HDF5 files, groups and their closing.
+#include "hdf5_file.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include "hdf5_driver.hpp"
+
+namespace meniscus::hdf5 {
+namespace {
+
+/// HDF5 would print its whole stack of errors by itself; ours are sentences in exceptions.
+void be_quiet() {
+  static const herr_t quiet = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  (void)quiet;
+}
+
+/// What the innermost function of HDF5 complained about; the operating system's words if it was it.
+std::string reason() {
+  std::string text;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned n, const H5E_error2_t* error, void* result) -> herr_t {
+        if (n == 0 && error->desc) *static_cast<std::string*>(result) = error->desc;
+        return 0;
+      },
+      &text);
+  constexpr std::string_view mark = "error message = '";
+  if (const auto begin = text.find(mark); begin != std::string::npos) {
+    text.erase(0, begin + mark.size());
+    text.erase(std::min(text.find('\''), text.size()));
+  }
+  return text.empty() ? "no reason given" : text;
+}
+
+/// Files are opened without HDF5's own locks: results can be looked at while a run writes them.
+/// Two writers are kept apart by RunDirectory. Version bounds stay at their defaults: a raised
+/// bound makes the file unreadable after an interruption.
+Handle access_properties(bool writing) {
+  be_quiet();
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), "prepare HDF5");
+  check(H5Pset_file_locking(access, false, true), "prepare HDF5");
+  check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "prepare HDF5");
+  if (writing) use_ordered_writes(access);
+  return access;
+}
+
+Handle open_file(const std::filesystem::path& path, unsigned mode) {
+  if (std::error_code ignored; !std::filesystem::exists(path, ignored))
+    throw FileError(fmt::format("Cannot open '{}': there is no such file.", path.string()));
+  const Handle access = access_properties(mode == H5F_ACC_RDWR);
+  return {H5Fopen(path.c_str(), mode, access), fmt::format("open '{}'", path.string())};
+}
+
+}  // namespace
+
+void check(std::int64_t status, std::string_view doing) {
+  if (status < 0) throw FileError(fmt::format("Cannot {}: {}.", doing, reason()));
+}
+
+Handle::Handle(std::int64_t id, std::string_view doing) : id_(id) {
+  check(id, doing);
+}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  std::swap(id_, other.id_);
+  return *this;
+}
+
+Handle::~Handle() {
+  if (id_ >= 0) H5Idec_ref(id_);
+}
+
+std::string Group::doing(std::string_view verb, const std::string& name) const {
+  return fmt::format("{} '{}/{}'", verb, path_, name);
+}
+
+bool Group::has(const std::string& name) const {
+  return H5Lexists(handle_, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+bool Group::has_group(const std::string& name) const {
+  H5O_info_t info;
+  return has(name) &&
+         H5Oget_info_by_name2(handle_, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+         info.type == H5O_TYPE_GROUP;
+}
+
+std::vector<std::string> Group::names() const {
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(handle_, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names), doing("list", ""));
+  return names;
+}
+
+Group Group::create_group(const std::string& name) {
+  Handle handle(H5Gcreate2(handle_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                doing("create", name));
+  return {std::move(handle), path_ + '/' + name};
+}
+
+Group Group::group(const std::string& name) const {
+  Handle handle(H5Gopen2(handle_, name.c_str(), H5P_DEFAULT), doing("open", name));
+  return {std::move(handle), path_ + '/' + name};
+}
+
+void Group::remove(const std::string& name) {
+  check(H5Ldelete(handle_, name.c_str(), H5P_DEFAULT), doing("remove", name));
+}
+
+File::File(Handle handle, const std::filesystem::path& path)
+    : handle_(std::move(handle)), path_(path) {}
+
+File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
+  const Handle access = access_properties(true);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), "prepare HDF5");
+  check(H5Pset_userblock(creation, user_block), "prepare HDF5");
+  Handle handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access),
+                fmt::format("create '{}'", path.string()));
+  return {std::move(handle), path};
+}
+
+File File::open(const std::filesystem::path& path) {
+  return {open_file(path, H5F_ACC_RDONLY), path};
+}
+
+File File::open_to_append(const std::filesystem::path& path) {
+  return {open_file(path, H5F_ACC_RDWR), path};
+}
+
+Group File::root() const {
+  Handle handle(H5Gopen2(handle_, "/", H5P_DEFAULT), fmt::format("read '{}'", path_.string()));
+  return {std::move(handle), path_.string() + ":"};
+}
+
+void File::flush() {
+  check(H5Fflush(handle_, H5F_SCOPE_LOCAL), fmt::format("write '{}'", path_.string()));
+}
+
+void File::close() {
+  flush();
+  check(H5Fclose(handle_.release()), fmt::format("write '{}'", path_.string()));
+}
+
+std::string library_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+}  // namespace meniscus::hdf5

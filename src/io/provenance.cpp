@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Collects where a result comes from.
+#include "meniscus/io/provenance.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <Eigen/Core>
+#include <chrono>
+#include <filesystem>
+#include <string_view>
+
+#include "hdf5_file.hpp"
+#include "meniscus_version.hpp"
+
+namespace meniscus {
+namespace {
+
+std::string compiler() {
+#ifdef __clang__
+  return fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#else
+  return fmt::format("g++ {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#endif
+}
+
+}  // namespace
+
+Build build() {
+  return {version::number,
+          version::git_hash,
+          version::git_dirty,
+          compiler(),
+          {{"Eigen",
+            fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+           {"HDF5", hdf5::library_version()},
+           {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
+                               FMT_VERSION % 100)},
+           {"OpenMP", fmt::format("{}", _OPENMP)}}};
+}
+
+Provenance provenance(std::string command_line, std::string input) {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return {build(), omp_get_max_threads(), std::move(command_line), std::move(input),
+          fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))};
+}
+
+std::string portable_command_line(int argc, const char* const* argv) {
+  std::string line;
+  for (int i = 0; i < argc; ++i) {
+    std::string_view argument = argv[i];
+    std::string option;
+    if (argument.starts_with("--"))
+      if (const auto equal = argument.find('='); equal != argument.npos) {
+        option = argument.substr(0, equal + 1);
+        argument.remove_prefix(equal + 1);
+      }
+    // "/a/b/" ends in no name of its own.
+    std::string shown(argument);
+    if (argument.starts_with('/')) {
+      while (shown.size() > 1 && shown.ends_with('/')) shown.pop_back();
+      shown = std::filesystem::path(shown).filename();
+    }
+    line += (i ? " " : "") + option + shown;
+  }
+  return line;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Making, locking and clearing the directory of a run.
+#include "meniscus/io/run_directory.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "files.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Everything a run writes. One of the first four makes a directory count as used.
+constexpr const char* run_files[] = {"run.h5",      "checkpoint-a.h5", "checkpoint-b.h5",
+                                     "history.csv", "run.xdmf",        "run.log"};
+constexpr int telling_files = 4;
+
+void refuse_existing_run(const std::filesystem::path& directory) {
+  for (int i = 0; i < telling_files; ++i)
+    if (std::filesystem::exists(directory / run_files[i]))
+      throw FileError(
+          fmt::format("'{}' already holds a run ({}). Choose another directory with --output, "
+                      "replace the run with --overwrite, or continue it with --restart.",
+                      directory.string(), run_files[i]));
+}
+
+void remove_run(const std::filesystem::path& directory) {
+  for (const char* name : run_files)
+    for (const auto& file : {directory / name, temporary_name(directory / name)}) {
+      std::error_code error;
+      std::filesystem::remove(file, error);
+      if (error) throw_file_error("remove", file, error.value());
+    }
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
+    : path_(std::move(path)) {
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (error) throw_file_error("make the directory", path_, error.value());
+  if (!std::filesystem::is_directory(path_)) throw_file_error("write to", path_, ENOTDIR);
+  if (access(path_.c_str(), W_OK | X_OK) != 0) throw_file_error("write to", path_, errno);
+  if (existing == ExistingRun::refuse) refuse_existing_run(path_);
+  lock();
+  if (existing != ExistingRun::replace) return;
+  try {
+    remove_run(path_);
+  } catch (...) {
+    close(lock_);
+    throw;
+  }
+}
+
+RunDirectory::~RunDirectory() {
+  close(lock_);
+}
+
+void RunDirectory::lock() {
+  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) throw_file_error("open", path_, errno);
+  if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  const int error_number = errno;
+  if (error_number == EWOULDBLOCK) {
+    close(lock_);
+    throw FileError(
+        fmt::format("Another run is writing its results to '{}'. Wait for it, or choose "
+                    "another directory with --output.",
+                    path_.string()));
+  }
+  // A file system without locks: nothing can be known, and nothing is refused.
+}
+
+}  // namespace meniscus

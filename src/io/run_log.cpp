@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The log of a run by spdlog; no other file sees spdlog.
+#include "meniscus/io/run_log.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/logger.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+
+namespace meniscus {
+namespace {
+
+spdlog::sink_ptr stderr_sink() {
+  auto sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+  sink->set_level(spdlog::level::warn);
+  sink->set_pattern("%l: %v");
+  return sink;
+}
+
+spdlog::sink_ptr file_sink(const std::filesystem::path& file) {
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
+    sink->set_formatter(std::make_unique<spdlog::pattern_formatter>(
+        "%Y-%m-%dT%H:%M:%SZ %l: %v", spdlog::pattern_time_type::utc));
+    return sink;
+  } catch (const spdlog::spdlog_ex& failure) {
+    throw FileError(fmt::format("Cannot write '{}': {}.", file.string(), failure.what()));
+  }
+}
+
+}  // namespace
+
+struct RunLog::Logger {
+  explicit Logger(std::initializer_list<spdlog::sink_ptr> sinks) : log("meniscus", sinks) {
+    log.flush_on(spdlog::level::info);
+  }
+  spdlog::logger log;
+};
+
+RunLog::RunLog() : logger_(new Logger{stderr_sink()}) {}
+RunLog::RunLog(const std::filesystem::path& file)
+    : logger_(new Logger{file_sink(file), stderr_sink()}) {}
+RunLog::~RunLog() = default;
+RunLog::RunLog(RunLog&&) noexcept = default;
+RunLog& RunLog::operator=(RunLog&&) noexcept = default;
+
+void RunLog::info(std::string_view message) {
+  logger_->log.info(message);
+}
+void RunLog::warning(std::string_view message) {
+  logger_->log.warn(message);
+}
+void RunLog::error(std::string_view message) {
+  logger_->log.error(message);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The XDMF description of a result file.
+#include "xdmf.hpp"
+
+#include <fmt/format.h>
+
+#include "files.hpp"
+
+namespace meniscus {
+namespace {
+
+/// "Matrix" leaves six numbers in the order they have, which is VTK's; XDMF's own Tensor6 has
+/// another.
+const char* attribute_type(int components) {
+  switch (components) {
+    case 1:
+      return "Scalar";
+    case 3:
+      return "Vector";
+    case 9:
+      return "Tensor";
+    default:
+      return "Matrix";
+  }
+}
+
+}  // namespace
+
+XdmfSidecar::XdmfSidecar(std::filesystem::path path, std::string hdf5_name)
+    : path_(std::move(path)), hdf5_name_(std::move(hdf5_name)) {}
+
+std::string XdmfSidecar::data_item(const std::string& array, std::int64_t rows, int columns,
+                                   hdf5::Type type) const {
+  const bool integer = type == hdf5::Type::int64;
+  return fmt::format(
+      R"(<DataItem Dimensions="{}{}" NumberType="{}" Precision="{}" Format="HDF">{}:{}</DataItem>)",
+      rows, columns == 1 ? "" : fmt::format(" {}", columns), integer ? "Int" : "Float",
+      type == hdf5::Type::float32 ? 4 : 8, hdf5_name_, array);
+}
+
+void XdmfSidecar::add_frame(std::int64_t k, Real time, const FrameLayout& layout) {
+  const std::int64_t n = layout.particles;
+  const auto add = [&](const std::string& line) { frames_ += line + '\n'; };
+  const auto add_attribute = [&](const std::string& name, int components, const std::string& item) {
+    add(fmt::format(R"(<Attribute Name="{}" AttributeType="{}" Center="Node">)", name,
+                    attribute_type(components)));
+    add(item + "</Attribute>");
+  };
+  add(fmt::format(R"(<Grid Name="frame {}" GridType="Uniform">)", k));
+  add(fmt::format(R"(<Time Value="{:.17g}"/>)", time));
+  add(fmt::format(
+      R"(<Topology TopologyType="Polyvertex" NumberOfElements="{}" NodesPerElement="1">)", n));
+  add(data_item("/VTKHDF/Vertices/Connectivity", n, 1, hdf5::Type::int64) + "</Topology>");
+  add(R"(<Geometry GeometryType="XYZ">)");
+  add(data_item(fmt::format("/steps/{}/position", k), n, 3, layout.precision) + "</Geometry>");
+  add_attribute("body", 1, data_item("/VTKHDF/PointData/body", n, 1, hdf5::Type::int64));
+  for (const StoredField& field : layout.fields)
+    if (field.name != "position")
+      add_attribute(field.name, field.components,
+                    data_item(fmt::format("/steps/{}/{}", k, field.name), n, field.components,
+                              layout.precision));
+  add("</Grid>");
+}
+
+void XdmfSidecar::write() const {
+  replace_file(path_, fmt::format(R"(<?xml version="1.0" ?>
+<!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>
+<Xdmf Version="3.0">
+<Domain>
+<Grid Name="particles" GridType="Collection" CollectionType="Temporal">
+{}</Grid>
+</Domain>
+</Xdmf>
+)",
+                                  frames_));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compressible neo-Hookean solid, W = mu/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2 (Fan 2014,
+// (4.12)). No loss of ellipticity is known (constitutive note 3.3).
+#include "meniscus/physics/law_registry.hpp"
+
+namespace meniscus {
+namespace {
+
+struct NeoHookean {
+  static constexpr std::string_view type_name = "neo_hookean";
+  static constexpr bool viscous = false;
+  Real density, mu, lambda;
+
+  static Rows<NeoHookean> rows() {
+    using L = NeoHookean;
+    return {
+        parameter_row<L>("density", &L::density, dimension::density, range::positive,
+                         "mass per reference volume", 1.25),
+        parameter_row<L>("mu", &L::mu, dimension::pressure, range::positive, "shear modulus", 0.75),
+        parameter_row<L>("lambda", &L::lambda, dimension::pressure, range::any,
+                         "first Lame parameter", 1.5)};
+  }
+
+  std::optional<std::string> check() const {
+    if (lambda + 2.0 / 3.0 * mu > 0) return {};
+    return "the bulk modulus lambda + 2/3 mu must be positive";
+  }
+
+  Real p_wave_modulus() const { return lambda + 2 * mu; }
+
+  /// With (I1 - 3)/2 = tr H + H:H/2 the first-order parts of (I1 - 3)/2 and ln J cancel by hand.
+  template <class T>
+  T energy_density(const Tensor<T>& H) const {
+    const T theta = volume_change(H);  // J - 1
+    const T isochoric = 0.5 * contract(H, H) - higher_volume_change(H) - log1p_remainder(theta);
+    return mu * isochoric + 0.5 * lambda * theta * theta;
+  }
+
+  /// P = mu (F - F^-T) + lambda (J - 1) cof F. With F^-T = cof F/J, J = 1 + theta and
+  /// cof F = (1 + tr H) I - H^T + cof H nothing of order one is left to cancel.
+  template <class T>
+  Tensor<T> stress(const Tensor<T>& H) const {
+    const T theta = volume_change(H);
+    const T a = mu / (1.0 + theta), b = lambda * theta;
+    const T diagonal = a * higher_volume_change(H) + b * (1.0 + trace(H));
+    return add_diagonal(T(mu) * H + (a - b) * (transpose(H) - cofactor(H)), diagonal);
+  }
+};
+
+const bool registered = register_law<NeoHookean>();
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loads per mass from formulas.
+#include "meniscus/physics/body_force.hpp"
+
+namespace meniscus {
+namespace {
+
+template <int D>
+class BodyForce final : public ForceTerm {
+ public:
+  BodyForce(const Body<D>& body, std::vector<Expression> acceleration)
+      : body_(body), acceleration_(std::move(acceleration)), load_(body.mass.size()) {
+    for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
+  }
+
+  std::string name() const override { return "body force on '" + body_.name + "'"; }
+
+  void add_force(const Motion& motion, std::span<Lanes> force) override {
+    evaluate(motion.time);
+    for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += at(load_, A);
+  }
+  Real external_power(const Motion& motion) const override {
+    return parallel_sum(body_.size(), 0.0, [&](Index A) {
+      return sum(at(load_, A) * at(motion.v, body_.first + A));
+    });
+  }
+  std::size_t bytes() const override { return load_.size() * sizeof(Lanes); }
+  Offset pairs() const override { return 0; }
+
+ private:
+  void evaluate(Real time) {
+    if (time == evaluated_at_ || (steady_ && evaluated_at_ > never)) return;
+    for (Index A = 0; A < body_.size(); ++A) {
+      Eigen::Vector3d X = Eigen::Vector3d::Zero();
+      X.head<D>() = at(body_.particles.X(), A);
+      at(load_, A) = Lanes::zero();
+      for (int i = 0; i < D; ++i)
+        at(load_, A).set(i, at(body_.mass, A) * at(acceleration_, i)(X, time));
+    }
+    evaluated_at_ = time;
+  }
+
+  const Body<D>& body_;
+  std::vector<Expression> acceleration_;
+  NodalVectors load_;
+  bool steady_ = true;
+  static constexpr Real never = -1e300;
+  Real evaluated_at_ = never;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ForceTerm> body_force(const Body<D>& body, std::vector<Expression> acceleration) {
+  return std::make_unique<BodyForce<D>>(body, std::move(acceleration));
+}
+template std::unique_ptr<ForceTerm> body_force(const Body<2>&, std::vector<Expression>);
+template std::unique_ptr<ForceTerm> body_force(const Body<3>&, std::vector<Expression>);
+
+}  // namespace meniscus

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading a scene whole, then building it: one short block per kind of table.
+#include "meniscus/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "meniscus/body/ordering.hpp"
+#include "meniscus/body/shapes.hpp"
+#include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/physics/body_force.hpp"
+#include "meniscus/physics/law_registry.hpp"
+#include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/solve/shape_measures.hpp"
+
+namespace meniscus {
+namespace {
+
+/// What the scene says, before anything large is built.
+template <int D>
+struct Plan {
+  struct PlannedBody {
+    BodySettings settings;
+    Geometry<D> geometry;
+    std::unique_ptr<Material<D>> material;
+  };
+  std::vector<PlannedBody> bodies;
+  std::vector<TensionSettings> tensions;
+  std::vector<BodyForceSettings> body_forces;
+  std::vector<ExactSettings> exact;
+
+  const PlannedBody* find(const std::string& name) const {
+    for (const PlannedBody& body : bodies)
+      if (body.settings.name == name) return &body;
+    return nullptr;
+  }
+  /// Notes a problem if there is no body of that name.
+  const PlannedBody* require(const Block& block, const std::string& name) const {
+    const PlannedBody* body = find(name);
+    if (!body) {
+      std::string known;
+      for (const PlannedBody& b : bodies) known += (known.empty() ? "'" : ", '") + b.settings.name + "'";
+      block.problem("body", fmt::format("there is no body '{}'; allowed {}", name, known));
+    }
+    return body;
+  }
+};
+
+void require_components(const Block& block, const char* key, std::size_t given, int D,
+                        bool may_be_empty) {
+  if (given == static_cast<std::size_t>(D) || (may_be_empty && given == 0)) return;
+  block.problem(key, fmt::format("{} components are given; allowed {}, one per dimension", given, D));
+}
+
+template <int D>
+std::unique_ptr<Material<D>> plan_material(const Block& body) {
+  const auto block = body.table("material", true);
+  if (!block) return nullptr;
+  std::vector<std::string> names;
+  for (const auto& [name, law] : laws()) names.emplace_back(name);
+  const std::string type = block->choice("type", names, std::nullopt);
+  const auto law = laws().find(type);
+  if (law == laws().end()) return nullptr;
+  auto material = law->second.template material<D>(*block);
+  block->done();
+  return material;
+}
+
+template <int D>
+void plan_bodies(const Block& root, Plan<D>& plan) {
+  const auto blocks = root.tables("body");
+  if (blocks.empty()) root.problem("body", "a scene needs at least one [[body]]");
+  std::set<std::string> names;
+  for (const Block& block : blocks) {
+    BodySettings settings = read<BodySettings>(block);
+    if (!settings.name.empty() && !names.insert(settings.name).second)
+      block.problem("name", fmt::format("the name '{}' is used twice", settings.name));
+    if (settings.name.find_first_of("./ ") != std::string::npos)
+      block.problem("name", "a name may not contain a dot, a slash or a blank");
+    require_components(block, "initial_displacement", settings.initial_displacement.size(), D, true);
+    require_components(block, "initial_velocity", settings.initial_velocity.size(), D, true);
+    Geometry<D> geometry = read_geometry<D>(block);
+    auto material = plan_material<D>(block);
+    block.done();
+    plan.bodies.push_back({std::move(settings), std::move(geometry), std::move(material)});
+  }
+}
+
+template <int D>
+void plan_loads(const Block& root, Plan<D>& plan) {
+  for (const Block& block : root.tables("surface_tension")) {
+    plan.tensions.push_back(read<TensionSettings>(block));
+    const auto* body = plan.require(block, plan.tensions.back().body);
+    if (body && plan.tensions.back().form == "curvature" && !body->geometry.smooth)
+      block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
+                                        "undefined; allowed \"weak\", \"triangles\"",
+                                        body->settings.name));
+    block.done();
+  }
+  for (const Block& block : root.tables("body_force")) {
+    plan.body_forces.push_back(read<BodyForceSettings>(block));
+    plan.require(block, plan.body_forces.back().body);
+    require_components(block, "acceleration", plan.body_forces.back().acceleration.size(), D, false);
+    block.done();
+  }
+  for (const Block& block : root.tables("exact")) {
+    plan.exact.push_back(read<ExactSettings>(block));
+    plan.require(block, plan.exact.back().body);
+    require_components(block, "displacement", plan.exact.back().displacement.size(), D, false);
+    require_components(block, "velocity", plan.exact.back().velocity.size(), D, false);
+    block.done();
+  }
+}
+
+template <int D>
+void read_settings(const SceneInput& input, Scene<D>& scene) {
+  const Block& root = input.root();
+  scene.title = root.text("title", "");
+  scene.units = root.units();
+  if (const auto block = root.table("time", true)) {
+    scene.time = read<TimeSettings>(*block);
+    block->done();
+  }
+  const Block output = root.table_or_defaults("output");
+  scene.output = read<OutputSettings>(output);
+  output.done();
+  if (const auto expect = root.table("expect"))
+    for (const auto& [name, block] : expect->named_tables()) {
+      ExpectSettings e = read<ExpectSettings>(block);
+      if (e.of.empty()) e.of = name;
+      if (e.within < 0 && e.within_relative < 0)
+        block.problem("", "says no tolerance; give within or within_relative");
+      block.done();
+      scene.expectations.emplace_back(name, std::move(e));
+    }
+}
+
+/// Mean edge of a cell.
+template <int D>
+Real spacing_of(const Geometry<D>& geometry) {
+  return std::pow(volume(geometry.grid) / geometry.grid.cell_count(), 1.0 / D);
+}
+
+template <int D>
+ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& geometry) {
+  Window window{};
+  for (std::size_t k = 0; k < window_names.size(); ++k)
+    if (window_names[k] == settings.window) window = static_cast<Window>(k);
+  if (settings.support_spacings > 0)
+    return {geometry.grid.X, settings.support_spacings * spacing_of(geometry), window};
+  typename ParticleSet<D>::AdaptiveSupport rule;
+  rule.factor = settings.support_factor;
+  if (settings.support_rank > 0) rule.rank = settings.support_rank;
+  return {geometry.grid.X, rule, window};
+}
+
+/// Where the deficiency monitor looks: particles, cell centres, and a point per surface facet.
+template <int D>
+std::vector<Vec<D>> probe_points(const Geometry<D>& geometry) {
+  std::vector<Vec<D>> points = geometry.grid.X;
+  const auto centres = cell_gauss_points(geometry.grid, 1).X;
+  points.insert(points.end(), centres.begin(), centres.end());
+  const auto surface = surface_points(geometry, 1);
+  points.insert(points.end(), surface.X.begin(), surface.X.end());
+  return points;
+}
+
+template <int D>
+void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
+  const std::string& name = planned.settings.name;
+  order_spatially(planned.geometry);
+  ParticleSet<D> particles = make_particles(planned.settings, planned.geometry);
+  const Index enlarged = particles.ensure_quality(probe_points(planned.geometry), name);
+  if (enlarged > 0)
+    scene.warnings.push_back(fmt::format(
+        "body '{}': the supports of {} of {} particles were enlarged, their moment matrices were "
+        "poorly conditioned",
+        name, enlarged, particles.size()));
+
+  Body<D>& body =
+      scene.system.bodies.emplace_back(name, std::move(planned.geometry), std::move(particles));
+  body.first = scene.system.size();
+  body.at_particles =
+      build_point_rows<D>(body.particles, body.particles.X(), {.value = true}, body.name);
+  auto built = planned.material->build(
+      body, {planned.settings.integration, planned.settings.gauss_points});
+  scene.system.mass.insert(scene.system.mass.end(), body.mass.begin(), body.mass.end());
+  scene.notes.push_back(fmt::format(
+      "body '{}': {} particles, {} cells, mean spacing {:.4g} {}, {:.1f} neighbours per particle, "
+      "{:.1f} pairs per particle, {:.1f} MB for the internal force",
+      name, body.size(), body.geometry.grid.cell_count(), spacing_of(body.geometry),
+      scene.units.symbol(dimension::length),
+      static_cast<Real>(body.at_particles.entries()) / body.size(),
+      static_cast<Real>(built.force->pairs()) / body.size(), 1e-6 * static_cast<Real>(built.force->bytes())));
+  if (built.mass.raised > 0)
+    scene.notes.push_back(fmt::format(
+        "body '{}': the masses of {} particles were raised to 0.3 of their cells, the total by {:.2g}",
+        name, built.mass.raised, built.mass.added));
+  if (planned.settings.integration == "nodal")
+    scene.warnings.push_back(fmt::format(
+        "body '{}': integration = \"nodal\" has modes without energy and is unstable; for comparison "
+        "only",
+        name));
+
+  auto fields = built.force->fields();
+  for (MeasureSource& m : built.force->measures()) {
+    m.name = name + "." + m.name;
+    scene.measures.push_back(std::move(m));
+  }
+  for (MeasureSource& m : shape_measures(body)) {
+    m.name = name + "." + m.name;
+    scene.measures.push_back(std::move(m));
+  }
+  scene.fields.push_back(std::move(fields));
+  scene.system.terms.push_back(std::move(built.force));
+}
+
+template <int D>
+const Body<D>& body_named(const System<D>& system, const std::string& name) {
+  for (const Body<D>& body : system.bodies)
+    if (body.name == name) return body;
+  throw InputError("there is no body '" + name + "'");
+}
+
+template <int D>
+void build_loads(const Plan<D>& plan, Scene<D>& scene) {
+  for (const TensionSettings& tension : plan.tensions) {
+    const Body<D>& body = body_named(scene.system, tension.body);
+    auto term = tension.form == "weak"        ? weak_surface_tension(body, tension.gamma, tension.points)
+                : tension.form == "curvature" ? curvature_surface_tension(body, tension.gamma, tension.points)
+                                              : triangle_surface_tension(body, tension.gamma);
+    for (MeasureSource& m : term->measures()) {
+      m.name = body.name + "." + m.name;
+      scene.measures.push_back(std::move(m));
+    }
+    scene.system.terms.push_back(std::move(term));
+  }
+  for (const BodyForceSettings& load : plan.body_forces)
+    scene.system.terms.push_back(body_force(body_named(scene.system, load.body), load.acceleration));
+  for (const ExactSettings& exact : plan.exact) {
+    const Body<D>& body = body_named(scene.system, exact.body);
+    MeasureSource m = state_error(body, {exact.displacement, exact.velocity, exact.rate});
+    m.name = body.name + "." + m.name;
+    scene.measures.push_back(std::move(m));
+  }
+}
+
+template <int D>
+void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
+  State& state = scene.initial;
+  state.u.assign(static_cast<std::size_t>(scene.system.size()), Lanes::zero());
+  state.v = state.u;
+  state.force = state.u;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const Body<D>& body = scene.system.bodies[b];
+    const BodySettings& settings = plan.bodies[b].settings;
+    for (Index A = 0; A < body.size(); ++A) {
+      Eigen::Vector3d X = Eigen::Vector3d::Zero();
+      X.head<D>() = at(body.particles.X(), A);
+      for (int i = 0; i < D; ++i) {
+        if (!settings.initial_displacement.empty())
+          at(state.u, body.first + A).set(i, at(settings.initial_displacement, i)(X));
+        if (!settings.initial_velocity.empty())
+          at(state.v, body.first + A).set(i, at(settings.initial_velocity, i)(X));
+      }
+    }
+  }
+}
+
+/// Bodies that share space: particles of one closer to one of the other than half its spacing.
+template <int D>
+void warn_of_overlaps(Scene<D>& scene) {
+  const auto& bodies = scene.system.bodies;
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+      const Real near = 0.5 * spacing_of(bodies[b].geometry);
+      Index count = 0;
+      for (const Vec<D>& X : bodies[a].particles.X())
+        count += bodies[b].particles.search().distance_of_nearest(X, 1) < near;
+      if (count > 0)
+        scene.warnings.push_back(fmt::format("bodies '{}' and '{}' overlap: {} particles of the first "
+                                             "lie within half a spacing of the second",
+                                             bodies[a].name, bodies[b].name, count));
+    }
+}
+
+}  // namespace
+
+int scene_dimension(const SceneInput& input) {
+  const auto dimension = input.root().integer("dimension", {2, 3}, std::nullopt);
+  if (dimension != 2 && dimension != 3) input.check();
+  return static_cast<int>(dimension);
+}
+
+template <int D>
+Scene<D> build_scene(const SceneInput& input) {
+  Scene<D> scene;
+  Plan<D> plan;
+  read_settings(input, scene);
+  plan_bodies(input.root(), plan);
+  plan_loads(input.root(), plan);
+  input.root().done();
+  input.check();
+
+  for (auto& body : plan.bodies) build_body<D>(body, scene);
+  build_loads(plan, scene);
+  set_initial_state(plan, scene);
+  warn_of_overlaps(scene);
+  return scene;
+}
+
+template Scene<2> build_scene<2>(const SceneInput&);
+template Scene<3> build_scene<3>(const SceneInput&);
+
+}  // namespace meniscus

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of a scene: names, units, ranges, defaults and meanings.
+#include "meniscus/scene/settings.hpp"
+
+#include "meniscus/approx/window.hpp"
+#include "meniscus/body/shapes.hpp"
+#include "meniscus/physics/law_registry.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr Real not_given = -1;
+
+/// An optional number: absent stays absent.
+template <class M>
+Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension dimension, Range range,
+                    std::string fallback, std::string meaning) {
+  Row<M> row = real_row<M>(std::move(key), nullptr, dimension, range, std::move(meaning), 0.0);
+  row.fallback = std::move(fallback);
+  row.read = [key = row.key, member, dimension, range](M& m, const Block& block) {
+    if (block.has(key)) m.*member = block.real(key, dimension, range, std::nullopt);
+  };
+  return row;
+}
+
+/// Formulas that may be left out.
+template <class M>
+Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*member,
+                                Dimension dimension, std::string meaning) {
+  Row<M> row = expressions_row<M>(std::move(key), nullptr, 0, dimension, std::move(meaning),
+                                  std::vector<Expression>{});
+  row.fallback = "0";
+  row.read = [key = row.key, member, dimension](M& m, const Block& block) {
+    if (block.has(key)) m.*member = block.expressions(key, 0, dimension, std::nullopt);
+  };
+  return row;
+}
+
+std::vector<std::string> windows() { return {window_names.begin(), window_names.end()}; }
+
+}  // namespace
+
+Rows<TimeSettings> TimeSettings::rows() {
+  using S = TimeSettings;
+  return {
+      real_row("end", &S::end, dimension::time, range::positive, "time at which the run ends"),
+      optional_row("step", &S::step, dimension::time, range::positive, "automatic",
+                   "fixed step; refused above the stable step of the discretised system"),
+      real_row("safety", &S::safety, dimension::none, {0, 1, true, false},
+               "automatic step as a fraction of the stable step", 0.9),
+      integer_row("check_every", &S::check_every, {1, 1e9},
+                  "steps between two estimates of the stable step", 250),
+  };
+}
+
+Rows<OutputSettings> OutputSettings::rows() {
+  using S = OutputSettings;
+  return {
+      real_row("frames_every", &S::frames_every, dimension::time, range::non_negative,
+               "time between frames of run.h5; 0: 50 frames over the run", 0.0),
+      real_row("history_every", &S::history_every, dimension::time, range::non_negative,
+               "time between rows of history.csv; 0: 200 rows over the run", 0.0),
+      texts_row("fields", &S::fields,
+                "fields of a frame beside position: displacement, velocity, force, J, F, pressure, "
+                "von_mises, cauchy_stress",
+                std::vector<std::string>{"velocity", "J"}),
+      texts_row("measures", &S::measures,
+                "measures in the history beside the energies, e.g. \"drop.aspect\"; those that an "
+                "expectation names are added by themselves",
+                std::vector<std::string>{}),
+      choice_row("precision", &S::precision, {"float64", "float32"}, "of the fields of a frame",
+                 "float64"),
+      integer_row("compression", &S::compression, {0, 9}, "deflate level of run.h5", 0),
+      flag_row("restartable", &S::restartable,
+               "whether each frame also holds the complete state, so that a run can go on from it",
+               true),
+      real_row("checkpoint_minutes", &S::checkpoint_minutes, dimension::none, range::positive,
+               "wall-clock minutes between checkpoints", 10.0),
+  };
+}
+
+Rows<BodySettings> BodySettings::rows() {
+  using S = BodySettings;
+  return {
+      text_row("name", &S::name, "name of the body, by which other tables refer to it"),
+      choice_row("integration", &S::integration, {"q_scni", "gauss", "nodal"},
+                 "rule of the internal force: smoothed gradients with linear moments over nodal "
+                 "cells, Gauss points, or particles (unstable, for comparison only)",
+                 "q_scni"),
+      integer_row("gauss_points", &S::gauss_points, {1, 8},
+                  "Gauss points per direction and cell, for integration = \"gauss\"", 3),
+      choice_row("window", &S::window, windows(), "window function of the kernel", "cubic_spline"),
+      real_row("support_factor", &S::support_factor, dimension::none, {1, 10},
+               "support of a particle / distance to its neighbour of rank support_rank", 1.8),
+      integer_row("support_rank", &S::support_rank, {0, 200},
+                  "rank of that neighbour; 0: 20 in 3D, 8 in 2D", 0),
+      real_row("support_spacings", &S::support_spacings, dimension::none, {0, 20},
+               "support of all particles / mean cell size; 0: adaptive by support_factor", 0.0),
+      optional_expressions_row("initial_displacement", &S::initial_displacement, dimension::length,
+                               "a formula of x, y, z for each component"),
+      optional_expressions_row("initial_velocity", &S::initial_velocity, dimension::velocity,
+                               "a formula of x, y, z for each component"),
+  };
+}
+
+Rows<TensionSettings> TensionSettings::rows() {
+  using S = TensionSettings;
+  return {
+      text_row("body", &S::body, "name of the body whose surface is under tension"),
+      real_row("gamma", &S::gamma, dimension::tension, range::positive, "surface tension"),
+      choice_row("form", &S::form, {"weak", "curvature", "triangles"},
+                 "gradient of the discrete area; curvature from second derivatives (smooth surfaces "
+                 "only); flat triangles",
+                 "weak"),
+      integer_row("points", &S::points, {1, 8}, "Gauss points per direction and surface facet", 3),
+  };
+}
+
+Rows<BodyForceSettings> BodyForceSettings::rows() {
+  using S = BodyForceSettings;
+  return {text_row("body", &S::body, "name of the body"),
+          expressions_row("acceleration", &S::acceleration, 0, dimension::acceleration,
+                          "force per mass, a formula of reference position x, y, z and time t for "
+                          "each component")};
+}
+
+Rows<ExactSettings> ExactSettings::rows() {
+  using S = ExactSettings;
+  return {text_row("body", &S::body, "name of the body whose exact motion is known"),
+          expressions_row("displacement", &S::displacement, 0, dimension::length,
+                          "a formula of x, y, z, t for each component"),
+          expressions_row("velocity", &S::velocity, 0, dimension::velocity,
+                          "a formula of x, y, z, t for each component"),
+          real_row("rate", &S::rate, dimension::rate, range::positive,
+                   "weighs displacements against velocities in the error; the frequency of an "
+                   "oscillation")};
+}
+
+Rows<ExpectSettings> ExpectSettings::rows() {
+  using S = ExpectSettings;
+  return {
+      text_row("of", &S::of, "column of the history; empty: the name of this table", ""),
+      choice_row("reduce", &S::reduce, {"at", "max", "min", "mean", "max_abs", "decay_rate"},
+                 "value at a time, or a number taken over from ... to; decay_rate is minus the slope "
+                 "of ln |column|",
+                 "at"),
+      real_row("at", &S::at, dimension::time, range::any, "time of the value; -1: the end", not_given),
+      real_row("from", &S::from, dimension::time, range::any, "begin of the span; -1: the begin",
+               not_given),
+      real_row("to", &S::to, dimension::time, range::any, "end of the span; -1: the end", not_given),
+      real_row("value", &S::value, dimension::none, range::any,
+               "expected number, in the unit of the column", 0.0),
+      real_row("within", &S::within, dimension::none, range::any,
+               "largest difference; -1: not used", not_given),
+      real_row("within_relative", &S::within_relative, dimension::none, range::any,
+               "largest difference relative to value; -1: not used", not_given),
+  };
+}
+
+namespace {
+
+void describe_units(std::ostream& out) {
+  out << "A number is in the scene's unit system; a text such as \"72.8 mN/m\" has its own unit.\n"
+         "Top level: title (text, default \"\"), dimension (2 or 3, required).\n"
+         "[units] system = \"SI\" (default) or length-time-mass such as \"nm-ps-ag\".\n\n";
+}
+
+template <class Keys>
+void describe_list(std::ostream& out, const std::string& heading, const Keys& keys) {
+  std::vector<std::array<std::string, 6>> lines;
+  for (const auto& k : keys)
+    lines.push_back({k.key, k.type, k.unit, k.range, k.fallback, k.meaning});
+  rows::print_table(out, heading, lines);
+}
+
+template <int D>
+void describe_shapes(std::ostream& out) {
+  for (const auto& [name, kind] : shapes<D>())
+    describe_list(out, "[[body]] shape = \"" + name + "\" (" + std::to_string(D) + "D): " + kind.meaning,
+                  kind.keys());
+}
+
+}  // namespace
+
+void describe_keys(std::ostream& out) {
+  describe_units(out);
+  describe<TimeSettings>(out, "[time]");
+  describe<OutputSettings>(out, "[output]");
+  describe<BodySettings>(out, "[[body]]");
+  describe_list(out, "[[body]] of any shape",
+                std::vector<ShapeKey>{
+                    {"shape", "text", "", "", "required", "one of the shapes below"},
+                    {"jitter", "number", "1", ">= 0 and <= 0.5", "0",
+                     "random shift of interior particles / shortest cell edge"},
+                    {"jitter_seed", "integer", "1", ">= 0", "1", "seed of the shifts"}});
+  describe_shapes<3>(out);
+  describe_shapes<2>(out);
+  for (const auto& [name, law] : laws())
+    describe_list(out, "[body.material] type = \"" + std::string(name) + "\"", law.keys);
+  describe<TensionSettings>(out, "[[surface_tension]]");
+  describe<BodyForceSettings>(out, "[[body_force]]");
+  describe<ExactSettings>(out, "[[exact]]");
+  describe<ExpectSettings>(out, "[expect.NAME]");
+}
+
+}  // namespace meniscus

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums of energy and momentum over the particles.
+#include "meniscus/solve/audit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "meniscus/core/parallel.hpp"
+
+namespace meniscus {
+namespace {
+
+Eigen::Vector3d spatial(Lanes x) { return {x[0], x[1], x[2]}; }
+
+/// Momenta of coefficients: sum m v and sum m x cross v. Exact invariants of the discrete system.
+template <int D>
+Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
+  Eigen::Matrix<Real, 6, 1> zero = Eigen::Matrix<Real, 6, 1>::Zero();
+  for (const Body<D>& body : system.bodies)
+    zero += parallel_sum(body.size(), Eigen::Matrix<Real, 6, 1>(Eigen::Matrix<Real, 6, 1>::Zero()),
+                         [&](Index A) {
+                           const Index I = body.first + A;
+                           Eigen::Vector3d x = spatial(at(state.u, I));
+                           x.head<D>() += at(body.particles.X(), A);
+                           const Eigen::Vector3d p = at(system.mass, I) * spatial(at(state.v, I));
+                           Eigen::Matrix<Real, 6, 1> both;
+                           both << p, x.cross(p);
+                           return both;
+                         });
+  return zero;
+}
+
+Real relative(Real change, Real scale) { return scale > 0 ? change / scale : 0; }
+
+}  // namespace
+
+Real Ledger::balance() const {
+  Real total = kinetic + dissipated - external_work;
+  for (const auto& [kind, energy] : stored) total += energy;
+  return total;
+}
+
+template <int D>
+Ledger take_ledger(const System<D>& system, const State& state) {
+  Ledger ledger;
+  ledger.kinetic = parallel_sum(system.size(), 0.0, [&](Index A) {
+    return 0.5 * at(system.mass, A) * sum(at(state.v, A) * at(state.v, A));
+  });
+  for (const auto& term : system.terms)
+    if (const auto energy = term->stored_energy(state.motion()))
+      ledger.stored[std::string(term->energy_kind())] += *energy;
+  ledger.dissipated = state.dissipated;
+  ledger.external_work = state.external_work;
+  const auto both = momenta(system, state);
+  ledger.momentum = both.template head<3>();
+  ledger.angular_momentum = both.template tail<3>();
+  return ledger;
+}
+
+void Audit::begin(const Ledger& ledger) {
+  *this = {};
+  initial_balance = ledger.balance();
+  initial_stored = ledger.stored;
+  initial_momentum = ledger.momentum;
+  initial_angular_momentum = ledger.angular_momentum;
+}
+
+template <int D>
+void Audit::follow(const System<D>& system, const State& state, const Ledger& ledger) {
+  Real exchanged = ledger.kinetic + ledger.dissipated + std::abs(ledger.external_work);
+  for (const auto& [kind, energy] : ledger.stored)
+    exchanged = std::max(exchanged, std::abs(energy - initial_stored.at(kind)));
+  energy_scale = std::max(energy_scale, exchanged);
+
+  Real mass = 0, spread = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  for (const Body<D>& body : system.bodies)
+    for (Index A = 0; A < body.size(); ++A) {
+      const Index I = body.first + A;
+      Eigen::Vector3d x = spatial(at(state.u, I));
+      x.template head<D>() += at(body.particles.X(), A);
+      mass += at(system.mass, I);
+      first += at(system.mass, I) * x;
+      spread += at(system.mass, I) * x.squaredNorm();
+    }
+  const Real momentum = std::sqrt(2 * mass * ledger.kinetic);
+  const Real gyration = std::sqrt(std::max(0.0, spread / mass - (first / mass).squaredNorm()));
+  momentum_scale = std::max(momentum_scale, momentum);
+  angular_momentum_scale = std::max(angular_momentum_scale, momentum * gyration);
+}
+
+Real Audit::balance_error(const Ledger& ledger) const {
+  return relative(ledger.balance() - initial_balance, energy_scale);
+}
+Real Audit::momentum_error(const Ledger& ledger) const {
+  return relative((ledger.momentum - initial_momentum).norm(), momentum_scale);
+}
+Real Audit::angular_momentum_error(const Ledger& ledger) const {
+  return relative((ledger.angular_momentum - initial_angular_momentum).norm(),
+                  angular_momentum_scale);
+}
+
+template Ledger take_ledger(const System<2>&, const State&);
+template Ledger take_ledger(const System<3>&, const State&);
+template void Audit::follow(const System<2>&, const State&, const Ledger&);
+template void Audit::follow(const System<3>&, const State&, const Ledger&);
+
+}  // namespace meniscus

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The time step.
+#include "meniscus/solve/central_difference.hpp"
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
+
+namespace meniscus {
+namespace {
+
+/// v += dt f / m
+template <int D>
+void kick(const System<D>& system, State& state, Real dt) {
+  for_chunks(system.size(), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(state.v, A) += (dt / at(system.mass, A)) * at(state.force, A);
+  });
+}
+
+/// x += dt v
+void drift(State& state, Real dt) {
+  for_chunks(static_cast<Index>(state.u.size()), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(state.u, A) += dt * at(state.v, A);
+  });
+}
+
+template <int D>
+void note_power(const System<D>& system, State& state) {
+  state.dissipation_power = state.external_power = 0;
+  for (const auto& term : system.terms) {
+    state.dissipation_power += term->dissipation();
+    state.external_power += term->external_power(state.motion());
+  }
+}
+
+/// Trapezoidal sums of heat and external work.
+template <int D>
+void book_energy(const System<D>& system, State& state, Real dt) {
+  state.dissipated += dt / 2 * state.dissipation_power;
+  state.external_work += dt / 2 * state.external_power;
+  note_power(system, state);
+  state.dissipated += dt / 2 * state.dissipation_power;
+  state.external_work += dt / 2 * state.external_power;
+}
+
+}  // namespace
+
+template <int D>
+void start(System<D>& system, State& state) {
+  state.force.resize(state.u.size());
+  system.compute_forces(state.motion(), state.force);
+  note_power(system, state);
+}
+
+template <int D>
+void advance(System<D>& system, State& state, Real dt) {
+  kick(system, state, dt / 2);
+  drift(state, dt);
+  state.time += dt;
+  try {
+    system.compute_forces(state.motion(), state.force);
+  } catch (const SolveError&) {
+    drift(state, -dt);
+    state.time -= dt;
+    throw;
+  }
+  kick(system, state, dt / 2);
+  ++state.step;
+  book_energy(system, state, dt);
+}
+
+template void start(System<2>&, State&);
+template void start(System<3>&, State&);
+template void advance(System<2>&, State&, Real);
+template void advance(System<3>&, State&, Real);
+
+}  // namespace meniscus

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shape of a body from the places of its surface particles, and the error against an exact solution.
+#include "meniscus/solve/shape_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <Eigen/Dense>
+
+#include "meniscus/approx/row_sums.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Places x(X_B) of the surface particles at the motion asked for last.
+template <int D>
+class SurfacePlaces {
+ public:
+  explicit SurfacePlaces(const Body<D>& body)
+      : body_(body), particles_(boundary_nodes(body.geometry.grid)) {
+    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
+    for (const Index A : particles_) {
+      low = low.cwiseMin(at(body.particles.X(), A));
+      high = high.cwiseMax(at(body.particles.X(), A));
+    }
+    (high - low).maxCoeff(&axis_);
+  }
+
+  std::vector<Vec<D>> places(const Motion& motion) const {
+    const Lanes* u = motion.u.data() + body_.first;
+    std::vector<Vec<D>> x(particles_.size());
+    parallel_for(static_cast<Index>(particles_.size()), [&](Index k) {
+      const Index A = at(particles_, k);
+      const Lanes displacement = value_at(body_.at_particles, A, u);
+      at(x, k) = at(body_.particles.X(), A);
+      for (int i = 0; i < D; ++i) at(x, k)[i] += displacement[i];
+    });
+    return x;
+  }
+
+  Vec<D> extents(const Motion& motion) const {
+    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
+    for (const Vec<D>& x : places(motion)) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    return high - low;
+  }
+
+  /// Least-squares fit r = r0 + r2 P2 + r4 P4 of the distance from the centre (2D: cos 2 phi,
+  /// cos 4 phi) about the long reference axis: (r0, r2, r4).
+  Eigen::Vector3d legendre_fit(const Motion& motion) const {
+    const std::vector<Vec<D>> x = places(motion);
+    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
+    for (const Vec<D>& p : x) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const Vec<D> centre = 0.5 * (low + high);
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const Vec<D>& p : x) {
+      const Real r = (p - centre).norm(), c = (p[axis_] - centre[axis_]) / r, c2 = c * c;
+      const Eigen::Vector3d mode =
+          D == 3 ? Eigen::Vector3d(1, 1.5 * c2 - 0.5, (35 * c2 * c2 - 30 * c2 + 3) / 8)
+                 : Eigen::Vector3d(1, 2 * c2 - 1, 8 * c2 * c2 - 8 * c2 + 1);
+      normal += mode * mode.transpose();
+      right += r * mode;
+    }
+    return normal.ldlt().solve(right);
+  }
+
+ private:
+  const Body<D>& body_;
+  std::vector<Index> particles_;
+  Eigen::Index axis_ = 0;
+};
+
+}  // namespace
+
+template <int D>
+std::vector<MeasureSource> shape_measures(const Body<D>& body) {
+  const auto surface = std::make_shared<const SurfacePlaces<D>>(body);
+  std::vector<MeasureSource> measures;
+  for (int i = 0; i < D; ++i)
+    measures.push_back({std::string("extent_") + "xyz"[i], dimension::length,
+                        "extent of the surface along the axis",
+                        [surface, i](const Motion& m) { return surface->extents(m)[i]; }});
+  measures.push_back({"aspect", dimension::none, "largest extent over smallest",
+                      [surface](const Motion& m) {
+                        const Vec<D> extents = surface->extents(m);
+                        return extents.maxCoeff() / extents.minCoeff();
+                      }});
+  measures.push_back({"radius", dimension::length, "mean distance of the surface from its centre",
+                      [surface](const Motion& m) { return surface->legendre_fit(m)[0]; }});
+  measures.push_back({"p2", dimension::none,
+                      "amplitude of the second Legendre mode (2D: cos 2 phi) over the mean radius",
+                      [surface](const Motion& m) {
+                        const Eigen::Vector3d r = surface->legendre_fit(m);
+                        return r[1] / r[0];
+                      }});
+  return measures;
+}
+
+template <int D>
+MeasureSource state_error(const Body<D>& body, ExactSolution exact) {
+  const auto compute = [&body, exact = std::move(exact)](const Motion& m) {
+    const Lanes *u = m.u.data() + body.first, *v = m.v.data() + body.first;
+    Real error = 0, size = 0;
+    for (Index A = 0; A < body.size(); ++A) {
+      Eigen::Vector3d X = Eigen::Vector3d::Zero();
+      X.head<D>() = at(body.particles.X(), A);
+      const Lanes u_A = value_at(body.at_particles, A, u), v_A = value_at(body.at_particles, A, v);
+      const Real V = body.cells.volume(A);
+      for (int i = 0; i < D; ++i) {
+        const Real u_exact = exact.rate * at(exact.displacement, i)(X, m.time);
+        const Real v_exact = at(exact.velocity, i)(X, m.time);
+        error += V * (std::pow(exact.rate * u_A[i] - u_exact, 2) + std::pow(v_A[i] - v_exact, 2));
+        size += V * (u_exact * u_exact + v_exact * v_exact);
+      }
+    }
+    return std::sqrt(error / size);
+  };
+  return {"state_error", dimension::none, "error of places and velocities against the exact solution",
+          compute};
+}
+
+template std::vector<MeasureSource> shape_measures(const Body<2>&);
+template std::vector<MeasureSource> shape_measures(const Body<3>&);
+template MeasureSource state_error(const Body<2>&, ExactSolution);
+template MeasureSource state_error(const Body<3>&, ExactSolution);
+
+}  // namespace meniscus

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Power iteration for the critical mode of central differences.
+#include "meniscus/solve/time_step.hpp"
+
+#include <cmath>
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
+
+namespace meniscus {
+namespace {
+
+/// A start with all wave lengths in it, the same on every machine.
+template <int D>
+NodalVectors rough_mode(Index n) {
+  NodalVectors mode(static_cast<std::size_t>(n));
+  std::uint64_t bits = 0x9e3779b97f4a7c15;
+  for (Lanes& w : mode) {
+    w = Lanes::zero();
+    for (int i = 0; i < D; ++i) {
+      bits ^= bits << 13;
+      bits ^= bits >> 7;
+      bits ^= bits << 17;
+      w.set(i, static_cast<Real>(bits >> 11) * 0x1p-52 - 1);
+    }
+  }
+  return mode;
+}
+
+}  // namespace
+
+template <int D>
+StableStepEstimator<D>::StableStepEstimator(System<D>& system)
+    : system_(system), spacing_(1e300), mode_(rough_mode<D>(system.size())) {
+  for (const Body<D>& body : system.bodies)
+    for (Index A = 0; A < body.size(); ++A)
+      spacing_ = std::min(spacing_, body.particles.search().distance_of_nearest(
+                                        at(body.particles.X(), A), 2));
+}
+
+template <int D>
+Real StableStepEstimator<D>::dot(const NodalVectors& a, const NodalVectors& b) const {
+  return parallel_sum(system_.size(), 0.0,
+                      [&](Index A) { return sum(at(a, A) * at(b, A)); });
+}
+
+template <int D>
+void StableStepEstimator<D>::force_change(const State& state, Real du, Real dv,
+                                          NodalVectors& result) {
+  u_.resize(mode_.size());
+  v_.resize(mode_.size());
+  result.resize(mode_.size());
+  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) {
+      at(u_, A) = at(state.u, A) + du * at(mode_, A);
+      at(v_, A) = at(state.v, A) + dv * at(mode_, A);
+    }
+  });
+  system_.add_up({state.time, u_, v_}, result);
+  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(result, A) = at(base_, A) - at(result, A);
+  });
+}
+
+template <int D>
+StableStep StableStepEstimator<D>::estimate(const State& state) {
+  constexpr int most_iterations = 300;
+  constexpr int settled_for = 4;
+  constexpr Real tolerance = 1e-3;
+
+  base_.resize(mode_.size());
+  system_.add_up(state.motion(), base_);
+  const bool viscous = system_.viscous();
+  StableStep best{0, 0, 0, 1};
+  Real dt = 0;  // weighs stiffness against viscosity; known after the first iteration
+  for (int iteration = 0, settled = 0; iteration < most_iterations; ++iteration) {
+    Real largest = 0, mass_norm = 0;
+    for (const Lanes& w : mode_) largest = std::max(largest, std::sqrt(sum(w * w)));
+    mass_norm = parallel_sum(system_.size(), 0.0, [&](Index A) {
+      return at(system_.mass, A) * sum(at(mode_, A) * at(mode_, A));
+    });
+    if (!(largest > 0) || !std::isfinite(mass_norm)) break;
+
+    // Small against the spacing, so that the difference is a derivative; the velocity is such that
+    // it displaces as much in one acoustic time.
+    const Real du = 1e-6 * spacing_ / largest;
+    force_change(state, du, 0, elastic_);
+    const Real k = std::abs(dot(mode_, elastic_)) / (du * mass_norm);
+    Real c = 0, dv = 0;
+    if (viscous) {
+      dv = du * std::sqrt(k);
+      force_change(state, 0, dv, viscous_);
+      c = std::max(0.0, dot(mode_, viscous_) / (dv * mass_norm));
+    }
+    best.evaluations += viscous ? 2 : 1;
+    const Real limit = 4 / (c + std::sqrt(c * c + 4 * k));
+    settled = std::abs(limit - dt) < tolerance * limit ? settled + 1 : 0;
+    dt = limit;
+    best = {dt, std::sqrt(k), c, best.evaluations};
+    if (settled >= settled_for) break;
+
+    // mode <- M^-1 (dt^2/4 K + dt/2 C) mode
+    for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+      for (Index A = begin; A < end; ++A) {
+        Lanes next = (dt * dt / (4 * du)) * at(elastic_, A);
+        if (viscous) next += (dt / (2 * dv)) * at(viscous_, A);
+        at(mode_, A) = next / at(system_.mass, A);
+      }
+    });
+  }
+  if (!(best.dt > 0) || !std::isfinite(best.dt))
+    throw SolveError("no stable time step can be found: the forces at the current state do not make "
+                     "sense (are all moduli positive and all cells unfolded?)");
+  return best;
+}
+
+template class StableStepEstimator<2>;
+template class StableStepEstimator<3>;
+
+}  // namespace meniscus

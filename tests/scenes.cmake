@@ -1,0 +1,35 @@
+# Every scene of inputs/ is a test (label scene). It is checked, and run if its first line says so:
+#   # test: full                run as it is
+#   # test: short OPTION...     run with options of `meniscus run`, e.g. --until 0.02ns
+# tools/verify runs the others in full (label verify, configuration full).
+# The program's exit code decides: 7 means that an expectation of the scene was missed.
+
+file(GLOB scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/inputs/*.toml)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${scenes})
+set(scene_environment OMP_WAIT_POLICY=passive OMP_NUM_THREADS=2)
+
+foreach(scene ${scenes})
+  cmake_path(GET scene STEM name)
+  set(run meniscus run ${scene} --overwrite --output)
+  add_test(NAME scene.${name}.check COMMAND meniscus check ${scene})
+  set_tests_properties(scene.${name}.check PROPERTIES LABELS scene
+    ENVIRONMENT "${scene_environment}")
+
+  file(STRINGS ${scene} first_line LIMIT_COUNT 1)
+  if(first_line MATCHES "^# test: (full|short .+)$")
+    string(REGEX REPLACE "^(full|short)" "" options "${CMAKE_MATCH_1}")
+    separate_arguments(options UNIX_COMMAND "${options}")
+    add_test(NAME scene.${name}.run
+      COMMAND ${run} ${CMAKE_CURRENT_BINARY_DIR}/scenes/${name} ${options})
+    set_tests_properties(scene.${name}.run PROPERTIES LABELS scene PROCESSORS 2
+      ENVIRONMENT "${scene_environment}")
+  elseif(first_line MATCHES "^# test:")
+    message(FATAL_ERROR "${scene}:1: neither '# test: full' nor '# test: short OPTION...'")
+  endif()
+  if(NOT first_line STREQUAL "# test: full")
+    add_test(NAME scene.${name}.full CONFIGURATIONS full
+      COMMAND ${run} ${PROJECT_SOURCE_DIR}/verification/${name})
+    set_tests_properties(scene.${name}.full PROPERTIES LABELS verify
+      ENVIRONMENT OMP_WAIT_POLICY=passive)
+  endif()
+endforeach()

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Grids of the shapes: counts, volumes, boundaries, checks, jitter.
+#include "meniscus/body/shapes.hpp"
+#include "meniscus/core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace meniscus {
+namespace {
+
+using std::numbers::pi;
+
+TEST(Shapes, BallCountsAndVolume) {
+  const Geometry<3> ball = Ball{}.geometry();
+  EXPECT_EQ(ball.grid.node_count(), 4341);
+  EXPECT_EQ(ball.grid.cell_count(), 4000);
+  EXPECT_EQ(ball.grid.facets.size(), 600u);
+  EXPECT_EQ(boundary_nodes(ball.grid).size(), 602u);
+  // Reference value of the cubed sphere with n = 10, m = 5, a = 0.5, w = 0.7.
+  EXPECT_NEAR(volume(ball.grid), 4.1437736935676135, 1e-12);
+  EXPECT_TRUE(ball.smooth);
+}
+
+TEST(Shapes, CylinderCountsAndVolume) {
+  Cylinder cylinder;
+  cylinder.radius = 2;
+  cylinder.height = 0.5;
+  cylinder.centre = {1, 2, 3};
+  const Geometry<3> body = cylinder.geometry();
+  EXPECT_EQ(body.grid.node_count(), 4036);
+  EXPECT_EQ(body.grid.cell_count(), 2916);
+  EXPECT_FALSE(body.smooth);
+  // The cross-section is a regular 72-gon.
+  EXPECT_NEAR(volume(body.grid), 0.5 * 36 * 4 * std::sin(2 * pi / 72), 1e-12);
+  std::array<std::size_t, 3> facets{};
+  for (const auto& facet : body.grid.facets) ++at(facets, facet.patch);
+  EXPECT_EQ(facets, (std::array<std::size_t, 3>{216, 972, 972}));
+}
+
+TEST(Shapes, DiskCountsAndArea) {
+  const Geometry<2> disk = Disk{}.geometry();
+  EXPECT_EQ(disk.grid.node_count(), 1009);
+  EXPECT_EQ(disk.grid.cell_count(), 972);
+  EXPECT_EQ(disk.grid.facets.size(), 72u);
+  EXPECT_NEAR(volume(disk.grid), 36 * std::sin(2 * pi / 72), 1e-13);
+}
+
+TEST(Shapes, EveryCoreAndLayerNumberIsValid) {
+  for (const int core : {1, 2, 5, 12})
+    for (const int layers : {1, 2, 7}) {
+      Ball ball;
+      ball.core = core;
+      ball.layers = layers;
+      Disk disk;
+      disk.core = core;
+      disk.rings = layers;
+      EXPECT_NO_THROW(ball.geometry()) << core << ' ' << layers;
+      EXPECT_NO_THROW(disk.geometry()) << core << ' ' << layers;
+    }
+}
+
+TEST(Shapes, EllipsoidIsAStretchedBall) {
+  Ellipsoid ellipsoid;
+  ellipsoid.semi_axes = {1, 1.5, 2};
+  ellipsoid.centre = {-1, 0, 4};
+  const Geometry<3> body = ellipsoid.geometry();
+  EXPECT_NEAR(volume(body.grid), 3 * 4.1437736935676135, 1e-11);
+  for (const Index i : boundary_nodes(body.grid)) {
+    const Vec<3> X = at(body.grid.X, i) - Vec<3>(-1, 0, 4);
+    EXPECT_NEAR(X.cwiseQuotient(Vec<3>(1, 1.5, 2)).norm(), 1, 1e-14);
+  }
+}
+
+TEST(Shapes, BoxBySpacingFromCorner) {
+  Brick<3> box;
+  box.size = {1, 0.5, 0.25};
+  box.spacing = 0.1;
+  box.corner = {1, 2, 3};
+  const Geometry<3> body = box.geometry();
+  EXPECT_EQ(body.grid.cell_count(), 10 * 5 * 3);
+  EXPECT_EQ(body.grid.node_count(), 11 * 6 * 4);
+  EXPECT_EQ(body.grid.facets.size(), 2u * (50 + 30 + 15));
+  EXPECT_NEAR(volume(body.grid), 0.125, 4e-15);
+  EXPECT_NEAR((body.grid.X.front() - Vec<3>(1, 2, 3)).norm(), 0, 1e-15);
+  EXPECT_NEAR((body.grid.X.back() - Vec<3>(2, 2.5, 3.25)).norm(), 0, 1e-15);
+  std::set<int> patches;
+  for (const auto& facet : body.grid.facets) patches.insert(facet.patch);
+  EXPECT_EQ(patches, (std::set<int>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(Shapes, BoxNeedsCellsOrSpacing) {
+  Brick<2> box;
+  EXPECT_THROW(box.geometry(), InputError);
+  box.spacing = 0.1;
+  box.cells = {10, 10};
+  EXPECT_THROW(box.geometry(), InputError);
+  box.spacing = 0;
+  box.cells = {10, 2.5};
+  EXPECT_THROW(box.geometry(), InputError);
+}
+
+TEST(Shapes, AreRegisteredWithTheirKeys) {
+  for (const char* name : {"ball", "ellipsoid", "cylinder", "box"})
+    EXPECT_TRUE(shapes<3>().count(name)) << name;
+  for (const char* name : {"disk", "ellipse", "rectangle"})
+    EXPECT_TRUE(shapes<2>().count(name)) << name;
+  const auto keys = shapes<3>().at("ball").keys();
+  ASSERT_EQ(keys.size(), 4u);
+  EXPECT_EQ(keys[0].key, "radius");
+  EXPECT_FALSE(keys[0].meaning.empty());
+}
+
+template <int D>
+void expect_outward(const Grid<D>& grid) {
+  for (const auto& facet : grid.facets) {
+    Vec<D> middle = Vec<D>::Zero(), inside = Vec<D>::Zero();
+    for (const Index i : facet.nodes)
+      middle += at(grid.X, i) / static_cast<Real>(facet.nodes.size());
+    for (const Index i : at(grid.cells, facet.cell)) inside += at(grid.X, i) / Grid<D>::corners;
+    const Vec<D> a = at(grid.X, facet.nodes[1]) - at(grid.X, facet.nodes[0]);
+    if constexpr (D == 3) {
+      const Vec<3> b = at(grid.X, facet.nodes[2]) - at(grid.X, facet.nodes[0]);
+      EXPECT_GT(a.cross(b).dot(middle - inside), 0);
+    } else {
+      EXPECT_GT(Vec<2>(a[1], -a[0]).dot(middle - inside), 0);
+    }
+  }
+}
+
+TEST(Grid, FacetsAreOutward) {
+  expect_outward(Ball{}.geometry().grid);
+  expect_outward(Cylinder{}.geometry().grid);
+  expect_outward(Disk{}.geometry().grid);
+}
+
+TEST(Grid, TriangulationEnclosesTheVolume) {
+  const Grid<3> ball = Ball{}.geometry().grid;
+  Real enclosed = 0;
+  for (const auto& t : triangulate_boundary(ball)) {
+    Mat<3> X;
+    for (int a = 0; a < 3; ++a) X.col(a) = at(ball.X, at(t, a));
+    enclosed += X.determinant() / 6;
+  }
+  EXPECT_EQ(triangulate_boundary(ball).size(), 1200u);
+  // The shorter diagonal of a facet on a sphere is the outer one.
+  EXPECT_GT(enclosed, volume(ball));
+  EXPECT_NEAR(enclosed, volume(ball), 1e-3 * enclosed);
+
+  const Grid<2> disk = Disk{}.geometry().grid;
+  Real area = 0;
+  for (const auto& s : triangulate_boundary(disk)) {
+    const Vec<2> a = at(disk.X, s[0]), b = at(disk.X, s[1]);
+    area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+  }
+  EXPECT_NEAR(area, volume(disk), 1e-13);
+}
+
+TEST(Grid, FoldedCellIsNamed) {
+  Brick<2> brick;
+  brick.cells = {2, 2};
+  Grid<2> grid = brick.geometry().grid;
+  std::swap(at(grid.X, 4), at(grid.X, 8));
+  try {
+    check_jacobians(grid, "The test");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("The test folds cell 1 at (0.5, 0)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Grid, SideOfThreeCellsIsRefused) {
+  Brick<2> brick;
+  brick.cells = {2, 1};
+  Grid<2> grid = brick.geometry().grid;
+  grid.cells.push_back(grid.cells.front());
+  EXPECT_THROW(find_boundary(grid), InputError);
+}
+
+TEST(Grid, JitterMovesInteriorNodesReproducibly) {
+  const Grid<3> plain = Ball{}.geometry().grid;
+  Grid<3> first = plain, second = plain, other = plain;
+  jitter_interior(first, 0.2, 1);
+  jitter_interior(second, 0.2, 1);
+  jitter_interior(other, 0.2, 2);
+  std::vector<char> fixed(plain.X.size(), 0);
+  for (const Index i : boundary_nodes(plain)) at(fixed, i) = 1;
+  for (Index i = 0; i < plain.node_count(); ++i) {
+    EXPECT_EQ(at(first.X, i), at(second.X, i));
+    EXPECT_EQ(at(first.X, i) == at(plain.X, i), at(fixed, i) == 1);
+    EXPECT_EQ(at(first.X, i) == at(other.X, i), at(fixed, i) == 1);
+  }
+  EXPECT_NEAR(volume(first), volume(plain), 1e-12);
+}
+
+TEST(Grid, JitterSequenceIsFixed) {
+  Brick<2> brick;
+  brick.cells = {2, 2};
+  brick.size = {2, 2};
+  Grid<2> grid = brick.geometry().grid;
+  jitter_interior(grid, 0.25, 5489);
+  // First two numbers of the standard's mt19937_64 with its default seed 5489.
+  const auto number = [](std::uint64_t bits) {
+    return 0.25 * (2 * (static_cast<Real>(bits >> 11) * 0x1p-53) - 1);
+  };
+  EXPECT_EQ(at(grid.X, 4)[0], number(14514284786278117030ull));
+  EXPECT_EQ(at(grid.X, 4)[1], number(4620546740167642908ull));
+}
+
+TEST(Grid, StrongJitterFoldsNoCell) {
+  Brick<3> brick;
+  brick.cells = {6, 6, 6};
+  Grid<3> grid = brick.geometry().grid;
+  jitter_interior(grid, 0.4, 1);
+  EXPECT_NO_THROW(check_jacobians(grid, "Jitter"));
+}
+
+TEST(Grid, ImpossibleJitterIsRefused) {
+  Grid<2> grid = Disk{}.geometry().grid;
+  EXPECT_THROW(jitter_interior(grid, 1e6, 1), InputError);
+  EXPECT_THROW(jitter_interior(grid, -0.1, 1), InputError);
+}
+
+TEST(Grid, GaussPointsIntegratePolynomials) {
+  Brick<3> brick;
+  brick.cells = {2, 3, 1};
+  brick.corner = {0, 0, 0};
+  const CellPoints<3> points = cell_gauss_points(brick.geometry().grid, 3);
+  EXPECT_EQ(points.per_cell, 27);
+  Real sum = 0;
+  for (std::size_t q = 0; q < points.X.size(); ++q)
+    sum += points.weight[q] * std::pow(points.X[q][0], 5) * std::pow(points.X[q][2], 4);
+  EXPECT_NEAR(sum, 1.0 / 30, 1e-15);
+}
+
+}  // namespace
+}  // namespace meniscus
