@@ -70,7 +70,7 @@ Rows<Brick<D>> Brick<D>::rows() {
       alternative_row<Brick>(
           "spacing", "number", dimension::length, "largest edge of a cell; this or cells",
           [](Brick& m, const Block& block) {
-            m.spacing = block.real("spacing", dimension::length, range::positive, {}).value_or(0);
+            m.spacing = block.real("spacing", dimension::length, range::positive, {});
           }),
       alternative_row<Brick>("corner", numbers, dimension::length, "lowest corner; this or centre",
                              [](Brick& m, const Block& block) {
