@@ -40,7 +40,7 @@ class MaterialOf final : public Material<D> {
     if (integration.rule == "q_scni") {
       CellOperator<D> op = build_cell_rule(body);
       std::vector<Vec<D>> places;
-      for (Index L = 0; L < body.size(); ++L) places.push_back(body.cells.centroid(L));
+      for (Index A = 0; A < body.size(); ++A) places.push_back(body.cells.centroid(A));
       return put(body, std::move(op.rule), places, op.shape_integral);
     }
     const bool gauss = integration.rule == "gauss";
