@@ -20,24 +20,25 @@
 namespace meniscus::hdf5 {
 namespace {
 
-constexpr herr_t done = 0, failure = -1;
+constexpr herr_t done = 0;
 
 /// Leaves the reason where HDF5, and so the messages of hdf5::check(), look for it.
 herr_t fail(const char* what) {
-  H5Epush2(H5E_DEFAULT, __FILE__, what, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_WRITEERROR,
-           "%s failed, error message = '%s'", what, std::strerror(errno));
-  return failure;
+  H5Epush2(H5E_DEFAULT, __FILE__, what, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_CANTOPENFILE,
+           "%s, error message = '%s'", what, std::strerror(errno));
+  return -1;
 }
 
-herr_t write_all(int file, haddr_t address, std::string_view bytes) {
+/// 0, or the number of the error.
+int write_all(int file, haddr_t address, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(address));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return fail("write");
+    if (n < 0 && errno != EINTR) return errno;
+    if (n < 0) continue;
     address += static_cast<haddr_t>(n);
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
-  return done;
+  return 0;
 }
 
 /// A change of what is already on the disk.
@@ -86,17 +87,17 @@ struct OrderedFile : H5FD_t {
   haddr_t end_of_file = 0;       ///< on the disk
   haddr_t flushed_end = 0;       ///< end of what the file on the disk refers to
   std::vector<Change> changes;   ///< in the order in which they came
-  bool failed = false;
+  int error = 0;                 ///< errno of the first write that failed
 
-  herr_t write(H5FD_mem_t kind, haddr_t address, std::string_view bytes) {
-    if (address < flushed_end) {
-      Change change{kind, address, std::string(bytes)};
-      std::erase_if(changes, [&](const Change& earlier) { return change.covers(earlier); });
-      changes.push_back(std::move(change));
-      return done;
+  void write(H5FD_mem_t kind, haddr_t address, std::string_view bytes) {
+    if (!error && address >= flushed_end) {
+      end_of_file = std::max(end_of_file, address + bytes.size());
+      error = write_all(descriptor, address, bytes);
+      if (!error) return;
     }
-    end_of_file = std::max(end_of_file, address + bytes.size());
-    return note(write_all(descriptor, address, bytes));
+    Change change{kind, address, std::string(bytes)};
+    std::erase_if(changes, [&](const Change& earlier) { return change.covers(earlier); });
+    changes.push_back(std::move(change));
   }
 
   herr_t read(haddr_t address, std::size_t size, char* buffer) const {
@@ -120,11 +121,7 @@ struct OrderedFile : H5FD_t {
     return done;
   }
 
-  herr_t flush() {
-    if (failed) {
-      errno = EIO;
-      return fail("an earlier write");
-    }
+  void flush() {
     std::vector<const Change*> order;
     for (const Change& change : changes) order.push_back(&change);
     // Of two changes of the same bytes the later one counts: then the order is not ours to choose.
@@ -132,25 +129,21 @@ struct OrderedFile : H5FD_t {
       std::stable_sort(order.begin(), order.end(),
                        [](const Change* a, const Change* b) { return a->rank() < b->rank(); });
     for (const Change* change : order)
-      if (note(write_all(descriptor, change->address, change->bytes)) < 0) return failure;
+      if (!error) error = write_all(descriptor, change->address, change->bytes);
+    if (error) return;
     changes.clear();
     flushed_end = end_of_addresses;
-    return resize();
+    resize();
   }
 
   /// A file grows at once; it shrinks when nothing on the disk refers to its end any more.
-  herr_t resize() {
-    if (end_of_addresses == end_of_file) return done;
-    if (end_of_addresses < end_of_file && !changes.empty()) return done;
+  void resize() {
+    const bool shrinks = end_of_addresses < end_of_file;
+    if (error || end_of_addresses == end_of_file || (shrinks && !changes.empty())) return;
     if (ftruncate(descriptor, static_cast<off_t>(end_of_addresses)) != 0)
-      return note(fail("resize"));
-    end_of_file = end_of_addresses;
-    return done;
-  }
-
-  herr_t note(herr_t status) {
-    failed = failed || status < 0;
-    return status;
+      error = errno;
+    else
+      end_of_file = end_of_addresses;
   }
 };
 
@@ -179,10 +172,10 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
 
 herr_t close_file(H5FD_t* file) {
   OrderedFile& ordered = self(file);
-  const herr_t status = ordered.failed ? failure : ordered.flush();
-  const int closed = close(ordered.descriptor);
+  ordered.flush();
+  close(ordered.descriptor);
   delete &ordered;
-  return status < 0 || closed != 0 ? failure : done;
+  return done;
 }
 
 int compare(const H5FD_t* a, const H5FD_t* b) {
@@ -219,10 +212,21 @@ H5FD_class_t driver_class() {
   };
   c.write = [](H5FD_t* f, H5FD_mem_t kind, hid_t, haddr_t address, std::size_t size,
                const void* buffer) {
-    return self(f).write(kind, address, {static_cast<const char*>(buffer), size});
+    self(f).write(kind, address, {static_cast<const char*>(buffer), size});
+    return done;
   };
-  c.flush = [](H5FD_t* f, hid_t, hbool_t) { return self(f).flush(); };
-  c.truncate = [](H5FD_t* f, hid_t, hbool_t) { return self(f).resize(); };
+  c.flush = [](H5FD_t* f, hid_t, hbool_t) {
+    self(f).flush();
+    return done;
+  };
+  c.truncate = [](H5FD_t* f, hid_t, hbool_t) {
+    self(f).resize();
+    return done;
+  };
+  c.get_handle = [](H5FD_t* f, hid_t, void** handle) {
+    *handle = &self(f).error;
+    return done;
+  };
   constexpr H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;  // raw data apart from metadata
   std::copy(std::begin(map), std::end(map), c.fl_map);
   return c;
@@ -235,6 +239,12 @@ void use_ordered_writes(std::int64_t access) {
   static const hid_t driver = H5FDregister(&properties);
   check(driver, "prepare HDF5");
   check(H5Pset_driver(access, driver, nullptr), "prepare HDF5");
+}
+
+int write_error(std::int64_t file) {
+  void* error = nullptr;
+  check(H5Fget_vfd_handle(file, H5P_DEFAULT, &error), "write a file");
+  return *static_cast<const int*>(error);
 }
 
 }  // namespace meniscus::hdf5

@@ -7,7 +7,11 @@
 // flush straight to the disk, where nothing refers to it, and keeps changes inside that end in
 // memory. A flush then makes the changes in an order in which each one is harmless without the
 // next: raw data, superblock (end of file), names, index nodes from the root down, group entries,
-// object headers. If a write fails, the file stays as it was at the last flush.
+// object headers.
+//
+// HDF5 does not stand a write that fails (it crashes when the file is closed). The driver therefore
+// never reports one: it notes the reason, leaves the file as it was at the last flush, and keeps in
+// memory what comes later. Who flushes asks for write_error().
 #pragma once
 #include <cstdint>
 
@@ -15,5 +19,8 @@ namespace meniscus::hdf5 {
 
 /// Makes files opened with the access properties `access` be written this way. Throws FileError.
 void use_ordered_writes(std::int64_t access);
+
+/// Number (errno) of the first error in writing the open file `file`, 0 if there was none.
+int write_error(std::int64_t file);
 
 }  // namespace meniscus::hdf5

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include "files.hpp"
 #include "hdf5_driver.hpp"
 
 namespace meniscus::hdf5 {
@@ -141,6 +142,7 @@ Group File::root() const {
 
 void File::flush() {
   check(H5Fflush(handle_, H5F_SCOPE_LOCAL), fmt::format("write '{}'", path_.string()));
+  if (const int error = write_error(handle_)) throw_file_error("write", path_, error);
 }
 
 void File::close() {

@@ -154,11 +154,11 @@ TEST_F(Results, SummaryNamesBodiesFieldsAndFrames) {
   ResultFile file = open(directory, {.time_unit = "ps"});
   write(file, 0);
   write(file, 20, &state(20));
-  const std::string text = describe_file(path());
+  const std::string text = describe_file(path()), version = build().version;
   for (const char* part :
        {"drop                     2 particles", "wall                     3 particles",
         "pressure                 float64  1 component, Pa",
-        "step 20         time 2            ps  with state", build().version.c_str()})
+        "step 20         time 2            ps  with state", version.c_str()})
     EXPECT_NE(text.find(part), text.npos) << part << " is missing in\n" << text;
   EXPECT_THROW(describe_file(path() / "absent.h5"), FileError);
 }
