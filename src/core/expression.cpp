@@ -87,10 +87,14 @@ std::vector<std::string> known_names(const mu::Parser& parser) {
   return names;
 }
 
-/// The parser would take a single = as an assignment to x, y, z or t, and "1, 2" as two results.
-void refuse_assignment(const std::string& formula) {
+/// Refuses what muParser would misread without a word: a control character ends the formula for it,
+/// and a single = assigns to x, y, z or t.
+void refuse_traps(const std::string& formula) {
   constexpr std::string_view partners = "=!<>";
   for (std::size_t i = 0; i < formula.size(); ++i) {
+    if (static_cast<unsigned char>(formula[i]) < 0x20)
+      throw InputError(fmt::format("a formula has a control character (byte {}) at character {}",
+                                   static_cast<int>(formula[i]), i + 1));
     if (formula[i] != '=') continue;
     const bool closes = i > 0 && partners.find(formula[i - 1]) != std::string_view::npos;
     const bool opens = i + 1 < formula.size() && formula[i + 1] == '=';
@@ -140,7 +144,7 @@ std::string explain(const mu::ParserError& error, const mu::Parser& parser,
 Expression::Expression(Real value) : text_(fmt::format("{}", value)), value_(value) {}
 
 Expression::Expression(std::string formula) : text_(std::move(formula)) {
-  refuse_assignment(text_);
+  refuse_traps(text_);
   auto parsed = std::make_shared<Parsed>();
   try {
     define_language(parsed->parser, parsed->variables);

@@ -52,9 +52,25 @@ Value converted(const toml::node& node) {
   }
 }
 
+/// The parser limits nested values but not dotted keys, a.a.a...; each dot is a level of recursion
+/// for it, and enough of them overflow the stack. Of a row of dots in a comment only the first
+/// counts.
+void refuse_deep_keys(std::string_view toml, const std::string& name) {
+  constexpr int max_dots = 100;
+  constexpr std::string_view separators = ",=[]{}\n";
+  int dots = 0, line = 1;
+  for (std::size_t i = 0; i < toml.size(); ++i) {
+    if (toml[i] == '\n') ++line;
+    if (separators.find(toml[i]) != std::string_view::npos) dots = 0;
+    if (toml[i] == '.' && i > 0 && toml[i - 1] != '.' && ++dots > max_dots)
+      throw InputError(fmt::format("{}:{}:1: a key has more than {} dots", name, line, max_dots));
+  }
+}
+
 }  // namespace
 
 Value parse(std::string_view toml, const std::string& name) {
+  refuse_deep_keys(toml, name);
   try {
     return {converted(static_cast<const toml::table&>(toml::parse(toml))), Place{}};
   } catch (const toml::parse_error& error) {

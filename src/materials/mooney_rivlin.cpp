@@ -49,7 +49,7 @@ struct MooneyRivlin {
   ///   = 2 k (F - F^-T) + 4 c2 F (tr(E) I - E) - 2 b F^-T with k = c1 + 2 c2 and b = beta - k;
   /// F - F^-T without cancellation as in neo_hookean.
   template <class T>
-  Tensor<T> stress(const Tensor<T>& H) const {
+  [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     const T theta = volume_change(H), L = log1p(theta);
     const T q = expm1((2.0 / 3.0) * L);  // I3^(1/3) - 1
     const Real k = c1 + 2 * c2;

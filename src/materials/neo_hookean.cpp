@@ -39,7 +39,7 @@ struct NeoHookean {
   /// P = mu (F - F^-T) + lambda (J - 1) cof F. With F^-T = cof F/J, J = 1 + theta and
   /// cof F = (1 + tr H) I - H^T + cof H nothing of order one is left to cancel.
   template <class T>
-  Tensor<T> stress(const Tensor<T>& H) const {
+  [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     const T theta = volume_change(H);
     const T a = mu / (1.0 + theta), b = lambda * theta;
     const T diagonal = a * higher_volume_change(H) + b * (1.0 + trace(H));

@@ -57,13 +57,14 @@ struct Newtonian {
 
   /// P = U'(J) cof F.
   template <class T>
-  Tensor<T> stress(const Tensor<T>& H) const {
+  [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     return mean_stress(volume_change(H)) * cofactor_of_deformation(H);
   }
 
   /// P = sigma_v cof F with d from l = dF/dt F^-1 = M/J, M = dF/dt (cof F)^T.
   template <class T>
-  Tensor<T> viscous_stress(const Tensor<T>& H, const Tensor<T>& F_rate) const {
+  [[gnu::always_inline]] Tensor<T> viscous_stress(const Tensor<T>& H,
+                                                  const Tensor<T>& F_rate) const {
     const Tensor<T> cof_F = cofactor_of_deformation(H);
     const Tensor<T> M = F_rate * transpose(cof_F);
     const T over_J = 1.0 / (1.0 + volume_change(H));
@@ -75,7 +76,7 @@ struct Newtonian {
  private:
   /// All points of a body take the same branch.
   template <class T>
-  T mean_stress(const T& theta) const {
+  [[gnu::always_inline]] T mean_stress(T theta) const {
     switch (equation_of_state) {
       case EquationOfState::linear:
         return bulk_modulus * theta;
@@ -91,8 +92,8 @@ struct Newtonian {
     Row<Newtonian> row;
     row.key = "equation_of_state";
     row.type = "text";
-    row.unit = "1";
-    row.range = "linear, log or tait";
+    row.unit = "";
+    row.range = "linear | log | tait";
     row.fallback = "log";
     row.meaning = "how the pressure depends on J; equal to first order";
     row.read = [](Newtonian& fluid, const Block& block) {

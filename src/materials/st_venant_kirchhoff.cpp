@@ -41,7 +41,7 @@ struct StVenantKirchhoff {
 
   /// P = F S with S = lambda tr(E) I + 2 mu E.
   template <class T>
-  Tensor<T> stress(const Tensor<T>& H) const {
+  [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     const Tensor<T> E = green_strain(H);
     const Tensor<T> S = add_diagonal(T(2 * mu) * E, lambda * trace(E));
     return S + H * S;

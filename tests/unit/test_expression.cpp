@@ -110,7 +110,8 @@ TEST(Expression, Messages) {
   EXPECT_EQ(message("x = 3"),
             "formula 'x = 3': '=' at character 3 is not allowed; equality is written ==");
   EXPECT_EQ(message("x, y"), "formula 'x, y': ',' outside of a function");
-  EXPECT_NE(message(std::string("x\0*q", 4)), "no error");
+  EXPECT_EQ(message(std::string("x\0*q", 4)),
+            "a formula has a control character (byte 0) at character 2");
   EXPECT_NE(message("\"x\""), "no error");
   EXPECT_NE(message("x=y"), "no error");
   EXPECT_NE(message("x <== y"), "no error");

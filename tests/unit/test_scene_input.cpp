@@ -32,6 +32,13 @@ TEST(Input, SyntaxErrorsCarryTheirPlace) {
   EXPECT_EQ(syntax_report("a = "),
             "s.toml:1:5: Error while parsing key-value pair: encountered end-of-file");
   EXPECT_EQ(syntax_report("a = \"\xff\""), "s.toml:1:5: Encountered invalid utf-8 sequence");
+  std::string deep = "\n[a";
+  for (int i = 0; i < 100000; ++i) deep += ".a";
+  EXPECT_EQ(syntax_report(deep + "]"), "s.toml:2:1: a key has more than 100 dots");
+  EXPECT_EQ(syntax_report("# " + std::string(300, '.')), "");
+  EXPECT_EQ(syntax_report("a = " + std::string(300, '[')),
+            "s.toml:1:261: Error while parsing value: exceeded maximum nested value depth of 256 "
+            "(TOML_MAX_NESTED_VALUES)");
   EXPECT_EQ(syntax_report(std::string_view("a = \0 1", 7)).find("s.toml:1:"), 0u);
 }
 

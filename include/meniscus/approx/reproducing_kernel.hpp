@@ -65,8 +65,9 @@ class ReproducingKernel {
   };
 
   template <class W>
-  void evaluate_window(const std::array<Vec<D>, 4>& points,
-                       std::span<const Candidate<D>> candidates, Derivatives order);
+  void evaluate_windows(const std::array<Vec<D>, 4>& points,
+                        std::span<const Candidate<D>> candidates, Derivatives order,
+                        Real inverse_H);
   void factorise_moments();
   BasisVector solve(const BasisVector& right_hand_side) const;
   static BasisVector basis(const std::array<Lanes, D>& s);
@@ -78,5 +79,12 @@ class ReproducingKernel {
   BasisVector scale_, inverse_pivot_;
   Lanes quality_ = Lanes::zero();
 };
+
+extern template class ReproducingKernel<2, 1>;
+extern template class ReproducingKernel<2, 2>;
+extern template class ReproducingKernel<2, 3>;
+extern template class ReproducingKernel<3, 1>;
+extern template class ReproducingKernel<3, 2>;
+extern template class ReproducingKernel<3, 3>;
 
 }  // namespace meniscus

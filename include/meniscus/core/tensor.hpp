@@ -2,6 +2,9 @@
 // A 3x3 tensor of any scalar: double in tests and output, four stress points at once in the time
 // loop, complex for the complex-step derivative. Materials are written with it, always in three
 // dimensions (2D is plane strain: F33 = 1), so that no trace or deviator can be wrong in 2D.
+//
+// Everything is inlined by force: g++ keeps some of these as calls in a large stress function,
+// which then takes twice as long because common subexpressions and registers are lost at each call.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -21,23 +24,23 @@ struct Tensor {
     return {{{d, o, o}, {o, d, o}, {o, o, d}}};
   }
 
-  friend Tensor operator+(const Tensor& x, const Tensor& y) {
+  [[gnu::always_inline]] friend Tensor operator+(const Tensor& x, const Tensor& y) {
     return map([&](int i, int j) { return x(i, j) + y(i, j); });
   }
-  friend Tensor operator-(const Tensor& x, const Tensor& y) {
+  [[gnu::always_inline]] friend Tensor operator-(const Tensor& x, const Tensor& y) {
     return map([&](int i, int j) { return x(i, j) - y(i, j); });
   }
-  friend Tensor operator*(const T& s, const Tensor& x) {
+  [[gnu::always_inline]] friend Tensor operator*(const T& s, const Tensor& x) {
     return map([&](int i, int j) { return s * x(i, j); });
   }
-  friend Tensor operator*(const Tensor& x, const Tensor& y) {
+  [[gnu::always_inline]] friend Tensor operator*(const Tensor& x, const Tensor& y) {
     return map(
         [&](int i, int j) { return x(i, 0) * y(0, j) + x(i, 1) * y(1, j) + x(i, 2) * y(2, j); });
   }
 
   /// The tensor whose components are f(i, j).
   template <class F>
-  static Tensor map(F&& f) {
+  [[gnu::always_inline]] static Tensor map(F&& f) {
     Tensor t;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) t.a[i][j] = f(i, j);
@@ -46,18 +49,18 @@ struct Tensor {
 };
 
 template <class T>
-Tensor<T> transpose(const Tensor<T>& x) {
+[[gnu::always_inline]] inline Tensor<T> transpose(const Tensor<T>& x) {
   return Tensor<T>::map([&](int i, int j) { return x(j, i); });
 }
 
 template <class T>
-T trace(const Tensor<T>& x) {
+[[gnu::always_inline]] inline T trace(const Tensor<T>& x) {
   return x(0, 0) + x(1, 1) + x(2, 2);
 }
 
 /// Double contraction x:y = x_ij y_ij.
 template <class T>
-T contract(const Tensor<T>& x, const Tensor<T>& y) {
+[[gnu::always_inline]] inline T contract(const Tensor<T>& x, const Tensor<T>& y) {
   T s = x(0, 0) * y(0, 0);
   for (int k = 1; k < 9; ++k) s = s + x(k / 3, k % 3) * y(k / 3, k % 3);
   return s;
@@ -65,7 +68,7 @@ T contract(const Tensor<T>& x, const Tensor<T>& y) {
 
 /// cof x = det(x) x^-T.
 template <class T>
-Tensor<T> cofactor(const Tensor<T>& x) {
+[[gnu::always_inline]] inline Tensor<T> cofactor(const Tensor<T>& x) {
   return Tensor<T>::map([&](int i, int j) {
     const int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
     return x(p, r) * x(q, s) - x(p, s) * x(q, r);
@@ -73,7 +76,7 @@ Tensor<T> cofactor(const Tensor<T>& x) {
 }
 
 template <class T>
-T determinant(const Tensor<T>& x) {
+[[gnu::always_inline]] inline T determinant(const Tensor<T>& x) {
   return x(0, 0) * (x(1, 1) * x(2, 2) - x(1, 2) * x(2, 1)) +
          x(0, 1) * (x(1, 2) * x(2, 0) - x(1, 0) * x(2, 2)) +
          x(0, 2) * (x(1, 0) * x(2, 1) - x(1, 1) * x(2, 0));
@@ -81,20 +84,20 @@ T determinant(const Tensor<T>& x) {
 
 /// x + s I.
 template <class T>
-Tensor<T> add_diagonal(Tensor<T> x, const T& s) {
+[[gnu::always_inline]] inline Tensor<T> add_diagonal(Tensor<T> x, const T& s) {
   for (int i = 0; i < 3; ++i) x(i, i) = x(i, i) + s;
   return x;
 }
 
 /// F = I + H.
 template <class T>
-Tensor<T> deformation_gradient(const Tensor<T>& H) {
+[[gnu::always_inline]] inline Tensor<T> deformation_gradient(const Tensor<T>& H) {
   return add_diagonal(H, T(1.0));
 }
 
 /// J - 1 - tr H from H = F - I: (tr^2 H - tr H^2)/2 + det H, the volume change beyond first order.
 template <class T>
-T higher_volume_change(const Tensor<T>& H) {
+[[gnu::always_inline]] inline T higher_volume_change(const Tensor<T>& H) {
   const T second = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0) + H(1, 1) * H(2, 2) - H(1, 2) * H(2, 1) +
                    H(2, 2) * H(0, 0) - H(2, 0) * H(0, 2);
   return second + determinant(H);
@@ -102,19 +105,19 @@ T higher_volume_change(const Tensor<T>& H) {
 
 /// J - 1 from H = F - I without cancellation.
 template <class T>
-T volume_change(const Tensor<T>& H) {
+[[gnu::always_inline]] inline T volume_change(const Tensor<T>& H) {
   return trace(H) + higher_volume_change(H);
 }
 
 /// cof F = J F^-T from H = F - I: (1 + tr H) I - H^T + cof H.
 template <class T>
-Tensor<T> cofactor_of_deformation(const Tensor<T>& H) {
+[[gnu::always_inline]] inline Tensor<T> cofactor_of_deformation(const Tensor<T>& H) {
   return add_diagonal(cofactor(H) - transpose(H), 1.0 + trace(H));
 }
 
 /// Green strain E = (H + H^T + H^T H)/2 from H = F - I, accurate near the identity.
 template <class T>
-Tensor<T> green_strain(const Tensor<T>& H) {
+[[gnu::always_inline]] inline Tensor<T> green_strain(const Tensor<T>& H) {
   const Tensor<T> HtH = transpose(H) * H;
   return Tensor<T>::map([&](int i, int j) { return T(0.5) * (H(i, j) + H(j, i) + HtH(i, j)); });
 }

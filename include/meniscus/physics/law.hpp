@@ -11,8 +11,9 @@
 // loop) and Complex (complex-step derivatives). Hence the rules for law code:
 //   - no comparison, abs, min or max of anything that depends on the argument;
 //   - transpose never conjugates; no norm; sqrt only where its argument cannot vanish;
+//   - stress and viscous_stress are [[gnu::always_inline]]: as calls they take up to twice as long;
 //   - a choice that the whole body shares (an equation of state) may be a branch on a number of the
-//     law: it is predicted, and measured to cost nothing;
+//     law: inlined into the loop it costs nothing measurable;
 //   - laws are defined for J > 0 and do not test it: the caller stops the run at J <= 0.
 #pragma once
 #include "meniscus/core/elementary.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Moment sums, their factorisation and the evaluation of shape functions, four points at a time.
+// Included by one source file per degree of the basis: the unrolled sums take long to compile.
+#pragma once
 #include "meniscus/approx/reproducing_kernel.hpp"
 
 #include <algorithm>
@@ -90,24 +92,13 @@ auto ReproducingKernel<D, Degree>::solve(const BasisVector& right_hand_side) con
 
 template <int D, int Degree>
 template <class W>
-void ReproducingKernel<D, Degree>::evaluate_window(const std::array<Vec<D>, 4>& points,
-                                                   std::span<const Candidate<D>> candidates,
-                                                   Derivatives order) {
-  constexpr auto n = static_cast<std::size_t>(basis_size);
-  constexpr auto pairs = static_cast<std::size_t>(hessian_count(D));
-  static constexpr auto product = monomial_products<D, Degree>();
+void ReproducingKernel<D, Degree>::evaluate_windows(const std::array<Vec<D>, 4>& points,
+                                                    std::span<const Candidate<D>> candidates,
+                                                    Derivatives order, Real inverse_H) {
   const bool first = order != Derivatives::none, second = order == Derivatives::second;
-
   std::array<Lanes, D> x;
   for (int i = 0; i < D; ++i) at(x, i) = {points[0][i], points[1][i], points[2][i], points[3][i]};
-  Real H = 0;
-  for (const auto& c : candidates) H = std::max(H, c.support);
-  const Real inverse_H = 1 / H;
-
-  // Windows and moments.
   kernel_.resize(candidates.size());
-  std::array<Lanes, static_cast<std::size_t>(monomial_count(D, 2 * Degree))> moment;
-  moment.fill(Lanes::zero());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     Kernel& kernel = kernel_[k];
     const Candidate<D>& c = candidates[k];
@@ -118,22 +109,41 @@ void ReproducingKernel<D, Degree>::evaluate_window(const std::array<Vec<D>, 4>& 
       r2 += at(d, i) * at(d, i);
       at(kernel.s, i) = at(d, i) * inverse_H;
     }
-    const Lanes r = sqrt(r2);
     const Real inverse_support = 1 / c.support;
-    const WindowValue w = W::at(r * inverse_support);
+    const WindowValue w = W::at(sqrt(r2) * inverse_support);
     kernel.phi = w.phi;
-    if (first) {
-      const Lanes alpha = w.alpha * (inverse_support * inverse_support);
-      for (int i = 0; i < D; ++i) at(kernel.phi_i, i) = -alpha * at(d, i);
-      if (second) {
-        const Lanes beta = w.beta * (inverse_support * inverse_support) / max(r2, 1e-300);
-        for (int i = 0; i < D; ++i)
-          for (int j = i; j < D; ++j)
-            at(kernel.phi_ij, hessian_index(D, i, j)) =
-                i == j ? alpha + beta * at(d, i) * at(d, i) : beta * at(d, i) * at(d, j);
-      }
-    }
-    const auto m = monomials_at<D, 2 * Degree>(kernel.s, w.phi);
+    if (!first) continue;
+    const Lanes alpha = w.alpha * (inverse_support * inverse_support);
+    for (int i = 0; i < D; ++i) at(kernel.phi_i, i) = -alpha * at(d, i);
+    if (!second) continue;
+    const Lanes beta = w.beta * (inverse_support * inverse_support) / max(r2, 1e-300);
+    for (int i = 0; i < D; ++i)
+      for (int j = i; j < D; ++j)
+        at(kernel.phi_ij, hessian_index(D, i, j)) =
+            i == j ? alpha + beta * at(d, i) * at(d, i) : beta * at(d, i) * at(d, j);
+  }
+}
+
+template <int D, int Degree>
+void ReproducingKernel<D, Degree>::evaluate(const std::array<Vec<D>, 4>& points,
+                                            std::span<const Candidate<D>> candidates,
+                                            Derivatives order) {
+  constexpr auto n = static_cast<std::size_t>(basis_size);
+  constexpr auto pairs = static_cast<std::size_t>(hessian_count(D));
+  static constexpr auto product = monomial_products<D, Degree>();
+  const bool first = order != Derivatives::none, second = order == Derivatives::second;
+
+  Real H = 0;
+  for (const auto& c : candidates) H = std::max(H, c.support);
+  const Real inverse_H = 1 / H;
+  with_window(window_, [&](auto w) {
+    evaluate_windows<decltype(w)>(points, candidates, order, inverse_H);
+  });
+
+  std::array<Lanes, static_cast<std::size_t>(monomial_count(D, 2 * Degree))> moment;
+  moment.fill(Lanes::zero());
+  for (const Kernel& kernel : kernel_) {
+    const auto m = monomials_at<D, 2 * Degree>(kernel.s, kernel.phi);
     unroll<m.size()>([&](auto a) { moment[a] += m[a]; });
   }
   for (std::size_t a = 0; a < n; ++a)
@@ -204,19 +214,5 @@ void ReproducingKernel<D, Degree>::evaluate_window(const std::array<Vec<D>, 4>& 
                                    Pc_i[j] * kernel.phi_i[i] + Pc * kernel.phi_ij[ij];
   }
 }
-
-template <int D, int Degree>
-void ReproducingKernel<D, Degree>::evaluate(const std::array<Vec<D>, 4>& points,
-                                            std::span<const Candidate<D>> candidates,
-                                            Derivatives order) {
-  with_window(window_, [&](auto w) { evaluate_window<decltype(w)>(points, candidates, order); });
-}
-
-template class ReproducingKernel<2, 1>;
-template class ReproducingKernel<2, 2>;
-template class ReproducingKernel<2, 3>;
-template class ReproducingKernel<3, 1>;
-template class ReproducingKernel<3, 2>;
-template class ReproducingKernel<3, 3>;
 
 }  // namespace meniscus
