@@ -141,12 +141,10 @@ NodalCells<D>::NodalCells(const Grid<D>& grid)
 }
 
 template <int D>
-void NodalCells<D>::quadrature(Index node, CellQuadrature<D>& q) const {
+void NodalCells<D>::volume_points(Index node, CellQuadrature<D>& q) const {
   const auto& table = OctantTable<D>::instance();
   q.volume_X.clear();
   q.volume_w.clear();
-  q.facet_X.clear();
-  q.facet_dA.clear();
   for (const auto& [cell, corner] : octants_.of(node)) {
     const Corners<D> corners = gather(*grid_, cell);
     for (const auto& p : table.volume(corner)) {
@@ -154,22 +152,37 @@ void NodalCells<D>::quadrature(Index node, CellQuadrature<D>& q) const {
       q.volume_X.push_back(corners * p.N);
       q.volume_w.push_back(p.w * J.determinant());
     }
+  }
+}
+
+template <int D>
+void NodalCells<D>::facet_points(Index node, CellQuadrature<D>& q) const {
+  const auto& table = OctantTable<D>::instance();
+  q.facet_X.clear();
+  q.facet_dA.clear();
+  for (const auto& [cell, corner] : octants_.of(node)) {
+    const Corners<D> corners = gather(*grid_, cell);
     for (int k = 0; k < D; ++k)
       append_facet<D>(q, corners, table.inner(corner, k), k, -corner_sign(corner, k));
   }
   q.body_facets_begin = q.facet_X.size();
-  for (const auto& [cell, corner] : octants_.of(node)) {
+  for (const auto& [cell, corner] : octants_.of(node))
     for (int k = 0; k < D; ++k) {
       const int side = 2 * k + ((corner >> k) & 1);
       if ((at(boundary_sides_, cell) >> side) & 1)
         append_facet<D>(q, gather(*grid_, cell), table.outer(corner, k), k, corner_sign(corner, k));
     }
-  }
+}
+
+template <int D>
+void NodalCells<D>::quadrature(Index node, CellQuadrature<D>& q) const {
+  volume_points(node, q);
+  facet_points(node, q);
 }
 
 template <int D>
 void NodalCells<D>::integrate(Index node, CellQuadrature<D>& q) {
-  quadrature(node, q);
+  volume_points(node, q);
   // Moments about the node, not the origin: no cancellation far from it.
   const Vec<D>& origin = at(grid_->X, node);
   Real V = 0;

@@ -31,10 +31,8 @@ Geometry<D> read_geometry(const Block& block) {
   const std::string name = block.choice("shape", names, {});
   const Real jitter = block.real("jitter", dimension::none, {0, 0.5}, 0.0);
   const auto seed = block.integer("jitter_seed", range::non_negative, 1);
-  const auto kind = shapes<D>().find(name);
-  if (kind == shapes<D>().end()) return stand_in<D>();
   try {
-    Geometry<D> geometry = kind->second.make(block);
+    Geometry<D> geometry = shapes<D>().at(name).make(block);
     if (jitter > 0) jitter_interior(geometry.grid, jitter, static_cast<std::uint64_t>(seed));
     return geometry;
   } catch (const InputError& error) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -102,6 +103,12 @@ TEST(Shapes, BoxNeedsCellsOrSpacing) {
   box.spacing = 0;
   box.cells = {10, 2.5};
   EXPECT_THROW(box.geometry(), InputError);
+  box.cells = {1e5, 1e5};
+  EXPECT_THROW(box.geometry(), InputError);
+  box.cells = {2, 2};
+  EXPECT_NO_THROW(box.geometry());
+  box.corner = box.centre = {0, 0};
+  EXPECT_THROW(box.geometry(), InputError);
 }
 
 TEST(Shapes, AreRegisteredWithTheirKeys) {
@@ -129,6 +136,61 @@ void expect_outward(const Grid<D>& grid) {
     } else {
       EXPECT_GT(Vec<2>(a[1], -a[0]).dot(middle - inside), 0);
     }
+  }
+}
+
+TEST(Shapes, AreReadFromScenes) {
+  const auto scene = SceneInput::from_text(R"(
+    [disk]
+    shape = "disk"
+    radius = "2 mm"
+    core = 4
+    rings = 2
+    centre = [1, 0]
+    [box]
+    shape = "box"
+    size = [1, 1, 2]
+    spacing = 0.5
+    jitter = 0.2
+    jitter_seed = 3
+  )");
+  const Block disk = *scene.root().table("disk"), box = *scene.root().table("box");
+  const Geometry<2> round = read_geometry<2>(disk);
+  const Geometry<3> jittered = read_geometry<3>(box);
+  disk.done();
+  box.done();
+  scene.check();
+  EXPECT_EQ(round.grid.cell_count(), 16 + 32);
+  EXPECT_NEAR(volume(round.grid), 8 * std::sin(2 * pi / 16) * 4e-6, 1e-18);
+  EXPECT_EQ(jittered.grid.cell_count(), 16);
+  EXPECT_NE(at(jittered.grid.X, 13), Vec<3>(0, 0, -0.5));
+}
+
+TEST(Shapes, ProblemsOfScenesAreNotedOnce) {
+  const auto scene = SceneInput::from_text(R"(
+    [one]
+    shape = "rectangle"
+    size = [1, 1]
+    [two]
+    shape = "disk"
+    radius = -1
+    [three]
+    shape = "disc"
+    radius = 1
+  )");
+  for (const char* name : {"one", "two", "three"}) {
+    const Block block = *scene.root().table(name);
+    EXPECT_GT(read_geometry<2>(block).grid.cell_count(), 0);
+  }
+  try {
+    scene.check();
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string report = error.what();
+    EXPECT_EQ(std::count(report.begin(), report.end(), '\n'), 2) << report;
+    EXPECT_NE(report.find("cells per direction or the spacing"), std::string::npos) << report;
+    EXPECT_NE(report.find("two.radius"), std::string::npos) << report;
+    EXPECT_NE(report.find("three.shape"), std::string::npos) << report;
   }
 }
 

@@ -41,6 +41,8 @@ class NodalCells {
   void quadrature(Index node, CellQuadrature<D>& q) const;
 
  private:
+  void volume_points(Index node, CellQuadrature<D>& q) const;
+  void facet_points(Index node, CellQuadrature<D>& q) const;
   void integrate(Index node, CellQuadrature<D>& q);
 
   const Grid<D>* grid_;

@@ -79,10 +79,10 @@ struct Brick {
   static constexpr const char* name = D == 3 ? "box" : "rectangle";
   static constexpr const char* meaning = D == 3 ? "box of equal cells" : "rectangle of equal cells";
   std::vector<Real> size = std::vector<Real>(D, 1);
-  std::vector<Real> cells;  ///< number per direction; empty: from `spacing`
-  Real spacing = 0;         ///< largest edge of a cell
-  std::vector<Real> centre = std::vector<Real>(D, 0);
+  std::vector<Real> cells;   ///< number per direction; empty: from `spacing`
+  Real spacing = 0;          ///< largest edge of a cell
   std::vector<Real> corner;  ///< lowest corner; empty: from `centre`
+  std::vector<Real> centre;  ///< empty: from `corner`, or the origin if that is empty too
 
   static Rows<Brick> rows();
   Geometry<D> geometry() const;

@@ -37,18 +37,19 @@ Grid<D> unit_brick(const std::array<Index, D>& cells) {
   return grid;
 }
 
-/// A row that is read only if its key is there, for one of two alternative keys.
+/// A row that is read only if its key is there: for one of two alternative keys.
 template <class M, class Read>
-Row<M> alternative_row(std::string key, std::string type, Dimension dimension, std::string meaning,
-                       Read read) {
+Row<M> alternative_row(std::string key, std::string type, Dimension dimension, Range allowed,
+                       std::string fallback, std::string meaning, Read read) {
   Row<M> row;
   row.key = key;
   row.type = std::move(type);
-  row.unit = UnitSystem().symbol(dimension);
+  row.unit = rows::si_symbol(dimension);
+  row.range = allowed.text();
+  row.fallback = std::move(fallback);
   row.meaning = std::move(meaning);
-  row.dimension = dimension;
-  row.read = [key = std::move(key), read](M& m, const Block& block) {
-    if (block.has(key)) read(m, block);
+  row.read = [=](M& m, const Block& block) {
+    if (block.has(key)) read(m, block, allowed);
   };
   return row;
 }
@@ -59,37 +60,37 @@ const bool registered = register_shape<3, Brick<3>>() && register_shape<2, Brick
 
 template <int D>
 Rows<Brick<D>> Brick<D>::rows() {
-  const std::string numbers = std::to_string(D) + " numbers";
-  return {
-      reals_row("size", &Brick::size, D, dimension::length, range::positive, "edge lengths"),
-      alternative_row<Brick>("cells", numbers, dimension::none,
-                             "cells per direction; this or spacing",
-                             [](Brick& m, const Block& block) {
-                               m.cells = block.reals("cells", D, dimension::none, {1, 1e6}, {});
-                             }),
-      alternative_row<Brick>(
-          "spacing", "number", dimension::length, "largest edge of a cell; this or cells",
-          [](Brick& m, const Block& block) {
-            m.spacing = block.real("spacing", dimension::length, range::positive, {});
-          }),
-      alternative_row<Brick>("corner", numbers, dimension::length, "lowest corner; this or centre",
-                             [](Brick& m, const Block& block) {
-                               m.corner =
-                                   block.reals("corner", D, dimension::length, range::any, {});
-                             }),
-      alternative_row<Brick>(
-          "centre", numbers, dimension::length, "centre, default the origin; this or corner",
-          [](Brick& m, const Block& block) {
-            m.centre = block.reals("centre", D, dimension::length, range::any, {});
-          })};
+  constexpr Range count{1, 1e6};
+  const auto list = [](const char* key, std::vector<Real> Brick::*member, Dimension unit,
+                       Range allowed, const char* fallback, const char* meaning) {
+    return alternative_row<Brick>(key, rows::counted(D, "numbers"), unit, allowed, fallback,
+                                  meaning, [=](Brick& m, const Block& block, Range r) {
+                                    m.*member = block.reals(key, D, unit, r, {});
+                                  });
+  };
+  return {reals_row("size", &Brick::size, D, dimension::length, range::positive, "edge lengths"),
+          list("cells", &Brick::cells, dimension::none, count, "by spacing",
+               "cells per direction; either this or spacing"),
+          alternative_row<Brick>("spacing", "number", dimension::length, range::positive,
+                                 "by cells", "largest edge of a cell; either this or cells",
+                                 [](Brick& m, const Block& block, Range r) {
+                                   m.spacing = block.real("spacing", dimension::length, r, {});
+                                 }),
+          list("corner", &Brick::corner, dimension::length, range::any, "by centre",
+               "lowest corner; either this or centre"),
+          list("centre", &Brick::centre, dimension::length, range::any, "origin",
+               "centre; either this or corner")};
 }
 
 template <int D>
 Geometry<D> Brick<D>::geometry() const {
   if (cells.empty() == (spacing <= 0))
     throw InputError("Give either the cells per direction or the spacing.");
+  if (!corner.empty() && !centre.empty())
+    throw InputError("Give either the corner or the centre, not both.");
   std::array<Index, D> count;
   Vec<D> edges, middle;
+  Real total = 1;
   std::vector<SurfacePatch<D>> planes;
   for (int k = 0; k < D; ++k) {
     edges[k] = at(size, k);
@@ -98,11 +99,14 @@ Geometry<D> Brick<D>::geometry() const {
     if (!(wanted >= 1 && wanted <= 1e6) || wanted != std::floor(wanted))
       throw InputError("The number of cells per direction must be whole, from 1 to 1e6.");
     at(count, k) = static_cast<Index>(wanted);
-    middle[k] = corner.empty() ? at(centre, k) : at(corner, k) + 0.5 * edges[k];
+    middle[k] = centre.empty() ? 0 : at(centre, k);
+    if (!corner.empty()) middle[k] = at(corner, k) + 0.5 * edges[k];
+    total *= wanted;
     const Vec<D> e = Vec<D>::Unit(k);
     planes.push_back(SurfacePatch<D>::plane(-0.5 * e, -e));
     planes.push_back(SurfacePatch<D>::plane(0.5 * e, e));
   }
+  require_countable(total);
   return make_geometry<D>(unit_brick<D>(count), std::move(planes), false,
                           affine_map<D>(edges.asDiagonal(), middle));
 }
