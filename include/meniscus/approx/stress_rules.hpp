@@ -91,15 +91,13 @@ struct CellRule {
     const char* ahead = prefetch_begin(cell) + (end - A) * cache_line;
     for (; A != end; ++A, g += D, ahead += cache_line) {
       _mm_prefetch(ahead, _MM_HINT_T1);
-      Lanes f = force[*A], second = Lanes::zero();
-      for (int K = 0; K < D; ++K) {
-        const Real* c = detail::components(g[K]);
-        f += moment[K][0] * c[0];
-        second += moment[K][1] * c[1];
-        f += moment[K][2] * c[2];
-        if constexpr (D == 3) second += moment[K][3] * c[3];
-      }
-      force[*A] = f + second;
+      Lanes sum[D + 1];  // a chain per moment hides the latency
+      sum[0] = force[*A] + moment[0][0] * detail::components(g[0])[0];
+      for (int m = 1; m <= D; ++m) sum[m] = moment[0][m] * detail::components(g[0])[m];
+      for (int K = 1; K < D; ++K)
+        for (int m = 0; m <= D; ++m) sum[m] += moment[K][m] * detail::components(g[K])[m];
+      sum[1] += sum[D];
+      force[*A] = D == 3 ? (sum[0] + sum[1]) + sum[2] : sum[0] + sum[1];
     }
   }
 
