@@ -1,0 +1,90 @@
+"""Reads what a run has written: run.h5 (frames, reference, input) and history.csv."""
+
+import csv
+import tomllib
+
+import h5py
+import numpy as np
+
+
+class Body:
+    """A body in the reference configuration."""
+
+    def __init__(self, name, group, settings):
+        self.name = name
+        self.settings = settings  # its [[body]] table of the complete input
+        first = int(group.attrs["first_particle"])
+        self.particles = slice(first, first + int(group.attrs["particles"]))
+        self.X = group["X"][()]  # [particle, i]
+        self.volume = group["volume"][()]  # [particle]; 2D: area
+        self.surface = group["surface"][()]  # [facet, corner in tensor order], body's own numbers
+
+    @property
+    def dimension(self):
+        return self.X.shape[1]
+
+    @property
+    def spacing(self):
+        return (self.volume.sum() / len(self.volume)) ** (1 / self.dimension)
+
+
+class Results:
+    """A run directory. Raises OSError or ValueError, with the reason, if it cannot be read."""
+
+    def __init__(self, folder):
+        self.file = h5py.File(folder / "run.h5", "r")
+        self.input = tomllib.loads(self.file["meta/input"][()].decode())
+        self.frames = sorted(self.file["steps"], key=int)
+        if not self.frames:
+            raise ValueError(f"{folder}/run.h5 has no frames")
+        self.times = np.array([self.file["steps"][k].attrs["time"] for k in self.frames])
+        settings = {table["name"]: table for table in self.input["body"]}
+        groups = self.file["reference"]
+        self.bodies = [
+            Body(name, groups[name], settings[name])
+            for name in sorted(groups, key=lambda name: groups[name].attrs["id"])
+        ]
+        self.history, self.units = read_history(folder / "history.csv")
+
+    @property
+    def length_unit(self):
+        return self.unit_of("position")
+
+    @property
+    def time_unit(self):
+        return self.units["time"]
+
+    def unit_of(self, field):
+        return self.file["steps"][self.frames[0]][field].attrs["units"].decode()
+
+    def field(self, frame, name, body):
+        """Values of a field at the particles of a body, in the frame of that number."""
+        return self.file["steps"][self.frames[frame]][name][body.particles]
+
+    def default_field(self):
+        """The first scalar among the fields of the scene, or else the first field."""
+        names = self.input["output"]["fields"]
+        step = self.file["steps"][self.frames[0]]
+        scalars = [name for name in names if step[name].ndim == 1]
+        return (scalars or names or ["position"])[0]
+
+    def expectations(self, column):
+        """(time, value, tolerance) of what the scene expects of a column at given times."""
+        end = self.input["time"]["end"]
+        for expected in self.input.get("expect", {}).values():
+            if expected["of"] != column or expected["reduce"] != "at":
+                continue
+            relative = expected["within_relative"] * abs(expected["value"])
+            tolerance = max(expected["within"], relative)
+            yield expected["at"] if expected["at"] >= 0 else end, expected["value"], tolerance
+
+
+def read_history(path):
+    """Columns by name, and their units."""
+    with open(path, newline="", encoding="utf-8") as file:
+        lines = list(csv.reader(file))
+    if len(lines) < 3:
+        raise ValueError(f"{path} has no records")
+    names, units = ([text.lstrip("# ") for text in line] for line in lines[:2])
+    values = np.array([[float(text) for text in line] for line in lines[2:]])
+    return dict(zip(names, values.T)), dict(zip(names, units))
