@@ -36,7 +36,7 @@ def applies(run, body, gamma):
 def decay(run, body, gamma):
     material = body.settings["material"]
     density, viscosity = material["density"], material["viscosity"]
-    radius = (3 * body.volume.sum() / (4 * np.pi)) ** (1 / 3)
+    radius = np.prod(body.settings["semi_axes"]) ** (1 / 3)
     period = np.sqrt(density * radius**3 / gamma)
     ohnesorge = viscosity / np.sqrt(density * gamma * radius)
     rate = drop_theory.slow_rate(ohnesorge)

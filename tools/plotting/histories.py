@@ -34,16 +34,16 @@ def energies(run):
     if np.any(run.history["external_work"]):
         columns["external work"] = run.history["external_work"]
     figure, (top, bottom) = plt.subplots(
-        2, 1, figsize=(5.2, 4.6), sharex=True, height_ratios=(3, 1.2), layout="constrained"
+        2, 1, figsize=(4.6, 4.6), sharex=True, height_ratios=(3, 1.2), layout="constrained"
     )
     time, _ = time_axis(run, bottom)
     factor, unit = style.scale(run.units["kinetic_energy"], np.array(list(columns.values())))
     for name, values in columns.items():
         top.plot(time, values * factor, label=name)
     sum_all = run.history["energy_balance"] - run.history["energy_balance"][0]
-    top.plot(time, sum_all * factor, color="black", lw=0.9, ls=(0, (4, 3)), label="balance")
+    top.plot(time, sum_all * factor, color="black", lw=0.9, ls=(0, (4, 3)), label="sum")
     top.set_ylabel(style.label("energy", unit))
-    top.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    top.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     bottom.plot(time, run.history["energy_balance_error"], color="black")
     bottom.set_ylabel("error of the\nenergy balance")
     bottom.axhline(0, color="0.7", lw=0.6, zorder=0)

@@ -45,7 +45,9 @@ def main():
     folder = args.dir / "plots"
     folder.mkdir(exist_ok=True)
     for name, figure in pictures.items():
-        figure.savefig(folder / f"{name}.png", dpi=style.DPI)
+        figure.savefig(
+            folder / f"{name}.png", dpi=style.DPI, bbox_inches="tight", pad_inches=0.04
+        )
         print(folder / f"{name}.png")
 
 

@@ -10,18 +10,15 @@ import numpy as np
 class Body:
     """A body in the reference configuration."""
 
-    def __init__(self, name, group, settings):
+    def __init__(self, name, group, settings, dimension):
         self.name = name
+        self.dimension = dimension
         self.settings = settings  # its [[body]] table of the complete input
         first = int(group.attrs["first_particle"])
         self.particles = slice(first, first + int(group.attrs["particles"]))
-        self.X = group["X"][()]  # [particle, i]
+        self.X = group["X"][:, :dimension]  # [particle, i]; in 2D the file has a third column, 0
         self.volume = group["volume"][()]  # [particle]; 2D: area
         self.surface = group["surface"][()]  # [facet, corner in tensor order], body's own numbers
-
-    @property
-    def dimension(self):
-        return self.X.shape[1]
 
     @property
     def spacing(self):
@@ -41,7 +38,7 @@ class Results:
         settings = {table["name"]: table for table in self.input["body"]}
         groups = self.file["reference"]
         self.bodies = [
-            Body(name, groups[name], settings[name])
+            Body(name, groups[name], settings[name], self.input["dimension"])
             for name in sorted(groups, key=lambda name: groups[name].attrs["id"])
         ]
         self.history, self.units = read_history(folder / "history.csv")
@@ -60,6 +57,10 @@ class Results:
     def field(self, frame, name, body):
         """Values of a field at the particles of a body, in the frame of that number."""
         return self.file["steps"][self.frames[frame]][name][body.particles]
+
+    def places(self, frame, body):
+        """Positions [particle, i] of the particles of a body."""
+        return self.field(frame, "position", body)[:, : body.dimension]
 
     def default_field(self):
         """The first scalar among the fields of the scene, or else the first field."""

@@ -24,9 +24,9 @@ def spread_frames(run, count):
     many where much happens, evenly in time for a body in steady motion."""
     way = np.zeros(len(run.frames))
     for body in run.bodies:
-        before = run.field(0, "position", body)
+        before = run.places(0, body)
         for k in range(1, len(way)):
-            now = run.field(k, "position", body)
+            now = run.places(k, body)
             way[k] += np.sqrt(np.mean((now - before) ** 2))
             before = now
     way = np.cumsum(way)
@@ -57,7 +57,7 @@ class Cut:
     show the same ones."""
 
     def __init__(self, run, body, plane, frame, name):
-        x = run.field(frame, "position", body)
+        x = run.places(frame, body)
         values = run.field(frame, name, body)
         if values.ndim > 1:
             values = np.linalg.norm(values.reshape(len(values), -1), axis=1)
@@ -91,7 +91,7 @@ def picture(run, plane, frames, cuts, name):
     everything = [cut for cuts_of_frame in cuts for cut in cuts_of_frame]
     points = np.concatenate([np.vstack([c.x, c.outline.reshape(-1, 2)]) for c in everything])
     values = np.concatenate([c.values for c in everything])
-    margin = 0.03 * np.ptp(points, axis=0).max()
+    margin = 0.02 * np.ptp(points, axis=0).max() + max(c.size.max(initial=0) for c in everything) / 2
     low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
     length_factor, length_unit = style.scale(run.length_unit, points)
     factor, unit = style.scale(run.unit_of(name), values)
@@ -101,7 +101,7 @@ def picture(run, plane, frames, cuts, name):
     panel = 1.75
     aspect = (high - low)[1] / (high - low)[0]
     figure, axes = plt.subplots(
-        1, len(frames), figsize=(panel * len(frames) + 1.1, panel * aspect + 0.75), sharey=True,
+        1, len(frames), figsize=(panel * len(frames) + 1.1, max(panel * aspect, 1.3) + 0.75), sharey=True,
         squeeze=False, layout="constrained",
     )  # fmt: skip
     for axis, frame, cuts_of_frame in zip(axes[0], frames, cuts):

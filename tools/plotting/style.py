@@ -31,18 +31,24 @@ PREFIXES = {
     -21: "z", -18: "a", -15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M",
     9: "G", 12: "T",
 }  # fmt: skip
-TAKES_PREFIX = {"s", "m", "J", "J/m", "Pa", "N", "N/m", "m/s"}
+# Units whose first symbol may take a prefix, and the power to which it then stands.
+TAKES_PREFIX = {
+    "s": 1, "m": 1, "m^2": 2, "m^3": 3, "J": 1, "J/m": 1, "Pa": 1, "N": 1, "N/m": 1, "m/s": 1,
+}  # fmt: skip
 
 
 def scale(unit, values):
-    """(factor, unit) in which `values`, given in `unit`, are numbers between 1 and 1000."""
+    """(factor, unit) in which `values`, given in `unit`, are numbers between 1 and 1000 (or the
+    square or cube of that)."""
     size = np.max(np.abs(values), initial=0)
     if unit == "1":
         return 1, ""
     if unit not in TAKES_PREFIX or not np.isfinite(size) or size == 0:
         return 1, pretty(unit)
-    power = int(np.clip(3 * np.floor(np.log10(size) / 3), min(PREFIXES), max(PREFIXES)))
-    return 10.0**-power, PREFIXES[power] + unit
+    exponent = TAKES_PREFIX[unit]
+    power = 3 * np.floor(np.log10(size) / (3 * exponent) + 1e-12)
+    power = int(np.clip(power, min(PREFIXES), max(PREFIXES)))
+    return 10.0 ** (-power * exponent), PREFIXES[power] + pretty(unit)
 
 
 def pretty(unit):
