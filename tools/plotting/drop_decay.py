@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Decay of the second mode of a viscous drop beside the exact rate of small oscillations."""
 
 import matplotlib.pyplot as plt

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Small oscillations of a viscous drop in vacuum: the exact dispersion relation of the mode l.
 
 exp(-sigma t), q^2 = sigma R^2/nu, Q = J_{l+3/2}(q) / J_{l+1/2}(q), Oh = mu/sqrt(rho gamma R):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Curves over time from history.csv: energies with their audit, and the shape of each body."""
 
 import matplotlib.pyplot as plt

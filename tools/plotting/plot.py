@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Draws the pictures of a run. Called by tools/plot."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Reads what a run has written: run.h5 (frames, reference, input) and history.csv."""
 
 import csv

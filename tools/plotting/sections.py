@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Cross-sections through time: the particles near a plane and the outline, coloured by a field."""
 
 import matplotlib.pyplot as plt

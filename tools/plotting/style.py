@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Looks shared by all pictures: fonts, colours, and numbers with units that can be read."""
 
 import matplotlib.pyplot as plt

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The surface in the first, middle and last frame: facets in parallel projection, lit."""
 
 import matplotlib.pyplot as plt
