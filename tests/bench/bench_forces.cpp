@@ -48,7 +48,9 @@ Scene<3>& scene_of(const std::string& material, const std::string& body, const s
   static std::unique_ptr<Scene<3>> scene;
   if (const std::string key = material + "\n" + body + "\n" + more; key != built) {
     scene.reset();
-    scene = std::make_unique<Scene<3>>(build_scene<3>(ball(material, body, more)));
+    const SceneInput input = ball(material, body, more);
+    scene_dimension(input);  // every key has to be read
+    scene = std::make_unique<Scene<3>>(build_scene<3>(input));
     start(scene->system, scene->initial);
     built = key;
   }

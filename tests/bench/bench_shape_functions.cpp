@@ -26,7 +26,7 @@ std::shared_ptr<const Cloud> ball() {
   order_spatially(geometry);
   const auto points = cell_gauss_points(geometry.grid, 1).X;
   return std::make_shared<const Cloud>(
-      Cloud{{geometry.grid.X, ParticleSet<3>::AdaptiveSupport{.factor = 1.71, .rank = 20},
+      Cloud{{geometry.grid.X, ParticleSet<3>::AdaptiveSupport{.factor = 1.63, .rank = 20},
              Window::cubic_spline},
             points});
 }
@@ -46,7 +46,7 @@ void add_shape_function_cases() {
     add_case("shape functions", c.name, 1, [cloud, c](benchmark::State& state) {
       PointRows<3> rows;
       // Parts of the cloud: short windows.
-      constexpr std::size_t part = 200;
+      constexpr std::size_t part = 20;
       std::size_t begin = 0;
       double least = 1e300, neighbors = 0;
       for (auto _ : state) {

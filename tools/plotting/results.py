@@ -63,6 +63,22 @@ class Results:
         """Positions [particle, i] of the particles of a body."""
         return self.field(frame, "position", body)[:, : body.dimension]
 
+    def spread_frames(self, count):
+        """First, last, and frames between them at equal lengths of the way that particles have
+        moved: many where much happens, evenly in time for a body in steady motion."""
+        way = np.zeros(len(self.frames))
+        for body in self.bodies:
+            before = self.places(0, body)
+            for k in range(1, len(way)):
+                now = self.places(k, body)
+                way[k] += np.sqrt(np.mean((now - before) ** 2))
+                before = now
+        way = np.cumsum(way)
+        if way[-1] <= 1e-3 * max(body.spacing for body in self.bodies):
+            way = np.arange(len(way))
+        targets = np.linspace(0, way[-1], min(count, len(way)))
+        return sorted({int(np.argmin(np.abs(way - target))) for target in targets})
+
     def default_field(self):
         """The first scalar among the fields of the scene, or else the first field."""
         names = self.input["output"]["fields"]

@@ -14,27 +14,10 @@ def draw(run, name, count):
     if name not in first:
         known = ", ".join(k for k in first if k != "state")
         raise ValueError(f"there is no field '{name}' in run.h5; it has {known}")
-    frames = spread_frames(run, count)
+    frames = run.spread_frames(count)
     plane = Plane(run)
     cuts = [[Cut(run, body, plane, frame, name) for body in run.bodies] for frame in frames]
     return {f"sections_{name}": picture(run, plane, frames, cuts, name)}
-
-
-def spread_frames(run, count):
-    """First, last, and frames between them at equal lengths of the way that particles have moved:
-    many where much happens, evenly in time for a body in steady motion."""
-    way = np.zeros(len(run.frames))
-    for body in run.bodies:
-        before = run.places(0, body)
-        for k in range(1, len(way)):
-            now = run.places(k, body)
-            way[k] += np.sqrt(np.mean((now - before) ** 2))
-            before = now
-    way = np.cumsum(way)
-    if way[-1] <= 1e-3 * max(body.spacing for body in run.bodies):
-        way = np.arange(len(way))
-    targets = np.linspace(0, way[-1], min(count, len(way)))
-    return sorted({int(np.argmin(np.abs(way - target))) for target in targets})
 
 
 class Plane:
@@ -92,7 +75,8 @@ def picture(run, plane, frames, cuts, name):
     everything = [cut for cuts_of_frame in cuts for cut in cuts_of_frame]
     points = np.concatenate([np.vstack([c.x, c.outline.reshape(-1, 2)]) for c in everything])
     values = np.concatenate([c.values for c in everything])
-    margin = 0.02 * np.ptp(points, axis=0).max() + max(c.size.max(initial=0) for c in everything) / 2
+    largest = max(cut.size.max(initial=0) for cut in everything)
+    margin = 0.02 * np.ptp(points, axis=0).max() + largest / 2
     low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
     length_factor, length_unit = style.scale(run.length_unit, points)
     factor, unit = style.scale(run.unit_of(name), values)
@@ -102,8 +86,8 @@ def picture(run, plane, frames, cuts, name):
     panel = 1.75
     aspect = (high - low)[1] / (high - low)[0]
     figure, axes = plt.subplots(
-        1, len(frames), figsize=(panel * len(frames) + 1.1, max(panel * aspect, 1.3) + 0.75), sharey=True,
-        squeeze=False, layout="constrained",
+        1, len(frames), figsize=(panel * len(frames) + 1.1, max(panel * aspect, 1.3) + 0.75),
+        sharey=True, squeeze=False, layout="constrained",
     )  # fmt: skip
     for axis, frame, cuts_of_frame in zip(axes[0], frames, cuts):
         for cut in cuts_of_frame:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface in the first, middle and last frame: facets in parallel projection, lit."""
+"""The surface in the first frame, halfway, and in the last: facets in parallel projection, lit."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -18,8 +18,7 @@ def draw(run):
     bodies = [body for body in run.bodies if body.dimension == 3]
     if not bodies:
         return {}
-    frames = sorted({0, (len(run.frames) - 1) // 2, len(run.frames) - 1})
-    return {"surface": picture(run, bodies, frames)}
+    return {"surface": picture(run, bodies, run.spread_frames(3))}
 
 
 def view():
@@ -41,7 +40,8 @@ def picture(run, bodies, frames):
         1, len(frames), figsize=(panel * len(frames), panel * size[1] / size[0] + 0.35),
         squeeze=False, gridspec_kw={"wspace": 0.02},
     )  # fmt: skip
-    figure.subplots_adjust(left=0.01, right=0.99, bottom=0.02, top=1 - 0.3 / figure.get_figheight())
+    top = 1 - 0.3 / figure.get_figheight()
+    figure.subplots_adjust(left=0.01, right=0.99, bottom=0.02, top=top)
     time_factor, time_unit = style.scale(run.time_unit, run.times)
     centre = (low + high)[:2] / 2
     for axis, frame, scene in zip(axes[0], frames, scenes):
@@ -103,7 +103,7 @@ def corner_normals(body, x):
 
 
 def divided(quads, normals, parts=6):
-    """Each facet (corners in tensor order) in parts^2 patches: (corners around, normals) by patch."""
+    """Each facet (corners in tensor order) in parts^2 patches: their corners and normals."""
     ends = np.linspace(0, 1, parts + 1)
 
     def at(values, s, t):
