@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pre-flight: what a run of the scene would be.
+#include "meniscus/app/commands.hpp"
+#include "meniscus/app/outputs.hpp"
+#include "meniscus/app/simulation.hpp"
+
 #include <fmt/format.h>
 #include <omp.h>
 
 #include <chrono>
 #include <cmath>
 
-#include "meniscus/app/commands.hpp"
-#include "meniscus/app/simulation.hpp"
-
 namespace meniscus {
 namespace {
 
 template <int D>
-void check_scene(const SceneInput& input, const RunRequest& request) {
+void check_scene(const SceneInput& input) {
   Scene<D> scene = build_scene<D>(input);
+  require_known_outputs(input, scene);
   const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
   if (!scene.title.empty()) fmt::print("{}\n", scene.title);
   for (const auto& note : scene.notes) fmt::print("{}\n", note);
@@ -28,7 +30,8 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
       largest = std::max(largest, at(body.particles.support(), A));
     }
     std::string box;
-    for (int i = 0; i < D; ++i) box += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", low[i], high[i]);
+    for (int i = 0; i < D; ++i)
+      box += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", low[i], high[i]);
     fmt::print("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}\n", body.name, box,
                unit(dimension::length), least, largest, unit(dimension::length));
   }
@@ -43,21 +46,23 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
   simulation.begin();
   const StableStep& stable = simulation.controller().stable();
   const Real dt = scene.time.step.value_or(scene.time.safety * stable.dt);
-  const Real end = std::min(scene.time.end, request.until.value_or(1e300));
-  fmt::print("stable step {:.6g} {} (stiffness alone {:.3g}, viscosity alone {:.3g}), used {:.6g}\n",
-             stable.dt, unit(dimension::time), 2 / stable.stiffness,
-             stable.viscosity > 0 ? 2 / stable.viscosity : INFINITY, dt);
+  fmt::print("stable step {:.6g} {} (", stable.dt, unit(dimension::time));
+  if (stable.viscosity > 0)
+    fmt::print("stiffness alone {:.3g}, viscosity alone {:.3g}; ", 2 / stable.stiffness,
+               2 / stable.viscosity);
+  fmt::print("used: {:.6g})\n", dt);
 
   const auto begin = std::chrono::steady_clock::now();
   constexpr int trial_steps = 10;
-  for (int k = 0; k < trial_steps; ++k) simulation.advance(1e300);
+  for (int k = 0; k < trial_steps; ++k) simulation.advance();
   const double per_step =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / trial_steps;
-  const Real steps = std::ceil(end / dt);
-  fmt::print("{:.0f} steps, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
-             "forces\n",
-             steps, steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
-             1e-6 * static_cast<Real>(bytes));
+  const Real steps = std::ceil(scene.time.end / dt);
+  fmt::print(
+      "{:.0f} steps, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
+      "forces\n",
+      steps, steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
+      1e-6 * static_cast<Real>(bytes));
   for (const auto& warning : scene.warnings) fmt::print("warning: {}\n", warning);
   fmt::print("the scene is in order\n");
 }
@@ -67,7 +72,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
 int check(const RunRequest& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   const SceneInput input = SceneInput::from_file(request.scene, request.set);
-  scene_dimension(input) == 2 ? check_scene<2>(input, request) : check_scene<3>(input, request);
+  scene_dimension(input) == 2 ? check_scene<2>(input) : check_scene<3>(input);
   return exit_ok;
 }
 

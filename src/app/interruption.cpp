@@ -3,54 +3,35 @@
 #include "meniscus/app/interruption.hpp"
 
 #include <csignal>
-#include <sstream>
-
-#include "meniscus/core/error.hpp"
+#include <limits>
+#include <regex>
 
 namespace meniscus {
 namespace {
 
 volatile std::sig_atomic_t caught = 0;
 
-void note(int signal) {
-  caught = signal;
-  std::signal(signal, SIG_DFL);  // the second one is not waited for
+void handle_by(void (*handler)(int)) {
+  std::signal(SIGINT, handler);
+  std::signal(SIGTERM, handler);
 }
 
-double seconds_of(const std::string& text) {
-  if (text.empty()) return 1e300;
-  double seconds = 0;
-  std::istringstream parts(text);
-  std::string part;
-  int count = 0;
-  while (std::getline(parts, part, ':') && ++count <= 3) {
-    std::size_t used = 0;
-    double number = -1;
-    try {
-      number = std::stod(part, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used == 0 || used != part.size() || !(number >= 0)) count = 99;
-    seconds = seconds * 60 + number;
-  }
-  if (count > 3 || !(seconds > 0))
-    throw InputError("--max-walltime '" + text + "' is not a time; write H:M:S, M:S or seconds");
-  return seconds;
+void note(int signal) {
+  caught = signal;
+  handle_by(SIG_DFL);  // a second one is not waited for
 }
 
 }  // namespace
 
-Interruption::Interruption(const std::string& max_walltime)
-    : begin_(std::chrono::steady_clock::now()), limit_seconds_(seconds_of(max_walltime)) {
+Interruption::Interruption(std::optional<double> max_walltime)
+    : begin_(std::chrono::steady_clock::now()),
+      limit_seconds_(max_walltime.value_or(std::numeric_limits<double>::infinity())) {
   caught = 0;
-  std::signal(SIGINT, note);
-  std::signal(SIGTERM, note);
+  handle_by(note);
 }
 
 Interruption::~Interruption() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  handle_by(SIG_DFL);
 }
 
 std::optional<int> Interruption::requested() const {
@@ -61,6 +42,15 @@ std::optional<int> Interruption::requested() const {
 
 double Interruption::elapsed_seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+std::optional<double> parse_duration(const std::string& text) {
+  static const std::regex form(R"((?:(?:(\d{1,6}):)?(\d{1,6}):)?(\d{1,9}(?:\.\d{1,9})?))");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, form)) return std::nullopt;
+  const auto number = [&](std::size_t k) { return parts[k].matched ? std::stod(parts[k]) : 0.0; };
+  const double seconds = 3600 * number(1) + 60 * number(2) + number(3);
+  return seconds > 0 ? std::optional(seconds) : std::nullopt;
 }
 
 }  // namespace meniscus

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <iostream>
-
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/interruption.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/info.hpp"
 #include "meniscus/io/provenance.hpp"
 #include "meniscus/scene/settings.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <iostream>
 
 namespace {
 
@@ -17,20 +18,62 @@ using namespace meniscus;
 
 void print_version() {
   const Build b = build();
-  fmt::print("meniscus {}\ngit {}{}\ncompiler {}\n", b.version, b.git_hash, b.git_dirty ? " (modified)" : "",
-             b.compiler);
+  fmt::print("meniscus {}\ngit {}{}\ncompiler {}\n", b.version, b.git_hash,
+             b.git_dirty ? " (modified)" : "", b.compiler);
   for (const auto& library : b.libraries) fmt::print("{} {}\n", library.first, library.second);
 }
 
 void add_scene_options(CLI::App& command, RunRequest& request) {
   command.add_option("SCENE", request.scene, "scene file (TOML)")->required();
-  command.add_option("--set", request.set, "key=value: replace a key of the scene, e.g. time.end='1 ns'")
+  command
+      .add_option("--set", request.set,
+                  "key=value: replace a key of the scene, e.g. time.end='1 ns'")
       ->type_size(1)
       ->allow_extra_args(false);
   command.add_option("--threads", request.threads, "number of threads; all cores by default")
       ->check(CLI::Range(1, 4096));
-  command.add_option("--until", request.until, "end the run at this time, in the unit of the scene")
-      ->check(CLI::PositiveNumber);
+}
+
+void add_run_options(CLI::App& command, RunRequest& request) {
+  command
+      .add_option("--output", request.output,
+                  "directory of the results; by default results/SCENE, or DIR of --restart DIR")
+      ->type_name("DIR");
+  command.add_flag("--overwrite", request.overwrite, "replace results that are already there");
+  command
+      .add_option(
+          "--until", request.until,
+          "stop after the first step that reaches this time, e.g. '0.1 ns', with a "
+          "checkpoint. Steps, rows and frames are those of the whole run, so that --restart "
+          "continues it bit for bit (the end of the scene, time.end, is hit exactly)")
+      ->type_name("TIME");
+  CLI::Option* restart =
+      command
+          .add_option(
+              "--restart", request.restart,
+              "continue bit for bit from a checkpoint, or from the newest one of a run; any "
+              "number of threads. Only [time], [output] and [expect] of the scene may "
+              "change. A finished run goes on if time.end is made larger; its last two "
+              "steps, which were fitted to the old end, stay")
+          ->type_name("FILE|DIR");
+  command
+      .add_option("--frame", request.frame,
+                  "continue from this frame of the run instead; later rows and frames are replaced")
+      ->type_name("K")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(restart);
+  command
+      .add_option_function<std::string>(
+          "--max-walltime",
+          [&request](const std::string& text) {
+            request.max_walltime = parse_duration(text);
+            if (!request.max_walltime)
+              throw CLI::ValidationError(
+                  "--max-walltime", "'" + text + "' is not a time; write H:M:S, M:S or seconds");
+          },
+          "write a checkpoint and stop after this time, exit code 142")
+      ->type_name("H:M:S");
+  command.add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
 }
 
 int dispatch(int argc, char** argv) {
@@ -39,26 +82,21 @@ int dispatch(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 ok, 1 internal error, 2 usage, 3 input, 4 numerical failure, 5 files,\n"
       "7 an expectation of the scene was missed, 128 + n stopped by signal n after a checkpoint\n"
-      "(142: the limit on wall-clock time).");
+      "(130 Ctrl-C, 143 SIGTERM, 142 the limit on wall-clock time). A second signal ends at once.");
   RunRequest request;
   request.command_line = portable_command_line(argc, argv);
   std::string file;
 
   CLI::App* run_command = app.add_subcommand("run", "run a scene");
   add_scene_options(*run_command, request);
-  run_command->add_option("--output", request.output, "directory of the results (results/SCENE)");
-  run_command->add_option("--restart", request.restart,
-                          "continue from a checkpoint file or from the directory of a run");
-  run_command->add_option("--frame", request.frame, "with --restart DIR: continue from this frame");
-  run_command->add_option("--max-walltime", request.max_walltime,
-                          "H:M:S after which the run writes a checkpoint and ends");
-  run_command->add_flag("--overwrite", request.overwrite, "replace results that are already there");
-  run_command->add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
+  add_run_options(*run_command, request);
   CLI::App* check_command = app.add_subcommand("check", "do everything short of running");
   add_scene_options(*check_command, request);
   CLI::App* keys_command = app.add_subcommand("keys", "print every key of a scene");
-  CLI::App* info_command = app.add_subcommand("info", "print what is in a result file or checkpoint");
-  info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")->required();
+  CLI::App* info_command =
+      app.add_subcommand("info", "print what is in a result file or checkpoint");
+  info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")
+      ->required();
   CLI::App* version_command = app.add_subcommand("version", "print version and build");
 
   try {

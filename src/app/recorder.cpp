@@ -2,46 +2,16 @@
 // Rows, frames and checkpoints of a run.
 #include "meniscus/app/recorder.hpp"
 
+#include "meniscus/app/outputs.hpp"
+#include "meniscus/approx/row_sums.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/error.hpp"
-
 namespace meniscus {
 namespace {
-
-template <int D>
-std::vector<std::string> stored_kinds(const Scene<D>& scene) {
-  std::vector<std::string> kinds;
-  for (const auto& term : scene.system.terms) {
-    const std::string kind(term->energy_kind());
-    if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-      kinds.push_back(kind);
-  }
-  return kinds;
-}
-
-template <int D>
-std::vector<HistoryColumn> history_columns(const Scene<D>& scene,
-                                           const std::vector<MeasureSource>& measures) {
-  const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
-  const std::string energy = unit(dimension::energy);
-  std::vector<HistoryColumn> columns{{"time", unit(dimension::time)},
-                                     {"step", "1"},
-                                     {"dt", unit(dimension::time)},
-                                     {"kinetic_energy", energy}};
-  for (const std::string& kind : stored_kinds(scene)) columns.push_back({kind + "_energy", energy});
-  for (const char* name : {"dissipated", "external_work", "energy_balance"})
-    columns.push_back({name, energy});
-  for (const char* name :
-       {"energy_balance_error", "momentum_error", "angular_momentum_error"})
-    columns.push_back({name, "1"});
-  for (const MeasureSource& m : measures) columns.push_back({m.name, unit(m.dimension)});
-  return columns;
-}
 
 template <int D>
 ResultOptions result_options(const Simulation<D>& simulation, bool continued) {
@@ -81,13 +51,12 @@ ResultFile make_result_file(const Simulation<D>& simulation, const RunDirectory&
   std::vector<BodyReference> bodies;
   for (const Body<D>& body : scene.system.bodies) {
     const ReferenceArrays<D>& a = arrays.emplace_back(body);
-    bodies.push_back(
-        {body.name,
-         {{"X", D, unit(dimension::length), a.X},
-          {"volume", 1, unit(D == 3 ? dimension::volume : dimension::area), a.volume},
-          {"support", 1, unit(dimension::length), a.support},
-          {"mass", 1, unit(dimension::mass), a.mass}},
-         {{"surface", 1 << (D - 1), a.facets}}});
+    bodies.push_back({body.name,
+                      {{"X", D, unit(dimension::length), a.X},
+                       {"volume", 1, unit(D == 3 ? dimension::volume : dimension::area), a.volume},
+                       {"support", 1, unit(dimension::length), a.support},
+                       {"mass", 1, unit(dimension::mass), a.mass}},
+                      {{"surface", 1 << (D - 1), a.facets}}});
   }
   return {directory, provenance, bodies, result_options(simulation, continued)};
 }
@@ -104,6 +73,38 @@ std::vector<Real> at_places(const System<D>& system, const NodalVectors& field) 
   return values;
 }
 
+template <int D>
+std::vector<Real> positions(const System<D>& system, const State& state) {
+  std::vector<Real> x = at_places(system, state.u);
+  for (const Body<D>& body : system.bodies)
+    for (Index A = 0; A < body.size(); ++A)
+      for (int i = 0; i < D; ++i) at(x, (body.first + A) * D + i) += at(body.particles.X(), A)[i];
+  return x;
+}
+
+/// The field of a body by its name, which require_known_outputs() has found to exist.
+template <int D>
+const FieldSource& source(const Scene<D>& scene, std::size_t body, const std::string& name) {
+  const std::vector<FieldSource>& all = scene.fields[body];
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const FieldSource& field) { return field.name == name; });
+}
+
+/// A field of the internal force, bodies one after the other.
+template <int D>
+std::vector<Real> of_all_bodies(const Scene<D>& scene, const std::string& name,
+                                const Motion& motion) {
+  std::vector<Real> values;
+  for (std::size_t b = 0; b < scene.fields.size(); ++b) {
+    const FieldSource& field = source(scene, b, name);
+    std::vector<Real> part(
+        static_cast<std::size_t>(scene.system.bodies[b].size() * field.components));
+    field.compute(motion, part);
+    values.insert(values.end(), part.begin(), part.end());
+  }
+  return values;
+}
+
 /// Whether a multiple of `every` lies in (before, now].
 bool due(Real before, Real now, Real every) {
   const auto count = [every](Real t) { return std::floor(t / every + 1e-9); };
@@ -116,41 +117,25 @@ template <int D>
 Recorder<D>::Recorder(Simulation<D>& simulation, const RunDirectory& directory,
                       const Provenance& provenance, bool continued)
     : simulation_(simulation),
-      measures_(chosen_measures()),
+      measures_(chosen_measures(simulation.scene())),
       energy_kinds_(stored_kinds(simulation.scene())),
-      history_every_(simulation.scene().output.history_every),
-      frames_every_(simulation.scene().output.frames_every),
-      results_(make_result_file(simulation, directory, provenance, continued)),
-      history_(directory.history_file(), history_columns(simulation.scene(), measures_),
+      checkpoints_(directory, provenance),
+      history_(directory.history_file(), history_columns(simulation.scene()),
                continued ? std::optional(simulation.state().time) : std::nullopt),
-      checkpoints_(directory, provenance) {
-  const Real end = simulation.scene().time.end;
-  if (history_every_ <= 0) history_every_ = end / 200;
-  if (frames_every_ <= 0) frames_every_ = end / 50;
-}
+      results_(make_result_file(simulation, directory, provenance, continued)) {}
 
 template <int D>
-std::vector<MeasureSource> Recorder<D>::chosen_measures() const {
-  const Scene<D>& scene = simulation_.scene();
-  std::vector<std::string> names = scene.output.measures;
-  for (const auto& entry : scene.expectations) names.push_back(entry.second.of);
-  std::vector<MeasureSource> chosen;
-  for (const MeasureSource& m : scene.measures)
-    if (std::find(names.begin(), names.end(), m.name) != names.end()) chosen.push_back(m);
-  return chosen;
-}
-
-template <int D>
-std::optional<Ledger> Recorder<D>::record(Real before, Real end) {
-  const Real now = simulation_.state().time;
+std::optional<Ledger> Recorder<D>::record(Real before) {
+  const OutputSettings& output = simulation_.scene().output;
+  const Real now = simulation_.state().time, end = simulation_.scene().time.end;
   const bool last = now >= end;
   std::optional<Ledger> ledger;
-  if (last || due(before, now, history_every_)) {
+  if (last || due(before, now, output.history_every > 0 ? output.history_every : end / 200)) {
     ledger = simulation_.audit_now();
     write_row(*ledger);
   }
-  if (last || due(before, now, frames_every_))
-    write_frame(simulation_.scene().output.restartable);
+  if (last || due(before, now, output.frames_every > 0 ? output.frames_every : end / 50))
+    write_frame(output.restartable);
   return ledger;
 }
 
@@ -161,9 +146,9 @@ void Recorder<D>::write_row(const Ledger& ledger) {
   std::vector<Real> row{state.time, static_cast<Real>(state.step), simulation_.last_step(),
                         ledger.kinetic};
   for (const std::string& kind : energy_kinds_) row.push_back(ledger.stored.at(kind));
-  for (const Real x : {ledger.dissipated, ledger.external_work, ledger.balance(),
-                       audit.balance_error(ledger), audit.momentum_error(ledger),
-                       audit.angular_momentum_error(ledger)})
+  for (const Real x :
+       {ledger.dissipated, ledger.external_work, ledger.balance(), audit.balance_error(ledger),
+        audit.momentum_error(ledger), audit.angular_momentum_error(ledger)})
     row.push_back(x);
   for (const MeasureSource& m : measures_) row.push_back(m.compute(state.motion()));
   history_.write(row);
@@ -173,53 +158,29 @@ template <int D>
 void Recorder<D>::write_frame(bool with_state) {
   const Scene<D>& scene = simulation_.scene();
   const State& state = simulation_.state();
-  const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
   std::deque<std::vector<Real>> storage;
   std::vector<Field> fields;
-  const auto add = [&](std::string name, int components, Dimension d, std::vector<Real> values) {
-    fields.push_back({std::move(name), components, unit(d), storage.emplace_back(std::move(values))});
+  const auto add = [&](const std::string& name, int components, Dimension d,
+                       std::vector<Real> values) {
+    fields.push_back(
+        {name, components, scene.units.symbol(d), storage.emplace_back(std::move(values))});
   };
-
-  std::vector<Real> position = at_places(scene.system, state.u);
-  const std::vector<Real> displacement = position;
-  for (const Body<D>& body : scene.system.bodies)
-    for (Index A = 0; A < body.size(); ++A)
-      for (int i = 0; i < D; ++i)
-        at(position, (body.first + A) * D + i) += at(body.particles.X(), A)[i];
-  add("position", D, dimension::length, std::move(position));
-
+  add("position", D, dimension::length, positions(scene.system, state));
   for (const std::string& name : scene.output.fields) {
-    if (name == "displacement") {
-      add(name, D, dimension::length, displacement);
-    } else if (name == "velocity") {
+    if (name == "displacement")
+      add(name, D, dimension::length, at_places(scene.system, state.u));
+    else if (name == "velocity")
       add(name, D, dimension::velocity, at_places(scene.system, state.v));
-    } else if (name == "force") {
-      std::vector<Real> force;
-      for (const Lanes& f : state.force)
-        for (int i = 0; i < D; ++i) force.push_back(f[i]);
-      add(name, D, dimension::force, std::move(force));
-    } else {
-      std::vector<Real> values;
-      int components = 1;
-      Dimension d;
-      for (std::size_t b = 0; b < scene.fields.size(); ++b)
-        for (const FieldSource& source : scene.fields[b])
-          if (source.name == name) {
-            components = source.components;
-            d = source.dimension;
-            std::vector<Real> part(static_cast<std::size_t>(scene.system.bodies[b].size() * components));
-            source.compute(state.motion(), part);
-            values.insert(values.end(), part.begin(), part.end());
-          }
-      add(name, components, d, std::move(values));
-    }
+    else if (name == "force")
+      add(name, D, dimension::force, packed<D>(state.force));
+    else
+      add(name, source(scene, 0, name).components, source(scene, 0, name).dimension,
+          of_all_bodies(scene, name, state.motion()));
   }
-  if (with_state) {
-    const Snapshot snapshot = simulation_.snapshot();
-    results_.write_frame(state.step, state.time, fields, &snapshot);
-  } else {
-    results_.write_frame(state.step, state.time, fields);
-  }
+  std::optional<Snapshot> snapshot;
+  if (with_state) snapshot = simulation_.snapshot();
+  results_.write_frame(state.step, state.time, fields, snapshot ? &*snapshot : nullptr);
+  last_frame_ = state.step;
 }
 
 template <int D>
@@ -229,8 +190,8 @@ std::filesystem::path Recorder<D>::checkpoint() {
 }
 
 template <int D>
-void Recorder<D>::write_failed_frame() {
-  write_frame(false);
+void Recorder<D>::write_last_good_frame() {
+  if (last_frame_ != simulation_.state().step) write_frame(false);
 }
 
 template class Recorder<2>;

@@ -1,72 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Running a scene: from the file to the last frame, and back to the shell with an exit code.
-#include <fmt/format.h>
-#include <omp.h>
-
-#include <set>
-#include <sstream>
-
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/interruption.hpp"
+#include "meniscus/app/outputs.hpp"
 #include "meniscus/app/progress.hpp"
 #include "meniscus/app/recorder.hpp"
+#include "meniscus/app/restart.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/run_log.hpp"
 #include "meniscus/scene/expectations.hpp"
 
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <cmath>
+#include <csignal>
+#include <limits>
+#include <set>
+#include <sstream>
+
 namespace meniscus {
 namespace {
 
-/// The tables of a complete input that decide what is simulated: all but [time], [output], [expect].
-std::string physics_of(const std::string& complete) {
-  std::istringstream lines(complete);
-  std::string line, kept;
-  bool keep = true;
-  while (std::getline(lines, line)) {
-    if (line.starts_with("["))
-      keep = !line.starts_with("[time") && !line.starts_with("[output") && !line.starts_with("[expect");
-    if (keep && !line.empty()) kept += line + "\n";
+/// The time of --until in units of the scene; none given: never.
+Real time_to_stop(const RunRequest& request, const UnitSystem& units) {
+  if (request.until.empty()) return std::numeric_limits<Real>::infinity();
+  try {
+    std::size_t used = 0;
+    const Real number = std::stod(request.until, &used);
+    const Real time =
+        used == request.until.size() ? number : units.quantity(request.until, dimension::time);
+    if (time > 0 && std::isfinite(time)) return time;
+  } catch (const std::exception&) {
   }
-  return kept;
-}
-
-struct Restart {
-  std::optional<ReadCheckpoint> from;
-  bool in_place = false;  ///< the run goes on in the directory it was in before
-};
-
-Restart read_restart(const RunRequest& request, const std::filesystem::path& output,
-                     const std::string& input) {
-  if (request.restart.empty()) return {};
-  Restart restart{read_checkpoint(request.restart, request.frame), false};
-  std::filesystem::path directory = request.restart;
-  if (!std::filesystem::is_directory(directory)) directory = directory.parent_path();
-  restart.in_place = std::filesystem::exists(output) &&
-                     std::filesystem::equivalent(directory.empty() ? "." : directory, output);
-  if (physics_of(restart.from->checkpoint.input) != physics_of(input))
-    throw InputError(fmt::format(
-        "{} was written by a different scene: bodies, materials or loads differ; continue with the "
-        "scene it was written by (only [time], [output] and [expect] may change)",
-        restart.from->file.string()));
-  return restart;
-}
-
-std::filesystem::path output_directory(const RunRequest& request) {
-  if (!request.output.empty()) return request.output;
-  if (!request.restart.empty() && std::filesystem::is_directory(request.restart))
-    return request.restart;
-  return std::filesystem::path("results") / std::filesystem::path(request.scene).stem();
+  throw InputError(
+      fmt::format("--until '{}': allowed is a time > 0 in {}, or with a unit, e.g. '1 ps'",
+                  request.until, units.symbol(dimension::time)));
 }
 
 template <int D>
-int report_expectations(const Scene<D>& scene, const RunDirectory& directory, bool stopped_early,
-                        RunLog& log) {
+int report_expectations(const Scene<D>& scene, const RunDirectory& directory, RunLog& log) {
   if (scene.expectations.empty()) return exit_ok;
   const History history = History::read(directory.history_file());
   const auto results = evaluate_expectations(
       scene.expectations,
       [&](const std::string& name) -> const std::vector<Real>& { return history.column(name); },
-      stopped_early);
+      scene.time.end);
   const std::string table = expectation_table(results);
   fmt::print("{}", table);
   std::istringstream lines(table);
@@ -88,86 +67,90 @@ void warn_doubtful(const Simulation<D>& simulation, std::set<std::string>& said,
   }
 }
 
-/// Steps to the end, or until asked to stop.
+/// Steps until the end of the scene, the time to stop, or a request to; returns the signal of the
+/// request, if there was one. Only what the scene says decides the steps, so that a run that was
+/// stopped anywhere goes on as if it had not been.
 template <int D>
 std::optional<int> run_steps(Simulation<D>& simulation, Recorder<D>& recorder, RunLog& log,
-                             const Interruption& interruption, Progress& progress, Real end) {
+                             const Interruption& interruption, Progress& progress, Real stop) {
   const double checkpoint_seconds = 60 * simulation.scene().output.checkpoint_minutes;
-  double next_checkpoint = checkpoint_seconds;
+  double next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
   std::set<std::string> said;
-  while (simulation.state().time < end) {
+  while (simulation.state().time < stop) {
+    if (const auto signal = interruption.requested()) return signal;
     const Real before = simulation.state().time;
-    try {
-      simulation.advance(end);
-      const auto ledger = recorder.record(before, end);
-      progress.show(simulation.state(), simulation.last_step(), ledger,
-                    interruption.elapsed_seconds());
-      if (ledger) warn_doubtful(simulation, said, log);
-    } catch (const SolveError&) {
-      recorder.write_failed_frame();
-      throw;
-    }
+    simulation.advance();
+    const auto ledger = recorder.record(before);
+    progress.show(simulation.state(), simulation.last_step(), ledger);
+    if (ledger) warn_doubtful(simulation, said, log);
     if (const auto warning = simulation.controller().take_warning()) log.warning(*warning);
     if (interruption.elapsed_seconds() > next_checkpoint) {
       recorder.checkpoint();
       next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
-    }
-    if (const auto signal = interruption.requested(); signal && simulation.state().time < end) {
-      const auto file = recorder.checkpoint();
-      log.warning(fmt::format("stopped at step {}, t = {:.9g}, by {}; continue with --restart {}",
-                              simulation.state().step, simulation.state().time,
-                              *signal == 14 ? "the limit on wall-clock time" : fmt::format("signal {}", *signal),
-                              file.parent_path().string()));
-      return exit_signal + *signal;
     }
   }
   return std::nullopt;
 }
 
 template <int D>
-int run_scene(const SceneInput& input, const RunRequest& request) {
-  const Interruption interruption(request.max_walltime);
-  Scene<D> scene = build_scene<D>(input);
-  const std::string complete = input.complete();
-  const Real end = std::min(scene.time.end, request.until.value_or(1e300));
-  const std::filesystem::path output = output_directory(request);
-  const Restart restart = read_restart(request, output, complete);
-
-  Simulation<D> simulation(scene);
-  if (restart.from)
-    simulation.restore(restart.from->checkpoint.state);
-  else
-    simulation.begin();
-
-  const RunDirectory directory(output, restart.in_place    ? ExistingRun::keep
-                                       : request.overwrite ? ExistingRun::replace
-                                                           : ExistingRun::refuse);
-  RunLog log(directory.log_file());
-  const Provenance origin = provenance(request.command_line, complete);
+void introduce(const Scene<D>& scene, const Provenance& origin,
+               const std::optional<Restart>& restart, const StableStep& stable, RunLog& log) {
   log.info(fmt::format("meniscus {} ({}), {} threads: {}", origin.build.version,
                        origin.build.git_hash, origin.threads, origin.command_line));
   for (const auto& note : scene.notes) log.info(note);
   for (const auto& warning : scene.warnings) log.warning(warning);
-  if (restart.from)
-    for (const auto& warning : restart.from->warnings) log.warning(warning);
-  log.info(fmt::format("stable step {:.6g} {}", simulation.controller().stable().dt,
-                       scene.units.symbol(dimension::time)));
+  if (restart) {
+    for (const auto& warning : restart->from.warnings) log.warning(warning);
+    log.info(fmt::format("continuing from step {} of {}", restart->from.checkpoint.step,
+                         restart->from.file.string()));
+  }
+  log.info(fmt::format("stable step {:.6g} {}", stable.dt, scene.units.symbol(dimension::time)));
+}
 
-  Recorder<D> recorder(simulation, directory, origin, restart.in_place);
-  if (!restart.in_place) recorder.record(-1, end);
-  Progress progress(simulation.state().time, end, scene.units.symbol(dimension::time),
-                    scene.units.symbol(dimension::energy), request.quiet);
+template <int D>
+int run_scene(const SceneInput& input, const RunRequest& request) {
+  const Interruption interruption(request.max_walltime);
+  Scene<D> scene = build_scene<D>(input);
+  require_known_outputs(input, scene);
+  const std::string complete = input.complete();
+  const Real stop = std::min(scene.time.end, time_to_stop(request, scene.units));
+  const std::optional<Restart> restart = read_restart(request, complete);
+  const bool in_place = restart && restart->in_place;
+
+  Simulation<D> simulation(scene);
+  if (restart)
+    simulation.restore(restart->from.checkpoint.state);
+  else
+    simulation.begin();
+
+  const RunDirectory directory(output_directory(request), in_place ? ExistingRun::keep
+                                                          : request.overwrite
+                                                              ? ExistingRun::replace
+                                                              : ExistingRun::refuse);
+  RunLog log(directory.log_file());
+  const Provenance origin = provenance(request.command_line, complete);
+  introduce(scene, origin, restart, simulation.controller().stable(), log);
+
+  if (in_place)  // before rows and frames are dropped that a later checkpoint would need
+    CheckpointWriter(directory, origin)
+        .write(simulation.state().step, simulation.state().time, simulation.snapshot());
+  Recorder<D> recorder(simulation, directory, origin, in_place);
+  if (!restart) recorder.record(-1);
+  Progress progress(simulation.state(), stop, scene.units, request.quiet);
   const std::int64_t first_step = simulation.state().step;
   const double set_up_seconds = interruption.elapsed_seconds();
-  std::optional<int> stopped;
+  std::optional<int> signal;
   try {
-    stopped = run_steps(simulation, recorder, log, interruption, progress, end);
+    signal = run_steps(simulation, recorder, log, interruption, progress, stop);
   } catch (const SolveError& e) {
     progress.finish();
     log.error(e.what());
-    throw;
+    recorder.write_last_good_frame();
+    return exit_numerical;
   }
   progress.finish();
+  recorder.checkpoint();
+
   const double seconds = interruption.elapsed_seconds() - set_up_seconds;
   const auto steps = static_cast<Real>(simulation.state().step - first_step);
   const std::string summary = fmt::format(
@@ -176,9 +159,14 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
       simulation.snapshot().hash());
   log.info(summary);
   if (!request.quiet) fmt::print("{}\nresults in {}\n", summary, directory.path().string());
-  if (stopped) return *stopped;
-  recorder.checkpoint();
-  return report_expectations(scene, directory, end < scene.time.end, log);
+  if (!signal) return report_expectations(scene, directory, log);
+  log.warning(fmt::format(
+      "stopped after step {}, t = {:.9g} {}, by {}; to continue, run the same command with "
+      "--restart {}",
+      simulation.state().step, simulation.state().time, scene.units.symbol(dimension::time),
+      *signal == SIGALRM ? "the limit on wall-clock time" : fmt::format("signal {}", *signal),
+      directory.path().string()));
+  return exit_signal + *signal;
 }
 
 }  // namespace

@@ -2,23 +2,13 @@
 // Beginning, advancing, saving and restoring a run.
 #include "meniscus/app/simulation.hpp"
 
-#include <fmt/format.h>
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/solve/central_difference.hpp"
 
+#include <fmt/format.h>
+
 namespace meniscus {
 namespace {
-
-/// The D components of a nodal field, without padding.
-template <int D>
-std::vector<Real> packed(const NodalVectors& field) {
-  std::vector<Real> values;
-  values.reserve(field.size() * D);
-  for (const Lanes& x : field)
-    for (int i = 0; i < D; ++i) values.push_back(x[i]);
-  return values;
-}
 
 template <int D>
 void unpack(const Snapshot& snapshot, const char* name, NodalVectors& field) {
@@ -30,15 +20,27 @@ void unpack(const Snapshot& snapshot, const char* name, NodalVectors& field) {
   }
 }
 
-std::span<const Real> three(const Eigen::Vector3d& x) { return {x.data(), 3}; }
+std::span<const Real> three(const Eigen::Vector3d& x) {
+  return {x.data(), 3};
+}
 
 }  // namespace
+
+template <int D>
+std::vector<Real> packed(const NodalVectors& field) {
+  std::vector<Real> values;
+  values.reserve(field.size() * D);
+  for (const Lanes& x : field)
+    for (int i = 0; i < D; ++i) values.push_back(x[i]);
+  return values;
+}
 
 template <int D>
 Simulation<D>::Simulation(Scene<D>& scene)
     : scene_(scene),
       state_(scene.initial),
-      controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every}) {}
+      controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every,
+                                 scene.time.step_place}) {}
 
 template <int D>
 void Simulation<D>::begin() {
@@ -48,11 +50,13 @@ void Simulation<D>::begin() {
 }
 
 template <int D>
-void Simulation<D>::advance(Real end) {
-  last_step_ = controller_.next(state_, end);
+void Simulation<D>::advance() {
   try {
+    last_step_ = controller_.next(state_, scene_.time.end);
     meniscus::advance(scene_.system, state_, last_step_);
   } catch (const SolveError& e) {
+    // The step left its broken forces; those of the places it was taken back to can be shown.
+    scene_.system.add_up(state_.motion(), state_.force);
     throw SolveError(fmt::format("step {}, t = {:.9g}, dt = {:.4g}: {}", state_.step + 1,
                                  state_.time + last_step_, last_step_, e.what()));
   }
@@ -118,6 +122,8 @@ void Simulation<D>::restore(const Snapshot& s) {
     audit_.initial_stored[kind] = s.real("audit/stored/" + kind);
 }
 
+template std::vector<Real> packed<2>(const NodalVectors&);
+template std::vector<Real> packed<3>(const NodalVectors&);
 template class Simulation<2>;
 template class Simulation<3>;
 

@@ -36,39 +36,56 @@ Real decay_rate(std::span<const Real> t, std::span<const Real> y) {
 
 Real reduce(const std::string& how, std::span<const Real> t, std::span<const Real> y) {
   if (how == "decay_rate") return decay_rate(t, y);
-  if (how == "max") return *std::max_element(y.begin(), y.end());
-  if (how == "min") return *std::min_element(y.begin(), y.end());
-  Real total = 0, largest = 0;
+  Real total = 0, largest_size = 0;
   for (const Real x : y) {
     total += x;
-    largest = std::max(largest, std::abs(x));
+    largest_size = std::max(largest_size, std::abs(x));
   }
-  return how == "max_abs" ? largest : total / static_cast<Real>(y.size());
+  if (std::isnan(total)) return total;  // comparisons would pass over it
+  if (how == "max") return *std::max_element(y.begin(), y.end());
+  if (how == "min") return *std::min_element(y.begin(), y.end());
+  return how == "max_abs" ? largest_size : total / static_cast<Real>(y.size());
+}
+
+/// The part of the history that an expectation is about.
+struct Span {
+  std::vector<Real> time, y;
+};
+
+Span span_between(const std::vector<Real>& time, const std::vector<Real>& y, Real from, Real to) {
+  Span span;
+  for (std::size_t k = 0; k < time.size(); ++k)
+    if (time[k] >= from && time[k] <= to) {
+      span.time.push_back(time[k]);
+      span.y.push_back(y[k]);
+    }
+  return span;
+}
+
+/// Whether the rows begin and end soon enough; the time of the last one may be off by round-off.
+bool covers(const std::vector<Real>& time, Real from, Real to) {
+  return !time.empty() && time.front() <= from && time.back() >= to * (1 - 1e-12);
 }
 
 ExpectationResult evaluate(const std::string& name, const ExpectSettings& e,
-                           const HistoryColumns& history, bool stopped_early) {
+                           const HistoryColumns& history, Real end) {
   const std::vector<Real>& time = history("time");
   const std::vector<Real>& y = history(e.of);
+  const bool at_a_time = e.reduce == "at";
+  const Real to = (at_a_time ? e.at : e.to).value_or(end), from = at_a_time ? to : e.from;
   ExpectationResult result{name, 0, e.value, 0, true, false};
-  result.tolerance = std::max(e.within, e.within_relative * std::abs(e.value));
-  const Real last = time.back() * (1 + 1e-12);
-  if (e.reduce == "at") {
-    result.reached = e.at < 0 ? !stopped_early : e.at <= last;
-    if (result.reached) result.obtained = e.at < 0 ? y.back() : value_at_time(time, y, e.at);
+  result.tolerance =
+      std::max(e.within.value_or(0), e.within_relative.value_or(0) * std::abs(e.value));
+  result.reached = covers(time, from, to);
+  if (!result.reached) return result;
+  if (at_a_time) {
+    result.obtained = value_at_time(time, y, to);
   } else {
-    result.reached = e.to < 0 ? !stopped_early : e.to <= last;
-    std::vector<Real> t_span, y_span;
-    for (std::size_t k = 0; k < time.size(); ++k)
-      if (time[k] >= e.from && (e.to < 0 || time[k] <= e.to)) {
-        t_span.push_back(time[k]);
-        y_span.push_back(y[k]);
-      }
+    const Span span = span_between(time, y, from, to * (1 + 1e-12));
     const std::size_t needed = e.reduce == "decay_rate" ? 3 : 1;
-    result.reached = result.reached && t_span.size() >= needed;
-    if (result.reached) result.obtained = reduce(e.reduce, t_span, y_span);
+    result.obtained = span.y.size() < needed ? std::nan("") : reduce(e.reduce, span.time, span.y);
   }
-  result.met = result.reached && std::abs(result.obtained - e.value) <= result.tolerance;
+  result.met = std::abs(result.obtained - e.value) <= result.tolerance;
   return result;
 }
 
@@ -76,10 +93,10 @@ ExpectationResult evaluate(const std::string& name, const ExpectSettings& e,
 
 std::vector<ExpectationResult> evaluate_expectations(
     const std::vector<std::pair<std::string, ExpectSettings>>& expectations,
-    const HistoryColumns& history, bool stopped_early) {
+    const HistoryColumns& history, Real end) {
   std::vector<ExpectationResult> results;
   for (const auto& entry : expectations)
-    results.push_back(evaluate(entry.first, entry.second, history, stopped_early));
+    results.push_back(evaluate(entry.first, entry.second, history, end));
   return results;
 }
 

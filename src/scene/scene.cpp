@@ -2,19 +2,22 @@
 // Reading a scene whole, then building it: one short block per kind of table.
 #include "meniscus/scene/scene.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <set>
-
 #include "meniscus/body/ordering.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/names.hpp"
 #include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/solve/shape_measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
 
 namespace meniscus {
 namespace {
@@ -40,19 +43,27 @@ struct Plan {
   /// Notes a problem if there is no body of that name.
   const PlannedBody* require(const Block& block, const std::string& name) const {
     const PlannedBody* body = find(name);
-    if (!body) {
-      std::string known;
-      for (const PlannedBody& b : bodies) known += (known.empty() ? "'" : ", '") + b.settings.name + "'";
-      block.problem("body", fmt::format("there is no body '{}'; allowed {}", name, known));
+    if (!body && block.has("body") && !bodies.empty()) {
+      std::vector<std::string> known;
+      for (const PlannedBody& b : bodies) known.push_back(b.settings.name);
+      block.problem("body",
+                    fmt::format("there is no body '{}'; {}", name, allowed_names(name, known)));
     }
     return body;
   }
 };
 
-void require_components(const Block& block, const char* key, std::size_t given, int D,
-                        bool may_be_empty) {
-  if (given == static_cast<std::size_t>(D) || (may_be_empty && given == 0)) return;
-  block.problem(key, fmt::format("{} components are given; allowed {}, one per dimension", given, D));
+void require_components(const Block& block, const char* key, std::size_t given, int D) {
+  if (given == static_cast<std::size_t>(D) || !block.has(key)) return;
+  block.problem(key, fmt::format("has {} components; allowed are {}, one per dimension", given, D));
+}
+
+/// The name of a body is part of names in run.h5 and history.csv.
+void require_plain_name(const Block& block, const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+  if (block.has("name") && (name.empty() || !std::all_of(name.begin(), name.end(), plain)))
+    block.problem("name",
+                  fmt::format("'{}' cannot be a name; allowed are letters, digits, _ and -", name));
 }
 
 template <int D>
@@ -78,10 +89,9 @@ void plan_bodies(const Block& root, Plan<D>& plan) {
     BodySettings settings = read<BodySettings>(block);
     if (!settings.name.empty() && !names.insert(settings.name).second)
       block.problem("name", fmt::format("the name '{}' is used twice", settings.name));
-    if (settings.name.find_first_of("./ ") != std::string::npos)
-      block.problem("name", "a name may not contain a dot, a slash or a blank");
-    require_components(block, "initial_displacement", settings.initial_displacement.size(), D, true);
-    require_components(block, "initial_velocity", settings.initial_velocity.size(), D, true);
+    require_plain_name(block, settings.name);
+    require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
+    require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
     Geometry<D> geometry = read_geometry<D>(block);
     auto material = plan_material<D>(block);
     block.done();
@@ -89,30 +99,60 @@ void plan_bodies(const Block& root, Plan<D>& plan) {
   }
 }
 
+/// The measures of a table that a body may have once only would have equal names.
+template <class Settings>
+void require_first(const Block& block, const std::vector<Settings>& all) {
+  const auto same = [&](const Settings& s) { return s.body == all.back().body; };
+  if (block.has("body") && std::count_if(all.begin(), all.end(), same) > 1)
+    block.problem("body", fmt::format("'{}' has such a table already; allowed is one per body",
+                                      all.back().body));
+}
+
 template <int D>
 void plan_loads(const Block& root, Plan<D>& plan) {
   for (const Block& block : root.tables("surface_tension")) {
     plan.tensions.push_back(read<TensionSettings>(block));
     const auto* body = plan.require(block, plan.tensions.back().body);
+    require_first(block, plan.tensions);
     if (body && plan.tensions.back().form == "curvature" && !body->geometry.smooth)
       block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
-                                        "undefined; allowed \"weak\", \"triangles\"",
+                                        "undefined; allowed are weak, triangles",
                                         body->settings.name));
     block.done();
   }
   for (const Block& block : root.tables("body_force")) {
     plan.body_forces.push_back(read<BodyForceSettings>(block));
     plan.require(block, plan.body_forces.back().body);
-    require_components(block, "acceleration", plan.body_forces.back().acceleration.size(), D, false);
+    require_components(block, "acceleration", plan.body_forces.back().acceleration.size(), D);
     block.done();
   }
   for (const Block& block : root.tables("exact")) {
     plan.exact.push_back(read<ExactSettings>(block));
     plan.require(block, plan.exact.back().body);
-    require_components(block, "displacement", plan.exact.back().displacement.size(), D, false);
-    require_components(block, "velocity", plan.exact.back().velocity.size(), D, false);
+    require_first(block, plan.exact);
+    require_components(block, "displacement", plan.exact.back().displacement.size(), D);
+    require_components(block, "velocity", plan.exact.back().velocity.size(), D);
     block.done();
   }
+}
+
+/// What can never be met, or is always, is a mistake.
+void require_reachable(const Block& block, const ExpectSettings& e, Real end) {
+  if (!e.within && !e.within_relative)
+    block.problem("", "says no tolerance; give within or within_relative");
+  if (e.within_relative && !e.within && e.value == 0)
+    block.problem("within_relative", "nothing is within a fraction of 0; give within");
+  for (const auto& [key, time] : {std::pair("at", e.at), std::pair("to", e.to)})
+    if (time > end) block.problem(key, fmt::format("is after the end; allowed is <= {:.9g}", end));
+  if (e.from >= e.to.value_or(end))
+    block.problem("from",
+                  fmt::format("the span is empty; allowed is < {:.9g}", e.to.value_or(end)));
+  for (const char* key : {"from", "to"})
+    if (e.reduce == "at" && block.has(key))
+      block.problem(key, "has no meaning for reduce = \"at\"; allowed is at");
+  if (e.reduce != "at" && e.at)
+    block.problem(
+        "at", fmt::format("has no meaning for reduce = \"{}\"; allowed are from, to", e.reduce));
 }
 
 template <int D>
@@ -122,6 +162,7 @@ void read_settings(const SceneInput& input, Scene<D>& scene) {
   scene.units = root.units();
   if (const auto block = root.table("time", true)) {
     scene.time = read<TimeSettings>(*block);
+    scene.time.step_place = block->place("step");
     block->done();
   }
   const Block output = root.table_or_defaults("output");
@@ -131,8 +172,7 @@ void read_settings(const SceneInput& input, Scene<D>& scene) {
     for (const auto& [name, block] : expect->named_tables()) {
       ExpectSettings e = read<ExpectSettings>(block);
       if (e.of.empty()) e.of = name;
-      if (e.within < 0 && e.within_relative < 0)
-        block.problem("", "says no tolerance; give within or within_relative");
+      require_reachable(block, e, scene.time.end);
       block.done();
       scene.expectations.emplace_back(name, std::move(e));
     }
@@ -185,8 +225,8 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
   body.first = scene.system.size();
   body.at_particles =
       build_point_rows<D>(body.particles, body.particles.X(), {.value = true}, body.name);
-  auto built = planned.material->build(
-      body, {planned.settings.integration, planned.settings.gauss_points});
+  auto built =
+      planned.material->build(body, {planned.settings.integration, planned.settings.gauss_points});
   scene.system.mass.insert(scene.system.mass.end(), body.mass.begin(), body.mass.end());
   scene.notes.push_back(fmt::format(
       "body '{}': {} particles, {} cells, mean spacing {:.4g} {}, {:.1f} neighbours per particle, "
@@ -194,16 +234,19 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
       name, body.size(), body.geometry.grid.cell_count(), spacing_of(body.geometry),
       scene.units.symbol(dimension::length),
       static_cast<Real>(body.at_particles.entries()) / body.size(),
-      static_cast<Real>(built.force->pairs()) / body.size(), 1e-6 * static_cast<Real>(built.force->bytes())));
+      static_cast<Real>(built.force->pairs()) / body.size(),
+      1e-6 * static_cast<Real>(built.force->bytes())));
   if (built.mass.raised > 0)
-    scene.notes.push_back(fmt::format(
-        "body '{}': the masses of {} particles were raised to 0.3 of their cells, the total by {:.2g}",
-        name, built.mass.raised, built.mass.added));
+    scene.notes.push_back(
+        fmt::format("body '{}': the masses of {} particles were raised to 0.3 of their cells, the "
+                    "total by {:.2g}",
+                    name, built.mass.raised, built.mass.added));
   if (planned.settings.integration == "nodal")
-    scene.warnings.push_back(fmt::format(
-        "body '{}': integration = \"nodal\" has modes without energy and is unstable; for comparison "
-        "only",
-        name));
+    scene.warnings.push_back(
+        fmt::format("body '{}': integration = \"nodal\" has modes without energy and is unstable; "
+                    "for comparison "
+                    "only",
+                    name));
 
   auto fields = built.force->fields();
   for (MeasureSource& m : built.force->measures()) {
@@ -229,9 +272,10 @@ template <int D>
 void build_loads(const Plan<D>& plan, Scene<D>& scene) {
   for (const TensionSettings& tension : plan.tensions) {
     const Body<D>& body = body_named(scene.system, tension.body);
-    auto term = tension.form == "weak"        ? weak_surface_tension(body, tension.gamma, tension.points)
-                : tension.form == "curvature" ? curvature_surface_tension(body, tension.gamma, tension.points)
-                                              : triangle_surface_tension(body, tension.gamma);
+    auto term = tension.form == "weak" ? weak_surface_tension(body, tension.gamma, tension.points)
+                : tension.form == "curvature"
+                    ? curvature_surface_tension(body, tension.gamma, tension.points)
+                    : triangle_surface_tension(body, tension.gamma);
     for (MeasureSource& m : term->measures()) {
       m.name = body.name + "." + m.name;
       scene.measures.push_back(std::move(m));
@@ -239,7 +283,8 @@ void build_loads(const Plan<D>& plan, Scene<D>& scene) {
     scene.system.terms.push_back(std::move(term));
   }
   for (const BodyForceSettings& load : plan.body_forces)
-    scene.system.terms.push_back(body_force(body_named(scene.system, load.body), load.acceleration));
+    scene.system.terms.push_back(
+        body_force(body_named(scene.system, load.body), load.acceleration));
   for (const ExactSettings& exact : plan.exact) {
     const Body<D>& body = body_named(scene.system, exact.body);
     MeasureSource m = state_error(body, {exact.displacement, exact.velocity, exact.rate});
@@ -281,9 +326,10 @@ void warn_of_overlaps(Scene<D>& scene) {
       for (const Vec<D>& X : bodies[a].particles.X())
         count += bodies[b].particles.search().distance_of_nearest(X, 1) < near;
       if (count > 0)
-        scene.warnings.push_back(fmt::format("bodies '{}' and '{}' overlap: {} particles of the first "
-                                             "lie within half a spacing of the second",
-                                             bodies[a].name, bodies[b].name, count));
+        scene.warnings.push_back(
+            fmt::format("bodies '{}' and '{}' overlap: {} particles of the first "
+                        "lie within half a spacing of the second",
+                        bodies[a].name, bodies[b].name, count));
     }
 }
 

@@ -9,12 +9,10 @@
 namespace meniscus {
 namespace {
 
-constexpr Real not_given = -1;
-
 /// An optional number: absent stays absent.
 template <class M>
-Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension dimension, Range range,
-                    std::string fallback, std::string meaning) {
+Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension dimension,
+                    Range range, std::string fallback, std::string meaning) {
   Row<M> row = real_row<M>(std::move(key), nullptr, dimension, range, std::move(meaning), 0.0);
   row.fallback = std::move(fallback);
   row.read = [key = row.key, member, dimension, range](M& m, const Block& block) {
@@ -36,7 +34,9 @@ Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*mem
   return row;
 }
 
-std::vector<std::string> windows() { return {window_names.begin(), window_names.end()}; }
+std::vector<std::string> windows() {
+  return {window_names.begin(), window_names.end()};
+}
 
 }  // namespace
 
@@ -108,10 +108,11 @@ Rows<TensionSettings> TensionSettings::rows() {
   return {
       text_row("body", &S::body, "name of the body whose surface is under tension"),
       real_row("gamma", &S::gamma, dimension::tension, range::positive, "surface tension"),
-      choice_row("form", &S::form, {"weak", "curvature", "triangles"},
-                 "gradient of the discrete area; curvature from second derivatives (smooth surfaces "
-                 "only); flat triangles",
-                 "weak"),
+      choice_row(
+          "form", &S::form, {"weak", "curvature", "triangles"},
+          "gradient of the discrete area; curvature from second derivatives (smooth surfaces "
+          "only); flat triangles",
+          "weak"),
       integer_row("points", &S::points, {1, 8}, "Gauss points per direction and surface facet", 3),
   };
 }
@@ -140,29 +141,33 @@ Rows<ExpectSettings> ExpectSettings::rows() {
   using S = ExpectSettings;
   return {
       text_row("of", &S::of, "column of the history; empty: the name of this table", ""),
-      choice_row("reduce", &S::reduce, {"at", "max", "min", "mean", "max_abs", "decay_rate"},
-                 "value at a time, or a number taken over from ... to; decay_rate is minus the slope "
-                 "of ln |column|",
-                 "at"),
-      real_row("at", &S::at, dimension::time, range::any, "time of the value; -1: the end", not_given),
-      real_row("from", &S::from, dimension::time, range::any, "begin of the span; -1: the begin",
-               not_given),
-      real_row("to", &S::to, dimension::time, range::any, "end of the span; -1: the end", not_given),
+      choice_row(
+          "reduce", &S::reduce, {"at", "max", "min", "mean", "max_abs", "decay_rate"},
+          "value at a time, or a number taken over from ... to; decay_rate is minus the slope "
+          "of ln |column|",
+          "at"),
+      optional_row("at", &S::at, dimension::time, range::non_negative, "time.end",
+                   "time of the value, for reduce = \"at\""),
+      real_row("from", &S::from, dimension::time, range::non_negative,
+               "begin of the span, for the others", 0.0),
+      optional_row("to", &S::to, dimension::time, range::positive, "time.end",
+                   "end of the span, for the others"),
       real_row("value", &S::value, dimension::none, range::any,
                "expected number, in the unit of the column", 0.0),
-      real_row("within", &S::within, dimension::none, range::any,
-               "largest difference; -1: not used", not_given),
-      real_row("within_relative", &S::within_relative, dimension::none, range::any,
-               "largest difference relative to value; -1: not used", not_given),
+      optional_row("within", &S::within, dimension::none, range::non_negative, "",
+                   "largest difference, in the unit of the column"),
+      optional_row("within_relative", &S::within_relative, dimension::none, range::positive, "",
+                   "largest difference relative to value; the larger of the two counts"),
   };
 }
 
 namespace {
 
-void describe_units(std::ostream& out) {
-  out << "A number is in the scene's unit system; a text such as \"72.8 mN/m\" has its own unit.\n"
-         "Top level: title (text, default \"\"), dimension (2 or 3, required).\n"
-         "[units] system = \"SI\" (default) or length-time-mass such as \"nm-ps-ag\".\n\n";
+void describe_numbers(std::ostream& out) {
+  out << "A plain number is in the unit system of the scene; a text such as \"72.8 mN/m\" has its "
+         "own\n"
+         "unit. The units and defaults below are those of SI. A formula is a text in x, y, z, "
+         "t.\n\n";
 }
 
 template <class Keys>
@@ -176,23 +181,32 @@ void describe_list(std::ostream& out, const std::string& heading, const Keys& ke
 template <int D>
 void describe_shapes(std::ostream& out) {
   for (const auto& [name, kind] : shapes<D>())
-    describe_list(out, "[[body]] shape = \"" + name + "\" (" + std::to_string(D) + "D): " + kind.meaning,
+    describe_list(out,
+                  "[[body]] shape = \"" + name + "\" (" + std::to_string(D) + "D): " + kind.meaning,
                   kind.keys());
 }
 
 }  // namespace
 
 void describe_keys(std::ostream& out) {
-  describe_units(out);
+  describe_numbers(out);
+  describe_list(out, "top level",
+                std::vector<ShapeKey>{
+                    {"title", "text", "", "", "\"\"", "heading of reports"},
+                    {"dimension", "integer", "", "2 or 3", "required", "dimension of space"}});
+  describe_list(out, "[units]",
+                std::vector<ShapeKey>{{"system", "text", "", "", "\"SI\"",
+                                       "SI, or the units of length, time and mass such as "
+                                       "\"nm-ps-ag\""}});
   describe<TimeSettings>(out, "[time]");
   describe<OutputSettings>(out, "[output]");
   describe<BodySettings>(out, "[[body]]");
-  describe_list(out, "[[body]] of any shape",
-                std::vector<ShapeKey>{
-                    {"shape", "text", "", "", "required", "one of the shapes below"},
-                    {"jitter", "number", "1", ">= 0 and <= 0.5", "0",
-                     "random shift of interior particles / shortest cell edge"},
-                    {"jitter_seed", "integer", "1", ">= 0", "1", "seed of the shifts"}});
+  describe_list(
+      out, "[[body]] of any shape",
+      std::vector<ShapeKey>{{"shape", "text", "", "", "required", "one of the shapes below"},
+                            {"jitter", "number", "", ">= 0 and <= 0.5", "0",
+                             "random shift of interior particles / shortest cell edge"},
+                            {"jitter_seed", "integer", "", ">= 0", "1", "seed of the shifts"}});
   describe_shapes<3>(out);
   describe_shapes<2>(out);
   for (const auto& [name, law] : laws())

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape of a body from the places of its surface particles, and the error against an exact solution.
+// Shape of a body from the places of its surface particles, and the error against an exact
+// solution.
 #include "meniscus/solve/shape_measures.hpp"
 
+#include "meniscus/approx/row_sums.hpp"
+
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <memory>
-
-#include <Eigen/Dense>
-
-#include "meniscus/approx/row_sums.hpp"
 
 namespace meniscus {
 namespace {
@@ -87,11 +87,11 @@ std::vector<MeasureSource> shape_measures(const Body<D>& body) {
     measures.push_back({std::string("extent_") + "xyz"[i], dimension::length,
                         "extent of the surface along the axis",
                         [surface, i](const Motion& m) { return surface->extents(m)[i]; }});
-  measures.push_back({"aspect", dimension::none, "largest extent over smallest",
-                      [surface](const Motion& m) {
-                        const Vec<D> extents = surface->extents(m);
-                        return extents.maxCoeff() / extents.minCoeff();
-                      }});
+  measures.push_back(
+      {"aspect", dimension::none, "largest extent over smallest", [surface](const Motion& m) {
+         const Vec<D> extents = surface->extents(m);
+         return extents.maxCoeff() / extents.minCoeff();
+       }});
   measures.push_back({"radius", dimension::length, "mean distance of the surface from its centre",
                       [surface](const Motion& m) { return surface->legendre_fit(m)[0]; }});
   measures.push_back({"p2", dimension::none,
@@ -120,10 +120,10 @@ MeasureSource state_error(const Body<D>& body, ExactSolution exact) {
         size += V * (u_exact * u_exact + v_exact * v_exact);
       }
     }
-    return std::sqrt(error / size);
+    return error > 0 ? std::sqrt(error / size) : 0;  // at rest both are 0
   };
-  return {"state_error", dimension::none, "error of places and velocities against the exact solution",
-          compute};
+  return {"state_error", dimension::none,
+          "error of places and velocities against the exact solution", compute};
 }
 
 template std::vector<MeasureSource> shape_measures(const Body<2>&);

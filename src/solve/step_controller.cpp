@@ -2,9 +2,11 @@
 // The time step as the body deforms.
 #include "meniscus/solve/step_controller.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 
-#include "meniscus/core/error.hpp"
+#include <algorithm>
 
 namespace meniscus {
 
@@ -13,11 +15,16 @@ void StepController<D>::begin(const State& state) {
   stable_ = estimator_.estimate(state);
   first_limit_ = stable_.dt;
   next_check_ = state.step + choice_.check_every;
+  choose_step();
+}
+
+template <int D>
+void StepController<D>::choose_step() {
   if (choice_.fixed && *choice_.fixed > stable_.dt)
     throw InputError(fmt::format(
-        "time.step = {:.6g} is above the stable step {:.6g} of the discretised system; use at most "
-        "{:.3g}, or leave the key out to have it chosen",
-        *choice_.fixed, stable_.dt, 0.9 * stable_.dt));
+        "{}: {:.6g} is above the stable step of the discretised system; allowed is <= {:.6g} (use "
+        "{:.3g}, or leave the key out to have it chosen)",
+        choice_.place, *choice_.fixed, stable_.dt, 0.9 * stable_.dt));
   step_ = choice_.fixed.value_or(choice_.safety * stable_.dt);
 }
 
@@ -38,7 +45,7 @@ void StepController<D>::reconsider(const State& state) {
   }
   // Small changes are left alone: every change of step disturbs the energy balance a little.
   const Real wanted = choice_.safety * stable_.dt;
-  if (step_ > 1.02 * wanted || step_ < 0.9 * wanted) step_ = wanted;
+  if (step_ > std::min(1.02 * wanted, stable_.dt) || step_ < 0.9 * wanted) step_ = wanted;
 }
 
 template <int D>
@@ -53,11 +60,19 @@ Real StepController<D>::next(const State& state, Real end) {
 template <int D>
 void StepController<D>::save(Snapshot& snapshot) const {
   const NodalVectors& mode = estimator_.mode();
-  snapshot.add_reals("step_control/mode", {reinterpret_cast<const Real*>(mode.data()), 4 * mode.size()});
-  const Real numbers[] = {step_, first_limit_, stable_.dt, stable_.stiffness, stable_.viscosity};
+  snapshot.add_reals("step_control/mode",
+                     {reinterpret_cast<const Real*>(mode.data()), 4 * mode.size()});
+  const Real numbers[] = {step_,
+                          first_limit_,
+                          stable_.dt,
+                          stable_.stiffness,
+                          stable_.viscosity,
+                          choice_.fixed.value_or(0),
+                          choice_.safety};
   snapshot.add_reals("step_control/numbers", numbers);
-  const std::int64_t counts[] = {next_check_, warned_};
-  snapshot.add_integers("step_control/counts", counts);
+  const std::int64_t warned = warned_;
+  snapshot.add_integers("step_control/next_check", {&next_check_, 1});
+  snapshot.add_integers("step_control/warned", {&warned, 1});
 }
 
 template <int D>
@@ -65,14 +80,14 @@ void StepController<D>::restore(const Snapshot& snapshot) {
   NodalVectors mode(estimator_.mode().size());
   snapshot.copy_to("step_control/mode", {reinterpret_cast<Real*>(mode.data()), 4 * mode.size()});
   estimator_.set_mode(std::move(mode));
-  Real numbers[5];
+  Real numbers[7];
   snapshot.copy_to("step_control/numbers", numbers);
   step_ = numbers[0];
   first_limit_ = numbers[1];
   stable_ = {numbers[2], numbers[3], numbers[4], 0};
-  const auto& counts = snapshot.integers("step_control/counts");
-  next_check_ = counts.at(0);
-  warned_ = counts.at(1) != 0;
+  next_check_ = snapshot.integer("step_control/next_check");
+  warned_ = snapshot.integer("step_control/warned") != 0;
+  if (choice_.fixed.value_or(0) != numbers[5] || choice_.safety != numbers[6]) choose_step();
 }
 
 template class StepController<2>;

@@ -21,18 +21,20 @@ enum ExitCode : int {
 };
 
 struct RunRequest {
-  std::string scene, output, restart, max_walltime, command_line;
+  std::string scene, output, restart, command_line;
   std::vector<std::string> set;
   std::optional<std::int64_t> frame;
-  std::optional<double> until;
-  int threads = 0;  ///< 0: all cores
+  std::string until;                   ///< a time such as "0.1 ns"; empty: the end
+  std::optional<double> max_walltime;  ///< seconds
+  int threads = 0;                     ///< 0: all cores
   bool overwrite = false, quiet = false;
 };
 
 /// Runs a scene to its end; returns an exit code. Throws InputError, SolveError, FileError.
 int run(const RunRequest& request);
 
-/// Everything short of running: reads, builds, estimates step, memory and duration, and prints them.
+/// Everything short of running: reads, builds, estimates step, memory and duration, and prints
+/// them.
 int check(const RunRequest& request);
 
 }  // namespace meniscus

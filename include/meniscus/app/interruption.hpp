@@ -11,8 +11,8 @@ namespace meniscus {
 /// at once. One object at a time.
 class Interruption {
  public:
-  /// `max_walltime` is "H:M:S", "M:S" or seconds; empty: none. Throws InputError if it is neither.
-  explicit Interruption(const std::string& max_walltime);
+  /// `max_walltime` in seconds from now.
+  explicit Interruption(std::optional<double> max_walltime);
   ~Interruption();
   Interruption(const Interruption&) = delete;
 
@@ -24,5 +24,8 @@ class Interruption {
   std::chrono::steady_clock::time_point begin_;
   double limit_seconds_;
 };
+
+/// Seconds of "H:M:S", "M:S" or "S"; nothing if the text is none of these or not positive.
+std::optional<double> parse_duration(const std::string& text);
 
 }  // namespace meniscus

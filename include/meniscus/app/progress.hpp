@@ -3,21 +3,27 @@
 #pragma once
 #include "meniscus/solve/audit.hpp"
 
+#include <chrono>
+
 namespace meniscus {
 
 /// Prints at most twice a second, and nothing at all when stdout is not a terminal.
 class Progress {
  public:
-  Progress(Real begin, Real end, std::string time_unit, std::string energy_unit, bool quiet);
-  void show(const State& state, Real dt, const std::optional<Ledger>& ledger, double elapsed_seconds);
+  /// The run begins now, at `begin`, and is meant to reach the time `end`.
+  Progress(const State& begin, Real end, const UnitSystem& units, bool quiet);
+  /// `ledger`: the newest one, if there is a new one.
+  void show(const State& state, Real dt, const std::optional<Ledger>& ledger);
   void finish();
 
  private:
-  Real begin_, end_;
+  using Clock = std::chrono::steady_clock;
+
+  Real first_time_, end_;
+  std::int64_t first_step_;
   std::string time_unit_, energy_unit_;
   bool on_;
-  double last_shown_ = -1;
-  std::int64_t first_step_ = -1;
+  Clock::time_point begin_ = Clock::now(), last_shown_ = begin_;
   Ledger ledger_;
 };
 

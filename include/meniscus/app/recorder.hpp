@@ -11,29 +11,30 @@ namespace meniscus {
 template <int D>
 class Recorder {
  public:
-  /// `continued`: the run goes on in the directory it was in before.
+  /// `continued`: the run goes on in the directory it was in before. Rows and frames after the
+  /// present state are dropped: the run will make them again.
   Recorder(Simulation<D>& simulation, const RunDirectory& directory, const Provenance& provenance,
            bool continued);
 
-  /// Writes what is due after a step that began at `before` (also the initial state, before = -1, and
-  /// the last one). Returns the ledger if a row of the history was written.
-  std::optional<Ledger> record(Real before, Real end);
+  /// Writes the row and frame that are due after a step that began at `before` (-1: the initial
+  /// state), or because the end of the scene is reached. Returns the ledger if a row was written.
+  std::optional<Ledger> record(Real before);
   std::filesystem::path checkpoint();
-  /// The places of the moment a run failed, without its state, which is not complete.
-  void write_failed_frame();
+  /// After a failed step: the frame before it if it was not written yet, without the state, which
+  /// is not complete.
+  void write_last_good_frame();
 
  private:
   void write_row(const Ledger& ledger);
   void write_frame(bool with_state);
-  std::vector<MeasureSource> chosen_measures() const;
 
   Simulation<D>& simulation_;
   std::vector<MeasureSource> measures_;
   std::vector<std::string> energy_kinds_;
-  Real history_every_, frames_every_;
-  ResultFile results_;
-  HistoryWriter history_;
   CheckpointWriter checkpoints_;
+  HistoryWriter history_;  // before the frames: it refuses other columns before anything is dropped
+  ResultFile results_;
+  std::int64_t last_frame_ = -1;
 };
 
 }  // namespace meniscus

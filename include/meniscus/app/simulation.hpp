@@ -8,6 +8,10 @@
 
 namespace meniscus {
 
+/// The D components of a nodal field, without padding.
+template <int D>
+std::vector<Real> packed(const NodalVectors& field);
+
 template <int D>
 class Simulation {
  public:
@@ -16,8 +20,9 @@ class Simulation {
 
   /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
   void begin();
-  /// One step towards `end`.
-  void advance(Real end);
+  /// One step towards the end of the scene. Throws SolveError naming step, time and dt; the state
+  /// is then back at the places before the step, but not complete.
+  void advance();
 
   const Scene<D>& scene() const { return scene_; }
   const State& state() const { return state_; }

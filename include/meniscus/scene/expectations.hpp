@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a scene expects of its own result, held against the history of the run.
 #pragma once
+#include "meniscus/scene/settings.hpp"
+
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "meniscus/scene/settings.hpp"
 
 namespace meniscus {
 
@@ -15,16 +15,16 @@ using HistoryColumns = std::function<const std::vector<Real>&(const std::string&
 
 struct ExpectationResult {
   std::string name;
-  Real obtained = 0, expected = 0, tolerance = 0;  ///< tolerance is absolute
-  bool reached = true;  ///< false: the run ended before the times the expectation is about
+  Real obtained = 0;                 ///< not a number if the history holds too few rows to tell
+  Real expected = 0, tolerance = 0;  ///< tolerance is absolute
+  bool reached = true;  ///< false: the history does not cover the times the expectation is about
   bool met = false;
 };
 
-/// Evaluates all expectations. `stopped_early`: the run was told to end before the scene's end, so
-/// expectations about "the end" are not reached.
+/// Evaluates all expectations; `end` is that of the scene.
 std::vector<ExpectationResult> evaluate_expectations(
     const std::vector<std::pair<std::string, ExpectSettings>>& expectations,
-    const HistoryColumns& history, bool stopped_early);
+    const HistoryColumns& history, Real end);
 
 /// The results as a table of lines.
 std::string expectation_table(const std::vector<ExpectationResult>& results);

@@ -2,11 +2,11 @@
 // From a scene file to bodies, force terms and an initial state. The only place that knows all
 // kinds of terms.
 #pragma once
-#include <string>
-#include <vector>
-
 #include "meniscus/scene/settings.hpp"
 #include "meniscus/solve/system.hpp"
+
+#include <string>
+#include <vector>
 
 namespace meniscus {
 

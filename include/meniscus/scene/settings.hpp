@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a scene says, as structs whose rows are the reference of the input keys.
 #pragma once
-#include <optional>
-
 #include "meniscus/core/input.hpp"
+
+#include <optional>
 
 namespace meniscus {
 
@@ -11,6 +11,7 @@ namespace meniscus {
 struct TimeSettings {
   Real end = 0;
   std::optional<Real> step;  ///< given: checked against the stable step; else chosen
+  std::string step_place;    ///< where the scene gives it, to begin messages with
   Real safety = 0.9;
   int check_every = 0;  ///< steps between new estimates of the stable step
   static Rows<TimeSettings> rows();
@@ -63,10 +64,11 @@ struct ExactSettings {
 
 /// [expect.NAME]
 struct ExpectSettings {
-  std::string of;      ///< column of the history; the name of the table if empty
-  std::string reduce;  ///< how the record becomes one number
-  Real at = -1, from = -1, to = -1;  ///< times; < 0: the end, the begin, the end
-  Real value = 0, within = -1, within_relative = -1;  ///< < 0: not given
+  std::string of;              ///< column of the history; the name of the table if empty
+  std::string reduce;          ///< how the record becomes one number
+  std::optional<Real> at, to;  ///< times; absent: the end of the scene
+  Real from = 0, value = 0;
+  std::optional<Real> within, within_relative;  ///< tolerances, at least one is given
   static Rows<ExpectSettings> rows();
 };
 

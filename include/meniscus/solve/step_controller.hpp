@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chooses the time step of a run: a fraction of the stable step, or the step that was asked for.
 #pragma once
-#include <optional>
-
 #include "meniscus/core/snapshot.hpp"
 #include "meniscus/solve/time_step.hpp"
+
+#include <optional>
 
 namespace meniscus {
 
@@ -15,6 +15,7 @@ class StepController {
     std::optional<Real> fixed;  ///< step asked for
     Real safety = 0.9;          ///< else this fraction of the stable step
     int check_every = 250;      ///< steps between estimates
+    std::string place;          ///< of the fixed step in the scene, to begin a message with
   };
 
   StepController(System<D>& system, Choice choice) : estimator_(system), choice_(choice) {}
@@ -22,7 +23,7 @@ class StepController {
   /// Estimates the stable step at the start of a run. Throws InputError if a fixed step exceeds it.
   void begin(const State& state);
 
-  /// The next step; the last ones are shortened to arrive at `end` exactly. Throws SolveError when
+  /// The next step; the last two are shortened to arrive at `end` exactly. Throws SolveError when
   /// the stable step has collapsed to a millionth of the first.
   Real next(const State& state, Real end);
 
@@ -31,9 +32,12 @@ class StepController {
   std::optional<std::string> take_warning() { return std::exchange(warning_, std::nullopt); }
 
   void save(Snapshot& snapshot) const;
+  /// Goes on as before, or, if step or safety were chosen differently then, by the new choice.
+  /// Throws as begin().
   void restore(const Snapshot& snapshot);
 
  private:
+  void choose_step();
   void reconsider(const State& state);
 
   StableStepEstimator<D> estimator_;

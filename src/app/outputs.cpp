@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names of columns and fields, and the check of those a scene asks for.
+#include "meniscus/app/outputs.hpp"
+
+#include "meniscus/core/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Fields of the motion, and those that the internal forces of all bodies have.
+template <int D>
+Names known_fields(const Scene<D>& scene) {
+  Names names{"displacement", "velocity", "force"};
+  for (const FieldSource& field : scene.fields.front()) {
+    const auto has_it = [&](const std::vector<FieldSource>& of_body) {
+      return std::any_of(of_body.begin(), of_body.end(),
+                         [&](const FieldSource& f) { return f.name == field.name; });
+    };
+    if (std::all_of(scene.fields.begin(), scene.fields.end(), has_it)) names.push_back(field.name);
+  }
+  return names;
+}
+
+void require_known(const Block& block, const char* key, const Names& given, const Names& known) {
+  for (const std::string& name : given)
+    if (!contains(known, name))
+      block.problem(key, fmt::format("'{}' is unknown; {}", name, allowed_names(name, known)));
+}
+
+}  // namespace
+
+template <int D>
+Names stored_kinds(const Scene<D>& scene) {
+  Names kinds;
+  for (const auto& term : scene.system.terms) {
+    const std::string kind(term->energy_kind());
+    if (!kind.empty() && !contains(kinds, kind)) kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+template <int D>
+std::vector<MeasureSource> chosen_measures(const Scene<D>& scene) {
+  Names names = scene.output.measures;
+  for (const auto& entry : scene.expectations) names.push_back(entry.second.of);
+  std::vector<MeasureSource> chosen;
+  for (const MeasureSource& m : scene.measures)
+    if (contains(names, m.name)) chosen.push_back(m);
+  return chosen;
+}
+
+template <int D>
+std::vector<HistoryColumn> history_columns(const Scene<D>& scene) {
+  const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
+  const std::string energy = unit(dimension::energy);
+  std::vector<HistoryColumn> columns{{"time", unit(dimension::time)},
+                                     {"step", "1"},
+                                     {"dt", unit(dimension::time)},
+                                     {"kinetic_energy", energy}};
+  for (const std::string& kind : stored_kinds(scene)) columns.push_back({kind + "_energy", energy});
+  for (const char* name : {"dissipated", "external_work", "energy_balance"})
+    columns.push_back({name, energy});
+  for (const char* name : {"energy_balance_error", "momentum_error", "angular_momentum_error"})
+    columns.push_back({name, "1"});
+  for (const MeasureSource& m : chosen_measures(scene))
+    columns.push_back({m.name, unit(m.dimension)});
+  return columns;
+}
+
+template <int D>
+void require_known_outputs(const SceneInput& input, const Scene<D>& scene) {
+  Names measures, columns;
+  for (const MeasureSource& m : scene.measures) measures.push_back(m.name);
+  for (const HistoryColumn& column : history_columns(scene)) columns.push_back(column.name);
+  for (const std::string& measure : measures)
+    if (!contains(columns, measure)) columns.push_back(measure);
+
+  if (const auto output = input.root().table("output")) {
+    require_known(*output, "fields", scene.output.fields, known_fields(scene));
+    require_known(*output, "measures", scene.output.measures, measures);
+    for (const std::string& field : scene.output.fields)
+      if (std::count(scene.output.fields.begin(), scene.output.fields.end(), field) > 1)
+        output->problem("fields", fmt::format("'{}' is named twice", field));
+  }
+  if (const auto expect = input.root().table("expect"))
+    for (const auto& [name, e] : scene.expectations) {
+      const auto block = expect->table(name);
+      require_known(*block, block->has("of") ? "of" : "", {e.of}, columns);
+    }
+  input.check();
+}
+
+template Names stored_kinds(const Scene<2>&);
+template Names stored_kinds(const Scene<3>&);
+template std::vector<MeasureSource> chosen_measures(const Scene<2>&);
+template std::vector<MeasureSource> chosen_measures(const Scene<3>&);
+template std::vector<HistoryColumn> history_columns(const Scene<2>&);
+template std::vector<HistoryColumn> history_columns(const Scene<3>&);
+template void require_known_outputs(const SceneInput&, const Scene<2>&);
+template void require_known_outputs(const SceneInput&, const Scene<3>&);
+
+}  // namespace meniscus

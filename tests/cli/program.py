@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program under test, small scenes, and what its results are compared by."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+PROGRAM = None
+ENVIRONMENT = {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": "2"}
+
+# A viscous drop under surface tension; the step is estimated again every 20 steps.
+DROP = """
+dimension = 3
+[time]
+end = "60 ps"
+check_every = 20
+[output]
+frames_every = "7 ps"
+history_every = "1.5 ps"
+fields = ["velocity", "J"]
+measures = ["drop.aspect", "drop.p2"]
+[[body]]
+name = "drop"
+shape = "ellipsoid"
+semi_axes = ["5 nm", "7.5 nm", "5 nm"]
+core = 3
+layers = 2
+[body.material]
+type = "newtonian"
+density = 1000
+bulk_modulus = "2.2 GPa"
+viscosity = "0.6 mPa s"
+[[surface_tension]]
+body = "drop"
+gamma = "72.8 mN/m"
+"""
+
+# An elastic block that is shaken.
+BLOCK = """
+dimension = 3
+[time]
+end = 0.4
+check_every = 30
+[output]
+frames_every = 0.04
+history_every = 0.01
+[[body]]
+name = "block"
+shape = "box"
+size = [1, 1, 1]
+cells = [4, 4, 4]
+[body.material]
+type = "neo_hookean"
+density = 1000
+mu = 1e5
+lambda = 1e5
+[[body_force]]
+body = "block"
+acceleration = ["20*sin(40*t)*(1 + z)", "5*y*cos(11*t)", 0]
+"""
+
+# The same in the plane.
+SHEET = """
+dimension = 2
+[time]
+end = 0.1
+[[body]]
+name = "sheet"
+shape = "rectangle"
+size = [1, 2]
+cells = [5, 10]
+[body.material]
+type = "neo_hookean"
+density = 1000
+mu = 1e5
+lambda = 1e5
+"""
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a directory of its own, in which it runs the program."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.directory = Path(temporary.name)
+
+    def scene(self, text, name="scene"):
+        (self.directory / f"{name}.toml").write_text(text)
+        return f"{name}.toml"
+
+    def call(self, *arguments, code=0, **options):
+        """Runs the program; its output is an attribute of the result (stdout, stderr)."""
+        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.directory, text=True,
+                              capture_output=True, env=ENVIRONMENT, timeout=100, **options)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def start(self, *arguments):
+        """Starts the program and leaves it running."""
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.directory, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT)
+        self.addCleanup(process.__exit__, None, None, None)
+        self.addCleanup(process.kill)
+        return process
+
+    def refused(self, arguments, code, *words):
+        """The program ends with `code` and says all of `words` on stderr."""
+        done = self.call(*arguments, code=code)
+        for word in words:
+            self.assertIn(word, done.stderr)
+        return done
+
+    def frames(self, output):
+        """The frames of a run: a list of {name: array}, with step and time."""
+        with h5py.File(self.directory / output / "run.h5") as file:
+            steps = file["steps"]
+            return [{"step": steps[str(k)].attrs["step"], "time": steps[str(k)].attrs["time"],
+                     **{n: d[:] for n, d in steps[str(k)].items() if isinstance(d, h5py.Dataset)}}
+                    for k in range(len(steps))]
+
+    def history(self, output):
+        """Columns of history.csv by name."""
+        file = self.directory / output / "history.csv"
+        names = file.read_text().splitlines()[0][2:].split(",")
+        return dict(zip(names, np.loadtxt(file, delimiter=",", ndmin=2).T))
+
+
+def state_of(done):
+    """The hash of the state that a run ended with."""
+    return re.search(r"state ([0-9a-f]{16})", done.stdout).group(1)
+
+
+def main():
+    global PROGRAM
+    PROGRAM = sys.argv.pop(1)
+    sys.modules["program"].PROGRAM = PROGRAM
+    unittest.main(module="__main__", verbosity=2)

@@ -1,0 +1,235 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is wrong is said where it is wrong, before anything is computed or overwritten, with the
+exit code of its kind. Usage: test_errors.py PROGRAM"""
+import re
+
+import h5py
+import numpy as np
+
+import program
+from program import BLOCK, DROP, SHEET, ProgramTest
+
+
+class Usage(ProgramTest):
+    def test_refused(self):
+        file = self.scene(BLOCK)
+        for arguments in ([], ["walk"], ["run"], ["run", file, "--threads", "0"],
+                          ["run", file, "--frame", "1"], ["run", file, "--max-walltime", "soon"],
+                          ["run", file, "--max-walltime", "0"], ["run", file, "--frame", "-1"],
+                          ["check", file, "--overwrite"], ["info"]):
+            self.call(*arguments, code=2)
+
+
+class Scenes(ProgramTest):
+    def assert_refused(self, text, *words, code=3):
+        """`check` and `run` refuse the scene with all of `words`, and nothing is written."""
+        file = self.scene(text)
+        for command in (["check", file], ["run", file, "--output", "out"]):
+            done = self.refused(command, code, *words)
+            self.assertNotIn("internal", done.stderr)
+        self.assertFalse((self.directory / "out").exists())
+        return done.stderr
+
+    def change(self, text, *pairs):
+        for old, new in pairs:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        return text
+
+    def test_files(self):
+        (self.directory / "directory.toml").mkdir()
+        (self.directory / "garbage.toml").write_bytes(bytes(range(256)) * 10)
+        for name, code, word in (("missing.toml", 5, "No such file"), ("directory.toml", 5, "directory"),
+                                 ("garbage.toml", 3, "garbage.toml:1:")):
+            self.refused(["run", name], code, word)
+        self.assert_refused("", "scene.toml:1:1", "empty")
+        self.assert_refused("dimension = 3", "[[body]]", "time: missing")
+
+    def test_all_problems_at_once(self):
+        text = self.change(DROP, ('"60 ps"', '"60 pm"'), ("viscosity", "viscosty"),
+                           ('body = "drop"', 'body = "dorp"'), ("layers = 2", "layers = 0.5"))
+        report = self.assert_refused(text, "scene.toml:4:7: time.end", "did you mean 'drop'?",
+                                     "did you mean 'viscosity'?", "body[0].layers")
+        self.assertEqual(len(report.splitlines()), 5, report)  # viscosity is also missing
+
+    def test_names_of_outputs(self):
+        text = self.change(DROP, ('"J"]', '"presure", "J", "J"]'), ('"drop.p2"', '"drop.aspct"'))
+        text += """
+        [expect]
+        kinetic_enery = { value = 0, within = 1 }
+        here = { of = "drop.areas", value = 0, within = 1 }
+        step = { value = 1, within = 1e9 }
+        """
+        report = self.assert_refused(
+            text, "output.fields: 'presure' is unknown", "did you mean 'pressure'?",
+            "'J' is named twice", "output.measures: 'drop.aspct'", "did you mean 'drop.aspect'?",
+            "expect.kinetic_enery: ", "did you mean 'kinetic_energy'?", "expect.here.of: ",
+            "did you mean 'drop.area'?")
+        self.assertEqual(len(report.splitlines()), 5, report)
+
+    def test_expectations(self):
+        text = BLOCK + """
+        [expect]
+        a = { of = "step", value = 1 }
+        b = { of = "step", value = 0, within_relative = 1 }
+        c = { of = "step", value = 1, within = 1, at = 0.5 }
+        d = { of = "step", value = 1, within = 1, reduce = "max", from = 0.4 }
+        e = { of = "step", value = 1, within = 1, from = 0.1 }
+        f = { of = "step", value = 1, within = 1, reduce = "max", at = 0.1 }
+        g = { of = "step", value = 1, within = 1, reduce = "max", from = 0.2, to = 0.1 }
+        """
+        report = self.assert_refused(text, *(f"expect.{name}" for name in "abcdefg"))
+        self.assertEqual(len(report.splitlines()), 7, report)
+
+    def test_bodies(self):
+        self.assert_refused(self.change(DROP, ("dimension = 3", "dimension = 2")), "'ellipsoid'", "disk")
+        self.assert_refused(self.change(SHEET, ("dimension = 2", "dimension = 3")), "'rectangle'", "box")
+        self.assert_refused(self.change(SHEET, ("dimension = 2", "dimension = 4")), "dimension")
+        for name in ("", "a b", "a/b", "a,b", "a.b", "\\n"):
+            self.assert_refused(self.change(SHEET, ('"sheet"', f'"{name}"')), "body[0].name")
+        self.assert_refused(self.change(BLOCK, ("[[body]]", '[[body]]\ninitial_velocity = [1, 2]')),
+                            "body[0].initial_velocity", "2 components", "3")
+        self.assert_refused(self.change(BLOCK, ("*cos(11*t)\", 0]", '"]')), "acceleration", "3")
+        self.assert_refused(DROP + '[[surface_tension]]\nbody = "drop"\ngamma = 1\n', "surface_tension[1]",
+                            "already")
+        self.assert_refused(self.change(BLOCK, ("[[body]]", "[[body]]\njitter = 0.6")), "body[0].jitter")
+
+    def test_support_too_small(self):
+        self.assert_refused(self.change(BLOCK, ("[[body]]", "[[body]]\nsupport_factor = 0.5")),
+                            "body[0].support_factor")
+        text = self.change(BLOCK, ("[[body]]", "[[body]]\nsupport_spacings = 0.9"))
+        file = self.scene(text)
+        done = self.call("check", file)
+        self.assertIn("warning: body 'block': the supports of", done.stdout)
+
+    def test_step(self):
+        text = self.change(BLOCK, ("[time]", "[time]\nstep = 1"))
+        self.assert_refused(text, "scene.toml:4:8: time.step", "stable step", "allowed is <=")
+
+    def test_settings(self):
+        file = self.scene(BLOCK)
+        self.refused(["run", file, "--set", "time.ent=3"], 3, "--set 'time.ent=3'", "did you mean 'end'")
+        self.refused(["run", file, "--set", "nothing"], 3, "nothing")
+        for time in ("never", "-1", "0", "1 m", "inf", "nan", "1 ps ps"):
+            self.refused(["run", file, f"--until={time}"], 3, "--until", "allowed")
+
+
+class Files(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.file = self.scene(BLOCK)
+        self.call("run", self.file, "--output", "out", "--until", "0.1")
+
+    def test_no_overwriting(self):
+        before = (self.directory / "out/history.csv").read_bytes()
+        self.refused(["run", self.file, "--output", "out"], 5, "--overwrite", "--restart")
+        self.assertEqual((self.directory / "out/history.csv").read_bytes(), before)
+        self.call("run", self.file, "--output", "out", "--until", "0.05", "--overwrite")
+        self.assertLess(len((self.directory / "out/history.csv").read_bytes()), len(before))
+
+    def test_bad_scene_deletes_nothing(self):
+        self.call("run", self.scene(BLOCK.replace("mu = 1e5", "mu = 0"), "bad"), "--output", "out",
+                  "--overwrite", code=3)
+        self.assertTrue((self.directory / "out/run.h5").exists())
+
+    def test_unwritable(self):
+        (self.directory / "a_file").write_text("")
+        for output in ("a_file", "a_file/below", "/proc/nowhere"):
+            self.refused(["run", self.file, "--output", output], 5, output)
+
+    def test_restart_files(self):
+        checkpoint = self.directory / "out/checkpoint-a.h5"
+        good = checkpoint.read_bytes()
+        bad = bytearray(good)
+        bad[len(bad) // 2] ^= 1
+        for content in (bytes(bad), good[:1000], b""):
+            checkpoint.write_bytes(content)
+            for path in ("out", "out/checkpoint-a.h5"):
+                self.refused(["run", self.file, "--restart", path, "--output", "out"], 5, "checkpoint-a")
+        self.refused(["run", self.file, "--restart", "nowhere"], 5, "nowhere")
+        self.refused(["run", self.file, "--restart", "out", "--frame", "99"], 5, "frame 99")
+        self.refused(["run", self.file, "--restart", "out/run.h5"], 5, "frame")
+        self.refused(["run", self.file, "--restart", self.file, "--frame", "1"], 5, self.file)
+        self.call("run", self.file, "--restart", "out", "--frame", "1")
+
+    def test_other_columns_or_fields(self):
+        """Refused before rows or frames are lost."""
+        before = (self.directory / "out/history.csv").read_bytes()
+        frames = len(self.frames("out"))
+        for change in ('output.measures=["block.aspect"]', 'output.fields=["J"]'):
+            self.refused(["run", self.file, "--restart", "out", "--frame", "1", "--set", change], 5,
+                         "--output")
+        self.assertEqual((self.directory / "out/history.csv").read_bytes(), before)
+        self.assertEqual(len(self.frames("out")), frames)
+
+
+class Failures(ProgramTest):
+    def assert_fails(self, text, *words):
+        """Exit code 4 with all of `words`; everything that was written is finite."""
+        file = self.scene(text)
+        done = self.refused(["run", file, "--output", "out"], 4, *words)
+        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+        self.assertIn(done.stderr.strip().split(": ", 1)[1],
+                      (self.directory / "out/run.log").read_text())
+        for name, column in self.history("out").items():
+            self.assertTrue(np.isfinite(column).all(), name)
+        for frame in self.frames("out"):
+            for name, values in frame.items():
+                self.assertTrue(np.isfinite(values).all(), name)
+        return done.stderr
+
+    def test_inversion(self):
+        """A block that is pushed together far too fast."""
+        text = BLOCK.replace("[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
+        text = text.replace("frames_every", 'fields = ["velocity", "J", "force"]\nframes_every')
+        message = self.assert_fails(text, "body 'block', particle ", "reference position", "now (",
+                                    "J = det F", "F = [", "dt = ", "step ", "t = ")
+        step = int(re.search(r"step (\d+)", message).group(1))
+        frames = self.frames("out")
+        self.assertEqual(frames[-1]["step"], step - 1)
+        self.assertGreater(frames[-1]["J"].min(), 0)
+        self.assertEqual(len({frame["step"] for frame in frames}), len(frames))
+        with h5py.File(self.directory / "out/run.h5") as file:
+            self.assertIn("state", file["steps/0"])
+            self.assertNotIn("state", file[f"steps/{len(frames) - 1}"])
+
+    def test_unstable_initial_state(self):
+        text = BLOCK.replace("[[body]]", '[[body]]\ninitial_displacement = ["-2*x", 0, 0]')
+        self.refused(["run", self.scene(text)], 4, "body 'block'", "J = det F")
+
+
+class Expectations(ProgramTest):
+    SCENE = BLOCK + """
+    [expect]
+    late = { of = "time", value = 0.4, within = 1e-12 }
+    early = { of = "time", at = 0.1, value = 0.1, within = 1e-12 }
+    """
+
+    def test_met(self):
+        done = self.call("run", self.scene(self.SCENE), "--quiet")
+        self.assertEqual(done.stdout.count(" met"), 2)
+        self.assertEqual(done.stderr, "")
+
+    def test_missed(self):
+        done = self.call("run", self.scene(self.SCENE), "--set", "expect.late.value=0.41", code=7)
+        self.assertRegex(done.stdout, r"late +0.4 +0.41 .* MISSED")
+
+    def test_too_few_rows(self):
+        text = self.SCENE.replace("[expect]", '[expect]\nrate = { of = "time", reduce = "decay_rate", '
+                                  'from = 0.1, to = 0.105, value = 1, within = 1 }')
+        self.assertIn("MISSED", self.call("run", self.scene(text), code=7).stdout)
+
+    def test_not_reached(self):
+        done = self.call("run", self.scene(self.SCENE), "--until", "0.2")
+        self.assertRegex(done.stdout, r"late .* not reached\nearly .* met")
+        # Elsewhere the beginning is missing.
+        done = self.call("run", self.scene(self.SCENE), "--restart", "results/scene", "--output", "b")
+        self.assertRegex(done.stdout, r"late .* met\nearly .* not reached")
+        # In place the history is complete.
+        done = self.call("run", self.scene(self.SCENE), "--restart", "results/scene")
+        self.assertEqual(done.stdout.count(" met"), 2)
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,245 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Results of all kinds, and what the program says: info, check, keys, version, help, progress.
+Usage: test_reports.py PROGRAM"""
+import os
+import pty
+import re
+import select
+import subprocess
+
+import h5py
+import numpy as np
+
+import program
+from program import BLOCK, DROP, ENVIRONMENT, SHEET, ProgramTest, state_of
+
+FIELDS = {"displacement": (3, "m"), "velocity": (3, "m/s"), "force": (3, "N"), "J": (1, "1"),
+          "F": (9, "1"), "pressure": (1, "Pa"), "von_mises": (1, "Pa"), "cauchy_stress": (9, "Pa")}
+ALL = "fields = [" + ", ".join(f'"{name}"' for name in FIELDS) + "]"
+
+
+def with_output(text, lines):
+    return text.replace("[output]", f"[output]\n{lines}")
+
+
+class Results(ProgramTest):
+    def assert_finite_history(self, output):
+        for name, column in self.history(output).items():
+            self.assertTrue(np.isfinite(column).all(), name)
+
+    def test_every_field(self):
+        self.call("run", self.scene(with_output(BLOCK, ALL)), "--output", "out")
+        for frame in self.frames("out"):
+            n = len(frame["position"])
+            self.assertEqual(frame.keys() - {"step", "time"}, FIELDS.keys() | {"position"})
+            for name, (components, _) in FIELDS.items():
+                self.assertEqual(frame[name].reshape(n, -1).shape, (n, components), name)
+            self.assertEqual(frame["position"].dtype, np.float64)
+        with h5py.File(self.directory / "out/run.h5") as file:
+            for name, (_, unit) in FIELDS.items():
+                self.assertEqual(file[f"steps/0/{name}"].attrs["units"], unit.encode())
+            X = file["reference/block/X"][:]
+            mass = file["reference/block/mass"][:].ravel()
+        last = self.frames("out")[-1]
+        np.testing.assert_allclose(last["position"], X + last["displacement"], atol=1e-14)
+        F = last["F"].reshape(-1, 3, 3)
+        np.testing.assert_allclose(np.linalg.det(F), last["J"].ravel(), rtol=1e-2)
+        stress = last["cauchy_stress"].reshape(-1, 3, 3)
+        np.testing.assert_allclose(-np.trace(stress, axis1=1, axis2=2) / 3, last["pressure"].ravel(),
+                                   rtol=1e-10, atol=1e-6)
+        self.assertAlmostEqual(mass.sum(), 1000, places=8)
+        self.assertFalse(np.array_equal(self.frames("out")[0]["position"], last["position"]))
+
+    def test_rigid_motion(self):
+        """Positions are X + sum N u: exact for a uniform velocity."""
+        text = SHEET.replace("[[body]]", "[[body]]\ninitial_velocity = [3, -2]")
+        self.call("run", self.scene(with_output(text, ALL)), "--output", "out")
+        first, last = self.frames("out")[0], self.frames("out")[-1]
+        np.testing.assert_allclose(last["position"] - first["position"],
+                                   np.tile([0.3, -0.2, 0], (len(first["position"]), 1)), atol=1e-12)
+        np.testing.assert_allclose(last["velocity"], np.tile([3, -2, 0], (66, 1)), atol=1e-10)
+        np.testing.assert_allclose(last["J"], 1, atol=1e-12)
+
+    def test_sheet_at_rest(self):
+        text = with_output(SHEET, ALL + '\nmeasures = ["sheet.aspect", "sheet.p2", "sheet.radius", '
+                           '"sheet.extent_x", "sheet.extent_y", "sheet.state_error"]')
+        text += """
+        [[exact]]
+        body = "sheet"
+        displacement = [0, 0]
+        velocity = [0, 0]
+        rate = 1
+        """
+        self.call("run", self.scene(text), "--output", "out")
+        self.assert_finite_history("out")
+        history = self.history("out")
+        self.assertEqual(len(history["time"]), 201)
+        np.testing.assert_allclose(history["sheet.aspect"], 2, rtol=1e-14)
+        np.testing.assert_array_equal(history["sheet.state_error"], 0)
+        for name in ("kinetic_energy", "momentum_error", "energy_balance_error"):
+            np.testing.assert_array_equal(history[name], 0)
+        frame = self.frames("out")[-1]
+        self.assertEqual(frame["position"].shape, (66, 3))
+        self.assertTrue((frame["position"][:, 2] == 0).all())
+
+    def test_two_bodies(self):
+        second = BLOCK[BLOCK.index("[[body]]"):].replace('"block"', '"brick"').replace(
+            "cells = [4, 4, 4]", "cells = [3, 3, 3]\ncentre = [5, 0, 0]\ninitial_velocity = [0, 7, 0]")
+        second = second[:second.index("[[body_force]]")]
+        text = with_output(BLOCK, ALL + '\nmeasures = ["brick.aspect", "block.aspect"]') + second
+        self.call("run", self.scene(text), "--output", "out")
+        self.call("run", self.scene(with_output(BLOCK, ALL)), "--output", "alone", "--set",
+                  f"time.step={self.history('out')['dt'][10]}")
+        frame = self.frames("out")[-1]
+        self.assertEqual(len(frame["position"]), 125 + 64)
+        np.testing.assert_allclose(frame["velocity"][125:], np.tile([0, 7, 0], (64, 1)), atol=1e-9)
+        np.testing.assert_allclose(frame["J"][125:], 1, atol=1e-9)
+        np.testing.assert_allclose(frame["position"][:125], self.frames("alone")[-1]["position"],
+                                   atol=1e-3)
+        with h5py.File(self.directory / "out/run.h5") as file:
+            self.assertEqual(file["reference/brick"].attrs["first_particle"], 125)
+        self.assert_finite_history("out")
+        self.assertIn("brick", self.call("info", "out").stdout)
+
+    def test_small_files(self):
+        """float32, compressed, without states."""
+        text = with_output(BLOCK, 'precision = "float32"\ncompression = 6\nrestartable = false')
+        self.call("run", self.scene(BLOCK), "--output", "full")
+        self.call("run", self.scene(text), "--output", "small")
+        for small, full in zip(self.frames("small"), self.frames("full")):
+            self.assertEqual(small["velocity"].dtype, np.float32)
+            np.testing.assert_array_equal(small["velocity"], full["velocity"].astype(np.float32))
+        with h5py.File(self.directory / "small/run.h5") as file:
+            self.assertNotIn("state", file["steps/1"])
+            self.assertEqual(file["steps/1/velocity"].compression, "gzip")
+        self.assertLess((self.directory / "small/run.h5").stat().st_size,
+                        (self.directory / "full/run.h5").stat().st_size / 2)
+        self.refused(["run", self.scene(text), "--restart", "small", "--frame", "1"], 5, "state")
+
+    def test_units(self):
+        """The same drop in other units."""
+        self.call("run", self.scene(DROP), "--output", "si")
+        self.call("run", self.scene('units.system = "nm-ps-ag"\n' + DROP.replace(
+            "density = 1000", 'density = "1 g/cm^3"')), "--output", "nm")
+        si, nm = self.frames("si")[-1], self.frames("nm")[-1]
+        self.assertAlmostEqual(nm["time"], 60)
+        np.testing.assert_allclose(nm["position"], 1e9 * si["position"], atol=1e-6)
+        with h5py.File(self.directory / "nm/run.h5") as file:
+            self.assertEqual(file["steps/0/velocity"].attrs["units"], b"nm/ps")
+
+    def test_result_does_not_depend_on_what_is_written(self):
+        a = self.call("run", self.scene(BLOCK), "--output", "a")
+        b = self.call("run", self.scene(with_output(BLOCK, ALL)), "--output", "b", "--set",
+                      "output.frames_every=0.003", "--set", "output.checkpoint_minutes=1e-6")
+        self.assertEqual(state_of(a), state_of(b))
+
+
+class Nodal(ProgramTest):
+    """Integration at the particles alone has modes without energy: that must not look fine."""
+
+    def test_drop(self):
+        text = DROP.replace("core = 3\nlayers = 2", 'core = 6\nlayers = 3\nintegration = "nodal"')
+        text = text.replace('end = "60 ps"', 'end = "200 ps"')
+        text += """
+        [expect]
+        "drop.aspect" = { value = 1.0019, within = 0.01 }
+        energy_balance_error = { reduce = "max_abs", value = 0, within = 5e-3 }
+        """
+        file = self.scene(text)
+        self.assertIn("warning: body 'drop': integration = \"nodal\"", self.call("check", file).stdout)
+        process = self.start("run", file, "--output", "out")
+        _, stderr = process.communicate()
+        self.assertIn("warning: body 'drop': integration = \"nodal\"", stderr)
+        self.assertIn("nodal", (self.directory / "out/run.log").read_text())
+        self.assertIn(process.returncode, (4, 7))
+
+
+class Reports(ProgramTest):
+    def test_info(self):
+        self.call("run", self.scene(BLOCK), "--output", "out")
+        for path in ("out", "out/run.h5"):
+            text = self.call("info", path).stdout
+            for word in ("block", "125 particles", "velocity", "m/s", "frames    11", "with state",
+                         "time 0.4 "):
+                self.assertIn(word, text)
+        text = self.call("info", "out/checkpoint-a.h5").stdout
+        for word in ("step", "time", "hash", "velocity"):
+            self.assertIn(word, text)
+        for path, word in (("scene.toml", "scene.toml"), ("nowhere", "nowhere"), (".", "run.h5"),
+                           ("out/history.csv", "history.csv")):
+            self.refused(["info", path], 5, word)
+
+    def test_check(self):
+        text = self.call("check", self.scene("title = 'A drop'\n" + DROP)).stdout
+        for word in ("A drop", "176 particles", "MB", "stable step", "steps, about", "in order"):
+            self.assertIn(word, text)
+        self.assertFalse((self.directory / "results").exists())
+
+    def test_overlap(self):
+        second = BLOCK[BLOCK.index("[[body]]"):BLOCK.index("[[body_force]]")].replace("block", "twin")
+        self.assertIn("overlap", self.call("check", self.scene(BLOCK + second)).stdout)
+
+    def test_keys(self):
+        text = self.call("keys").stdout
+        self.assertEqual(text, self.call("keys").stdout)
+        tables = dict(re.findall(r"^(\S.*)\n((?:  .*\n)+)", text, re.M))
+        for heading, keys in {
+                "top level": "title dimension", "[units]": "system",
+                "[time]": "end step safety check_every",
+                "[output]": "frames_every history_every fields measures precision compression "
+                            "restartable checkpoint_minutes",
+                "[[body]]": "name integration gauss_points window support_factor support_rank "
+                            "support_spacings initial_displacement initial_velocity",
+                "[[body]] of any shape": "shape jitter jitter_seed",
+                "[[surface_tension]]": "body gamma form points",
+                "[[body_force]]": "body acceleration",
+                "[[exact]]": "body displacement velocity rate",
+                "[expect.NAME]": "of reduce at from to value within within_relative"}.items():
+            self.assertEqual([line.split()[0] for line in tables[heading].splitlines()[1:]],
+                             keys.split(), heading)
+        for shape in ("ball", "box", "cylinder", "ellipsoid", "disk", "ellipse", "rectangle"):
+            self.assertIn(f'[[body]] shape = "{shape}"', text)
+        for law in ("newtonian", "st_venant_kirchhoff", "neo_hookean", "mooney_rivlin"):
+            self.assertIn(f'[body.material] type = "{law}"', text)
+
+    def test_version(self):
+        self.assertRegex(self.call("version").stdout, r"^meniscus \d+\.\d+\.\d+\ngit \S+.*\ncompiler ")
+
+    def test_help(self):
+        for command in ("run", "check", "keys", "info", "version"):
+            self.assertIn("Usage", self.call(command, "--help").stdout)
+        text = self.call("--help").stdout
+        for word in ("run", "check", "keys", "info", "version", "Exit codes", "130", "142"):
+            self.assertIn(word, text)
+
+    def test_progress(self):
+        """On a terminal one line that is written over again; nothing of it in a file."""
+        file = self.scene(DROP)
+        self.assertNotIn("\r", self.call("run", file, "--output", "a").stdout)
+        more = ["--set", "time.end='1 ms'", "--max-walltime", "3"]
+        text = self.on_terminal("run", file, "--output", "b", *more)
+        for word in ("\r\033[Kstep ", " t ", " dt ", " % ", " ETA ", " steps/s ", "kinetic", "surface"):
+            self.assertIn(word, text)
+        # The line is gone before anything else is said.
+        self.assertRegex(text, r"steps/s [^\n]*\r\033\[K\d+ steps in [^\n]*\n(.*\n)*warning: stopped")
+        self.assertNotIn("\r\033", self.on_terminal("run", file, "--output", "c", "--quiet", *more))
+
+    def on_terminal(self, *arguments):
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen([program.PROGRAM, *arguments], cwd=self.directory, stdout=theirs,
+                                   stderr=theirs, env=ENVIRONMENT)
+        os.close(theirs)
+        text = b""
+        while select.select([ours], [], [], 60)[0]:
+            try:
+                text += os.read(ours, 65536)
+            except OSError:  # the other side has ended
+                break
+        process.wait()
+        os.close(ours)
+        return text.decode()
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,156 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run that is stopped and continued, however, ends with the same bits as one that is not.
+Usage: test_restart.py PROGRAM"""
+import re
+import signal
+
+import numpy as np
+
+import program
+from program import BLOCK, DROP, ProgramTest, state_of
+
+
+class Restart(ProgramTest):
+    def reference(self, text):
+        """The uninterrupted run: scene, hash, history and frames."""
+        self.file = self.scene(text)
+        self.end = re.search(r"end = (.*)", text).group(1).strip('"')
+        self.whole = state_of(self.call("run", self.file, "--output", "whole"))
+        self.whole_history = (self.directory / "whole/history.csv").read_text()
+        self.whole_frames = self.frames("whole")
+
+    def assert_same(self, done, output):
+        self.assertEqual(state_of(done), self.whole)
+        self.assertEqual((self.directory / output / "history.csv").read_text(), self.whole_history)
+        self.assert_same_frames(self.frames(output), self.whole_frames)
+
+    def assert_same_frames(self, frames, expected):
+        self.assertEqual(len(frames), len(expected))
+        for frame, other in zip(frames, expected):
+            self.assertEqual(frame.keys(), other.keys())
+            for name in frame:
+                self.assertTrue(np.array_equal(frame[name], other[name]), name)
+
+    def stop_at(self, time, output, *options):
+        self.call("run", self.file, "--output", output, "--until", time, *options)
+
+    def go_on(self, output, *options):
+        return self.call("run", self.file, "--output", output, *options)
+
+
+class EveryWay:
+    """The ways to stop and go on, for a scene with a TIME in its middle."""
+
+    def test_threads(self):
+        self.reference(self.SCENE)
+        for threads in (1, 3):
+            done = self.call("run", self.file, "--output", f"t{threads}", "--threads", threads)
+            self.assert_same(done, f"t{threads}")
+
+    def test_directory(self):
+        self.reference(self.SCENE)
+        self.stop_at(self.TIME, "part")
+        self.assert_same(self.go_on("part", "--restart", "part", "--threads", "1"), "part")
+
+    def test_checkpoint_file(self):
+        self.reference(self.SCENE)
+        self.stop_at(self.TIME, "part")
+        checkpoint = self.directory / "part/checkpoint-a.h5"
+        self.assert_same(self.go_on("part", "--restart", checkpoint), "part")
+
+    def test_elsewhere(self):
+        """In another directory the rows and frames after the stop are there, and no others."""
+        self.reference(self.SCENE)
+        self.stop_at(self.TIME, "part")
+        rows = len((self.directory / "part/history.csv").read_text().splitlines())
+        done = self.go_on("rest", "--restart", "part")
+        self.assertEqual(state_of(done), self.whole)
+        lines = self.whole_history.splitlines()
+        rest = (self.directory / "rest/history.csv").read_text().splitlines()
+        self.assertEqual(rest, lines[:2] + lines[rows:])
+        self.assert_same_frames(self.frames("rest"), self.whole_frames[len(self.frames("part")):])
+
+    def test_frame(self):
+        """From a frame of a finished run; what comes after it is made again."""
+        self.reference(self.SCENE)
+        self.assert_same(self.call("run", self.file, "--output", "whole", "--restart", "whole",
+                                   "--frame", "3"), "whole")
+
+    def test_stop_after_going_back(self):
+        """Going back to a frame leaves no checkpoint behind that would skip rows."""
+        self.reference(self.SCENE)
+        first = self.whole_frames[2]["time"] * (1 + 1e-9)
+        self.call("run", self.file, "--restart", "whole", "--frame", "2", "--until", first)
+        self.assert_same(self.call("run", self.file, "--restart", "whole"), "whole")
+
+    def test_twice(self):
+        self.reference(self.SCENE)
+        self.stop_at(self.TIME, "part")
+        self.stop_at(self.LATER, "part", "--restart", "part")
+        self.assert_same(self.go_on("part", "--restart", "part"), "part")
+
+    def test_signal(self):
+        self.reference(self.SCENE)
+        for number in (signal.SIGTERM, signal.SIGINT):
+            output = f"signal{number}"
+            process = self.start("run", self.file, "--output", output)
+            while process.poll() is None and not (self.directory / output / "history.csv").exists():
+                pass
+            process.send_signal(number)
+            _, stderr = process.communicate()
+            self.assertEqual(process.returncode, 128 + number, stderr)
+            self.assertIn(f"--restart {output}", stderr)
+            self.assert_same(self.go_on(output, "--restart", output), output)
+
+    def test_wall_clock(self):
+        self.reference(self.SCENE)
+        done = self.call("run", self.file, "--output", "part", "--max-walltime", "0:0:0.001",
+                         code=142)
+        self.assertIn("--restart part", done.stderr)
+        self.assert_same(self.go_on("part", "--restart", "part"), "part")
+
+    def test_longer(self):
+        """A finished run goes on; from a frame before its end as if it had been longer."""
+        self.reference(self.SCENE)
+        shorter = ["--set", f"time.end={self.TIME!r}"]
+        self.call("run", self.file, "--output", "part", *shorter)
+        self.call("run", self.file, "--output", "part", "--restart", "part")
+        self.assertEqual(self.frames("part")[-1]["time"], self.whole_frames[-1]["time"])
+        self.call("run", self.file, "--output", "again", *shorter)
+        self.assert_same(self.go_on("again", "--restart", "again", "--frame", "2"), "again")
+
+
+class Drop(EveryWay, Restart):
+    SCENE, TIME, LATER = DROP, "20.3 ps", "41 ps"
+
+
+class Block(EveryWay, Restart):
+    SCENE, TIME, LATER = BLOCK, "0.2 s", "0.27"
+
+
+class OtherScene(ProgramTest):
+    def test_physics_may_not_change(self):
+        file = self.scene(BLOCK)
+        self.call("run", file, "--output", "out", "--until", "0.02")
+        for change in ("body[0].material.mu=2e5", "body_force[0].acceleration=[0,0,1]"):
+            self.refused(["run", file, "--restart", "out", "--set", change], 3, "another scene")
+
+    def test_what_may_change(self):
+        file = self.scene(BLOCK)
+        self.call("run", file, "--output", "out", "--until", "0.02")
+        # Written out or left out, a default is the same.
+        self.call("run", file, "--restart", "out", "--until", "0.03", "--set", "title=other",
+                  "--set", "body[0].support_factor=1.8", "--set", "time.safety=0.5")
+
+    def test_new_step_is_taken_and_checked(self):
+        file = self.scene(BLOCK)
+        self.call("run", file, "--output", "out", "--until", "0.02")
+        self.refused(["run", file, "--restart", "out", "--set", "time.step=1"], 3, "time.step",
+                     "stable step")
+        self.call("run", file, "--restart", "out", "--until", "0.04", "--set", "time.step=1e-4")
+        self.assertEqual(self.history("out")["dt"][-1], 1e-4)
+
+
+if __name__ == "__main__":
+    program.main()
