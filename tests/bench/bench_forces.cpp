@@ -48,10 +48,13 @@ Scene<3>& scene_of(const std::string& material, const std::string& body, const s
   static std::unique_ptr<Scene<3>> scene;
   if (const std::string key = material + "\n" + body + "\n" + more; key != built) {
     scene.reset();
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(omp_get_num_procs());
     const SceneInput input = ball(material, body, more);
     scene_dimension(input);  // every key has to be read
     scene = std::make_unique<Scene<3>>(build_scene<3>(input));
     start(scene->system, scene->initial);
+    omp_set_num_threads(threads);
     built = key;
   }
   return *scene;
