@@ -20,20 +20,32 @@ std::atomic<long> allocations{0};
   return p;
 }
 // As calls: inlined beside each other, new and delete look mismatched to g++.
-[[gnu::noinline]] void release(void* p) { std::free(p); }
+[[gnu::noinline]] void release(void* p) {
+  std::free(p);
+}
 constexpr std::size_t plain = alignof(std::max_align_t);
 
 }  // namespace
 
 // Array and nothrow forms call these.
-void* operator new(std::size_t size) { return counted(size, plain); }
+void* operator new(std::size_t size) {
+  return counted(size, plain);
+}
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return counted(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* p) noexcept { release(p); }
-void operator delete(void* p, std::size_t) noexcept { release(p); }
-void operator delete(void* p, std::align_val_t) noexcept { release(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { release(p); }
+void operator delete(void* p) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  release(p);
+}
 
 namespace meniscus {
 namespace {
@@ -55,8 +67,11 @@ long allocations_of(const std::string& text) {
 std::string drop(int dimension, const std::string& body, const std::string& more) {
   return "dimension = " + std::to_string(dimension) +
          "\n[time]\nend = 1e3\ncheck_every = 20\n[[body]]\nname = \"drop\"\nshape = \"" +
-         (dimension == 3 ? "ball\"\nradius = 1\ncore = 2\nlayers = 2\n" : "disk\"\nradius = 1\ncore = 4\nrings = 2\n") + body +
-         "material = { type = \"newtonian\", density = 1, bulk_modulus = 20, viscosity = 0.3 }\n" + more;
+         (dimension == 3 ? "ball\"\nradius = 1\ncore = 2\nlayers = 2\n"
+                         : "disk\"\nradius = 1\ncore = 4\nrings = 2\n") +
+         body +
+         "material = { type = \"newtonian\", density = 1, bulk_modulus = 20, viscosity = 0.3 }\n" +
+         more;
 }
 
 const std::string tension = "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\nform = ";
@@ -74,8 +89,9 @@ TEST(Allocations, NoneInAStep) {
   }
   for (const std::string rule : {"gauss", "nodal"})
     EXPECT_EQ(allocations_of<3>(drop(3, "integration = \"" + rule + "\"\n", "")), 0) << rule;
-  EXPECT_EQ(allocations_of<2>(drop(2, "", "[[body_force]]\nbody = \"drop\"\n"
-                                          "acceleration = [\"0.01*x*cos(t)\", 0]\n")),
+  EXPECT_EQ(allocations_of<2>(drop(2, "",
+                                   "[[body_force]]\nbody = \"drop\"\n"
+                                   "acceleration = [\"0.01*x*cos(t)\", 0]\n")),
             0);
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ledger of energies and momenta, and its errors, against sums by hand.
-#include "meniscus/solve/audit.hpp"
-
-#include "one_body.hpp"
-
 #include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/solve/audit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+
+#include "one_body.hpp"
 
 namespace meniscus {
 namespace {
@@ -41,7 +40,8 @@ TEST(Audit, LedgerOfASpinningBall) {
   ASSERT_EQ(ledger.stored.size(), 2u);
   EXPECT_NEAR(ledger.stored.at("strain"), 0, 1e-12);
   EXPECT_NEAR(ledger.stored.at("surface"), 8 * M_PI, 1e-3);
-  EXPECT_NEAR(ledger.balance(), kinetic + ledger.stored.at("surface") + 0.25 - 1.5, 1e-12 * kinetic);
+  EXPECT_NEAR(ledger.balance(), kinetic + ledger.stored.at("surface") + 0.25 - 1.5,
+              1e-12 * kinetic);
 
   // The mass is that of the cells.
   Real mass = 0;
@@ -71,7 +71,8 @@ TEST(Audit, ErrorsAreRelativeToWhatWasExchanged) {
   Real spread = 0;
   for (Index A = 0; A < one.body().size(); ++A)
     spread += at(one.system.mass, A) * at(one.body().particles.X(), A).squaredNorm();
-  EXPECT_NEAR(audit.angular_momentum_error(ledger), 0.5 / (mass * 2 * std::sqrt(spread / mass)), 1e-12);
+  EXPECT_NEAR(audit.angular_momentum_error(ledger), 0.5 / (mass * 2 * std::sqrt(spread / mass)),
+              1e-12);
   // Scales do not shrink.
   one.state.v = test::zeros(one.state.v);
   const Real scale = audit.energy_scale;

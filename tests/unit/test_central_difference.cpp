@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The time step: free fall, order of accuracy, energy, and what a failed step leaves.
-#include "meniscus/solve/central_difference.hpp"
-
-#include "one_body.hpp"
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/body_force.hpp"
+#include "meniscus/solve/central_difference.hpp"
 
 #include <gtest/gtest.h>
+
+#include "one_body.hpp"
 
 namespace meniscus {
 namespace {
@@ -38,7 +37,8 @@ void expect_free_fall() {
   }
   // The trapezoid is exact for a power linear in time.
   EXPECT_NEAR(one.state.external_work, mass * a.dot(u), 1e-11 * mass);
-  EXPECT_NEAR(take_ledger(one.system, one.state).kinetic, 0.5 * mass * v.squaredNorm(), 1e-10 * mass);
+  EXPECT_NEAR(take_ledger(one.system, one.state).kinetic, 0.5 * mass * v.squaredNorm(),
+              1e-10 * mass);
 }
 
 TEST(CentralDifference, FreeFallIsExact) {
@@ -48,8 +48,7 @@ TEST(CentralDifference, FreeFallIsExact) {
 
 TEST(CentralDifference, ForcesOfTimeActAtTheirTime) {
   OneBody<2> one(test::brick<2>({3, 3}), "neo_hookean");
-  one.system.terms.push_back(
-      body_force<2>(one.body(), {Expression("cos(t)"), Expression("6*t")}));
+  one.system.terms.push_back(body_force<2>(one.body(), {Expression("cos(t)"), Expression("6*t")}));
   start(one.system, one.state);
   const Real dt = 1e-3;
   for (int n = 0; n < 1000; ++n) advance(one.system, one.state, dt);
@@ -95,7 +94,8 @@ TEST(CentralDifference, KeepsEnergyOverManySteps) {
   const int steps = 10000;
   for (int n = 0; n < steps; ++n) {
     advance(one->system, one->state, dt);
-    const Real error = (take_ledger(one->system, one->state).balance() - begin.balance()) / begin.kinetic;
+    const Real error =
+        (take_ledger(one->system, one->state).balance() - begin.balance()) / begin.kinetic;
     worst = std::max(worst, std::abs(error));
     if (n < steps / 4) early += error / (steps / 4);
     if (n >= steps - steps / 4) late += error / (steps / 4);

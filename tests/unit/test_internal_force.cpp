@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The internal force with every law and rule: gradient of the energy, balance, dissipation, failure.
-#include "meniscus/physics/internal_force.hpp"
-
-#include "support.hpp"
-
+// The internal force with every law and rule: gradient of the energy, balance, dissipation,
+// failure.
 #include "meniscus/core/error.hpp"
+#include "meniscus/physics/internal_force.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-
 #include <cstring>
 #include <functional>
 #include <limits>
+
+#include "support.hpp"
 
 namespace meniscus {
 namespace {
@@ -135,8 +134,8 @@ void expect_formulas() {
     const auto uniform = test::internal_force<D>(*body, "neo_hookean", integration);
     const auto mass = body->mass;
     const auto constant = test::internal_force<D>(
-        *body, "neo_hookean", "density = \"1.25 + 0*x\"\nmu = \"0.75 + 0*x\"\nlambda = \"1.5 + 0*y\"",
-        integration);
+        *body, "neo_hookean",
+        "density = \"1.25 + 0*x\"\nmu = \"0.75 + 0*x\"\nlambda = \"1.5 + 0*y\"", integration);
     for (std::size_t A = 0; A < mass.size(); ++A) EXPECT_DOUBLE_EQ(body->mass[A], mass[A]);
     const NodalVectors expected = test::force_of(*uniform, u);
     const NodalVectors difference = test::sum_of(test::force_of(*constant, u), -1, expected);
@@ -146,7 +145,8 @@ void expect_formulas() {
 
     // Really varying: still a gradient, balanced, and stiffer where it says so.
     const auto varying = test::internal_force<D>(
-        *body, "neo_hookean", "density = 1.25\nmu = \"0.75*(1 + 0.3*x)\"\nlambda = 1.5", integration);
+        *body, "neo_hookean", "density = 1.25\nmu = \"0.75*(1 + 0.3*x)\"\nlambda = 1.5",
+        integration);
     expect_gradient<D>(*body, *varying);
     expect_balance<D>(*body, *varying);
     const auto stretch = [&](Real sign) {
@@ -167,10 +167,10 @@ TEST(InternalForce, FormulasOfPlaceReachTheStressPoints) {
 TEST(InternalForce, FormulasThatLeaveTheirRangeAreRefused) {
   const auto body = test::body_of<2>(small_body<2>());
   for (const Integration& integration : test::integrations())
-    EXPECT_THROW(test::internal_force<2>(*body, "neo_hookean",
-                                         "density = 1.25\nmu = \"0.75 + x\"\nlambda = 1.5",
-                                         integration),
-                 InputError);
+    EXPECT_THROW(
+        test::internal_force<2>(*body, "neo_hookean",
+                                "density = 1.25\nmu = \"0.75 + x\"\nlambda = 1.5", integration),
+        InputError);
 }
 
 /// Owner of the first stress point with J <= 0, by an own loop over an own rule.
@@ -188,8 +188,8 @@ Index first_folded(const Rule& rule, const NodalVectors& u) {
 
 template <int D>
 void expect_failures() {
-  const auto body = test::body_of<D>(test::brick<D>(D == 3 ? std::vector<Real>{6, 5, 5}
-                                                            : std::vector<Real>{9, 8}));
+  const auto body = test::body_of<D>(
+      test::brick<D>(D == 3 ? std::vector<Real>{6, 5, 5} : std::vector<Real>{9, 8}));
   for (const Integration& integration : test::integrations()) {
     SCOPED_TRACE(integration.rule);
     body->first = 0;
@@ -244,7 +244,8 @@ TEST(InternalForce, TouchesOnlyItsOwnParticles) {
     std::copy(v.begin(), v.end(), all_v.begin() + before);
     const NodalVectors force = test::force_of(*term, all_u, all_v);
     for (std::size_t A = 0; A < force.size(); ++A) {
-      const Lanes expected = A < before || A >= before + u.size() ? Lanes::zero() : alone[A - before];
+      const Lanes expected =
+          A < before || A >= before + u.size() ? Lanes::zero() : alone[A - before];
       EXPECT_EQ(std::memcmp(&force[A], &expected, sizeof(Lanes)), 0) << A;
     }
     all_u[before + 9].set(1, 40);

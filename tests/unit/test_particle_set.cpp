@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Supports of particles and the deficiency monitor.
 #include "meniscus/approx/particle_set.hpp"
-
-#include "support.hpp"
-
 #include "meniscus/core/error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "support.hpp"
 
 namespace meniscus {
 namespace {
@@ -45,7 +44,8 @@ TEST(ParticleSet, CandidatesReachTheBall) {
 
 TEST(ParticleSet, GoodSupportsAreLeftAlone) {
   const auto geometry = test::ball(4, 2);
-  ParticleSet<3> particles(geometry.grid.X, ParticleSet<3>::AdaptiveSupport{}, Window::cubic_spline);
+  ParticleSet<3> particles(geometry.grid.X, ParticleSet<3>::AdaptiveSupport{},
+                           Window::cubic_spline);
   const std::vector<Real> before(particles.support().begin(), particles.support().end());
   EXPECT_EQ(particles.ensure_quality(geometry.grid.X, "ball"), 0);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), particles.support().begin()));

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integration rules of the internal force: reference values, reproduction, transposition, patch test.
+// Integration rules of the internal force: reference values, reproduction, transposition, patch
+// test.
 #include "meniscus/approx/stress_rules.hpp"
-
-#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+
+#include "support.hpp"
 
 namespace meniscus {
 namespace {
@@ -30,7 +31,8 @@ TEST(CellRule, MatchesReferenceOnALattice) {
   for (const auto& test : cases) {
     SCOPED_TRACE(test.at("name").get<std::string>());
     const auto& value = test.at("value");
-    const Real tolerance_a = test.at("tolerance").at("a"), tolerance_B = test.at("tolerance").at("B");
+    const Real tolerance_a = test.at("tolerance").at("a"),
+               tolerance_B = test.at("tolerance").at("B");
     const Index cell = number_at(test.at("inputs").at("node"));
     EXPECT_NEAR(at(rule.volume, cell), value.at("V").get<Real>(), 1e-13);
     for (int node = 0; node < 27; ++node) {
@@ -93,8 +95,8 @@ Real gather_error(const Rule& rule, const Body<D>& body, Place&& place) {
       const Mat<D> expected = exact.gradient(place(g, lane));
       for (int i = 0; i < 3; ++i)
         for (int K = 0; K < 3; ++K)
-          worst = std::max(
-              worst, h * std::abs(H(i, K)[lane] - (i < D && K < D ? expected(i, K) : 0.0)));
+          worst = std::max(worst,
+                           h * std::abs(H(i, K)[lane] - (i < D && K < D ? expected(i, K) : 0.0)));
     }
   }
   return worst;
@@ -252,8 +254,8 @@ void expect_linear_patch(Geometry<D> geometry) {
 
   const SceneInput numbers = SceneInput::from_text(test::law_texts().at("neo_hookean"));
   const auto law = law_named("neo_hookean").read(numbers.root());
-  const Tensor<Real> P = law->stress(Tensor<Real>::map(
-      [&](int i, int K) { return i < D && K < D ? H(i, K) : 0.0; }));
+  const Tensor<Real> P =
+      law->stress(Tensor<Real>::map([&](int i, int K) { return i < D && K < D ? H(i, K) : 0.0; }));
   const auto flux = boundary_fluxes(*body);
   Real scale = 0;
   for (const auto& f : flux) scale = std::max(scale, f.norm());
@@ -267,10 +269,10 @@ void expect_linear_patch(Geometry<D> geometry) {
     inner += at(flux, A) == Vec<D>::Zero();
   }
   EXPECT_GT(inner, 0);
-  const Real volume_energy = volume(body->geometry.grid) *
-                             law->energy_density(Tensor<Real>::map([&](int i, int K) {
-                               return i < D && K < D ? H(i, K) : 0.0;
-                             }));
+  const Real volume_energy =
+      volume(body->geometry.grid) * law->energy_density(Tensor<Real>::map([&](int i, int K) {
+        return i < D && K < D ? H(i, K) : 0.0;
+      }));
   EXPECT_NEAR(test::energy_of(*term, u), volume_energy, 1e-12 * volume_energy);
 }
 

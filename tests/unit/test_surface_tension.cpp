@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The three forms of surface tension: gradients of their areas, balance, exact curvature.
-#include "meniscus/physics/surface_tension.hpp"
-
-#include "support.hpp"
-
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/physics/surface_tension.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
+
+#include "support.hpp"
 
 namespace meniscus {
 namespace {
@@ -158,8 +157,9 @@ TEST(SurfaceTension, CurvatureIsRefusedOnEdges) {
   cylinder.rings = 2;
   const auto rim = test::body_of<3>(cylinder.geometry());
   const auto square = test::body_of<2>(test::brick<2>({4, 4}));
-  for (const auto& build : {std::function<void()>([&] { curvature_surface_tension<3>(*rim, 1, 3); }),
-                            std::function<void()>([&] { curvature_surface_tension<2>(*square, 1, 3); })})
+  for (const auto& build :
+       {std::function<void()>([&] { curvature_surface_tension<3>(*rim, 1, 3); }),
+        std::function<void()>([&] { curvature_surface_tension<2>(*square, 1, 3); })})
     try {
       build();
       FAIL() << "accepted";

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The same bits for any number of threads: every force term, and a whole small run.
-#include "support.hpp"
-
 #include "meniscus/app/simulation.hpp"
 #include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 
 #include <gtest/gtest.h>
-
 #include <omp.h>
 
 #include <cstring>
+
+#include "support.hpp"
 
 namespace meniscus {
 namespace {
@@ -58,8 +57,8 @@ void expect_all_terms_same() {
   const auto body = test::body_of<D>(test::potato<D>());
   for (const Integration& integration : test::integrations()) {
     SCOPED_TRACE(integration.rule);
-    expect_same_bits<D>(
-        *body, [&] { return test::internal_force<D>(*body, "newtonian", integration); });
+    expect_same_bits<D>(*body,
+                        [&] { return test::internal_force<D>(*body, "newtonian", integration); });
   }
   expect_same_bits<D>(*body, [&] { return weak_surface_tension<D>(*body, 1, 3); });
   expect_same_bits<D>(*body, [&] { return curvature_surface_tension<D>(*body, 1, 3); });

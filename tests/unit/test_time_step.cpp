@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stable step against dense eigenvalues, and against what central differences really do.
-#include "meniscus/solve/time_step.hpp"
-
-#include "one_body.hpp"
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/solve/central_difference.hpp"
 #include "meniscus/solve/step_controller.hpp"
+#include "meniscus/solve/time_step.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+
+#include "one_body.hpp"
 
 namespace meniscus {
 namespace {
@@ -21,7 +20,7 @@ using Matrix = Eigen::MatrixXd;
 
 /// M^-1/2 (-d force / d field) M^-1/2 by central differences.
 template <int D>
-Matrix scaled_derivative(OneBody<D>& one, NodalVectors State::* field) {
+Matrix scaled_derivative(OneBody<D>& one, NodalVectors State::*field) {
   const Index n = one.system.size();
   const Real h = 1e-5;
   State state = one.state;
@@ -50,7 +49,9 @@ Real exact_limit(OneBody<D>& one) {
   const Matrix K = scaled_derivative(one, &State::u), C = scaled_derivative(one, &State::v);
   const auto largest = [&](Real dt) {
     const Matrix sum = dt * dt / 4 * K + dt / 2 * C;
-    return Eigen::SelfAdjointEigenSolver<Matrix>(sum, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    return Eigen::SelfAdjointEigenSolver<Matrix>(sum, Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
   };
   Real low = 0, high = 1;
   while (largest(high) < 1) high *= 2;
@@ -95,14 +96,16 @@ TEST(StableStep, FollowsADeformedState) {
   OneBody<2> one(test::brick<2>({4, 4}, 0.2), "neo_hookean");
   StableStepEstimator<2> estimator(one.system);
   const Real before = estimator.estimate(one.state).dt;
-  one.state.u = test::field_on<2>(one.body(), [](const Vec<2>& X) { return Vec<2>(-0.6 * X[0], 0); });
+  one.state.u =
+      test::field_on<2>(one.body(), [](const Vec<2>& X) { return Vec<2>(-0.6 * X[0], 0); });
   const Real exact = exact_limit(one);
   EXPECT_LT(exact, 0.95 * before);
   EXPECT_NEAR(estimator.estimate(one.state).dt, exact, 0.01 * exact);
 }
 
 TEST(StableStep, CountsStiffSurfaces) {
-  OneBody<2> one(test::disk(4, 2), "newtonian", "density = 1\nbulk_modulus = 1e-3\nviscosity = 0\n");
+  OneBody<2> one(test::disk(4, 2), "newtonian",
+                 "density = 1\nbulk_modulus = 1e-3\nviscosity = 0\n");
   one.system.terms.push_back(weak_surface_tension<2>(one.body(), 5, 3));
   const Real exact = exact_limit(one);
   EXPECT_NEAR(StableStepEstimator<2>(one.system).estimate(one.state).dt, exact, 0.01 * exact);
@@ -137,7 +140,8 @@ void expect_sharp_limit(Geometry<D> geometry, const std::string& law, const std:
 }
 
 TEST(StableStep, IsWhereCentralDifferencesBlowUp) {
-  expect_sharp_limit<2>(test::brick<2>({5, 4}, 0.2), "neo_hookean", test::law_texts().at("neo_hookean"));
+  expect_sharp_limit<2>(test::brick<2>({5, 4}, 0.2), "neo_hookean",
+                        test::law_texts().at("neo_hookean"));
   expect_sharp_limit<2>(test::disk(4, 2), "newtonian", viscous);
   expect_sharp_limit<2>(test::disk(4, 2), "newtonian", mixed);
   expect_sharp_limit<3>(test::ball(2, 1), "mooney_rivlin", test::law_texts().at("mooney_rivlin"));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Young-Laplace: a twisted ellipsoid as reference, deformed to the unit sphere. The pressure that
 // balances surface tension best is 2 gamma/R (RKPM note 4).
-#include "unit/support.hpp"
-
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 
 #include <gtest/gtest.h>
+
+#include "unit/support.hpp"
 
 namespace meniscus {
 namespace {
@@ -30,13 +30,13 @@ class YoungLaplace : public testing::Test {
   /// Force of a unit pressure from inside: sum_q N_A cof(F) N dA, with k x k points per facet.
   static NodalVectors unit_pressure(int k) {
     const SurfacePoints<3> surface = surface_points(body_->geometry, k);
-    const auto rows = build_point_rows<3>(body_->particles, surface.X,
-                                          {.value = true, .gradient = true}, "drop");
+    const auto rows =
+        build_point_rows<3>(body_->particles, surface.X, {.value = true, .gradient = true}, "drop");
     NodalVectors force = test::zeros(u_);
     for (Index q = 0; q < rows.size(); ++q) {
       const auto column = gradient_at(rows, q, u_.data());
-      const Tensor<Real> cof = cofactor(deformation_gradient(
-          Tensor<Real>::map([&](int i, int K) { return at(column, K)[i]; })));
+      const Tensor<Real> cof = cofactor(
+          deformation_gradient(Tensor<Real>::map([&](int i, int K) { return at(column, K)[i]; })));
       Lanes n = Lanes::zero();
       for (int i = 0; i < 3; ++i)
         n.set(i, at(surface.area, q) *
@@ -54,8 +54,8 @@ class YoungLaplace : public testing::Test {
     EXPECT_LT(std::abs(p / 2 - 1), pressure_error);
     EXPECT_LT(test::norm(test::sum_of(tension, p, normal)), residual * test::norm(tension));
     RecordProperty("pressure_error", std::to_string(p / 2 - 1));
-    RecordProperty("residual",
-                   std::to_string(test::norm(test::sum_of(tension, p, normal)) / test::norm(tension)));
+    RecordProperty("residual", std::to_string(test::norm(test::sum_of(tension, p, normal)) /
+                                              test::norm(tension)));
   }
 
   static inline std::unique_ptr<Body<3>> body_;
