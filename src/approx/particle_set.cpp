@@ -2,13 +2,13 @@
 // Supports of particles and the deficiency monitor.
 #include "meniscus/approx/particle_set.hpp"
 
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>
-
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/parallel.hpp"
 
 namespace meniscus {
 
@@ -89,7 +89,8 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
   std::string place;
   for (int i = 0; i < D; ++i) place += fmt::format("{}{:.6g}", i ? ", " : "", x[i]);
   throw SolveError(fmt::format(
-      "body '{}': the shape functions are not determined at point ({}): {} neighbours, quality of the "
+      "body '{}': the shape functions are not determined at point ({}): {} neighbours, quality of "
+      "the "
       "moment matrix {:.2g}, at least {:.0e} is needed. Use a larger support or a less distorted "
       "cloud.",
       body, place, near.size(), quality, unusable_quality));

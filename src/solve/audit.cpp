@@ -26,7 +26,8 @@ Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
                            x.head<D>() += at(body.particles.X(), A);
                            const Eigen::Vector3d p = at(system.mass, I) * spatial(at(state.v, I));
                            Eigen::Matrix<Real, 6, 1> both;
-                           both << p, x.cross(p);
+                           both.head<3>() = p;
+                           both.tail<3>() = x.cross(p);
                            return both;
                          });
   return zero;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// No step of a run takes memory once it is warm. Every operator new of this program is counted.
+#include "meniscus/app/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+[[gnu::noinline]] void* counted(std::size_t size, std::size_t alignment) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  void* p = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);
+  if (!p) throw std::bad_alloc();
+  return p;
+}
+// As calls: inlined beside each other, new and delete look mismatched to g++.
+[[gnu::noinline]] void release(void* p) {
+  std::free(p);
+}
+constexpr std::size_t plain = alignof(std::max_align_t);
+
+}  // namespace
+
+// Array and nothrow forms call these.
+void* operator new(std::size_t size) {
+  return counted(size, plain);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* p) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  release(p);
+}
+
+namespace meniscus {
+namespace {
+
+/// Allocations in 50 steps, re-estimates of the stable step included.
+template <int D>
+long allocations_of(const std::string& text) {
+  const SceneInput input = SceneInput::from_text(text);
+  EXPECT_EQ(scene_dimension(input), D);
+  Scene<D> scene = build_scene<D>(input);
+  Simulation<D> simulation(scene);
+  simulation.begin();
+  for (int step = 0; step < 5; ++step) simulation.advance(1e3);
+  const long before = allocations;
+  for (int step = 0; step < 50; ++step) simulation.advance(1e3);
+  return allocations - before;
+}
+
+std::string drop(int dimension, const std::string& body, const std::string& more) {
+  return "dimension = " + std::to_string(dimension) +
+         "\n[time]\nend = 1e3\ncheck_every = 20\n[[body]]\nname = \"drop\"\nshape = \"" +
+         (dimension == 3 ? "ball\"\nradius = 1\ncore = 2\nlayers = 2\n"
+                         : "disk\"\nradius = 1\ncore = 4\nrings = 2\n") +
+         body +
+         "material = { type = \"newtonian\", density = 1, bulk_modulus = 20, viscosity = 0.3 }\n" +
+         more;
+}
+
+const std::string tension = "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\nform = ";
+
+TEST(Allocations, AreCounted) {
+  const long before = allocations;
+  ::operator delete(::operator new(8));
+  EXPECT_GT(allocations, before);
+}
+
+TEST(Allocations, NoneInAStep) {
+  for (const std::string form : {"\"weak\"\n", "\"curvature\"\n", "\"triangles\"\n"}) {
+    EXPECT_EQ(allocations_of<3>(drop(3, "", tension + form)), 0) << form;
+    EXPECT_EQ(allocations_of<2>(drop(2, "", tension + form)), 0) << form;
+  }
+  for (const std::string rule : {"gauss", "nodal"})
+    EXPECT_EQ(allocations_of<3>(drop(3, "integration = \"" + rule + "\"\n", "")), 0) << rule;
+  EXPECT_EQ(allocations_of<2>(drop(2, "",
+                                   "[[body_force]]\nbody = \"drop\"\n"
+                                   "acceleration = [\"0.01*x*cos(t)\", 0]\n")),
+            0);
+}
+
+}  // namespace
+}  // namespace meniscus

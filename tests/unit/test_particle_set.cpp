@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Supports of particles and the deficiency monitor.
+#include "meniscus/approx/particle_set.hpp"
+#include "meniscus/core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support.hpp"
+
+namespace meniscus {
+namespace {
+
+TEST(ParticleSet, SupportIsAMultipleOfTheDistanceToANeighbour) {
+  const auto geometry = test::brick<3>({5, 4, 6}, 0.3);
+  const ParticleSet<3> particles(geometry.grid.X, {1.7, 20}, Window::cubic_spline);
+  for (Index A = 0; A < particles.size(); ++A) {
+    std::vector<Real> distance;
+    for (const auto& X : particles.X()) distance.push_back((X - at(particles.X(), A)).norm());
+    std::sort(distance.begin(), distance.end());
+    EXPECT_NEAR(at(particles.support(), A), 1.7 * distance[20], 1e-14);  // [0] is A itself
+  }
+}
+
+TEST(ParticleSet, CandidatesReachTheBall) {
+  const auto geometry = test::brick<2>({9, 8}, 0.3);
+  const ParticleSet<2> particles(geometry.grid.X, {1.8, 8}, Window::cubic_spline);
+  const Vec<2> centre(0.3, -1.1);
+  std::vector<Candidate<2>> found;
+  for (const Real radius : {0.0, 0.7}) {
+    particles.candidates(centre, radius, found);
+    std::size_t k = 0;
+    for (Index A = 0; A < particles.size(); ++A) {
+      if ((at(particles.X(), A) - centre).norm() >= radius + at(particles.support(), A)) continue;
+      ASSERT_LT(k, found.size());
+      EXPECT_EQ(found[k].particle, A);
+      EXPECT_EQ(found[k].support, at(particles.support(), A));
+      EXPECT_EQ(found[k++].X, at(particles.X(), A));
+    }
+    EXPECT_EQ(k, found.size());
+  }
+}
+
+TEST(ParticleSet, GoodSupportsAreLeftAlone) {
+  const auto geometry = test::ball(4, 2);
+  ParticleSet<3> particles(geometry.grid.X, ParticleSet<3>::AdaptiveSupport{},
+                           Window::cubic_spline);
+  const std::vector<Real> before(particles.support().begin(), particles.support().end());
+  EXPECT_EQ(particles.ensure_quality(geometry.grid.X, "ball"), 0);
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), particles.support().begin()));
+}
+
+template <int D>
+void expect_enlargement(Geometry<D> geometry, Real support) {
+  const auto points = cell_gauss_points(geometry.grid, 2).X;
+  ParticleSet<D> particles(geometry.grid.X, support, Window::cubic_spline);
+  EXPECT_THROW(build_point_rows<D>(particles, points, {.value = true}, "brick"), SolveError);
+  const Index enlarged = particles.ensure_quality(points, "brick");
+  EXPECT_GT(enlarged, 0);
+  Index changed = 0;
+  for (const Real s : particles.support()) {
+    EXPECT_GE(s, support);
+    EXPECT_LE(s, 2.6 * support);
+    changed += s > support;
+  }
+  EXPECT_EQ(changed, enlarged);
+  EXPECT_NO_THROW(build_point_rows<D>(particles, points, {.value = true}, "brick"));
+  EXPECT_EQ(particles.ensure_quality(points, "brick"), 0);  // and now it is good
+}
+
+TEST(ParticleSet, TooSmallSupportsAreEnlarged) {
+  expect_enlargement<2>(test::brick<2>({8, 8}), 1.3);
+  expect_enlargement<3>(test::brick<3>({5, 5, 5}), 1.5);
+  expect_enlargement<3>(test::brick<3>({5, 5, 5}, 0.4), 1.5);
+}
+
+TEST(ParticleSet, OnlyParticlesNearAPoorPointAreEnlarged) {
+  // One particle of a good lattice has lost its neighbours.
+  std::vector<Vec<2>> X;
+  for (int i = 0; i < 24; ++i)
+    for (int j = 0; j < 24; ++j)
+      if (std::hypot(i - 5, j - 5) > 2.3 || (i == 5 && j == 5)) X.push_back(Vec<2>(i, j));
+  ParticleSet<2> particles(X, 2.3, Window::cubic_spline);
+  const Index enlarged = particles.ensure_quality(X, "plate");
+  EXPECT_GT(enlarged, 0);
+  for (Index A = 0; A < particles.size(); ++A)
+    if (at(particles.support(), A) > 2.3) {
+      EXPECT_LT((at(X, A) - Vec<2>(5, 5)).norm(), 8) << A;
+    }
+}
+
+std::string refusal(ParticleSet<3> particles) {
+  const std::vector<Vec<3>> points(particles.X().begin(), particles.X().end());
+  try {
+    particles.ensure_quality(points, "leaf");
+  } catch (const SolveError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(ParticleSet, ParticlesInAPlaneAreRefused) {
+  std::vector<Vec<3>> X;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) X.push_back(Vec<3>(i, j, 3));
+  for (const bool adaptive : {false, true}) {
+    const std::string what =
+        adaptive ? refusal({X, ParticleSet<3>::AdaptiveSupport{}, Window::cubic_spline})
+                 : refusal({X, 2.6, Window::cubic_spline});
+    EXPECT_NE(what.find("body 'leaf'"), std::string::npos) << what;
+    EXPECT_NE(what.find("point (0, 0, 3)"), std::string::npos) << what;
+    EXPECT_NE(what.find(" neighbours"), std::string::npos) << what;
+    EXPECT_NE(what.find("larger support"), std::string::npos) << what;
+  }
+}
+
+TEST(ParticleSet, TooFewParticlesAreRefused) {
+  const std::vector<Vec<3>> X{Vec<3>(0, 0, 0), Vec<3>(1, 0, 0), Vec<3>(0, 1, 0), Vec<3>(0, 0, 1)};
+  EXPECT_NE(refusal({X, 9.0, Window::cubic_spline}).find(": 4 neighbours"), std::string::npos);
+}
+
+TEST(ParticleSet, TwoParticlesInOnePlaceAreNoHarm) {
+  std::vector<Vec<3>> X = test::brick<3>({4, 4, 4}).grid.X;
+  X.push_back(X[60]);
+  ParticleSet<3> particles(X, 2.6, Window::cubic_spline);
+  EXPECT_EQ(particles.ensure_quality(X, "brick"), 0);
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stable step against dense eigenvalues, and against what central differences really do.
+#include "meniscus/core/error.hpp"
+#include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/solve/step_controller.hpp"
+#include "meniscus/solve/time_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "one_body.hpp"
+
+namespace meniscus {
+namespace {
+
+using test::OneBody;
+using Matrix = Eigen::MatrixXd;
+
+/// M^-1/2 (-d force / d field) M^-1/2 by central differences.
+template <int D>
+Matrix scaled_derivative(OneBody<D>& one, NodalVectors State::*field) {
+  const Index n = one.system.size();
+  const Real h = 1e-5;
+  State state = one.state;
+  NodalVectors plus(state.u.size()), minus = plus;
+  Matrix K(n * D, n * D);
+  for (Index B = 0; B < n; ++B)
+    for (int j = 0; j < D; ++j) {
+      Lanes& x = at(state.*field, B);
+      const Real here = x[j];
+      x.set(j, here + h);
+      one.system.add_up(state.motion(), plus);
+      x.set(j, here - h);
+      one.system.add_up(state.motion(), minus);
+      x.set(j, here);
+      for (Index A = 0; A < n; ++A)
+        for (int i = 0; i < D; ++i)
+          K(A * D + i, B * D + j) = (at(minus, A)[i] - at(plus, A)[i]) / (2 * h) /
+                                    std::sqrt(at(one.system.mass, A) * at(one.system.mass, B));
+    }
+  return 0.5 * (K + K.transpose());
+}
+
+/// Largest dt with dt^2/4 K + dt/2 C <= M, by bisection.
+template <int D>
+Real exact_limit(OneBody<D>& one) {
+  const Matrix K = scaled_derivative(one, &State::u), C = scaled_derivative(one, &State::v);
+  const auto largest = [&](Real dt) {
+    const Matrix sum = dt * dt / 4 * K + dt / 2 * C;
+    return Eigen::SelfAdjointEigenSolver<Matrix>(sum, Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
+  };
+  Real low = 0, high = 1;
+  while (largest(high) < 1) high *= 2;
+  for (int n = 0; n < 40; ++n) {
+    const Real middle = 0.5 * (low + high);
+    (largest(middle) < 1 ? low : high) = middle;
+  }
+  return low;
+}
+
+const std::string viscous = "density = 1\nbulk_modulus = 2\nviscosity = 40\n";
+const std::string mixed = "density = 1\nbulk_modulus = 20\nviscosity = 1\n";
+
+template <int D>
+void expect_estimate(OneBody<D> one) {
+  const Real exact = exact_limit(one);
+  const StableStep found = StableStepEstimator<D>(one.system).estimate(one.state);
+  EXPECT_NEAR(found.dt, exact, 0.01 * exact);
+  EXPECT_NEAR(found.dt,
+              4 / (found.viscosity + std::sqrt(found.viscosity * found.viscosity +
+                                               4 * found.stiffness * found.stiffness)),
+              1e-12 * found.dt);
+  EXPECT_GT(found.evaluations, 0);
+}
+
+TEST(StableStep, IsThatOfTheDenseEigenproblem) {
+  for (const std::string law : {"neo_hookean", "mooney_rivlin", "newtonian"}) {
+    SCOPED_TRACE(law);
+    expect_estimate<2>({test::brick<2>({4, 3}, 0.2), law});
+    expect_estimate<2>({test::disk(4, 2), law});
+    expect_estimate<3>({test::brick<3>({2, 2, 2}), law});
+    expect_estimate<3>({test::ball(2, 1), law});
+  }
+  for (const std::string& text : {viscous, mixed}) {
+    SCOPED_TRACE(text);
+    expect_estimate<2>({test::brick<2>({4, 3}, 0.2), "newtonian", text});
+    expect_estimate<3>({test::ball(2, 1), "newtonian", text});
+  }
+}
+
+TEST(StableStep, FollowsADeformedState) {
+  OneBody<2> one(test::brick<2>({4, 4}, 0.2), "neo_hookean");
+  StableStepEstimator<2> estimator(one.system);
+  const Real before = estimator.estimate(one.state).dt;
+  one.state.u =
+      test::field_on<2>(one.body(), [](const Vec<2>& X) { return Vec<2>(-0.6 * X[0], 0); });
+  const Real exact = exact_limit(one);
+  EXPECT_LT(exact, 0.95 * before);
+  EXPECT_NEAR(estimator.estimate(one.state).dt, exact, 0.01 * exact);
+}
+
+TEST(StableStep, CountsStiffSurfaces) {
+  OneBody<2> one(test::disk(4, 2), "newtonian",
+                 "density = 1\nbulk_modulus = 1e-3\nviscosity = 0\n");
+  one.system.terms.push_back(weak_surface_tension<2>(one.body(), 5, 3));
+  const Real exact = exact_limit(one);
+  EXPECT_NEAR(StableStepEstimator<2>(one.system).estimate(one.state).dt, exact, 0.01 * exact);
+}
+
+/// Largest velocity in `steps` steps from tiny disturbances, in units of the first one; infinite if
+/// the run broke down. (A drop that has blown up may come to rest in another shape.)
+template <int D>
+Real growth(OneBody<D> one, Real dt, int steps) {
+  one.state.v = test::random_field<D>(one.system.size(), 1e-9, 5);
+  const Real first = test::norm(one.state.v);
+  Real largest = first;
+  try {
+    start(one.system, one.state);
+    for (int n = 0; n < steps; ++n) {
+      advance(one.system, one.state, dt);
+      largest = std::max(largest, test::norm(one.state.v));
+    }
+  } catch (const SolveError&) {
+    return std::numeric_limits<Real>::infinity();
+  }
+  return largest / first;
+}
+
+template <int D>
+void expect_sharp_limit(Geometry<D> geometry, const std::string& law, const std::string& text) {
+  SCOPED_TRACE(law + " " + text);
+  OneBody<D> one(geometry, law, text);
+  const Real limit = StableStepEstimator<D>(one.system).estimate(one.state).dt;
+  EXPECT_LT(growth<D>({geometry, law, text}, 0.97 * limit, 3000), 100);
+  EXPECT_GT(growth<D>({geometry, law, text}, 1.05 * limit, 3000), 1e6);
+}
+
+TEST(StableStep, IsWhereCentralDifferencesBlowUp) {
+  expect_sharp_limit<2>(test::brick<2>({5, 4}, 0.2), "neo_hookean",
+                        test::law_texts().at("neo_hookean"));
+  expect_sharp_limit<2>(test::disk(4, 2), "newtonian", viscous);
+  expect_sharp_limit<2>(test::disk(4, 2), "newtonian", mixed);
+  expect_sharp_limit<3>(test::ball(2, 1), "mooney_rivlin", test::law_texts().at("mooney_rivlin"));
+}
+
+TEST(StepController, ArrivesExactlyAndRefusesAboveTheLimit) {
+  OneBody<2> one(test::brick<2>({4, 3}), "neo_hookean");
+  StepController<2> automatic(one.system, {std::nullopt, 0.8, 100});
+  automatic.begin(one.state);
+  const Real limit = automatic.stable().dt;
+  EXPECT_DOUBLE_EQ(automatic.next(one.state, 1e9), 0.8 * limit);
+  const Real end = 10.3 * limit;
+  Real shortest = limit;
+  start(one.system, one.state);
+  int steps = 0;
+  while (one.state.time < end && steps < 100) {
+    const Real dt = automatic.next(one.state, end);
+    shortest = std::min(shortest, dt);
+    advance(one.system, one.state, dt);
+    ++steps;
+  }
+  EXPECT_EQ(one.state.time, end);
+  EXPECT_EQ(steps, 13);
+  EXPECT_GT(shortest, 0.35 * limit);  // no sliver at the end
+
+  StepController<2> good(one.system, {0.95 * limit, 0.8, 100});
+  EXPECT_NO_THROW(good.begin(one.state));
+  EXPECT_EQ(good.next(one.state, 1e9), 0.95 * limit);
+  StepController<2> bad(one.system, {1.03 * limit, 0.8, 100});
+  try {
+    bad.begin(one.state);
+    FAIL() << "a step above the limit was accepted";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("time.step"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace meniscus
