@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus {
 
 template <int D>
-  requires SpaceDim<D>
+requires SpaceDim<D>
 struct NeighborSearch<D>::Tree {
   struct Cloud {
     std::vector<Vec<D>> points;
@@ -37,25 +38,26 @@ struct NeighborSearch<D>::Tree {
 };
 
 template <int D>
-  requires SpaceDim<D>
-NeighborSearch<D>::NeighborSearch(std::span<const Vec<D>> points)
+requires SpaceDim<D> NeighborSearch<D>::NeighborSearch(std::span<const Vec<D>> points)
     : tree_(std::make_unique<Tree>(points)) {}
 template <int D>
-  requires SpaceDim<D>
-NeighborSearch<D>::~NeighborSearch() = default;
+requires SpaceDim<D> NeighborSearch<D>::~NeighborSearch() = default;
 template <int D>
-  requires SpaceDim<D>
-NeighborSearch<D>::NeighborSearch(NeighborSearch&&) noexcept = default;
+requires SpaceDim<D> NeighborSearch<D>::NeighborSearch(NeighborSearch&&)
+noexcept = default;
 template <int D>
-  requires SpaceDim<D>
-NeighborSearch<D>& NeighborSearch<D>::operator=(NeighborSearch&&) noexcept = default;
+requires SpaceDim<D> NeighborSearch<D>
+&NeighborSearch<D>::operator=(NeighborSearch&&) noexcept = default;
 
 template <int D>
-  requires SpaceDim<D>
+requires SpaceDim<D>
 void NeighborSearch<D>::within(const Vec<D>& x, Real radius, std::vector<Index>& found) const {
-  // nanoflann 1.5 renamed the parameters and changed the type of a hit; it wants squared radii and
-  // leaves out points exactly on the sphere.
-  const Real squared = std::nextafter(radius * radius, 1e300);
+  found.clear();
+  if (radius < 0) return;
+  // nanoflann wants squared radii and leaves out points exactly on the sphere; a few units in the
+  // last place more bring in those whose distance was rounded.
+  const Real squared = radius * radius * (1 + 2e-15) + std::numeric_limits<Real>::min();
+  // nanoflann 1.5 renamed the parameters and changed the type of a hit.
 #if NANOFLANN_VERSION >= 0x150
   thread_local std::vector<nanoflann::ResultItem<Index, Real>> hits;
   tree_->index.radiusSearch(x.data(), squared, hits, nanoflann::SearchParameters(0, false));
@@ -63,14 +65,13 @@ void NeighborSearch<D>::within(const Vec<D>& x, Real radius, std::vector<Index>&
   thread_local std::vector<std::pair<Index, Real>> hits;
   tree_->index.radiusSearch(x.data(), squared, hits, nanoflann::SearchParams(32, 0, false));
 #endif
-  found.clear();
   for (const auto& hit : hits) found.push_back(hit.first);
   std::sort(found.begin(), found.end());
 }
 
 template <int D>
-  requires SpaceDim<D>
-Real NeighborSearch<D>::distance_of_nearest(const Vec<D>& x, int k) const {
+requires SpaceDim<D> Real NeighborSearch<D>::distance_of_nearest(const Vec<D>& x, int k)
+const {
   thread_local std::vector<Index> index;
   thread_local std::vector<Real> squared;
   index.resize(static_cast<std::size_t>(k));
@@ -81,7 +82,7 @@ Real NeighborSearch<D>::distance_of_nearest(const Vec<D>& x, int k) const {
 }
 
 template <int D>
-  requires SpaceDim<D>
+requires SpaceDim<D>
 void NeighborSearch<D>::rebuild(std::span<const Vec<D>> points) {
   tree_->cloud.points.assign(points.begin(), points.end());
   tree_->index.buildIndex();

@@ -47,28 +47,33 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
   std::vector<Real> quality(points.size());
   std::vector<Index> poor(points.size());
   std::iota(poor.begin(), poor.end(), 0);
+  std::vector<Index> near;
+  const Real largest_asked_for = largest_support_;
   constexpr int rounds = 10;  // 1.1^10 = 2.6
+  Real growth = 1;
   for (int round = 0; round <= rounds; ++round) {
     parallel_for(static_cast<Index>(poor.size()), [&](Index k) {
-      thread_local std::vector<Candidate<D>> near;
+      thread_local std::vector<Candidate<D>> reaching;
       const Vec<D>& x = at(points, at(poor, k));
-      candidates(x, 0, near);
+      candidates(x, 0, reaching);
       ReproducingKernel<D> kernel(window_);
-      if (static_cast<int>(near.size()) >= kernel.basis_size)
-        kernel.evaluate({x, x, x, x}, near, Derivatives::none);
+      if (static_cast<int>(reaching.size()) >= kernel.basis_size)
+        kernel.evaluate({x, x, x, x}, reaching, Derivatives::none);
       at(quality, at(poor, k)) = kernel.quality()[0];
     });
     std::erase_if(poor, [&](Index q) { return at(quality, q) >= poor_quality; });
     if (poor.empty() || round == rounds) break;
-    std::vector<char> enlarge(X_.size(), 0);
+    // What reaches the point with supports `growth` times those asked for gets them: also particles
+    // that do not reach it now, else no new neighbours would come in.
+    growth *= 1.1;
     for (const Index q : poor) {
-      std::vector<Index> near;
-      search_.within(at(points, q), 1.1 * largest_support_, near);
-      for (const Index A : near)
-        if ((at(X_, A) - at(points, q)).norm() < 1.1 * at(support_, A)) at(enlarge, A) = 1;
+      search_.within(at(points, q), growth * largest_asked_for, near);
+      for (const Index A : near) {
+        const Real enlarged = growth * at(asked_for, A);
+        if ((at(X_, A) - at(points, q)).norm() < enlarged)
+          at(support_, A) = std::max(at(support_, A), enlarged);
+      }
     }
-    for (Index A = 0; A < size(); ++A)
-      if (at(enlarge, A)) at(support_, A) *= 1.1;
     largest_support_ = *std::max_element(support_.begin(), support_.end());
   }
   for (const Index q : poor) require_quality(at(quality, q), at(points, q), body);

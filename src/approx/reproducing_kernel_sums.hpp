@@ -142,8 +142,14 @@ void ReproducingKernel<D, Degree>::evaluate(const std::array<Vec<D>, 4>& points,
 
   std::array<Lanes, static_cast<std::size_t>(monomial_count(D, 2 * Degree))> moment;
   moment.fill(Lanes::zero());
-  for (const Kernel& kernel : kernel_) {
-    const auto m = monomials_at<D, 2 * Degree>(kernel.s, kernel.phi);
+  const std::size_t even = kernel_.size() / 2 * 2;
+  for (std::size_t k = 0; k < even; k += 2) {  // two at once: the sums do not fit into registers
+    const auto m1 = monomials_at<D, 2 * Degree>(kernel_[k].s, kernel_[k].phi);
+    const auto m2 = monomials_at<D, 2 * Degree>(kernel_[k + 1].s, kernel_[k + 1].phi);
+    unroll<m1.size()>([&](auto a) { moment[a] += m1[a] + m2[a]; });
+  }
+  if (even < kernel_.size()) {
+    const auto m = monomials_at<D, 2 * Degree>(kernel_[even].s, kernel_[even].phi);
     unroll<m.size()>([&](auto a) { moment[a] += m[a]; });
   }
   for (std::size_t a = 0; a < n; ++a)

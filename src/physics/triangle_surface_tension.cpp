@@ -6,6 +6,25 @@
 #include <Eigen/Geometry>
 
 namespace meniscus {
+
+template <int D>
+FlatPull<D> flat_pull(const std::array<Vec<D>, D>& x) {
+  FlatPull<D> pull;
+  if constexpr (D == 3) {
+    const Vec<3> normal = (x[1] - x[0]).cross(x[2] - x[0]), n = normal.normalized();
+    pull.area = 0.5 * normal.norm();
+    for (std::size_t k = 0; k < 3; ++k)
+      pull.force[k] = 0.5 * (x[(k + 2) % 3] - x[(k + 1) % 3]).cross(n);
+  } else {
+    const Vec<2> edge = x[1] - x[0], t = edge.normalized();
+    pull.area = edge.norm();
+    pull.force = {t, -t};
+  }
+  return pull;
+}
+template FlatPull<2> flat_pull<2>(const std::array<Vec<2>, 2>&);
+template FlatPull<3> flat_pull<3>(const std::array<Vec<3>, 3>&);
+
 namespace {
 
 template <int D>
@@ -23,33 +42,25 @@ class TriangleSurfaceTension final : public ForceTerm {
       for (Index& A : simplex) A = at(number, A);
     rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
     windows_ = {rows_.start, rows_.particle, body.size()};
+    pull_.resize(X_.size());
+    load_.resize(X_.size());
   }
 
   std::string name() const override { return "surface tension of '" + body_.name + "'"; }
   std::string_view energy_kind() const override { return "surface"; }
 
   void add_force(const Motion& motion, std::span<Lanes> force) override {
-    const std::vector<Vec<D>> x = places(motion);
-    std::vector<Vec<D>> pull(x.size(), Vec<D>::Zero());
+    find_places(motion, x_);
+    std::fill(pull_.begin(), pull_.end(), Vec<D>::Zero());
     for (const auto& simplex : simplices_) {
-      if constexpr (D == 3) {
-        const Vec<3>&a = at(x, simplex[0]), &b = at(x, simplex[1]), &c = at(x, simplex[2]);
-        const Vec<3> n = (b - a).cross(c - a).normalized();
-        for (std::size_t k = 0; k < 3; ++k)  // f_I = (gamma/2) (x_I+2 - x_I+1) x n
-          at(pull, simplex[k]) += 0.5 * gamma_ *
-              (at(x, simplex[(k + 2) % 3]) - at(x, simplex[(k + 1) % 3])).cross(n);
-      } else {
-        const Vec<2> t = (at(x, simplex[1]) - at(x, simplex[0])).normalized();
-        at(pull, simplex[0]) += gamma_ * t;
-        at(pull, simplex[1]) -= gamma_ * t;
-      }
+      const FlatPull<D> pull = flat_pull<D>(corners(simplex, x_));
+      for (std::size_t k = 0; k < D; ++k) at(pull_, simplex[k]) += gamma_ * pull.force[k];
     }
-    NodalVectors load(x.size());
-    for (Index B = 0; B < static_cast<Index>(x.size()); ++B) set_vector<D>(load, B, at(pull, B));
+    for (Index B = 0; B < rows_.size(); ++B) set_vector<D>(load_, B, at(pull_, B));
     auto own = force.subspan(static_cast<std::size_t>(body_.first),
                              static_cast<std::size_t>(body_.size()));
     windows_.accumulate(own, [&](int, Index begin, Index end, Lanes* f) {
-      for (Index B = begin; B < end; ++B) scatter_value(rows_, B, at(load, B), f);
+      for (Index B = begin; B < end; ++B) scatter_value(rows_, B, at(load_, B), f);
     });
   }
 
@@ -62,31 +73,32 @@ class TriangleSurfaceTension final : public ForceTerm {
              [this](const Motion& motion) { return area(motion); }}};
   }
   std::size_t bytes() const override {
-    return rows_.bytes() + windows_.bytes() + X_.size() * sizeof(Vec<D>) +
+    return rows_.bytes() + windows_.bytes() + X_.size() * (3 * sizeof(Vec<D>) + sizeof(Lanes)) +
            simplices_.size() * sizeof(simplices_[0]);
   }
   Offset pairs() const override { return rows_.entries(); }
 
  private:
-  std::vector<Vec<D>> places(const Motion& motion) const {
+  /// x = places x(X_B) of the boundary particles.
+  void find_places(const Motion& motion, std::vector<Vec<D>>& x) const {
     const Lanes* u = motion.u.data() + body_.first;
-    std::vector<Vec<D>> x = X_;
+    x.resize(X_.size());
     parallel_for(rows_.size(), [&](Index B) {
       const Lanes displacement = value_at(rows_, B, u);
-      for (int i = 0; i < D; ++i) at(x, B)[i] += displacement[i];
+      for (int i = 0; i < D; ++i) at(x, B)[i] = at(X_, B)[i] + displacement[i];
     });
-    return x;
+  }
+  static std::array<Vec<D>, D> corners(const std::array<Index, D>& simplex,
+                                       const std::vector<Vec<D>>& x) {
+    std::array<Vec<D>, D> places;
+    for (std::size_t k = 0; k < D; ++k) places[k] = at(x, simplex[k]);
+    return places;
   }
   Real area(const Motion& motion) const {
-    const std::vector<Vec<D>> x = places(motion);
+    std::vector<Vec<D>> x;
+    find_places(motion, x);
     Real sum = 0;
-    for (const auto& simplex : simplices_) {
-      const Vec<D> a = at(x, simplex[1]) - at(x, simplex[0]);
-      if constexpr (D == 3)
-        sum += 0.5 * a.cross(at(x, simplex[2]) - at(x, simplex[0])).norm();
-      else
-        sum += a.norm();
-    }
+    for (const auto& simplex : simplices_) sum += flat_pull<D>(corners(simplex, x)).area;
     return sum;
   }
 
@@ -97,6 +109,9 @@ class TriangleSurfaceTension final : public ForceTerm {
   std::vector<std::array<Index, D>> simplices_;  // numbers in nodes_
   PointRows<D> rows_;
   ForceWindows windows_;
+  // Of the last force: places of the boundary particles and the pull on them.
+  std::vector<Vec<D>> x_, pull_;
+  NodalVectors load_;
 };
 
 }  // namespace

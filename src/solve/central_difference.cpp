@@ -33,13 +33,15 @@ void note_power(const System<D>& system, State& state) {
   }
 }
 
-/// Trapezoidal sums of heat and external work.
+/// Sums of heat and external work. The heat is that of the half-step velocities: over a step the
+/// viscous force does the work dt/2 (f_n + f_n+1).v_n+1/2, of which f_n+1.v_n+1/2 is the power
+/// computed last and f_n.v_n+1/2 lies half-way between the power before and that.
 template <int D>
 void book_energy(const System<D>& system, State& state, Real dt) {
-  state.dissipated += dt / 2 * state.dissipation_power;
+  state.dissipated += dt / 4 * state.dissipation_power;
   state.external_work += dt / 2 * state.external_power;
   note_power(system, state);
-  state.dissipated += dt / 2 * state.dissipation_power;
+  state.dissipated += 3 * dt / 4 * state.dissipation_power;
   state.external_work += dt / 2 * state.external_power;
 }
 

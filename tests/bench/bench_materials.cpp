@@ -2,13 +2,13 @@
 // Time of one evaluation at four stress points, memory to memory, including one virtual call.
 #include "meniscus/physics/law_registry.hpp"
 
-#include <benchmark/benchmark.h>
-
 #include <array>
 #include <cmath>
 #include <memory>
 
-namespace meniscus {
+#include "measure.hpp"
+
+namespace meniscus::bench {
 namespace {
 
 /// Stress points of the time loop come in blocks; here of 8 x 4, at strains of a few per cent.
@@ -24,41 +24,37 @@ Points sample(Real size) {
   return points;
 }
 
-template <class Evaluate>
-void measure(benchmark::State& state, Evaluate evaluate) {
-  Points H = sample(0.05), P{};
-  for (auto _ : state) {
-    for (std::size_t i = 0; i < H.size(); ++i) P[i] = evaluate(H[i], H[H.size() - 1 - i]);
-    benchmark::DoNotOptimize(H.data());
-    benchmark::DoNotOptimize(P.data());
-    benchmark::ClobberMemory();
-  }
-  state.counters["per_4_points"] =
-      benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(H.size()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
+/// Calls per window: long against the resolution of the clock.
+constexpr int repeats = 200;
 
-void register_benchmarks() {
-  for (const auto& [name, entry] : laws()) {
-    const std::shared_ptr<const AnyLaw> law = entry.typical();
-    benchmark::RegisterBenchmark(("stress/" + std::string(name)).c_str(), [law](auto& state) {
-      measure(state, [&](const auto& H, const auto&) { return law->stress(H); });
-    });
-    if (entry.viscous)
-      benchmark::RegisterBenchmark(("viscous_stress/" + std::string(name)).c_str(),
-                                   [law](auto& state) {
-                                     measure(state, [&](const auto& H, const auto& F_rate) {
-                                       return law->viscous_stress(H, F_rate);
-                                     });
-                                   });
-  }
+template <class Evaluate>
+void run_case(benchmark::State& state, Evaluate evaluate) {
+  const Points H = sample(0.05);
+  Points P{};
+  const double time = shortest(state, [&] {
+    for (int n = 0; n < repeats; ++n) {
+      for (std::size_t i = 0; i < H.size(); ++i) P[i] = evaluate(H[i], H[H.size() - 1 - i]);
+      benchmark::DoNotOptimize(P.data());
+      benchmark::ClobberMemory();
+    }
+  });
+  set_columns(state, {{"ns/4 points", 1e9 * time / (repeats * static_cast<double>(H.size()))}});
 }
 
 }  // namespace
-}  // namespace meniscus
 
-int main(int argc, char** argv) {
-  meniscus::register_benchmarks();
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
+void add_material_cases() {
+  for (const auto& [name, entry] : laws()) {
+    const std::shared_ptr<const AnyLaw> law = entry.typical();
+    add_case("stress", std::string(name), 1, [law](benchmark::State& state) {
+      run_case(state, [&](const auto& H, const auto&) { return law->stress(H); });
+    });
+    if (!entry.viscous) continue;
+    add_case("stress", std::string(name) + ", viscous part", 1, [law](benchmark::State& state) {
+      run_case(state,
+               [&](const auto& H, const auto& F_rate) { return law->viscous_stress(H, F_rate); });
+    });
+  }
 }
+
+}  // namespace meniscus::bench

@@ -19,7 +19,8 @@ class NeighborSearch {
   NeighborSearch(NeighborSearch&&) noexcept;
   NeighborSearch& operator=(NeighborSearch&&) noexcept;
 
-  /// Indices with |points[i] - x| <= radius, ascending (a fixed order of summation).
+  /// Indices with |points[i] - x| <= radius, up to rounding of the distance, ascending (a fixed
+  /// order of summation).
   void within(const Vec<D>& x, Real radius, std::vector<Index>& found) const;
 
   /// Distance from x to its k-th nearest point (x itself counts if it is in the cloud). Clouds of

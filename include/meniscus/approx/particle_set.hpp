@@ -34,8 +34,8 @@ class ParticleSet {
   void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
 
   /// Deficiency monitor (RKPM note 2.4) at `points`: where the moment matrix is poor, the supports of
-  /// the particles around are enlarged by 10 % until it is not, at most to 2.5 times the support
-  /// asked for. Returns how many particles were enlarged. Throws SolveError naming `body`, the
+  /// the particles around are enlarged in steps of 10 % until it is not, at most to 2.6 times the
+  /// support asked for. Returns how many particles were enlarged. Throws SolveError naming `body`, the
   /// point and its neighbour count when a point stays unusable.
   Index ensure_quality(std::span<const Vec<D>> points, const std::string& body);
 

@@ -2,8 +2,8 @@
 // Loops over threads whose results do not depend on the number of threads.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <exception>
-#include <vector>
 
 #include "meniscus/core/types.hpp"
 
@@ -45,7 +45,8 @@ void for_chunks(Index n, F&& f) {
 /// Sum of f(i) over [0, n), added in the order of the fixed chunks.
 template <class T, class F>
 T parallel_sum(Index n, T zero, F&& f) {
-  std::vector<T> partial(chunk_count, zero);
+  std::array<T, chunk_count> partial;
+  partial.fill(zero);
   for_chunks(n, [&](Index c, Index begin, Index end) {
     T s = zero;
     for (Index i = begin; i < end; ++i) s = s + f(i);

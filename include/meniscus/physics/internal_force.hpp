@@ -31,7 +31,7 @@ class InternalForce final : public ForceTerm {
     const Lanes* u = motion.u.data() + body_.first;
     [[maybe_unused]] const Lanes* v = motion.v.data() + body_.first;
     failed_group_ = no_group;
-    std::vector<Real> power(chunk_count, 0.0);
+    std::array<Real, chunk_count> power{};
     windows_.accumulate(body_span(force), [&](int chunk, Index begin, Index end, Lanes* f) {
       Lanes::Mask folded{};
       Lanes heat = Lanes::zero();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface tension of the whole surface of a body, in three discrete forms (RKPM note 4).
 #pragma once
+#include <array>
 #include <memory>
 
 #include "meniscus/body/body.hpp"
@@ -18,6 +19,16 @@ std::unique_ptr<ForceTerm> weak_surface_tension(const Body<D>& body, Real gamma,
 /// (else InputError). The only form that needs second derivatives.
 template <int D>
 std::unique_ptr<ForceTerm> curvature_surface_tension(const Body<D>& body, Real gamma, int points);
+
+/// Area of a flat triangle (2D: length of a segment), and minus its gradient: how unit tension pulls
+/// at the corners, f_I = (1/2) (x_I+2 - x_I+1) x n.
+template <int D>
+struct FlatPull {
+  Real area;
+  std::array<Vec<D>, D> force;
+};
+template <int D>
+FlatPull<D> flat_pull(const std::array<Vec<D>, D>& corners);
 
 /// Flat triangles (2D: segments) between the places x(X_B) of the boundary particles: the exact
 /// gradient of the triangulated area, of low order. The corrected (2.44) of Fan 2014.

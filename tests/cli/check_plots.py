@@ -1,0 +1,110 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks the theory that tools/plot draws, and that it draws runs in two and three dimensions.
+
+Usage: check_plots.py PROGRAM (meniscus)
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tools/plotting"))
+import drop_theory  # noqa: E402
+
+PROGRAM = sys.argv.pop(1)
+
+SCENE = """
+dimension = {dimension}
+time.end = 0.05
+[output]
+frames_every = 0.01
+history_every = 0.002
+fields = ["velocity", "F", "pressure"]
+measures = ["drop.p2", "drop.area"]
+[[body]]
+name = "drop"
+{shape}
+material = {{ type = "newtonian", density = 1, bulk_modulus = 20, viscosity = 0.9 }}
+[[surface_tension]]
+body = "drop"
+gamma = 1
+[expect]
+aspect = {{ of = "drop.aspect", at = 0.02, value = 1.2, within = 1 }}
+"""
+
+
+class Theory(unittest.TestCase):
+    # sigma R^2/nu of the second mode (RKPM note 7).
+    ROOTS = {
+        0.05: 4.374694 + 55.97045j,
+        0.2: 3.761214 + 13.24429j,
+        0.5: 3.592872 + 4.133751j,
+        1: 1.2803195,
+        2: 0.2735324,
+    }
+
+    def test_second_mode(self):
+        for ohnesorge, root in self.ROOTS.items():
+            self.assertLess(abs(drop_theory.slow_rate(ohnesorge) / ohnesorge / root - 1), 2e-7)
+
+    def test_rate_of_the_nano_drop(self):
+        # 2.846054e10 1/s at T = 50.74987 ps
+        rate = drop_theory.slow_rate(0.929506) / 50.74987e-12
+        self.assertLess(abs(rate / 2.846054e10 - 1), 1e-6)
+
+    def test_creeping_limit(self):
+        self.assertLess(abs(drop_theory.slow_rate(1000) * 1000 * 19 / 20 - 1), 1e-6)
+
+    def test_critical_point(self):
+        self.assertIsInstance(drop_theory.slow_rate(0.76644), complex)
+        self.assertIsInstance(drop_theory.slow_rate(0.76648), float)
+
+
+class Pictures(unittest.TestCase):
+    def draw(self, dimension, shape, *options):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            scene = folder / "scene.toml"
+            scene.write_text(SCENE.format(dimension=dimension, shape=shape))
+            run = folder / "run"
+            subprocess.run([PROGRAM, "run", "-q", scene, "--output", run], check=True)
+            script = ROOT / "tools/plotting/plot.py"
+            done = subprocess.run(
+                ["/usr/bin/python3", "-B", script, run, *options], capture_output=True, text=True
+            )
+            pictures = {path.stem: path.stat().st_size for path in run.glob("plots/*.png")}
+            return done, pictures
+
+    def test_three_dimensions(self):
+        shape = "shape = 'ellipsoid'\nsemi_axes = [1, 1.2, 1]\ncore = 4\nlayers = 2"
+        done, pictures = self.draw(3, shape)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        names = {
+            "energies", "drop_shape", "drop_measures", "drop_decay", "sections_pressure", "surface"
+        }  # fmt: skip
+        self.assertEqual(set(pictures), names)
+        self.assertGreater(min(pictures.values()), 10000)  # an empty picture has less
+
+    def test_two_dimensions(self):
+        shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2"
+        done, pictures = self.draw(2, shape, "--field", "velocity", "--frames", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        names = {"energies", "drop_shape", "drop_measures", "sections_velocity"}
+        self.assertEqual(set(pictures), names)
+        self.assertGreater(min(pictures.values()), 10000)
+
+    def test_unknown_field(self):
+        shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2"
+        done, pictures = self.draw(2, shape, "--field", "presure")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no field 'presure'", done.stderr)
+        self.assertEqual(pictures, {})
+
+
+if __name__ == "__main__":
+    unittest.main()

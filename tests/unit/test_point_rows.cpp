@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rows of shape functions reproduce polynomials, and hold only what was asked for.
+#include "meniscus/approx/point_rows.hpp"
+#include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/physics/surface_tension.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr RowContent everything{.value = true, .gradient = true, .hessian = true};
+
+/// Largest errors of value, gradient and Hessian over all monomials up to 2 about the point itself,
+/// in units of the spacing h: fields are of order one there.
+struct Errors {
+  Real value = 0, gradient = 0, hessian = 0;
+};
+
+template <int D>
+Errors reproduction_errors(const ParticleSet<D>& particles, const std::vector<Vec<D>>& points,
+                           const PointRows<D>& rows, Real h) {
+  constexpr Monomials<D, 2> monomials;
+  Errors worst;
+  for (Index q = 0; q < rows.size(); ++q)
+    for (std::size_t m = 0; m < monomials.size; ++m) {
+      Real value = 0;
+      Vec<D> gradient = Vec<D>::Zero();
+      Mat<D> hessian = Mat<D>::Zero();
+      for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
+        const Vec<D> s = (at(particles.X(), at(rows.particle, e)) - at(points, q)) / h;
+        Real f = 1;
+        for (int i = 0; i < D; ++i)
+          for (int n = 0; n < at(monomials.exponent[m], i); ++n) f *= s[i];
+        value += f * at(rows.value, e);
+        for (int i = 0; i < D; ++i) {
+          gradient[i] += h * f * at(rows.gradient, e * D + i);
+          for (int j = 0; j < D; ++j)
+            hessian(i, j) +=
+                h * h * f * at(rows.hessian, e * hessian_count(D) + hessian_index(D, i, j));
+        }
+      }
+      value -= m == 0;
+      for (int i = 0; i < D; ++i) {
+        gradient[i] -= m == static_cast<std::size_t>(1 + i);
+        for (int j = i; j < D; ++j)
+          if (m == static_cast<std::size_t>(1 + D + hessian_index(D, i, j)))
+            hessian(i, j) = hessian(j, i) = hessian(i, j) - (i == j ? 2 : 1);
+      }
+      worst.value = std::max(worst.value, std::abs(value));
+      worst.gradient = std::max(worst.gradient, gradient.cwiseAbs().maxCoeff());
+      worst.hessian = std::max(worst.hessian, hessian.cwiseAbs().maxCoeff());
+    }
+  return worst;
+}
+
+/// Particles (also at corners and edges), Gauss points of the cells, and points of the surface.
+template <int D>
+std::vector<Vec<D>> test_points(const Geometry<D>& geometry) {
+  std::vector<Vec<D>> points = geometry.grid.X;
+  for (const Vec<D>& X : cell_gauss_points(geometry.grid, 2).X) points.push_back(X);
+  for (const Vec<D>& X : surface_points(geometry, 2).X) points.push_back(X);
+  return points;
+}
+
+template <int D>
+void expect_reproduction(const Geometry<D>& geometry, Window window,
+                         test::Support<D> support = {}) {
+  const auto body = test::body_of<D>(geometry, support, window);
+  const auto points = test_points(body->geometry);
+  const auto rows = build_point_rows<D>(body->particles, points, everything, "body");
+  ASSERT_EQ(rows.size(), static_cast<Index>(points.size()));
+  const Real h = std::pow(volume(geometry.grid) / body->size(), 1.0 / D);
+  const Errors e = reproduction_errors<D>(body->particles, points, rows, h);
+  EXPECT_LT(e.value, 1e-13);
+  EXPECT_LT(e.gradient, 1e-12);
+  EXPECT_LT(e.hessian, 1e-11);
+}
+
+TEST(Reproduction, OnBricks) {
+  for (const Real jitter : {0.0, 0.25, 0.4}) {
+    SCOPED_TRACE(jitter);
+    expect_reproduction<2>(test::brick<2>({9, 7}, jitter), Window::cubic_spline);
+    expect_reproduction<3>(test::brick<3>({5, 6, 4}, jitter), Window::cubic_spline);
+  }
+}
+
+TEST(Reproduction, OnRoundBodies) {
+  expect_reproduction<2>(test::disk(8, 4), Window::cubic_spline);
+  expect_reproduction<2>(test::potato<2>(), Window::cubic_spline);
+  expect_reproduction<3>(test::ball(4, 2), Window::cubic_spline);
+  expect_reproduction<3>(test::potato<3>(), Window::cubic_spline);
+}
+
+TEST(Reproduction, WithEveryWindow) {
+  // Smoother windows need larger supports.
+  for (std::size_t w = 0; w < window_names.size(); ++w) {
+    SCOPED_TRACE(std::string(window_names[w]));
+    expect_reproduction<2>(test::disk(6, 3), static_cast<Window>(w), {2.2, 8});
+    expect_reproduction<3>(test::ball(4, 2), static_cast<Window>(w), {2.1, 20});
+  }
+}
+
+TEST(Reproduction, DoesNotDependOnTheUnits) {
+  // A drop of nanometres in SI, far from the origin.
+  const auto shift = affine_map<3>(1e-9 * Mat<3>::Identity(), Vec<3>(5e-8, 0, -3e-8));
+  expect_reproduction<3>(apply_map<3>(shift, test::ball(4, 2)), Window::cubic_spline);
+}
+
+TEST(PointRows, AreSortedAndCompressed) {
+  const auto body = test::body_of<3>(test::ball(4, 2));
+  const PointRows<3>& rows = body->at_particles;
+  std::vector<Candidate<3>> reaching;
+  for (Index q = 0; q < rows.size(); ++q) {
+    body->particles.candidates(at(body->particles.X(), q), 0, reaching);
+    ASSERT_EQ(at(rows.start, q + 1) - at(rows.start, q), static_cast<Offset>(reaching.size()));
+    for (std::size_t k = 0; k < reaching.size(); ++k)
+      ASSERT_EQ(at(rows.particle, at(rows.start, q) + static_cast<Offset>(k)),
+                reaching[k].particle);
+  }
+  EXPECT_EQ(rows.entries(), static_cast<Offset>(rows.particle.size()));
+}
+
+TEST(PointRows, HoldOnlyWhatWasAskedFor) {
+  const auto body = test::body_of<3>(test::ball(4, 1));
+  const auto X = body->particles.X();
+  const auto build = [&](RowContent content) {
+    return build_point_rows<3>(body->particles, X, content, "body");
+  };
+  const auto value = build({.value = true}), gradient = build({.gradient = true}),
+             all = build(everything);
+  const auto entries = static_cast<std::size_t>(value.entries());
+  const std::size_t places = (X.size() + 1) * sizeof(Offset) + entries * sizeof(Index);
+  EXPECT_EQ(value.bytes(), places + entries * 8);
+  EXPECT_EQ(gradient.bytes(), places + entries * 24);
+  EXPECT_EQ(all.bytes(), places + entries * (8 + 24 + 48));
+  EXPECT_EQ(value.gradient.capacity() + value.hessian.capacity(), 0u);
+  EXPECT_EQ(gradient.value.capacity() + gradient.hessian.capacity(), 0u);
+  EXPECT_EQ(all.value.capacity(), entries);
+  EXPECT_EQ(all.hessian.capacity(), 6 * entries);
+  // What is there does not depend on what else is.
+  EXPECT_EQ(value.value, all.value);
+  EXPECT_EQ(gradient.gradient, all.gradient);
+}
+
+TEST(PointRows, SecondDerivativesExistForTheCurvatureFormOnly) {
+  const auto body = test::body_of<3>(test::ball(4, 2));
+  const auto weak = weak_surface_tension<3>(*body, 1.0, 3);
+  const auto curvature = curvature_surface_tension<3>(*body, 1.0, 3);
+  const auto triangles = triangle_surface_tension<3>(*body, 1.0);
+  const auto per_pair = [](const ForceTerm& term) {
+    return static_cast<Real>(term.bytes()) / static_cast<Real>(term.pairs());
+  };
+  EXPECT_EQ(weak->pairs(), curvature->pairs());
+  // Of a pair: number 4, value 8, gradient 24, second derivatives 48; rest: points and windows.
+  EXPECT_GT(per_pair(*curvature), 84);
+  EXPECT_GT(curvature->bytes(), weak->bytes() + 48 * static_cast<std::size_t>(weak->pairs()));
+  EXPECT_LT(per_pair(*weak), 28 + 8);
+  const auto values =
+      build_point_rows<3>(body->particles, body->particles.X(), {.value = true}, "");
+  EXPECT_LT(static_cast<Real>(triangles->pairs()), static_cast<Real>(values.entries()));
+  EXPECT_LT(per_pair(*triangles), 12 + 24);
+}
+
+TEST(PointRows, AreEmptyForNoPoints) {
+  const auto body = test::body_of<2>(test::disk(4, 2));
+  const auto rows = build_point_rows<2>(body->particles, {}, everything, "body");
+  EXPECT_EQ(rows.size(), 0);
+  EXPECT_EQ(rows.entries(), 0);
+}
+
+TEST(PointRows, RefusePointsOutOfReach) {
+  const auto body = test::body_of<2>(test::disk(4, 2));
+  const std::vector<Vec<2>> points{Vec<2>(0, 0), Vec<2>(0.5, 0), Vec<2>(1.9, 0)};
+  try {
+    build_point_rows<2>(body->particles, points, {.value = true}, "puddle");
+    FAIL() << "a point that no particle determines was accepted";
+  } catch (const SolveError& e) {
+    const std::string what = e.what();
+    EXPECT_NE(what.find("'puddle'"), std::string::npos) << what;
+    EXPECT_NE(what.find("(1.9, 0)"), std::string::npos) << what;
+    EXPECT_NE(what.find("neighbours"), std::string::npos) << what;
+  }
+}
+
+}  // namespace
+}  // namespace meniscus

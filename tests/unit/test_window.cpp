@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Window functions: reference values, and derivatives that belong to the function.
+#include "meniscus/approx/window.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr std::array all_windows{Window::cubic_spline, Window::quintic_spline, Window::wendland_c2,
+                                 Window::wendland_c4, Window::quartic_spline};
+
+struct Values {
+  Real phi, slope, bend;
+};
+
+Values at_distance(Window window, Real z) {
+  return with_window(window, [&](auto w) -> Values {
+    const WindowValue v = decltype(w)::at(Lanes(z, 0.3, 0.3, 0.3));
+    return {v.phi[0], v.alpha[0] * z, v.alpha[0] + v.beta[0]};
+  });
+}
+
+TEST(Window, MatchesReference) {
+  const auto cases = test::rkpm_cases("window/");
+  ASSERT_EQ(cases.size(), 25u);
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.at("name").get<std::string>());
+    const Values got = at_distance(test::window_called(c.at("inputs").at("window")),
+                                   c.at("inputs").at("z").get<Real>());
+    EXPECT_NEAR(got.phi, c.at("value").at("phi").get<Real>(), 1e-13);
+    EXPECT_NEAR(got.slope, c.at("value").at("dphi_dz").get<Real>(), 1e-13);
+    EXPECT_NEAR(got.bend, c.at("value").at("d2phi_dz2").get<Real>(), 1e-13);
+  }
+}
+
+/// Places where branches meet, and a little beside them.
+std::vector<Real> critical_distances() {
+  std::vector<Real> z{1e-12, 1e-8, 1e-5, 0.01, 0.2, 0.45, 0.8, 0.99};
+  for (const Real knot : {1.0 / 3, 0.5, 2.0 / 3, 1.0})
+    for (const Real beside : {-1e-3, -1e-9, 1e-9, 1e-3})
+      if (knot + beside < 1) z.push_back(knot + beside);
+  return z;
+}
+
+TEST(Window, DerivativesAreThoseOfTheFunction) {
+  for (const Window window : all_windows)
+    for (const Real z : critical_distances()) {
+      SCOPED_TRACE(std::string(window_names[static_cast<std::size_t>(window)]) + " at " +
+                   std::to_string(z));
+      const Real h = 1e-5;
+      const auto phi = [&](Real x) { return at_distance(window, std::abs(x)).phi; };
+      const auto slope = [&](Real x) {
+        return x < 0 ? -at_distance(window, -x).slope : at_distance(window, x).slope;
+      };
+      const Values here = at_distance(window, z);
+      EXPECT_NEAR(here.slope, (phi(z + h) - phi(z - h)) / (2 * h), 1e-8);
+      // Third derivatives jump at the knots of the cubic spline: first order there.
+      EXPECT_NEAR(here.bend, (slope(z + h) - slope(z - h)) / (2 * h), 1e-3);
+    }
+}
+
+TEST(Window, IsSmoothAtTheCentre) {
+  for (const Window window : all_windows) {
+    const Values centre = at_distance(window, 0), near = at_distance(window, 1e-9);
+    EXPECT_EQ(centre.slope, 0);
+    EXPECT_TRUE(std::isfinite(centre.bend));
+    EXPECT_LT(centre.bend, -1);
+    EXPECT_NEAR(near.bend, centre.bend, 1e-6);
+    EXPECT_NEAR(near.slope, 1e-9 * centre.bend, 1e-15);
+    with_window(window, [](auto w) {
+      EXPECT_EQ(decltype(w)::at(Lanes(0.0)).beta[0], 0);  // no direction at r = 0
+    });
+  }
+}
+
+TEST(Window, VanishesFromOneOn) {
+  for (const Window window : all_windows)
+    for (const Real z : {1.0, 1.0 + 1e-15, 1.5, 7.0, 1e9}) {
+      const Values v = at_distance(window, z);
+      EXPECT_EQ(v.phi, 0) << z;
+      EXPECT_EQ(v.slope, 0) << z;
+      EXPECT_EQ(v.bend, 0) << z;
+    }
+}
+
+TEST(Window, IsPositiveAndFallingInside) {
+  for (const Window window : all_windows)
+    for (Real z = 0.01; z < 0.995; z += 0.01) {
+      EXPECT_GT(at_distance(window, z).phi, 0) << z;
+      EXPECT_LT(at_distance(window, z).slope, 0) << z;
+    }
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Curves over time from history.csv: energies with their audit, and the shape of each body."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import style
+
+
+def draw(run):
+    pictures = {"energies": energies(run)}
+    for body in run.bodies:
+        if figure := shape(run, body):
+            pictures[f"{body.name}_shape"] = figure
+        if figure := measures(run, body):
+            pictures[f"{body.name}_measures"] = figure
+    return pictures
+
+
+def time_axis(run, axis):
+    """Times in a readable unit; labels the axis."""
+    factor, unit = style.scale(run.time_unit, run.history["time"])
+    axis.set_xlabel(style.label("time", unit))
+    axis.set_xlim(0, run.history["time"][-1] * factor)
+    return run.history["time"] * factor, factor
+
+
+def energies(run):
+    """Changes of the energies since the start, and below it the error of their balance."""
+    columns = {"kinetic": run.history["kinetic_energy"]}
+    for name, values in run.history.items():
+        if name.endswith("_energy") and name != "kinetic_energy":
+            columns[f"{column(name)[:-7]}, change"] = values - values[0]
+    columns["dissipated"] = run.history["dissipated"]
+    if np.any(run.history["external_work"]):
+        columns["external work"] = run.history["external_work"]
+    figure, (top, bottom) = plt.subplots(
+        2, 1, figsize=(4.6, 4.6), sharex=True, height_ratios=(3, 1.2), layout="constrained"
+    )
+    time, _ = time_axis(run, bottom)
+    factor, unit = style.scale(run.units["kinetic_energy"], np.array(list(columns.values())))
+    for name, values in columns.items():
+        top.plot(time, values * factor, label=name)
+    sum_all = run.history["energy_balance"] - run.history["energy_balance"][0]
+    top.plot(time, sum_all * factor, color="black", lw=0.9, ls=(0, (4, 3)), label="sum")
+    top.set_ylabel(style.label("energy", unit))
+    top.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+    bottom.plot(time, run.history["energy_balance_error"], color="black")
+    bottom.set_ylabel("error of the\nenergy balance")
+    bottom.axhline(0, color="0.7", lw=0.6, zorder=0)
+    return figure
+
+
+def column(name):
+    return name.rsplit(".", 1)[-1].replace("_", " ")
+
+
+def shape(run, body):
+    """Aspect and extents of a body with what the scene expects of them."""
+    extents = [f"{body.name}.extent_{i}" for i in "xyz"[: body.dimension]]
+    groups = [
+        [name for name in names if name in run.history]
+        for names in ([f"{body.name}.aspect"], extents)
+    ]
+    groups = [names for names in groups if names]
+    if not groups:
+        return None
+    figure, axes = plt.subplots(
+        len(groups), 1, figsize=(4.2, 2.3 * len(groups) + 0.3), sharex=True, squeeze=False,
+        layout="constrained",
+    )  # fmt: skip
+    time_axis(run, axes[-1, 0])
+    for axis, names in zip(axes[:, 0], groups):
+        curves(run, axis, names)
+    return figure
+
+
+def measures(run, body):
+    """A panel for each other measure of the body."""
+    drawn = {"aspect", "p2", *(f"extent_{i}" for i in "xyz")}
+    names = [n for n in run.history if n.startswith(f"{body.name}.")]
+    names = [n for n in names if n.split(".", 1)[1] not in drawn]
+    if not names:
+        return None
+    figure, axes = plt.subplots(
+        len(names), 1, figsize=(4.2, 2.0 * len(names) + 0.3), sharex=True, squeeze=False,
+        layout="constrained",
+    )  # fmt: skip
+    time_axis(run, axes[-1, 0])
+    for axis, name in zip(axes[:, 0], names):
+        curves(run, axis, [name])
+    return figure
+
+
+# Curves that may coincide (two extents of a round body) stay visible under one another.
+LINES = ["-", (0, (5, 3)), (0, (1.5, 2.5))]
+
+
+def curves(run, axis, names):
+    """Columns of one unit in one panel; expectations as points with their tolerances."""
+    times, time_factor = run.history["time"], style.scale(run.time_unit, run.history["time"])[0]
+    factor, unit = style.scale(run.units[names[0]], np.array([run.history[n] for n in names]))
+    expected = [point for name in names for point in run.expectations(name)]
+    for name, line in zip(names, LINES):
+        axis.plot(times * time_factor, run.history[name] * factor, ls=line, label=column(name))
+    if expected:
+        time, value, tolerance = np.array(expected).T
+        axis.errorbar(
+            time * time_factor, value * factor, tolerance * factor, fmt="o", ms=4.5, mfc="white",
+            color="black", capsize=2.5, lw=0.9, label="expected", clip_on=False, zorder=3,
+        )  # fmt: skip
+    text = column(names[0]) if len(names) == 1 else column(names[0]).split()[0]
+    axis.set_ylabel(style.label(text, unit))
+    if len(names) > 1 or expected:
+        axis.legend()

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws the pictures of a run. Called by tools/plot."""
+
+import argparse
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import drop_decay
+import histories
+import sections
+import style
+import surfaces
+from results import Results
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        prog="tools/plot", description="Draws pictures of a run into DIR/plots."
+    )
+    parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run")
+    parser.add_argument(
+        "--field", help="field that colours the cross-sections (default: the first scalar)"
+    )
+    parser.add_argument(
+        "--frames", type=int, default=5, help="number of cross-sections (default 5)"
+    )
+    return parser.parse_args()
+
+
+def main():
+    args = arguments()
+    try:
+        run = Results(args.dir)
+        pictures = {
+            **histories.draw(run),
+            **drop_decay.draw(run),
+            **sections.draw(run, args.field, args.frames),
+            **surfaces.draw(run),
+        }
+    except (OSError, ValueError) as error:
+        sys.exit(f"tools/plot: {error}")
+    folder = args.dir / "plots"
+    folder.mkdir(exist_ok=True)
+    for name, figure in pictures.items():
+        figure.savefig(
+            folder / f"{name}.png", dpi=style.DPI, bbox_inches="tight", pad_inches=0.04
+        )
+        print(folder / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cross-sections through time: the particles near a plane and the outline, coloured by a field."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import EllipseCollection, LineCollection
+
+import style
+
+
+def draw(run, name, count):
+    name = name or run.default_field()
+    first = run.file["steps"][run.frames[0]]
+    if name not in first:
+        known = ", ".join(k for k in first if k != "state")
+        raise ValueError(f"there is no field '{name}' in run.h5; it has {known}")
+    frames = run.spread_frames(count)
+    plane = Plane(run)
+    cuts = [[Cut(run, body, plane, frame, name) for body in run.bodies] for frame in frames]
+    return {f"sections_{name}": picture(run, plane, frames, cuts, name)}
+
+
+class Plane:
+    """The reference plane of the section: through the centre, across the shortest extent (z if
+    there is a choice), so that it contains the longest axis. In 2D everything is in the plane."""
+
+    def __init__(self, run):
+        X = np.concatenate([body.X for body in run.bodies])
+        low, high = X.min(axis=0), X.max(axis=0)
+        self.normal = None
+        self.axes = [0, 1]
+        if X.shape[1] == 3:
+            extent = high - low
+            self.normal = max(k for k in range(3) if extent[k] <= 1.001 * extent.min())
+            self.place = (low + high)[self.normal] / 2
+            self.axes = [k for k in range(3) if k != self.normal]
+
+
+class Cut:
+    """What one body shows in the plane. The particles are chosen in the reference state: all frames
+    show the same ones."""
+
+    def __init__(self, run, body, plane, frame, name):
+        x = run.places(frame, body)
+        values = run.field(frame, name, body)
+        if values.ndim > 1:
+            values = np.linalg.norm(values.reshape(len(values), -1), axis=1)
+        near = np.ones(len(x), bool)
+        if plane.normal is not None:
+            near = np.abs(body.X[:, plane.normal] - plane.place) < 0.5 * body.spacing
+        self.x = x[near][:, plane.axes]
+        self.values = values[near]
+        self.size = 0.85 * body.volume[near] ** (1 / body.dimension)
+        self.outline = outline(body, x, plane)
+
+
+def outline(body, x, plane):
+    """Segments [segment, end, i] of the current surface in the material plane of the section."""
+    if plane.normal is None:
+        return x[body.surface]
+    # A plane a little beside the middle: no corner lies on it.
+    height = body.X[:, plane.normal] - plane.place - 1e-4 * body.spacing
+    segments = []
+    for quad in body.surface[:, [0, 1, 3, 2]]:
+        ends = []
+        for a, b in zip(quad, np.roll(quad, -1)):
+            if height[a] * height[b] < 0:
+                s = height[a] / (height[a] - height[b])
+                ends.append((1 - s) * x[a] + s * x[b])
+        segments += [ends[k : k + 2] for k in range(0, len(ends) - 1, 2)]
+    return np.array(segments)[:, :, plane.axes] if segments else np.empty((0, 2, 2))
+
+
+def picture(run, plane, frames, cuts, name):
+    everything = [cut for cuts_of_frame in cuts for cut in cuts_of_frame]
+    points = np.concatenate([np.vstack([c.x, c.outline.reshape(-1, 2)]) for c in everything])
+    values = np.concatenate([c.values for c in everything])
+    largest = max(cut.size.max(initial=0) for cut in everything)
+    margin = 0.02 * np.ptp(points, axis=0).max() + largest / 2
+    low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
+    length_factor, length_unit = style.scale(run.length_unit, points)
+    factor, unit = style.scale(run.unit_of(name), values)
+    norm = plt.Normalize(*(np.percentile(values, (0.5, 99.5)) * factor))
+    time_factor, time_unit = style.scale(run.time_unit, run.times)
+
+    panel = 1.75
+    aspect = (high - low)[1] / (high - low)[0]
+    figure, axes = plt.subplots(
+        1, len(frames), figsize=(panel * len(frames) + 1.1, max(panel * aspect, 1.3) + 0.75),
+        sharey=True, squeeze=False, layout="constrained",
+    )  # fmt: skip
+    for axis, frame, cuts_of_frame in zip(axes[0], frames, cuts):
+        for cut in cuts_of_frame:
+            dots = EllipseCollection(
+                cut.size * length_factor, cut.size * length_factor, 0, units="xy",
+                offsets=cut.x * length_factor, transOffset=axis.transData, norm=norm,
+                cmap="viridis", linewidths=0,
+            )  # fmt: skip
+            dots.set_array(cut.values * factor)
+            axis.add_collection(dots)
+            axis.add_collection(LineCollection(cut.outline * length_factor, colors="0.2", lw=0.9))
+        axis.set_title(style.time_text(run.times[frame], time_unit, time_factor), fontsize=10)
+        axis.set_xlim(low[0] * length_factor, high[0] * length_factor)
+        axis.set_ylim(low[1] * length_factor, high[1] * length_factor)
+        axis.set_aspect("equal")
+        axis.set_xlabel(style.label(f"${'xyz'[plane.axes[0]]}$", length_unit))
+    axes[0, 0].set_ylabel(style.label(f"${'xyz'[plane.axes[1]]}$", length_unit))
+    vector = run.field(frames[0], name, run.bodies[0]).ndim > 1
+    bar = figure.colorbar(dots, ax=axes, shrink=0.9, pad=0.01, aspect=25)
+    bar.set_label(style.label(f"|{name}|" if vector else name.replace("_", " "), unit))
+    bar.outline.set_linewidth(0.5)
+    return figure
