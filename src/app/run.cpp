@@ -108,6 +108,30 @@ void introduce(const Scene<D>& scene, const Provenance& origin,
 }
 
 template <int D>
+std::string summarise(const Simulation<D>& simulation, std::int64_t first_step,
+                      double set_up_seconds, const Interruption& interruption) {
+  const double seconds = interruption.elapsed_seconds() - set_up_seconds;
+  const std::int64_t steps = simulation.state().step - first_step;
+  const Real particle_steps =
+      static_cast<Real>(std::max<std::int64_t>(1, steps)) * simulation.scene().system.size();
+  return fmt::format(
+      "{} steps in {:.2f} s ({:.0f} ns per particle-step), set-up {:.2f} s, state {:016x}", steps,
+      seconds, 1e9 * seconds / particle_steps, set_up_seconds, simulation.snapshot().hash());
+}
+
+template <int D>
+void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunDirectory& directory,
+                         RunLog& log) {
+  log.warning(fmt::format(
+      "stopped after step {}, t = {:.9g} {}, by {}; to continue, run the same command with "
+      "--restart {}",
+      simulation.state().step, simulation.state().time,
+      simulation.scene().units.symbol(dimension::time),
+      signal == SIGALRM ? "the limit on wall-clock time" : fmt::format("signal {}", signal),
+      directory.path().string()));
+}
+
+template <int D>
 int run_scene(const SceneInput& input, const RunRequest& request) {
   const Interruption interruption(request.max_walltime);
   Scene<D> scene = build_scene<D>(input);
@@ -151,21 +175,11 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
   progress.finish();
   recorder.checkpoint();
 
-  const double seconds = interruption.elapsed_seconds() - set_up_seconds;
-  const auto steps = static_cast<Real>(simulation.state().step - first_step);
-  const std::string summary = fmt::format(
-      "{} steps in {:.2f} s ({:.0f} ns per particle-step), set-up {:.2f} s, state {:016x}", steps,
-      seconds, 1e9 * seconds / std::max(1.0, steps) / scene.system.size(), set_up_seconds,
-      simulation.snapshot().hash());
+  const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
   log.info(summary);
   if (!request.quiet) fmt::print("{}\nresults in {}\n", summary, directory.path().string());
   if (!signal) return report_expectations(scene, directory, log);
-  log.warning(fmt::format(
-      "stopped after step {}, t = {:.9g} {}, by {}; to continue, run the same command with "
-      "--restart {}",
-      simulation.state().step, simulation.state().time, scene.units.symbol(dimension::time),
-      *signal == SIGALRM ? "the limit on wall-clock time" : fmt::format("signal {}", *signal),
-      directory.path().string()));
+  say_how_to_continue(simulation, *signal, directory, log);
   return exit_signal + *signal;
 }
 

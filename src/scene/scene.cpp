@@ -1,182 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading a scene whole, then building it: one short block per kind of table.
+// Building what a scene says: one short block per kind of table.
 #include "meniscus/scene/scene.hpp"
 
 #include "meniscus/body/ordering.hpp"
-#include "meniscus/body/shapes.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
 #include "meniscus/physics/body_force.hpp"
-#include "meniscus/physics/law_registry.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/solve/shape_measures.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <set>
+
+#include "plan.hpp"
 
 namespace meniscus {
 namespace {
-
-/// What the scene says, before anything large is built.
-template <int D>
-struct Plan {
-  struct PlannedBody {
-    BodySettings settings;
-    Geometry<D> geometry;
-    std::unique_ptr<Material<D>> material;
-  };
-  std::vector<PlannedBody> bodies;
-  std::vector<TensionSettings> tensions;
-  std::vector<BodyForceSettings> body_forces;
-  std::vector<ExactSettings> exact;
-
-  const PlannedBody* find(const std::string& name) const {
-    for (const PlannedBody& body : bodies)
-      if (body.settings.name == name) return &body;
-    return nullptr;
-  }
-  /// Notes a problem if there is no body of that name.
-  const PlannedBody* require(const Block& block, const std::string& name) const {
-    const PlannedBody* body = find(name);
-    if (!body && block.has("body") && !bodies.empty()) {
-      std::vector<std::string> known;
-      for (const PlannedBody& b : bodies) known.push_back(b.settings.name);
-      block.problem("body",
-                    fmt::format("there is no body '{}'; {}", name, allowed_names(name, known)));
-    }
-    return body;
-  }
-};
-
-void require_components(const Block& block, const char* key, std::size_t given, int D) {
-  if (given == static_cast<std::size_t>(D) || !block.has(key)) return;
-  block.problem(key, fmt::format("has {} components; allowed are {}, one per dimension", given, D));
-}
-
-/// The name of a body is part of names in run.h5 and history.csv.
-void require_plain_name(const Block& block, const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
-  if (block.has("name") && (name.empty() || !std::all_of(name.begin(), name.end(), plain)))
-    block.problem("name",
-                  fmt::format("'{}' cannot be a name; allowed are letters, digits, _ and -", name));
-}
-
-template <int D>
-std::unique_ptr<Material<D>> plan_material(const Block& body) {
-  const auto block = body.table("material", true);
-  if (!block) return nullptr;
-  std::vector<std::string> names;
-  for (const auto& [name, law] : laws()) names.emplace_back(name);
-  const std::string type = block->choice("type", names, std::nullopt);
-  const auto law = laws().find(type);
-  if (law == laws().end()) return nullptr;
-  auto material = law->second.template material<D>(*block);
-  block->done();
-  return material;
-}
-
-template <int D>
-void plan_bodies(const Block& root, Plan<D>& plan) {
-  const auto blocks = root.tables("body");
-  if (blocks.empty()) root.problem("body", "a scene needs at least one [[body]]");
-  std::set<std::string> names;
-  for (const Block& block : blocks) {
-    BodySettings settings = read<BodySettings>(block);
-    if (!settings.name.empty() && !names.insert(settings.name).second)
-      block.problem("name", fmt::format("the name '{}' is used twice", settings.name));
-    require_plain_name(block, settings.name);
-    require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
-    require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
-    Geometry<D> geometry = read_geometry<D>(block);
-    auto material = plan_material<D>(block);
-    block.done();
-    plan.bodies.push_back({std::move(settings), std::move(geometry), std::move(material)});
-  }
-}
-
-/// The measures of a table that a body may have once only would have equal names.
-template <class Settings>
-void require_first(const Block& block, const std::vector<Settings>& all) {
-  const auto same = [&](const Settings& s) { return s.body == all.back().body; };
-  if (block.has("body") && std::count_if(all.begin(), all.end(), same) > 1)
-    block.problem("body", fmt::format("'{}' has such a table already; allowed is one per body",
-                                      all.back().body));
-}
-
-template <int D>
-void plan_loads(const Block& root, Plan<D>& plan) {
-  for (const Block& block : root.tables("surface_tension")) {
-    plan.tensions.push_back(read<TensionSettings>(block));
-    const auto* body = plan.require(block, plan.tensions.back().body);
-    require_first(block, plan.tensions);
-    if (body && plan.tensions.back().form == "curvature" && !body->geometry.smooth)
-      block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
-                                        "undefined; allowed are weak, triangles",
-                                        body->settings.name));
-    block.done();
-  }
-  for (const Block& block : root.tables("body_force")) {
-    plan.body_forces.push_back(read<BodyForceSettings>(block));
-    plan.require(block, plan.body_forces.back().body);
-    require_components(block, "acceleration", plan.body_forces.back().acceleration.size(), D);
-    block.done();
-  }
-  for (const Block& block : root.tables("exact")) {
-    plan.exact.push_back(read<ExactSettings>(block));
-    plan.require(block, plan.exact.back().body);
-    require_first(block, plan.exact);
-    require_components(block, "displacement", plan.exact.back().displacement.size(), D);
-    require_components(block, "velocity", plan.exact.back().velocity.size(), D);
-    block.done();
-  }
-}
-
-/// What can never be met, or is always, is a mistake.
-void require_reachable(const Block& block, const ExpectSettings& e, Real end) {
-  if (!e.within && !e.within_relative)
-    block.problem("", "says no tolerance; give within or within_relative");
-  if (e.within_relative && !e.within && e.value == 0)
-    block.problem("within_relative", "nothing is within a fraction of 0; give within");
-  for (const auto& [key, time] : {std::pair("at", e.at), std::pair("to", e.to)})
-    if (time > end) block.problem(key, fmt::format("is after the end; allowed is <= {:.9g}", end));
-  if (e.from >= e.to.value_or(end))
-    block.problem("from",
-                  fmt::format("the span is empty; allowed is < {:.9g}", e.to.value_or(end)));
-  for (const char* key : {"from", "to"})
-    if (e.reduce == "at" && block.has(key))
-      block.problem(key, "has no meaning for reduce = \"at\"; allowed is at");
-  if (e.reduce != "at" && e.at)
-    block.problem(
-        "at", fmt::format("has no meaning for reduce = \"{}\"; allowed are from, to", e.reduce));
-}
-
-template <int D>
-void read_settings(const SceneInput& input, Scene<D>& scene) {
-  const Block& root = input.root();
-  scene.title = root.text("title", "");
-  scene.units = root.units();
-  if (const auto block = root.table("time", true)) {
-    scene.time = read<TimeSettings>(*block);
-    scene.time.step_place = block->place("step");
-    block->done();
-  }
-  const Block output = root.table_or_defaults("output");
-  scene.output = read<OutputSettings>(output);
-  output.done();
-  if (const auto expect = root.table("expect"))
-    for (const auto& [name, block] : expect->named_tables()) {
-      ExpectSettings e = read<ExpectSettings>(block);
-      if (e.of.empty()) e.of = name;
-      require_reachable(block, e, scene.time.end);
-      block.done();
-      scene.expectations.emplace_back(name, std::move(e));
-    }
-}
 
 /// Mean edge of a cell.
 template <int D>
@@ -344,13 +184,7 @@ int scene_dimension(const SceneInput& input) {
 template <int D>
 Scene<D> build_scene(const SceneInput& input) {
   Scene<D> scene;
-  Plan<D> plan;
-  read_settings(input, scene);
-  plan_bodies(input.root(), plan);
-  plan_loads(input.root(), plan);
-  input.root().done();
-  input.check();
-
+  Plan<D> plan = read_plan(input, scene);
   for (auto& body : plan.bodies) build_body<D>(body, scene);
   build_loads(plan, scene);
   set_initial_state(plan, scene);

@@ -154,9 +154,9 @@ Rows<ExpectSettings> ExpectSettings::rows() {
                    "end of the span, for the others"),
       real_row("value", &S::value, dimension::none, range::any,
                "expected number, in the unit of the column", 0.0),
-      optional_row("within", &S::within, dimension::none, range::non_negative, "",
+      optional_row("within", &S::within, dimension::none, range::non_negative, "none",
                    "largest difference, in the unit of the column"),
-      optional_row("within_relative", &S::within_relative, dimension::none, range::positive, "",
+      optional_row("within_relative", &S::within_relative, dimension::none, range::positive, "none",
                    "largest difference relative to value; the larger of the two counts"),
   };
 }

@@ -126,7 +126,14 @@ class Drop(EveryWay, Restart):
 
 
 class Block(EveryWay, Restart):
-    SCENE, TIME, LATER = BLOCK, "0.2 s", "0.27"
+    # Deformed so much that the step changes several times.
+    SCENE = BLOCK.replace("20*sin", "60*sin").replace("check_every = 30", "check_every = 15").replace(
+        "end = 0.4", "end = 0.8")
+    TIME, LATER = "0.2 s", "0.43"
+
+    def test_step_changes(self):
+        self.reference(self.SCENE)
+        self.assertGreater(len(set(self.history("whole")["dt"][1:-2])), 2)
 
 
 class OtherScene(ProgramTest):

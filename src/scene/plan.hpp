@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scene says, read and checked before anything large is built.
+#pragma once
+#include "meniscus/body/geometry.hpp"
+#include "meniscus/physics/material.hpp"
+#include "meniscus/scene/scene.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+template <int D>
+struct Plan {
+  struct PlannedBody {
+    BodySettings settings;
+    Geometry<D> geometry;
+    std::unique_ptr<Material<D>> material;
+  };
+  std::vector<PlannedBody> bodies;
+  std::vector<TensionSettings> tensions;
+  std::vector<BodyForceSettings> body_forces;
+  std::vector<ExactSettings> exact;
+
+  /// Notes a problem if there is no body of that name.
+  const PlannedBody* require(const Block& block, const std::string& name) const;
+};
+
+/// Reads title, units, [time], [output] and [expect] into `scene`, and bodies and loads into the
+/// plan. Throws InputError with all problems at once.
+template <int D>
+Plan<D> read_plan(const SceneInput& input, Scene<D>& scene);
+
+}  // namespace meniscus
