@@ -2,9 +2,9 @@
 // Building compressed rows of shape functions, in groups of points that share one search.
 #include "meniscus/approx/point_rows.hpp"
 
-#include <algorithm>
-
 #include "meniscus/core/parallel.hpp"
+
+#include <algorithm>
 
 namespace meniscus {
 namespace {
@@ -107,10 +107,9 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
 
 template struct PointRows<2>;
 template struct PointRows<3>;
-#define MENISCUS_INSTANTIATE(D, Degree)                                                          \
-  template PointRows<D> build_point_rows<D, Degree>(const ParticleSet<D>&,                       \
-                                                    std::span<const Vec<D>>, RowContent,         \
-                                                    const std::string&);
+#define MENISCUS_INSTANTIATE(D, Degree)              \
+  template PointRows<D> build_point_rows<D, Degree>( \
+      const ParticleSet<D>&, std::span<const Vec<D>>, RowContent, const std::string&);
 MENISCUS_INSTANTIATE(2, 1)
 MENISCUS_INSTANTIATE(2, 2)
 MENISCUS_INSTANTIATE(2, 3)

@@ -3,10 +3,9 @@
 // Included by one source file per degree of the basis: the unrolled sums take long to compile.
 #pragma once
 #include "meniscus/approx/reproducing_kernel.hpp"
+#include "meniscus/core/unroll.hpp"
 
 #include <algorithm>
-
-#include "meniscus/core/unroll.hpp"
 
 namespace meniscus {
 namespace {
@@ -136,9 +135,8 @@ void ReproducingKernel<D, Degree>::evaluate(const std::array<Vec<D>, 4>& points,
   Real H = 0;
   for (const auto& c : candidates) H = std::max(H, c.support);
   const Real inverse_H = 1 / H;
-  with_window(window_, [&](auto w) {
-    evaluate_windows<decltype(w)>(points, candidates, order, inverse_H);
-  });
+  with_window(window_,
+              [&](auto w) { evaluate_windows<decltype(w)>(points, candidates, order, inverse_H); });
 
   std::array<Lanes, static_cast<std::size_t>(monomial_count(D, 2 * Degree))> moment;
   moment.fill(Lanes::zero());
@@ -179,9 +177,11 @@ void ReproducingKernel<D, Degree>::evaluate(const std::array<Vec<D>, 4>& points,
   if (second) {
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t j = i; j < D; ++j) {
-        const auto ij = static_cast<std::size_t>(hessian_index(D, static_cast<int>(i), static_cast<int>(j)));
+        const auto ij =
+            static_cast<std::size_t>(hessian_index(D, static_cast<int>(i), static_cast<int>(j)));
         c_ij[ij].fill(Lanes::zero());
-        if constexpr (Degree >= 2) c_ij[ij][1 + D + ij] = Lanes((i == j ? 2 : 1) * inverse_H * inverse_H);
+        if constexpr (Degree >= 2)
+          c_ij[ij][1 + D + ij] = Lanes((i == j ? 2 : 1) * inverse_H * inverse_H);
       }
     for (const Kernel& kernel : kernel_) {
       const BasisVector P = basis(kernel.s);
@@ -191,9 +191,9 @@ void ReproducingKernel<D, Degree>::evaluate(const std::array<Vec<D>, 4>& points,
       std::size_t ij = 0;
       for (std::size_t i = 0; i < D; ++i)
         for (std::size_t j = i; j < D; ++j, ++ij)
-          add_scaled(c_ij[ij],
-                     -(kernel.phi_ij[ij] * Pc + kernel.phi_i[i] * Pc_i[j] + kernel.phi_i[j] * Pc_i[i]),
-                     P);
+          add_scaled(
+              c_ij[ij],
+              -(kernel.phi_ij[ij] * Pc + kernel.phi_i[i] * Pc_i[j] + kernel.phi_i[j] * Pc_i[i]), P);
     }
     for (std::size_t ij = 0; ij < pairs; ++ij) c_ij[ij] = solve(c_ij[ij]);
   }

@@ -2,6 +2,7 @@
 // The registry of shapes and the reading of a body's geometry.
 #include "meniscus/body/shapes.hpp"
 
+#include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
 
 namespace meniscus {
@@ -34,6 +35,7 @@ Geometry<D> read_geometry(const Block& block) {
   try {
     Geometry<D> geometry = shapes<D>().at(name).make(block);
     if (jitter > 0) jitter_interior(geometry.grid, jitter, static_cast<std::uint64_t>(seed));
+    match_volume(geometry);
     return geometry;
   } catch (const InputError& error) {
     block.problem("shape", error.what());

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building the integration rules of a body: nodal cells with linear moments, Gauss points, particles.
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include <Eigen/Dense>
-
+// Building the integration rules of a body: nodal cells with linear moments, Gauss points,
+// particles.
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
 
 namespace meniscus {
 namespace {
@@ -35,8 +35,8 @@ void for_each_value(const ParticleSet<D>& particles, ReproducingKernel<D>& kerne
 template <int D>
 struct CellRow {
   std::vector<Candidate<D>> candidates;
-  std::vector<Real> integral;                 // [candidate] of N over the cell
-  std::vector<std::array<Lanes, D>> gradient; // [candidate][K]: (a_K, B_K.)
+  std::vector<Real> integral;                  // [candidate] of N over the cell
+  std::vector<std::array<Lanes, D>> gradient;  // [candidate][K]: (a_K, B_K.)
 };
 
 /// Flux integrals of one nodal cell: a_K = (1/V) oint N n_K,
@@ -56,10 +56,9 @@ void integrate_cell(const Body<D>& body, Index cell, CellQuadrature<D>& quadratu
   thread_local std::vector<Moments> flux;
   flux.assign(n, Moments::Zero());
   row.integral.assign(n, 0.0);
-  for_each_value<D>(body.particles, kernel, quadrature.volume_X, row.candidates, body.name,
-                    [&](std::size_t q, std::size_t k, Real N) {
-                      row.integral[k] += quadrature.volume_w[q] * N;
-                    });
+  for_each_value<D>(
+      body.particles, kernel, quadrature.volume_X, row.candidates, body.name,
+      [&](std::size_t q, std::size_t k, Real N) { row.integral[k] += quadrature.volume_w[q] * N; });
   for_each_value<D>(body.particles, kernel, quadrature.facet_X, row.candidates, body.name,
                     [&](std::size_t q, std::size_t k, Real N) {
                       const Vec<D> n_dA = N * quadrature.facet_dA[q];
@@ -254,11 +253,11 @@ MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
   return report;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                          \
-  template CellOperator<D> build_cell_rule(const Body<D>&);              \
-  template PointRule<D> build_gauss_rule(const Body<D>&, int);           \
-  template PointRule<D> build_nodal_rule(const Body<D>&);                \
-  template std::vector<Real> shape_integrals(const Body<D>&);            \
+#define MENISCUS_INSTANTIATE(D)                                \
+  template CellOperator<D> build_cell_rule(const Body<D>&);    \
+  template PointRule<D> build_gauss_rule(const Body<D>&, int); \
+  template PointRule<D> build_nodal_rule(const Body<D>&);      \
+  template std::vector<Real> shape_integrals(const Body<D>&);  \
   template MassReport lump_mass(Body<D>&, const std::vector<Real>&, const std::vector<Real>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

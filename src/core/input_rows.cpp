@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The parts of rows that do not depend on the struct: texts, units and the printed table.
-#include "meniscus/core/input_rows.hpp"
-
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/input.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -20,9 +20,8 @@ class BodyForce final : public ForceTerm {
     for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += at(load_, A);
   }
   Real external_power(const Motion& motion) const override {
-    return parallel_sum(body_.size(), 0.0, [&](Index A) {
-      return sum(at(load_, A) * at(motion.v, body_.first + A));
-    });
+    return parallel_sum(body_.size(), 0.0,
+                        [&](Index A) { return sum(at(load_, A) * at(motion.v, body_.first + A)); });
   }
   std::size_t bytes() const override { return load_.size() * sizeof(Lanes); }
   Offset pairs() const override { return 0; }

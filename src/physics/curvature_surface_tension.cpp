@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface tension as gamma times the curvature of the deformed surface, from F and its gradient.
-#include <fmt/format.h>
-
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/surface_geometry.hpp"
 #include "meniscus/physics/surface_tension.hpp"
+
+#include <fmt/format.h>
 
 namespace meniscus {
 namespace {
@@ -17,10 +17,11 @@ class CurvatureSurfaceTension final : public ForceTerm {
   CurvatureSurfaceTension(const Body<D>& body, Real gamma, int points)
       : body_(body), gamma_(gamma), surface_(surface_points(body.geometry, points)) {
     if (!body.geometry.smooth || !surface_.exact)
-      throw InputError(fmt::format(
-          "body '{}': the curvature form of surface tension needs a smooth analytic surface, but this "
-          "shape has edges, where the curvature is undefined; use form = \"weak\"",
-          body.name));
+      throw InputError(
+          fmt::format("body '{}': the curvature form of surface tension needs a smooth analytic "
+                      "surface, but this "
+                      "shape has edges, where the curvature is undefined; use form = \"weak\"",
+                      body.name));
     rows_ = build_point_rows<D>(body.particles, surface_.X,
                                 {.value = true, .gradient = true, .hessian = true}, body.name);
     windows_ = {rows_.start, rows_.particle, body.size()};
@@ -79,9 +80,8 @@ class CurvatureSurfaceTension final : public ForceTerm {
   }
   Real area(const Motion& motion) const {
     const Lanes* u = motion.u.data() + body_.first;
-    return parallel_sum(rows_.size(), 0.0, [&](Index q) {
-      return at(surface_.area, q) * frame_at(q, u).area_ratio;
-    });
+    return parallel_sum(rows_.size(), 0.0,
+                        [&](Index q) { return at(surface_.area, q) * frame_at(q, u).area_ratio; });
   }
   Real mean_curvature(const Motion& motion) const {
     const Lanes* u = motion.u.data() + body_.first;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface tension in weak form: an internal force with the energy gamma |cof(F) N| per reference area.
+// Surface tension in weak form: an internal force with the energy gamma |cof(F) N| per reference
+// area.
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 
@@ -15,8 +16,7 @@ class WeakSurfaceTension final : public ForceTerm {
     rule_.point_weight = surface.area;
     normal_.assign(static_cast<std::size_t>(rule_.groups()) * D, Lanes::zero());
     for (Index q = 0; q < surface.size(); ++q)
-      for (int K = 0; K < D; ++K)
-        at(normal_, q / 4 * D + K).set(q % 4, at(surface.N, q)[K]);
+      for (int K = 0; K < D; ++K) at(normal_, q / 4 * D + K).set(q % 4, at(surface.N, q)[K]);
     windows_ = rule_.windows(body.size());
   }
 
@@ -38,7 +38,8 @@ class WeakSurfaceTension final : public ForceTerm {
         const Lanes factor = gamma_ * rule_.weight(g) * stretch / (1.0 + volume_change(H));
         std::array<Lanes, 3> n_cof;
         for (int K = 0; K < 3; ++K)
-          at(n_cof, K) = (m[0] * cof(0, K) + m[1] * cof(1, K) + m[2] * cof(2, K)) / (stretch * stretch);
+          at(n_cof, K) =
+              (m[0] * cof(0, K) + m[1] * cof(1, K) + m[2] * cof(2, K)) / (stretch * stretch);
         rule_.scatter(g, Tensor<Lanes>::map([&](int i, int K) {
                         return -factor * (cof(i, K) - at(m, i) * at(n_cof, K));
                       }),

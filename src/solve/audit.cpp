@@ -2,17 +2,18 @@
 // Sums of energy and momentum over the particles.
 #include "meniscus/solve/audit.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "meniscus/core/parallel.hpp"
 
 #include <Eigen/Geometry>
-
-#include "meniscus/core/parallel.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace meniscus {
 namespace {
 
-Eigen::Vector3d spatial(Lanes x) { return {x[0], x[1], x[2]}; }
+Eigen::Vector3d spatial(Lanes x) {
+  return {x[0], x[1], x[2]};
+}
 
 /// Momenta of coefficients: sum m v and sum m x cross v. Exact invariants of the discrete system.
 template <int D>
@@ -33,7 +34,9 @@ Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
   return zero;
 }
 
-Real relative(Real change, Real scale) { return scale > 0 ? change / scale : 0; }
+Real relative(Real change, Real scale) {
+  return scale > 0 ? change / scale : 0;
+}
 
 }  // namespace
 

@@ -2,12 +2,12 @@
 // Sum of all force terms and the check that it makes sense.
 #include "meniscus/solve/system.hpp"
 
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/error.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
-
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -23,8 +23,8 @@ std::string place_of(const System<D>& system, const Motion& motion, Index partic
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
     current += fmt::format("{}{:.6g}", i ? ", " : "", X[i] + u[i]);
   }
-  return fmt::format("body '{}', particle {} at reference position ({}), now ({})", body.name, particle,
-                     reference, current);
+  return fmt::format("body '{}', particle {} at reference position ({}), now ({})", body.name,
+                     particle, reference, current);
 }
 
 }  // namespace
@@ -56,9 +56,8 @@ void System<D>::compute_forces(const Motion& motion, std::span<Lanes> force) {
     if (const auto failure = term->failure())
       throw SolveError(fmt::format("{}: {} ({})", place_of(*this, motion, failure->particle),
                                    failure->cause, term->name()));
-  const Lanes total = parallel_sum(size(), Lanes::zero(), [&](Index A) {
-    return at(force, A) * at(force, A);
-  });
+  const Lanes total =
+      parallel_sum(size(), Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
   if (std::isfinite(sum(total))) return;
   for (Index A = 0; A < size(); ++A)
     if (!std::isfinite(sum(at(force, A) * at(force, A))))

@@ -2,10 +2,10 @@
 // Power iteration for the critical mode of central differences.
 #include "meniscus/solve/time_step.hpp"
 
-#include <cmath>
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
+
+#include <cmath>
 
 namespace meniscus {
 namespace {
@@ -34,14 +34,13 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system)
     : system_(system), spacing_(1e300), mode_(rough_mode<D>(system.size())) {
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A)
-      spacing_ = std::min(spacing_, body.particles.search().distance_of_nearest(
-                                        at(body.particles.X(), A), 2));
+      spacing_ = std::min(
+          spacing_, body.particles.search().distance_of_nearest(at(body.particles.X(), A), 2));
 }
 
 template <int D>
 Real StableStepEstimator<D>::dot(const NodalVectors& a, const NodalVectors& b) const {
-  return parallel_sum(system_.size(), 0.0,
-                      [&](Index A) { return sum(at(a, A) * at(b, A)); });
+  return parallel_sum(system_.size(), 0.0, [&](Index A) { return sum(at(a, A) * at(b, A)); });
 }
 
 template <int D>
@@ -109,8 +108,9 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
     });
   }
   if (!(best.dt > 0) || !std::isfinite(best.dt))
-    throw SolveError("no stable time step can be found: the forces at the current state do not make "
-                     "sense (are all moduli positive and all cells unfolded?)");
+    throw SolveError(
+        "no stable time step can be found: the forces at the current state do not make "
+        "sense (are all moduli positive and all cells unfolded?)");
   return best;
 }
 

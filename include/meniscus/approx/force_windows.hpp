@@ -3,11 +3,11 @@
 // number of row chunks, each with its own window of particles, summed in ascending order
 // (performance note 5).
 #pragma once
-#include <span>
-#include <vector>
-
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/parallel.hpp"
+
+#include <span>
+#include <vector>
 
 namespace meniscus {
 
@@ -17,8 +17,8 @@ class ForceWindows {
   /// Windows for compressed rows.
   ForceWindows(std::span<const Offset> start, std::span<const Index> particle, Index particles);
 
-  /// Calls work(chunk, begin row, end row, window) for each chunk; window[A] += ... is allowed for the
-  /// particles A of those rows. Then adds all windows to `force`.
+  /// Calls work(chunk, begin row, end row, window) for each chunk; window[A] += ... is allowed for
+  /// the particles A of those rows. Then adds all windows to `force`.
   template <class F>
   void accumulate(std::span<Lanes> force, F&& work) {
     parallel_for(

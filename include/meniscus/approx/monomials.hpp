@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbering of the monomials of D variables up to a degree, at compile time.
 #pragma once
-#include <array>
-
 #include "meniscus/core/types.hpp"
+
+#include <array>
 
 namespace meniscus {
 
@@ -15,7 +15,9 @@ constexpr int monomial_count(int D, int degree) {
 }
 
 /// Number of entries of a symmetric second derivative.
-constexpr int hessian_count(int D) { return D * (D + 1) / 2; }
+constexpr int hessian_count(int D) {
+  return D * (D + 1) / 2;
+}
 
 /// Position of d2/dx_i dx_j in a packed second derivative: xx, xy, (xz,) yy, (yz, zz).
 constexpr int hessian_index(int D, int i, int j) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Search in a cloud of points: the one interface for kernel neighbours and contact pairs.
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <memory>
 #include <span>
 #include <vector>
-
-#include "meniscus/core/types.hpp"
 
 namespace meniscus {
 
 /// A kd-tree over a cloud. Queries are const and may run on several threads at once.
 template <int D>
-  requires SpaceDim<D>
+requires SpaceDim<D>
 class NeighborSearch {
  public:
   explicit NeighborSearch(std::span<const Vec<D>> points);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The particles of one body in the reference configuration, and their kernel supports.
 #pragma once
-#include <span>
-#include <vector>
-
 #include "meniscus/approx/neighbor_search.hpp"
 #include "meniscus/approx/reproducing_kernel.hpp"
+
+#include <span>
+#include <vector>
 
 namespace meniscus {
 
@@ -33,14 +33,14 @@ class ParticleSet {
   /// All particles whose support reaches into the ball around `centre`, by ascending number.
   void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
 
-  /// Deficiency monitor (RKPM note 2.4) at `points`: where the moment matrix is poor, the supports of
-  /// the particles around are enlarged in steps of 10 % until it is not, at most to 2.6 times the
-  /// support asked for. Returns how many particles were enlarged. Throws SolveError naming `body`, the
-  /// point and its neighbour count when a point stays unusable.
+  /// Deficiency monitor (RKPM note 2.4) at `points`: where the moment matrix is poor, the supports
+  /// of the particles around are enlarged in steps of 10 % until it is not, at most to 2.6 times
+  /// the support asked for. Returns how many particles were enlarged. Throws SolveError naming
+  /// `body`, the point and its neighbour count when a point stays unusable.
   Index ensure_quality(std::span<const Vec<D>> points, const std::string& body);
 
-  /// Throws SolveError naming `body`, the point x and its neighbour count if `quality` (of the moment
-  /// matrix at x) is below unusable_quality or not a number.
+  /// Throws SolveError naming `body`, the point x and its neighbour count if `quality` (of the
+  /// moment matrix at x) is below unusable_quality or not a number.
   void require_quality(Real quality, const Vec<D>& x, const std::string& body,
                        Real least = unusable_quality) const {
     if (!(quality >= least)) refuse(quality, x, body);

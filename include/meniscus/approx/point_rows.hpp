@@ -2,12 +2,12 @@
 // Shape functions at evaluation points, stored as compressed rows: a row per point, an entry per
 // particle that reaches it. Only the derivative orders asked for exist.
 #pragma once
+#include "meniscus/approx/particle_set.hpp"
+#include "meniscus/core/aligned.hpp"
+
 #include <span>
 #include <string>
 #include <vector>
-
-#include "meniscus/approx/particle_set.hpp"
-#include "meniscus/core/aligned.hpp"
 
 namespace meniscus {
 
@@ -18,11 +18,11 @@ struct RowContent {
 
 template <int D>
 struct PointRows {
-  std::vector<Offset> start{0};      ///< [point + 1]
-  std::vector<Index> particle;       ///< [entry], ascending within a row
-  AlignedVector<Real> value;         ///< [entry]
-  AlignedVector<Real> gradient;      ///< [entry][i]
-  AlignedVector<Real> hessian;       ///< [entry][ij]
+  std::vector<Offset> start{0};  ///< [point + 1]
+  std::vector<Index> particle;   ///< [entry], ascending within a row
+  AlignedVector<Real> value;     ///< [entry]
+  AlignedVector<Real> gradient;  ///< [entry][i]
+  AlignedVector<Real> hessian;   ///< [entry][ij]
 
   Index size() const { return static_cast<Index>(start.size()) - 1; }
   Offset entries() const { return start.back(); }

@@ -3,11 +3,11 @@
 // evaluation points at once (RKPM note 2.1, fixed-origin form: the derivatives of the moment matrix
 // are never formed).
 #pragma once
-#include <span>
-#include <vector>
-
 #include "meniscus/approx/monomials.hpp"
 #include "meniscus/approx/window.hpp"
+
+#include <span>
+#include <vector>
 
 namespace meniscus {
 
@@ -21,8 +21,8 @@ struct Candidate {
   Vec<D> X;
 };
 
-/// Shape functions of complete polynomials up to `Degree`, evaluated for batches of four points that
-/// share a list of candidate particles. Candidates that do not reach a point get N = 0 there.
+/// Shape functions of complete polynomials up to `Degree`, evaluated for batches of four points
+/// that share a list of candidate particles. Candidates that do not reach a point get N = 0 there.
 ///
 /// At each point x: p(s) are the monomials of s = (y - x)/H, P_A = p((x_A - x)/H), with one H for
 /// the whole batch, and
@@ -75,7 +75,7 @@ class ReproducingKernel {
   Window window_;
   std::vector<Kernel> kernel_;
   std::vector<Lanes> value_, gradient_, hessian_;
-  std::array<Lanes, static_cast<std::size_t>(basis_size * basis_size)> factor_;
+  std::array<Lanes, static_cast<std::size_t>(basis_size* basis_size)> factor_;
   BasisVector scale_, inverse_pivot_;
   Lanes quality_ = Lanes::zero();
 };

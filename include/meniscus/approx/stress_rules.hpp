@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The two integration rules of the internal force as operators of the time loop. Both treat stress
 // points in groups of up to four: gather() turns a nodal field into its gradient at the points of a
-// group, a lane per point; scatter() is the exact transpose. Lanes without a point have weight zero.
+// group, a lane per point; scatter() is the exact transpose. Lanes without a point have weight
+// zero.
 #pragma once
-#include <span>
-
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/tensor.hpp"
+
+#include <span>
 
 namespace meniscus {
 
 namespace detail {
 
-inline const Real* components(const Lanes& x) { return reinterpret_cast<const Real*>(&x); }
+inline const Real* components(const Lanes& x) {
+  return reinterpret_cast<const Real*>(&x);
+}
 
 /// (a_q, b_q, c_q, 0) of lane q.
 inline std::array<Lanes, 4> by_lane(Lanes a, Lanes b, Lanes c) {
@@ -53,13 +56,13 @@ template <int D>
 struct CellRule {
   static constexpr int exact_entries = monomial_count(D, 2);
 
-  std::vector<Offset> start{0};          ///< [cell + 1]
-  std::vector<Index> particle;           ///< [entry]
-  AlignedVector<FloatLanes> coefficient; ///< [entry][K]: (a_AK, B_AK0, B_AK1, B_AK2)
-  std::vector<Index> exact_particle;     ///< [cell][exact entry]
-  AlignedVector<Lanes> exact;            ///< [cell][exact entry][K], added to coefficient
-  AlignedVector<Lanes> point;            ///< [cell][M]: xi_qM, a lane per stress point q
-  std::vector<Real> volume;              ///< [cell]
+  std::vector<Offset> start{0};           ///< [cell + 1]
+  std::vector<Index> particle;            ///< [entry]
+  AlignedVector<FloatLanes> coefficient;  ///< [entry][K]: (a_AK, B_AK0, B_AK1, B_AK2)
+  std::vector<Index> exact_particle;      ///< [cell][exact entry]
+  AlignedVector<Lanes> exact;             ///< [cell][exact entry][K], added to coefficient
+  AlignedVector<Lanes> point;             ///< [cell][M]: xi_qM, a lane per stress point q
+  std::vector<Real> volume;               ///< [cell]
 
   Index groups() const { return static_cast<Index>(volume.size()); }
   Index points_per_group() const { return D + 1; }
@@ -131,9 +134,9 @@ struct CellRule {
  private:
   Offset entries(Index cell) const { return at(start, cell + 1) - at(start, cell); }
 
-  /// Calls add(A, coefficients) for all entries of a cell, and touches the memory at `ahead`, a line
-  /// per entry. Coefficients are read once from memory and again from cache: fetching those of the
-  /// next cell in every loop over this one lets memory and arithmetic overlap.
+  /// Calls add(A, coefficients) for all entries of a cell, and touches the memory at `ahead`, a
+  /// line per entry. Coefficients are read once from memory and again from cache: fetching those of
+  /// the next cell in every loop over this one lets memory and arithmetic overlap.
   template <class F>
   [[gnu::always_inline]] void for_each_entry(Index cell, const char* ahead, F&& add) const {
     const FloatLanes* g = coefficient.data() + at(start, cell) * D;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Window functions Phi(z), z = |x - x_A| / support_A, zero for z >= 1 (RKPM note 2.1).
 #pragma once
+#include "meniscus/core/simd.hpp"
+
 #include <array>
 #include <string_view>
-
-#include "meniscus/core/simd.hpp"
 
 namespace meniscus {
 
@@ -85,11 +85,16 @@ struct QuarticSpline {
 template <class F>
 decltype(auto) with_window(Window window, F&& f) {
   switch (window) {
-    case Window::quintic_spline: return f(window::QuinticSpline{});
-    case Window::wendland_c2: return f(window::WendlandC2{});
-    case Window::wendland_c4: return f(window::WendlandC4{});
-    case Window::quartic_spline: return f(window::QuarticSpline{});
-    case Window::cubic_spline: break;
+    case Window::quintic_spline:
+      return f(window::QuinticSpline{});
+    case Window::wendland_c2:
+      return f(window::WendlandC2{});
+    case Window::wendland_c4:
+      return f(window::WendlandC4{});
+    case Window::quartic_spline:
+      return f(window::QuarticSpline{});
+    case Window::cubic_spline:
+      break;
   }
   return f(window::CubicSpline{});
 }

@@ -2,11 +2,11 @@
 // A body: particles, cells and surface in the reference configuration, and the operators that terms
 // build on them.
 #pragma once
-#include <string>
-
 #include "meniscus/approx/stress_rules.hpp"
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/body/nodal_cells.hpp"
+
+#include <string>
 
 namespace meniscus {
 
@@ -57,8 +57,8 @@ std::vector<Real> shape_integrals(const Body<D>& body);
 /// m_A = integral of density N_A, with the floor m_A >= 0.3 density V_A (tiny and negative row sums
 /// at corners are unstable at any step; performance note 3). `density` per particle.
 struct MassReport {
-  Index raised = 0;     ///< particles at the floor
-  Real added = 0;       ///< relative change of the total mass
+  Index raised = 0;  ///< particles at the floor
+  Real added = 0;    ///< relative change of the total mass
 };
 template <int D>
 MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,

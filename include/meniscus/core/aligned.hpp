@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arrays that start on a cache line, and the array of nodal vectors of the time loop.
 #pragma once
+#include "meniscus/core/simd.hpp"
+
 #include <cstdlib>
 #include <new>
 #include <span>
 #include <vector>
-
-#include "meniscus/core/simd.hpp"
 
 namespace meniscus {
 
@@ -18,9 +18,9 @@ struct CacheLineAllocator {
   template <class U>
   CacheLineAllocator(const CacheLineAllocator<U>&) {}
   T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{alignment}));
+    return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{alignment}));
   }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{alignment}); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{alignment}); }
   template <class U>
   bool operator==(const CacheLineAllocator<U>&) const {
     return true;

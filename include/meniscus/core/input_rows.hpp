@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows: the keys of a struct, written once, for reading, checking, defaults and documentation.
-// Included by input.hpp.
+// Included at the end of input.hpp, whose names it uses.
 #pragma once
-#include "meniscus/core/input.hpp"
-
 #include <algorithm>
 #include <array>
 #include <functional>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loops over threads whose results do not depend on the number of threads.
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <algorithm>
 #include <array>
 #include <exception>
-
-#include "meniscus/core/types.hpp"
 
 namespace meniscus {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Four doubles that are computed together. The compiler maps them to one AVX register, or to two SSE
-// registers: the arithmetic, and so every bit of the result, is the same.
+// Four doubles that are computed together. The compiler maps them to one AVX register, or to two
+// SSE registers: the arithmetic, and so every bit of the result, is the same.
 #pragma once
+#include "meniscus/core/types.hpp"
+
 #include <immintrin.h>
 
 #include <array>
 #include <cmath>
-
-#include "meniscus/core/types.hpp"
 
 namespace meniscus {
 
@@ -32,10 +32,22 @@ struct Lanes {
   void set(int lane, Real x) { v[lane] = x; }
 
   Lanes operator-() const { return -v; }
-  Lanes& operator+=(Lanes b) { v += b.v; return *this; }
-  Lanes& operator-=(Lanes b) { v -= b.v; return *this; }
-  Lanes& operator*=(Lanes b) { v *= b.v; return *this; }
-  Lanes& operator/=(Lanes b) { v /= b.v; return *this; }
+  Lanes& operator+=(Lanes b) {
+    v += b.v;
+    return *this;
+  }
+  Lanes& operator-=(Lanes b) {
+    v -= b.v;
+    return *this;
+  }
+  Lanes& operator*=(Lanes b) {
+    v *= b.v;
+    return *this;
+  }
+  Lanes& operator/=(Lanes b) {
+    v /= b.v;
+    return *this;
+  }
   friend Lanes operator+(Lanes a, Lanes b) { return a.v + b.v; }
   friend Lanes operator-(Lanes a, Lanes b) { return a.v - b.v; }
   friend Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
@@ -62,13 +74,23 @@ struct alignas(16) FloatLanes {
 };
 
 /// Lane by lane `mask ? yes : no`.
-inline Lanes select(Lanes::Mask mask, Lanes yes, Lanes no) { return mask ? yes.v : no.v; }
-inline Lanes min(Lanes a, Lanes b) { return select(a.v < b.v, a, b); }
-inline Lanes max(Lanes a, Lanes b) { return select(a.v > b.v, a, b); }
+inline Lanes select(Lanes::Mask mask, Lanes yes, Lanes no) {
+  return mask ? yes.v : no.v;
+}
+inline Lanes min(Lanes a, Lanes b) {
+  return select(a.v < b.v, a, b);
+}
+inline Lanes max(Lanes a, Lanes b) {
+  return select(a.v > b.v, a, b);
+}
 
 /// Sum of the four lanes, in a fixed order.
-inline Real sum(Lanes a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+inline Real sum(Lanes a) {
+  return (a[0] + a[1]) + (a[2] + a[3]);
+}
 
-inline Lanes sqrt(Lanes a) { return Lanes::Native(_mm256_sqrt_pd(a.v)); }
+inline Lanes sqrt(Lanes a) {
+  return Lanes::Native(_mm256_sqrt_pd(a.v));
+}
 
 }  // namespace meniscus

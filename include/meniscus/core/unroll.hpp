@@ -12,7 +12,8 @@ template <std::size_t N, class F>
 [[gnu::always_inline]] inline void unroll(F&& f) {
   [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
     (f(std::integral_constant<std::size_t, k>{}), ...);
-  }(std::make_index_sequence<N>{});
+  }
+  (std::make_index_sequence<N>{});
 }
 
 }  // namespace meniscus

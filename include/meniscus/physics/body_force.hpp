@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A load per mass, e.g. gravity, as a function of reference position and time.
 #pragma once
-#include <memory>
-#include <vector>
-
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/expression.hpp"
 #include "meniscus/physics/force_term.hpp"
+
+#include <memory>
+#include <vector>
 
 namespace meniscus {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one interface of all physical effects. A scene's system is a list of terms; an effect that the
-// scene does not name is not in the list and costs nothing.
+// The one interface of all physical effects. A scene's system is a list of terms; an effect that
+// the scene does not name is not in the list and costs nothing.
 #pragma once
+#include "meniscus/core/aligned.hpp"
+#include "meniscus/core/units.hpp"
+
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "meniscus/core/aligned.hpp"
-#include "meniscus/core/units.hpp"
 
 namespace meniscus {
 
@@ -22,14 +22,14 @@ struct Motion {
 
 /// Why a term could not compute a force that makes sense.
 struct Failure {
-  Index particle;      ///< global number of the particle nearest to the failure
-  std::string cause;   ///< e.g. "J = -0.3 at a stress point; F = [...]"
+  Index particle;     ///< global number of the particle nearest to the failure
+  std::string cause;  ///< e.g. "J = -0.3 at a stress point; F = [...]"
 };
 
 /// A result per particle that a term can compute for output.
 struct FieldSource {
-  std::string name;     ///< e.g. "pressure"
-  int components;       ///< 1 or 9 (row-major tensor)
+  std::string name;  ///< e.g. "pressure"
+  int components;    ///< 1 or 9 (row-major tensor)
   Dimension dimension;
   std::string meaning;
   /// Fills `components` numbers for each particle of the term's body.
@@ -38,7 +38,7 @@ struct FieldSource {
 
 /// A scalar result that a term can compute for the history.
 struct MeasureSource {
-  std::string name;     ///< e.g. "area"
+  std::string name;  ///< e.g. "area"
   Dimension dimension;
   std::string meaning;
   std::function<Real(const Motion&)> compute;
@@ -51,8 +51,8 @@ class ForceTerm {
   /// Name in messages, timings and the audit: "internal force of 'drop'".
   virtual std::string name() const = 0;
 
-  /// force[A] += ... over all particles. Same bits for any thread count. Called for any motion, also
-  /// trial ones; what dissipation() and failure() say is about the last call.
+  /// force[A] += ... over all particles. Same bits for any thread count. Called for any motion,
+  /// also trial ones; what dissipation() and failure() say is about the last call.
   virtual void add_force(const Motion& motion, std::span<Lanes> force) = 0;
 
   /// Whether the force depends on the velocity.

@@ -3,11 +3,11 @@
 // points. The material is a template parameter: its stress is computed inside the loop, four stress
 // points at a time.
 #pragma once
-#include <fmt/format.h>
-
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
 #include "meniscus/physics/law.hpp"
+
+#include <fmt/format.h>
 
 namespace meniscus {
 
@@ -85,9 +85,7 @@ class InternalForce final : public ForceTerm {
  private:
   static constexpr Index no_group = std::numeric_limits<Index>::max();
 
-  const L& law(Index group) const {
-    return laws_[static_cast<std::size_t>(group) * law_stride_];
-  }
+  const L& law(Index group) const { return laws_[static_cast<std::size_t>(group) * law_stride_]; }
   std::span<Lanes> body_span(std::span<Lanes> all) const {
     return all.subspan(static_cast<std::size_t>(body_.first),
                        static_cast<std::size_t>(body_.size()));
@@ -140,11 +138,12 @@ void InternalForce<D, L, Rule>::describe_failure(const Lanes* u) {
     const Tensor<Real> H_point = lane_of(H, lane), F = deformation_gradient(H_point);
     const Real J = 1 + volume_change(H_point);
     if (J > 0) continue;
-    failure_ = {body_.first + rule_.owner(failed_group_, lane),
-                fmt::format("J = det F = {:.6g} at a stress point, F = [{:.4g} {:.4g} {:.4g}; {:.4g} "
-                            "{:.4g} {:.4g}; {:.4g} {:.4g} {:.4g}]",
-                            J, F(0, 0), F(0, 1), F(0, 2), F(1, 0), F(1, 1), F(1, 2), F(2, 0), F(2, 1),
-                            F(2, 2))};
+    failure_ = {
+        body_.first + rule_.owner(failed_group_, lane),
+        fmt::format("J = det F = {:.6g} at a stress point, F = [{:.4g} {:.4g} {:.4g}; {:.4g} "
+                    "{:.4g} {:.4g}; {:.4g} {:.4g} {:.4g}]",
+                    J, F(0, 0), F(0, 1), F(0, 2), F(1, 0), F(1, 1), F(1, 2), F(2, 0), F(2, 1),
+                    F(2, 2))};
     return;
   }
 }
@@ -203,9 +202,8 @@ std::vector<FieldSource> InternalForce<D, L, Rule>::fields() const {
   return {
       {"J", 1, dimension::none, "det F, mean over the particle's cell",
        [this](const Motion& m, std::span<Real> out) {
-         average(m, out, 1, [](const Tensor<Real>& H, const L&) {
-           return std::array{1 + volume_change(H)};
-         });
+         average(m, out, 1,
+                 [](const Tensor<Real>& H, const L&) { return std::array{1 + volume_change(H)}; });
        }},
       {"F", 9, dimension::none, "deformation gradient, mean over the particle's cell, row-major",
        [this, row_major](const Motion& m, std::span<Real> out) {

@@ -107,8 +107,8 @@ class AnyLawOf final : public AnyLaw {
 
 template <Law L>
 LawEntry make_entry() {
-  LawEntry entry{L::type_name, L::viscous, {}, nullptr, nullptr, read_material<2, L>,
-                 read_material<3, L>};
+  LawEntry entry{L::type_name,        L::viscous,         {}, nullptr, nullptr,
+                 read_material<2, L>, read_material<3, L>};
   for (const Row<L>& row : L::rows())
     entry.keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
   entry.typical = []() -> std::unique_ptr<AnyLaw> {

@@ -2,12 +2,12 @@
 // From the material of a scene to the internal force of a body. The template that joins law and
 // integration rule is instantiated once per law, at its registration.
 #pragma once
-#include <memory>
-#include <string>
-
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/internal_force.hpp"
+
+#include <memory>
+#include <string>
 
 namespace meniscus {
 
@@ -59,7 +59,8 @@ class MaterialOf final : public Material<D> {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     place.template head<D>() = X;
     const L law = law_.at(place);
-    if (const auto wrong = check(law)) throw InputError(law_.formulas.front().place + ": " + *wrong);
+    if (const auto wrong = check(law))
+      throw InputError(law_.formulas.front().place + ": " + *wrong);
     return law;
   }
 

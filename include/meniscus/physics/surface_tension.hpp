@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface tension of the whole surface of a body, in three discrete forms (RKPM note 4).
 #pragma once
-#include <array>
-#include <memory>
-
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
+
+#include <array>
+#include <memory>
 
 namespace meniscus {
 
@@ -15,13 +15,13 @@ template <int D>
 std::unique_ptr<ForceTerm> weak_surface_tension(const Body<D>& body, Real gamma, int points);
 
 /// f_A = sum_q N_A gamma 2 kappa n da with 2 kappa = T_KL (n_i G_iKL - N_K,L / s), the corrected
-/// (2.42) of Fan 2014: purely normal, least nodal scatter, not a gradient. The surface must be smooth
-/// (else InputError). The only form that needs second derivatives.
+/// (2.42) of Fan 2014: purely normal, least nodal scatter, not a gradient. The surface must be
+/// smooth (else InputError). The only form that needs second derivatives.
 template <int D>
 std::unique_ptr<ForceTerm> curvature_surface_tension(const Body<D>& body, Real gamma, int points);
 
-/// Area of a flat triangle (2D: length of a segment), and minus its gradient: how unit tension pulls
-/// at the corners, f_I = (1/2) (x_I+2 - x_I+1) x n.
+/// Area of a flat triangle (2D: length of a segment), and minus its gradient: how unit tension
+/// pulls at the corners, f_I = (1/2) (x_I+2 - x_I+1) x n.
 template <int D>
 struct FlatPull {
   Real area;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the energy is, and whether energy and momenta are kept.
 #pragma once
+#include "meniscus/solve/system.hpp"
+
 #include <map>
 #include <string>
-
-#include "meniscus/solve/system.hpp"
 
 namespace meniscus {
 

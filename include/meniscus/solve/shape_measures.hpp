@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers that describe where a body is and what shape it has.
 #pragma once
-#include <vector>
-
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/expression.hpp"
 #include "meniscus/physics/force_term.hpp"
+
+#include <vector>
 
 namespace meniscus {
 

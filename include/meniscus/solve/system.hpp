@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All that moves and all that acts: bodies, force terms, and the state that changes in time.
 #pragma once
-#include <deque>
-#include <memory>
-
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
+
+#include <deque>
+#include <memory>
 
 namespace meniscus {
 
@@ -13,10 +13,10 @@ namespace meniscus {
 struct State {
   Real time = 0;
   std::int64_t step = 0;
-  NodalVectors u, v;      ///< displacement and velocity coefficients at `time`
-  NodalVectors force;     ///< at u and the velocity of the last half step
-  Real dissipated = 0;    ///< heat so far
-  Real external_work = 0; ///< work of the outside world so far
+  NodalVectors u, v;       ///< displacement and velocity coefficients at `time`
+  NodalVectors force;      ///< at u and the velocity of the last half step
+  Real dissipated = 0;     ///< heat so far
+  Real external_work = 0;  ///< work of the outside world so far
   Real dissipation_power = 0, external_power = 0;  ///< at `time`
 
   Motion motion() const { return {time, u, v}; }
