@@ -70,6 +70,7 @@ SHEET = """
 dimension = 2
 [time]
 end = 0.1
+[output]
 [[body]]
 name = "sheet"
 shape = "rectangle"
