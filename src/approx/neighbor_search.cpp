@@ -52,6 +52,14 @@ requires SpaceDim<D> NeighborSearch<D>
 template <int D>
 requires SpaceDim<D>
 void NeighborSearch<D>::within(const Vec<D>& x, Real radius, std::vector<Index>& found) const {
+  within_unsorted(x, radius, found);
+  std::sort(found.begin(), found.end());
+}
+
+template <int D>
+requires SpaceDim<D>
+void NeighborSearch<D>::within_unsorted(const Vec<D>& x, Real radius,
+                                        std::vector<Index>& found) const {
   found.clear();
   if (radius < 0) return;
   // nanoflann wants squared radii and leaves out points exactly on the sphere; a few units in the
@@ -66,7 +74,6 @@ void NeighborSearch<D>::within(const Vec<D>& x, Real radius, std::vector<Index>&
   tree_->index.radiusSearch(x.data(), squared, hits, nanoflann::SearchParams(32, 0, false));
 #endif
   for (const auto& hit : hits) found.push_back(hit.first);
-  std::sort(found.begin(), found.end());
 }
 
 template <int D>

@@ -34,11 +34,30 @@ template <int D>
 void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
                                 std::vector<Candidate<D>>& found) const {
   thread_local std::vector<Index> near;
-  search_.within(centre, radius + largest_support_, near);
+  // Supports differ: the search finds many more than it keeps, so it does not sort.
+  search_.within_unsorted(centre, radius + largest_support_, near);
+  std::erase_if(near,
+                [&](Index A) { return (at(X_, A) - centre).norm() >= radius + at(support_, A); });
+  std::sort(near.begin(), near.end());
   found.clear();
-  for (const Index A : near)
-    if ((at(X_, A) - centre).norm() < radius + at(support_, A))
-      found.push_back({A, at(support_, A), at(X_, A)});
+  for (const Index A : near) found.push_back({A, at(support_, A), at(X_, A)});
+}
+
+template <int D>
+void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
+                 std::vector<Candidate<D>>& near, std::vector<std::size_t>& number) {
+  const Vec<D> centre = 0.25 * ((points[0] + points[1]) + (points[2] + points[3]));
+  Real radius = 0;
+  for (const Vec<D>& x : points) radius = std::max(radius, (x - centre).norm());
+  radius *= 1 + 1e-12;
+  near.clear();
+  number.clear();
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Real reach = candidates[k].support + radius;
+    if ((candidates[k].X - centre).squaredNorm() >= reach * reach) continue;
+    near.push_back(candidates[k]);
+    number.push_back(k);
+  }
 }
 
 template <int D>
@@ -96,6 +115,10 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
       body, place, near.size(), quality, unusable_quality));
 }
 
+template void select_near(const std::array<Vec<2>, 4>&, std::span<const Candidate<2>>,
+                          std::vector<Candidate<2>>&, std::vector<std::size_t>&);
+template void select_near(const std::array<Vec<3>, 4>&, std::span<const Candidate<3>>,
+                          std::vector<Candidate<3>>&, std::vector<std::size_t>&);
 template class ParticleSet<2>;
 template class ParticleSet<3>;
 

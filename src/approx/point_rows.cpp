@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building compressed rows of shape functions, in groups of points that share one search.
+// Building compressed rows of shape functions, four points at a time.
 #include "meniscus/approx/point_rows.hpp"
 
 #include "meniscus/core/parallel.hpp"
@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-constexpr Index group_size = 8;
+constexpr Index group_size = 4;  // points of one batch of ReproducingKernel; they share a search
 
 template <int D>
 void append_row(PointRows<D>& rows, const std::vector<Candidate<D>>& candidates, RowContent content,
@@ -33,28 +33,30 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   const Derivatives order = content.hessian    ? Derivatives::second
                             : content.gradient ? Derivatives::first
                                                : Derivatives::none;
-  Vec<D> centre = Vec<D>::Zero();
-  for (const Vec<D>& x : points) centre += x / static_cast<Real>(points.size());
+  std::array<Vec<D>, group_size> batch;  // the last point fills up
+  for (std::size_t lane = 0; lane < group_size; ++lane)
+    batch[lane] = points[std::min(lane, points.size() - 1)];
+  const Vec<D> centre = 0.25 * ((batch[0] + batch[1]) + (batch[2] + batch[3]));
   Real radius = 0;
-  for (const Vec<D>& x : points) radius = std::max(radius, (x - centre).norm());
+  for (const Vec<D>& x : batch) radius = std::max(radius, (x - centre).norm());
   thread_local std::vector<Candidate<D>> candidates;
   particles.candidates(centre, radius * (1 + 1e-12), candidates);
 
   // The limit is known for the quadratic basis; a cubic one is worse conditioned by nature.
   const Real least = Degree > 2 ? 1e-6 : ParticleSet<D>::unusable_quality;
+  thread_local ReproducingKernel<D, Degree> kernel(particles.window());  // keeps its buffers
+  kernel.use(particles.window());
+  if (candidates.size() < static_cast<std::size_t>(kernel.basis_size))
+    particles.require_quality(0, batch[0], body);
+  kernel.evaluate(batch, candidates, order);
+
   PointRows<D> rows;
-  ReproducingKernel<D, Degree> kernel(particles.window());
-  for (std::size_t q = 0; q < points.size(); q += 4) {
-    std::array<Vec<D>, 4> batch;
-    for (std::size_t lane = 0; lane < 4; ++lane)
-      batch[lane] = points[std::min(q + lane, points.size() - 1)];
-    if (candidates.size() < static_cast<std::size_t>(kernel.basis_size))
-      particles.require_quality(0, batch[0], body);
-    kernel.evaluate(batch, candidates, order);
-    for (std::size_t lane = 0; lane < std::min<std::size_t>(4, points.size() - q); ++lane) {
-      particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane], body, least);
-      append_row(rows, candidates, content, kernel, static_cast<int>(lane));
-    }
+  rows.particle.reserve(candidates.size() * points.size());
+  rows.value.reserve(content.value ? candidates.size() * points.size() : 0);
+  rows.gradient.reserve(content.gradient ? D * candidates.size() * points.size() : 0);
+  for (std::size_t lane = 0; lane < points.size(); ++lane) {
+    particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane], body, least);
+    append_row(rows, candidates, content, kernel, static_cast<int>(lane));
   }
   return rows;
 }

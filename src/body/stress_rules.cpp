@@ -12,22 +12,26 @@
 namespace meniscus {
 namespace {
 
-/// Calls f(point number, candidate number, N) for every shape function at every point.
+/// Calls f(point number, candidate number, N) for every shape function at every point. Points come
+/// in fours that are close together; candidates that reach none of the four are left out.
 template <int D, class F>
 void for_each_value(const ParticleSet<D>& particles, ReproducingKernel<D>& kernel,
                     std::span<const Vec<D>> points, std::span<const Candidate<D>> candidates,
                     const std::string& body, F&& f) {
+  thread_local std::vector<Candidate<D>> near;
+  thread_local std::vector<std::size_t> number;
   for (std::size_t q = 0; q < points.size(); q += 4) {
     std::array<Vec<D>, 4> batch;
     for (std::size_t lane = 0; lane < 4; ++lane)
       batch[lane] = points[std::min(q + lane, points.size() - 1)];
-    kernel.evaluate(batch, candidates, Derivatives::none);
+    select_near<D>(batch, candidates, near, number);
+    kernel.evaluate(batch, near, Derivatives::none);
     const std::size_t lanes = std::min<std::size_t>(4, points.size() - q);
     for (std::size_t lane = 0; lane < lanes; ++lane)
       particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane], body);
-    for (std::size_t k = 0; k < candidates.size(); ++k)
+    for (std::size_t k = 0; k < near.size(); ++k)
       for (std::size_t lane = 0; lane < lanes; ++lane)
-        f(q + lane, k, kernel.value(k)[static_cast<int>(lane)]);
+        f(q + lane, number[k], kernel.value(k)[static_cast<int>(lane)]);
   }
 }
 
@@ -119,43 +123,6 @@ std::array<Lanes, D> stress_points(const Mat<D>& S) {
   return xi;
 }
 
-/// Adds a finished row to the rule: coefficients rounded to single precision, and double entries
-/// that restore the moments sum_A c_A p(X_A) of the quadratic monomials p. They stand on the
-/// neighbours that a pivoted QR factorisation finds most independent.
-template <int D>
-void append(CellRule<D>& rule, const CellRow<D>& row, const Vec<D>& centroid) {
-  constexpr int n = CellRule<D>::exact_entries;
-  static constexpr Monomials<D, 2> table;
-  const auto entries = static_cast<Eigen::Index>(row.candidates.size());
-  Eigen::Matrix<Real, n, Eigen::Dynamic> p(n, entries);
-  Eigen::Matrix<Real, n, 4 * D> lost = Eigen::Matrix<Real, n, 4 * D>::Zero();
-  Real scale = 0;
-  for (const auto& c : row.candidates) scale = std::max(scale, (c.X - centroid).norm());
-  for (Eigen::Index k = 0; k < entries; ++k) {
-    const Vec<D> s = (at(row.candidates, k).X - centroid) / scale;
-    p(0, k) = 1;
-    for (int m = 1; m < n; ++m) p(m, k) = p(at(table.factor, m), k) * s[at(table.variable, m)];
-    rule.particle.push_back(at(row.candidates, k).particle);
-    for (int K = 0; K < D; ++K) {
-      const Lanes exact = at(at(row.gradient, k), K);
-      const Lanes difference = exact - Lanes(rule.coefficient.emplace_back(exact));
-      for (int c = 0; c < 4; ++c) lost.col(4 * K + c) += difference[c] * p.col(k);
-    }
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::Matrix<Real, n, Eigen::Dynamic>> qr(p);
-  Eigen::Matrix<Real, n, n> chosen;
-  for (int e = 0; e < n; ++e) chosen.col(e) = p.col(qr.colsPermutation().indices()[e]);
-  const Eigen::Matrix<Real, n, 4 * D> correction = chosen.partialPivLu().solve(lost);
-  for (int e = 0; e < n; ++e) {
-    const auto k = qr.colsPermutation().indices()[e];
-    rule.exact_particle.push_back(at(row.candidates, k).particle);
-    for (int K = 0; K < D; ++K)
-      rule.exact.push_back({correction(e, 4 * K), correction(e, 4 * K + 1),
-                            correction(e, 4 * K + 2), correction(e, 4 * K + 3)});
-  }
-  rule.start.push_back(static_cast<Offset>(rule.particle.size()));
-}
-
 template <int D>
 PointRule<D> make_point_rule(const Body<D>& body, std::span<const Vec<D>> points,
                              std::vector<Real> weight) {
@@ -201,9 +168,12 @@ CellOperator<D> build_cell_rule(const Body<D>& body) {
   rule.coefficient.reserve(entries * D);
   for (Index L = 0; L < n; ++L) {
     CellRow<D>& row = at(rows, L);
-    append(rule, row, body.cells.centroid(L));
-    for (std::size_t k = 0; k < row.candidates.size(); ++k)
+    for (std::size_t k = 0; k < row.candidates.size(); ++k) {
+      rule.particle.push_back(row.candidates[k].particle);
+      for (const Lanes& g : row.gradient[k]) rule.coefficient.push_back(g);
       at(op.shape_integral, row.candidates[k].particle) += row.integral[k];
+    }
+    rule.start.push_back(static_cast<Offset>(rule.particle.size()));
     rule.volume.push_back(body.cells.volume(L));
     for (const Lanes& xi : stress_points<D>(body.cells.covariance(L))) rule.point.push_back(xi);
     row = {};

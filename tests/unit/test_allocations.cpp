@@ -58,9 +58,9 @@ long allocations_of(const std::string& text) {
   Scene<D> scene = build_scene<D>(input);
   Simulation<D> simulation(scene);
   simulation.begin();
-  for (int step = 0; step < 5; ++step) simulation.advance(1e3);
+  for (int step = 0; step < 5; ++step) simulation.advance();
   const long before = allocations;
-  for (int step = 0; step < 50; ++step) simulation.advance(1e3);
+  for (int step = 0; step < 50; ++step) simulation.advance();
   return allocations - before;
 }
 

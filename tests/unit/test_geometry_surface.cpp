@@ -218,16 +218,21 @@ TEST(SurfacePoints, FlatFacetsEncloseTheGrid) {
 
 TEST(SurfacePoints, CellsAreMadeToEncloseTheVolumeOfTheExactSurface) {
   Geometry<3> ball = Ball{}.geometry();
-  EXPECT_NEAR(enclosed_volume(ball), 4 * std::numbers::pi / 3, 1e-12);
+  EXPECT_NEAR(enclosed_volume(ball), 4 * pi / 3, 1e-12);
   EXPECT_LT(volume(ball.grid), 0.99 * enclosed_volume(ball));
   match_volume(ball);
-  EXPECT_NEAR(volume(ball.grid), 4 * std::numbers::pi / 3, 1e-12);
+  EXPECT_NEAR(volume(ball.grid), 4 * pi / 3, 1e-12);
 
-  Geometry<2> ellipse = Ellipse{.semi_axes = {2, 3}, .centre = {5, -1}}.geometry();
+  Ellipse shape;
+  shape.semi_axes = {2, 3};
+  shape.centre = {5, -1};
+  Geometry<2> ellipse = shape.geometry();
   match_volume(ellipse);
-  EXPECT_NEAR(volume(ellipse.grid), 6 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(volume(ellipse.grid), 6 * pi, 1e-12);
 
-  Geometry<3> box = Brick<3>{.size = {1, 2, 3}, .cells = {2, 2, 2}}.geometry();
+  Brick<3> brick;
+  brick.cells = {2, 2, 2};
+  Geometry<3> box = brick.geometry();
   const auto before = box.grid.X;
   match_volume(box);
   for (Index i = 0; i < box.grid.node_count(); ++i)

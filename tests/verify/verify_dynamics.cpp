@@ -83,7 +83,7 @@ Outcome run(const LameCube& cube) {
   simulation.begin();
   Outcome outcome;
   while (simulation.state().time < scene.time.end) {
-    simulation.advance(scene.time.end);
+    simulation.advance();
     const Ledger ledger = simulation.audit_now();
     outcome.energy_error =
         std::max(outcome.energy_error, std::abs(simulation.audit().balance_error(ledger)));

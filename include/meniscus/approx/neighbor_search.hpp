@@ -22,6 +22,8 @@ class NeighborSearch {
   /// Indices with |points[i] - x| <= radius, up to rounding of the distance, ascending (a fixed
   /// order of summation).
   void within(const Vec<D>& x, Real radius, std::vector<Index>& found) const;
+  /// The same in no particular order.
+  void within_unsorted(const Vec<D>& x, Real radius, std::vector<Index>& found) const;
 
   /// Distance from x to its k-th nearest point (x itself counts if it is in the cloud). Clouds of
   /// fewer than k points give the distance of the farthest.

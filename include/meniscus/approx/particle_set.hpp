@@ -59,6 +59,11 @@ class ParticleSet {
   NeighborSearch<D> search_;
 };
 
+/// The candidates that may reach one of the four points, and their numbers in `candidates`.
+template <int D>
+void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
+                 std::vector<Candidate<D>>& near, std::vector<std::size_t>& number);
+
 extern template class ParticleSet<2>;
 extern template class ParticleSet<3>;
 

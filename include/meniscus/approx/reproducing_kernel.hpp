@@ -36,6 +36,7 @@ class ReproducingKernel {
   static constexpr int basis_size = monomial_count(D, Degree);
 
   explicit ReproducingKernel(Window window) : window_(window) {}
+  void use(Window window) { window_ = window; }
 
   /// Evaluates at four points (repeat one to fill up). Results are valid until the next call.
   void evaluate(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,

@@ -29,40 +29,18 @@ inline std::array<Lanes, 4> by_lane(Lanes a, Lanes b, Lanes c) {
           Lanes::Native(_mm256_permute2f128_pd(ab1, c1, 0x31))};
 }
 
-/// (1, x0, x1, x2).
-inline Lanes after_one(Lanes x) {
-  const __m256d rotated = _mm256_permute4x64_pd(x.v, _MM_SHUFFLE(2, 1, 0, 3));
-  return Lanes::Native(_mm256_blend_pd(rotated, _mm256_set1_pd(1.0), 1));
-}
-
-/// (sum of a, sum of b, sum of c, 0).
-inline Lanes lane_sums(Lanes a, Lanes b, Lanes c) {
-  const __m256d ab = _mm256_hadd_pd(a.v, b.v), c0 = _mm256_hadd_pd(c.v, _mm256_setzero_pd());
-  return Lanes::Native(_mm256_permute2f128_pd(ab, c0, 0x20)) +
-         Lanes(Lanes::Native(_mm256_permute2f128_pd(ab, c0, 0x31)));
-}
-
 }  // namespace detail
 
 /// Nodal cells with linear moments, "q_scni" (RKPM note 5.3): in cell L the gradient of a field is
 /// sum_A f_A (a_A + B_A xi), evaluated at D + 1 points xi_q of equal weight that reproduce volume,
 /// centroid and covariance of the cell. A group is a cell.
-///
-/// The time loop is bound by memory, so coefficients are stored in single precision. What rounding
-/// would spoil is put right in double: a few further entries per cell restore the moments of all
-/// quadratic polynomials, so that gradients of quadratic fields, patch tests, force and torque sums
-/// are exact to double round-off; other fields see coefficients that differ by 6e-8.
 template <int D>
 struct CellRule {
-  static constexpr int exact_entries = monomial_count(D, 2);
-
-  std::vector<Offset> start{0};           ///< [cell + 1]
-  std::vector<Index> particle;            ///< [entry]
-  AlignedVector<FloatLanes> coefficient;  ///< [entry][K]: (a_AK, B_AK0, B_AK1, B_AK2)
-  std::vector<Index> exact_particle;      ///< [cell][exact entry]
-  AlignedVector<Lanes> exact;             ///< [cell][exact entry][K], added to coefficient
-  AlignedVector<Lanes> point;             ///< [cell][M]: xi_qM, a lane per stress point q
-  std::vector<Real> volume;               ///< [cell]
+  std::vector<Offset> start{0};      ///< [cell + 1]
+  std::vector<Index> particle;       ///< [entry]
+  AlignedVector<Lanes> coefficient;  ///< [entry][K]: (a_AK, B_AK0, B_AK1, B_AK2)
+  AlignedVector<Lanes> point;        ///< [cell][M]: xi_qM, a lane per stress point q
+  std::vector<Real> volume;          ///< [cell]
 
   Index groups() const { return static_cast<Index>(volume.size()); }
   Index points_per_group() const { return D + 1; }
@@ -78,14 +56,16 @@ struct CellRule {
     Lanes moment[D][D];
     for (auto& row : moment)
       for (auto& m : row) m = Lanes::zero();
-    const auto add = [&](Index A, const auto* g) __attribute__((always_inline)) {
-      const Real* f = detail::components(field[A]);
-      for (int K = 0; K < D; ++K) {
-        const Lanes c = g[K];
-        for (int i = 0; i < D; ++i) moment[i][K] += f[i] * c;
-      }
-    };
-    for_each_entry(cell, prefetch_begin(cell), add);
+    const Lanes* g = coefficient.data() + at(start, cell) * D;
+    const Index* A = particle.data() + at(start, cell);
+    const Index* const end = particle.data() + at(start, cell + 1);
+    const char* ahead = prefetch_begin(cell);
+    for (; A != end; ++A, g += D, ahead += cache_line) {
+      _mm_prefetch(ahead, _MM_HINT_T1);
+      const Real* f = detail::components(field[*A]);
+      for (int i = 0; i < D; ++i)
+        for (int K = 0; K < D; ++K) moment[i][K] += f[i] * g[K];
+    }
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     H = Tensor<Lanes>::zero();
     for (int i = 0; i < D; ++i)
@@ -98,59 +78,42 @@ struct CellRule {
 
   /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM).
   [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P, Lanes* force) const {
-    // moment[i][K] = (sum_q P_iK, sum_q P_iK xi_q0, ...), in the order of the coefficients.
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
-    const auto rows = detail::by_lane(xi[0], xi[1], D == 3 ? xi[D - 1] : Lanes::zero());
-    Lanes moment[3][D];
-    for (int i = 0; i < D; ++i)
-      for (int K = 0; K < D; ++K) {
-        const Real* p = detail::components(P(i, K));
-        const auto weighted = [&](std::size_t q) { return p[q] * detail::after_one(rows[q]); };
-        moment[i][K] = (weighted(0) + weighted(1)) + (weighted(2) + weighted(3));
+    Lanes moment[D][D + 1];  // [K][0] = sum P_.K, [K][1 + M] = sum P_.K xi_M; a lane per i
+    for (int K = 0; K < D; ++K) {
+      const auto Pq = detail::by_lane(P(0, K), P(1, K), P(2, K));
+      moment[K][0] = (Pq[0] + Pq[1]) + (Pq[2] + Pq[3]);
+      for (int M = 0; M < D; ++M) {
+        const Real* x = detail::components(xi[M]);
+        moment[K][1 + M] = (Pq[0] * x[0] + Pq[1] * x[1]) + (Pq[2] * x[2] + Pq[3] * x[3]);
       }
-    if constexpr (D == 2) moment[2][0] = moment[2][1] = Lanes::zero();
-    const auto add = [&](Index A, const auto* g) __attribute__((always_inline)) {
-      Lanes sum[3];
-      const Lanes first = g[0];
-      for (int i = 0; i < 3; ++i) sum[i] = moment[i][0] * first;
-      for (int K = 1; K < D; ++K) {
-        const Lanes c = g[K];
-        for (int i = 0; i < 3; ++i) sum[i] += moment[i][K] * c;
-      }
-      force[A] += detail::lane_sums(sum[0], sum[1], sum[2]);
-    };
-    for_each_entry(cell, prefetch_begin(cell) + entries(cell) * cache_line, add);
+    }
+    const Lanes* g = coefficient.data() + at(start, cell) * D;
+    const Index* A = particle.data() + at(start, cell);
+    const Index* const end = particle.data() + at(start, cell + 1);
+    const char* ahead = prefetch_begin(cell) + (end - A) * cache_line;
+    for (; A != end; ++A, g += D, ahead += cache_line) {
+      _mm_prefetch(ahead, _MM_HINT_T1);
+      Lanes sum[D + 1];  // a chain per moment hides the latency
+      sum[0] = force[*A] + moment[0][0] * detail::components(g[0])[0];
+      for (int m = 1; m <= D; ++m) sum[m] = moment[0][m] * detail::components(g[0])[m];
+      for (int K = 1; K < D; ++K)
+        for (int m = 0; m <= D; ++m) sum[m] += moment[K][m] * detail::components(g[K])[m];
+      sum[1] += sum[D];
+      force[*A] = D == 3 ? (sum[0] + sum[1]) + sum[2] : sum[0] + sum[1];
+    }
   }
 
   ForceWindows windows(Index particles) const { return {start, particle, particles}; }
   Offset pairs() const { return start.back(); }
   std::size_t bytes() const {
-    return start.size() * sizeof(Offset) +
-           (particle.size() + exact_particle.size()) * sizeof(Index) +
-           coefficient.size() * sizeof(FloatLanes) + (exact.size() + point.size()) * sizeof(Lanes) +
-           volume.size() * sizeof(Real);
+    return start.size() * sizeof(Offset) + particle.size() * sizeof(Index) +
+           (coefficient.size() + point.size()) * sizeof(Lanes) + volume.size() * sizeof(Real);
   }
 
  private:
-  Offset entries(Index cell) const { return at(start, cell + 1) - at(start, cell); }
-
-  /// Calls add(A, coefficients) for all entries of a cell, and touches the memory at `ahead`, a
-  /// line per entry. Coefficients are read once from memory and again from cache: fetching those of
-  /// the next cell in every loop over this one lets memory and arithmetic overlap.
-  template <class F>
-  [[gnu::always_inline]] void for_each_entry(Index cell, const char* ahead, F&& add) const {
-    const FloatLanes* g = coefficient.data() + at(start, cell) * D;
-    const Index* A = particle.data() + at(start, cell);
-    const Index* const end = particle.data() + at(start, cell + 1);
-    for (; A != end; ++A, g += D, ahead += cache_line) {
-      _mm_prefetch(ahead, _MM_HINT_T1);
-      add(*A, g);
-    }
-    const auto first = static_cast<std::size_t>(cell) * exact_entries;
-    for (std::size_t e = first; e < first + exact_entries; ++e)
-      add(exact_particle[e], exact.data() + e * D);
-  }
-
+  // The time loop is bound by memory: coefficients are read once from memory and again from cache.
+  // Fetching those of the next cell a line per pair lets memory and arithmetic overlap.
   static constexpr std::ptrdiff_t cache_line = 64;
   const char* prefetch_begin(Index cell) const {
     return reinterpret_cast<const char*>(coefficient.data() + at(start, cell + 1) * D);

@@ -62,17 +62,6 @@ struct Lanes {
   friend Lanes operator/(Real a, Lanes b) { return a / b.v; }
 };
 
-/// Four numbers in single precision, for storage only.
-struct alignas(16) FloatLanes {
-  float x[4];
-
-  FloatLanes() = default;
-  explicit FloatLanes(Lanes v) {
-    for (int lane = 0; lane < 4; ++lane) x[lane] = static_cast<float>(v[lane]);
-  }
-  operator Lanes() const { return Lanes::Native(_mm256_cvtps_pd(_mm_load_ps(x))); }
-};
-
 /// Lane by lane `mask ? yes : no`.
 inline Lanes select(Lanes::Mask mask, Lanes yes, Lanes no) {
   return mask ? yes.v : no.v;

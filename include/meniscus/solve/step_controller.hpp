@@ -15,7 +15,7 @@ class StepController {
     std::optional<Real> fixed;  ///< step asked for
     Real safety = 0.9;          ///< else this fraction of the stable step
     int check_every = 250;      ///< steps between estimates
-    std::string place;          ///< of the fixed step in the scene, to begin a message with
+    std::string place = {};     ///< of the fixed step in the scene, to begin a message with
   };
 
   StepController(System<D>& system, Choice choice) : estimator_(system), choice_(choice) {}
