@@ -2,7 +2,6 @@
 // The registry of shapes and the reading of a body's geometry.
 #include "meniscus/body/shapes.hpp"
 
-#include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
 
 namespace meniscus {
@@ -35,7 +34,6 @@ Geometry<D> read_geometry(const Block& block) {
   try {
     Geometry<D> geometry = shapes<D>().at(name).make(block);
     if (jitter > 0) jitter_interior(geometry.grid, jitter, static_cast<std::uint64_t>(seed));
-    match_volume(geometry);
     return geometry;
   } catch (const InputError& error) {
     block.problem("shape", error.what());

@@ -6,7 +6,6 @@
 #include "meniscus/core/surface_geometry.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 
 namespace meniscus {
 
@@ -121,31 +120,10 @@ void carry(SurfacePoints<D>& points, const SmoothMap<D>& map) {
   }
 }
 
-template <int D>
-Real enclosed_volume(const Geometry<D>& geometry) {
-  constexpr int points = 8;  // spectral: exact to round-off for facets of any use
-  const SurfacePoints<D> surface = surface_points(geometry, points);
-  Real sum = 0;
-  for (Index q = 0; q < surface.size(); ++q)
-    sum += at(surface.area, q) * at(surface.N, q).dot(at(surface.X, q) - surface.X.front());
-  return sum / D;
-}
-
-template <int D>
-void match_volume(Geometry<D>& geometry) {
-  Vec<D> centre = Vec<D>::Zero();
-  for (const Vec<D>& X : geometry.grid.X) centre += X / geometry.grid.node_count();
-  const Real ratio = enclosed_volume(geometry) / volume(geometry.grid);
-  const Real factor = std::pow(ratio, 1.0 / D);
-  for (Vec<D>& X : geometry.grid.X) X = centre + factor * (X - centre);
-}
-
 #define MENISCUS_INSTANTIATE(D)                                      \
   template SurfacePoints<D> surface_points(const Geometry<D>&, int); \
   template SurfacePoints<D> facet_points(const Grid<D>&, int);       \
-  template void carry(SurfacePoints<D>&, const SmoothMap<D>&);       \
-  template Real enclosed_volume(const Geometry<D>&);                 \
-  template void match_volume(Geometry<D>&);
+  template void carry(SurfacePoints<D>&, const SmoothMap<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -161,7 +161,7 @@ TEST(Shapes, AreReadFromScenes) {
   box.done();
   scene.check();
   EXPECT_EQ(round.grid.cell_count(), 16 + 32);
-  EXPECT_NEAR(volume(round.grid), pi * 4e-6, 1e-17);
+  EXPECT_NEAR(volume(round.grid), 8 * std::sin(2 * pi / 16) * 4e-6, 1e-18);
   EXPECT_EQ(jittered.grid.cell_count(), 16);
   EXPECT_NE(at(jittered.grid.X, 13), Vec<3>(0, 0, -0.5));
 }

@@ -216,28 +216,5 @@ TEST(SurfacePoints, FlatFacetsEncloseTheGrid) {
   EXPECT_NEAR(enclosed(facet_points(disk, 1)), volume(disk), 1e-13);
 }
 
-TEST(SurfacePoints, CellsAreMadeToEncloseTheVolumeOfTheExactSurface) {
-  Geometry<3> ball = Ball{}.geometry();
-  EXPECT_NEAR(enclosed_volume(ball), 4 * pi / 3, 1e-12);
-  EXPECT_LT(volume(ball.grid), 0.99 * enclosed_volume(ball));
-  match_volume(ball);
-  EXPECT_NEAR(volume(ball.grid), 4 * pi / 3, 1e-12);
-
-  Ellipse shape;
-  shape.semi_axes = {2, 3};
-  shape.centre = {5, -1};
-  Geometry<2> ellipse = shape.geometry();
-  match_volume(ellipse);
-  EXPECT_NEAR(volume(ellipse.grid), 6 * pi, 1e-12);
-
-  Brick<3> brick;
-  brick.cells = {2, 2, 2};
-  Geometry<3> box = brick.geometry();
-  const auto before = box.grid.X;
-  match_volume(box);
-  for (Index i = 0; i < box.grid.node_count(); ++i)
-    EXPECT_LT((at(box.grid.X, i) - at(before, i)).norm(), 1e-14);
-}
-
 }  // namespace
 }  // namespace meniscus

@@ -37,15 +37,4 @@ SurfacePoints<D> facet_points(const Grid<D>& grid, int k);
 template <int D>
 void carry(SurfacePoints<D>& points, const SmoothMap<D>& map);
 
-/// Volume (2D: area) inside the exact surface, by the divergence theorem.
-template <int D>
-Real enclosed_volume(const Geometry<D>& geometry);
-
-/// Moves the nodes away from the centre, all by the same factor, until the cells enclose the volume
-/// of the exact surface. Straight cells inside a convex surface are short of volume and mass by
-/// O(h^2) (1.1 % for a ball of 4341 particles), and the pressure of a drop, 2 gamma A / (3 V),
-/// would be wrong as much. Surface points stay on the exact surface.
-template <int D>
-void match_volume(Geometry<D>& geometry);
-
 }  // namespace meniscus
