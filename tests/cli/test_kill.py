@@ -16,13 +16,15 @@ class Kill(ProgramTest):
         random.seed(2)
         file = self.scene(DROP)
         longer = ["--set", "time.end='0.6 ns'", "--set", "output.checkpoint_minutes=0.0003"]
+        begin = time.monotonic()
         whole = state_of(self.call("run", file, "--output", "whole", *longer))
+        longest = (time.monotonic() - begin) / 15  # ten kills end before the run does
         options, kills, rows = [], 0, 0
         while kills < 10:
             process = self.start("run", file, "--output", "out", *longer, *options)
             while not (self.directory / "out/history.csv").exists():
                 self.assertIsNone(process.poll())
-            time.sleep(random.uniform(0.0, 0.5))
+            time.sleep(random.uniform(0.0, longest))
             process.kill()
             process.communicate()
             self.assertEqual(process.returncode, -signal.SIGKILL, "ended before it was killed")

@@ -89,12 +89,12 @@ class Results:
     def expectations(self, column):
         """(time, value, tolerance) of what the scene expects of a column at given times."""
         end = self.input["time"]["end"]
-        for expected in self.input.get("expect", {}).values():
-            if expected["of"] != column or expected["reduce"] != "at":
+        for name, expected in self.input.get("expect", {}).items():
+            if expected.get("of", name) != column or expected["reduce"] != "at":
                 continue
-            relative = expected["within_relative"] * abs(expected["value"])
-            tolerance = max(expected["within"], relative)
-            yield expected["at"] if expected["at"] >= 0 else end, expected["value"], tolerance
+            relative = expected.get("within_relative", 0) * abs(expected["value"])
+            tolerance = max(expected.get("within", 0), relative)
+            yield expected.get("at", end), expected["value"], tolerance
 
 
 def read_history(path):
