@@ -68,7 +68,7 @@ def resolve(path, delimiter, name):
 
 def is_generated(name):
     """Whether a CMake file of the project speaks of this header."""
-    scripts = [ROOT / "CMakeLists.txt", *ROOT.glob("cmake/*.cmake")]
+    scripts = [ROOT / "CMakeLists.txt", *ROOT.glob("tools/*.cmake")]
     return any(name in script.read_text() for script in scripts if script.is_file())
 
 
