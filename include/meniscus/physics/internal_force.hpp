@@ -6,6 +6,7 @@
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
 #include "meniscus/physics/law.hpp"
+#include "meniscus/physics/stress_output.hpp"
 
 #include <fmt/format.h>
 
@@ -61,9 +62,7 @@ class InternalForce final : public ForceTerm {
   std::optional<Real> stored_energy(const Motion& motion) const override {
     const Lanes* u = motion.u.data() + body_.first;
     return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
-      Tensor<Lanes> H;
-      rule_.gather(g, u, H);
-      return sum(rule_.weight(g) * law(g).energy_density(H));
+      return sum(rule_.weight(g) * law(g).energy_density(gradients(g, u)));
     });
   }
   Real dissipation() const override { return dissipation_; }
@@ -74,8 +73,10 @@ class InternalForce final : public ForceTerm {
   }
   std::optional<std::string> warning(const Motion& motion) const override;
 
-  std::vector<FieldSource> fields() const override;
-  std::vector<MeasureSource> measures() const override;
+  std::vector<FieldSource> fields() const override {
+    return stress_fields(visitor(), body_.size());
+  }
+  std::vector<MeasureSource> measures() const override { return stress_measures(visitor(), D); }
 
   std::size_t bytes() const override {
     return rule_.bytes() + windows_.bytes() + laws_.size() * sizeof(L);
@@ -99,12 +100,18 @@ class InternalForce final : public ForceTerm {
   void note_failure(Index begin, Index end, const Lanes* u);
   void describe_failure(const Lanes* u);
 
-  /// Calls f(owner particle, weight, H, law) for all stress points, in order.
-  template <class F>
-  void for_each_point(const Motion& motion, F&& f) const;
-  /// Average over the stress points of each particle's cell, weighted by volume.
-  template <class F>
-  void average(const Motion& motion, std::span<Real> out, int components, F&& value) const;
+  /// gather() in one place only: what is not the time loop need not be inlined.
+  [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const Lanes* field) const {
+    Tensor<Lanes> gradient;
+    rule_.gather(group, field, gradient);
+    return gradient;
+  }
+  void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
+  VisitStressPoints visitor() const {
+    return [this](const Motion& motion, const std::function<void(const StressPoint&)>& f) {
+      visit(motion, f);
+    };
+  }
 
   const Body<D>& body_;
   Rule rule_;
@@ -119,8 +126,7 @@ class InternalForce final : public ForceTerm {
 template <int D, Law L, class Rule>
 void InternalForce<D, L, Rule>::note_failure(Index begin, Index end, const Lanes* u) {
   for (Index g = begin; g < end; ++g) {
-    Tensor<Lanes> H;
-    rule_.gather(g, u, H);
+    const Tensor<Lanes> H = gradients(g, u);
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
       if (!(1 + volume_change(lane_of(H, lane)) > 0)) {
 #pragma omp critical(meniscus_internal_force_failure)
@@ -132,8 +138,7 @@ void InternalForce<D, L, Rule>::note_failure(Index begin, Index end, const Lanes
 
 template <int D, Law L, class Rule>
 void InternalForce<D, L, Rule>::describe_failure(const Lanes* u) {
-  Tensor<Lanes> H;
-  rule_.gather(failed_group_, u, H);
+  const Tensor<Lanes> H = gradients(failed_group_, u);
   for (int lane = 0; lane < rule_.points_per_group(); ++lane) {
     const Tensor<Real> H_point = lane_of(H, lane), F = deformation_gradient(H_point);
     const Real J = 1 + volume_change(H_point);
@@ -149,119 +154,32 @@ void InternalForce<D, L, Rule>::describe_failure(const Lanes* u) {
 }
 
 template <int D, Law L, class Rule>
-template <class F>
-void InternalForce<D, L, Rule>::for_each_point(const Motion& motion, F&& f) const {
+void InternalForce<D, L, Rule>::visit(const Motion& motion,
+                                      const std::function<void(const StressPoint&)>& f) const {
   const Lanes* u = motion.u.data() + body_.first;
   for (Index g = 0; g < rule_.groups(); ++g) {
-    Tensor<Lanes> H;
-    rule_.gather(g, u, H);
+    const Tensor<Lanes> H = gradients(g, u), P = law(g).stress(H);
     const Lanes w = rule_.weight(g);
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
-      if (w[lane] > 0) f(rule_.owner(g, lane), w[lane], lane_of(H, lane), law(g));
+      if (w[lane] > 0) f({rule_.owner(g, lane), w[lane], lane_of(H, lane), lane_of(P, lane)});
   }
 }
 
 template <int D, Law L, class Rule>
 std::optional<std::string> InternalForce<D, L, Rule>::warning(const Motion& motion) const {
-  std::optional<std::string> text;
-  for_each_point(motion, [&](Index owner, Real, const Tensor<Real>& H, const L& point_law) {
-    if (text) return;
-    if (const auto cause = meniscus::warning(point_law, H))
-      text = fmt::format("body '{}', particle {}: {}", body_.name, body_.first + owner, *cause);
-  });
-  return text;
-}
-
-template <int D, Law L, class Rule>
-template <class F>
-void InternalForce<D, L, Rule>::average(const Motion& motion, std::span<Real> out, int components,
-                                        F&& value) const {
-  std::vector<Real> volume(static_cast<std::size_t>(body_.size()), 0.0);
-  std::fill(out.begin(), out.end(), 0.0);
-  for_each_point(motion, [&](Index owner, Real w, const Tensor<Real>& H, const L& point_law) {
-    at(volume, owner) += w;
-    const auto x = value(H, point_law);
-    for (int c = 0; c < components; ++c) at(out, owner * components + c) += w * at(x, c);
-  });
-  for (Index A = 0; A < body_.size(); ++A)
-    for (int c = 0; c < components; ++c)
-      if (at(volume, A) > 0) at(out, A * components + c) /= at(volume, A);
-}
-
-template <int D, Law L, class Rule>
-std::vector<FieldSource> InternalForce<D, L, Rule>::fields() const {
-  const auto cauchy = [](const Tensor<Real>& H, const L& point_law) {
-    const Tensor<Real> F = deformation_gradient(H);
-    return (1 / (1 + volume_change(H))) * (point_law.stress(H) * transpose(F));
-  };
-  const auto row_major = [](const Tensor<Real>& x) {
-    std::array<Real, 9> a;
-    for (int k = 0; k < 9; ++k) at(a, k) = x(k / 3, k % 3);
-    return a;
-  };
-  return {
-      {"J", 1, dimension::none, "det F, mean over the particle's cell",
-       [this](const Motion& m, std::span<Real> out) {
-         average(m, out, 1,
-                 [](const Tensor<Real>& H, const L&) { return std::array{1 + volume_change(H)}; });
-       }},
-      {"F", 9, dimension::none, "deformation gradient, mean over the particle's cell, row-major",
-       [this, row_major](const Motion& m, std::span<Real> out) {
-         average(m, out, 9, [&](const Tensor<Real>& H, const L&) {
-           return row_major(deformation_gradient(H));
-         });
-       }},
-      {"pressure", 1, dimension::pressure, "- tr(sigma)/3 of the elastic Cauchy stress",
-       [this, cauchy](const Motion& m, std::span<Real> out) {
-         average(m, out, 1, [&](const Tensor<Real>& H, const L& point_law) {
-           return std::array{-trace(cauchy(H, point_law)) / 3};
-         });
-       }},
-      {"von_mises", 1, dimension::pressure, "von Mises stress of the elastic Cauchy stress",
-       [this, cauchy](const Motion& m, std::span<Real> out) {
-         average(m, out, 1, [&](const Tensor<Real>& H, const L& point_law) {
-           const Tensor<Real> s = cauchy(H, point_law);
-           const Tensor<Real> deviator = s - Tensor<Real>::diagonal(trace(s) / 3);
-           return std::array{std::sqrt(1.5 * contract(deviator, deviator))};
-         });
-       }},
-      {"cauchy_stress", 9, dimension::pressure, "elastic Cauchy stress, row-major",
-       [this, cauchy, row_major](const Motion& m, std::span<Real> out) {
-         average(m, out, 9, [&](const Tensor<Real>& H, const L& point_law) {
-           return row_major(cauchy(H, point_law));
-         });
-       }},
-  };
-}
-
-template <int D, Law L, class Rule>
-std::vector<MeasureSource> InternalForce<D, L, Rule>::measures() const {
-  const auto volume = [this](const Motion& m) {
-    Real V = 0;
-    for_each_point(m, [&](Index, Real w, const Tensor<Real>& H, const L&) {
-      V += w * (1 + volume_change(H));
-    });
-    return V;
-  };
-  return {
-      {"volume", D == 3 ? dimension::volume : dimension::area, "current volume (2D: area)", volume},
-      {"min_J", dimension::none, "smallest det F of all stress points",
-       [this](const Motion& m) {
-         Real least = 1e300;
-         for_each_point(m, [&](Index, Real, const Tensor<Real>& H, const L&) {
-           least = std::min(least, 1 + volume_change(H));
-         });
-         return least;
-       }},
-      {"mean_pressure", dimension::pressure, "pressure, mean over the current volume",
-       [this, volume](const Motion& m) {
-         Real sum_p = 0;
-         for_each_point(m, [&](Index, Real w, const Tensor<Real>& H, const L& point_law) {
-           sum_p -= w * contract(point_law.stress(H), deformation_gradient(H)) / 3;
-         });
-         return sum_p / volume(m);
-       }},
-  };
+  if constexpr (WarningLaw<L>) {
+    const Lanes* u = motion.u.data() + body_.first;
+    for (Index g = 0; g < rule_.groups(); ++g) {
+      const Tensor<Lanes> H = gradients(g, u);
+      const Lanes w = rule_.weight(g);
+      for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+        if (w[lane] > 0)
+          if (const auto cause = law(g).warning(lane_of(H, lane)))
+            return fmt::format("body '{}', particle {}: {}", body_.name,
+                               body_.first + rule_.owner(g, lane), *cause);
+    }
+  }
+  return {};
 }
 
 }  // namespace meniscus

@@ -72,17 +72,12 @@ std::optional<std::string> check(const L& law) {
     return {};
 }
 
-/// Why the law should not be trusted at H = F - I, e.g. a loss of ellipticity; nothing for laws
-/// without a member warning(H). Asked at output times only.
-template <Law L>
-std::optional<std::string> warning(const L& law, const Tensor<Real>& H) {
-  if constexpr (requires {
-                  { law.warning(H) } -> std::same_as<std::optional<std::string>>;
-                })
-    return law.warning(H);
-  else
-    return {};
-}
+/// A law with a member warning(H): why it should not be trusted at H = F - I, e.g. a loss of
+/// ellipticity. Asked at output times only.
+template <class L>
+concept WarningLaw = requires(const L law, const Tensor<Real> H) {
+  { law.warning(H) } -> std::same_as<std::optional<std::string>>;
+};
 
 /// The law with the typical numbers of its rows.
 template <Law L>

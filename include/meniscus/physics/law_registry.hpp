@@ -90,7 +90,10 @@ class AnyLawOf final : public AnyLaw {
   }
   std::optional<std::string> check() const override { return meniscus::check(law_); }
   std::optional<std::string> warning(const Tensor<Real>& H) const override {
-    return meniscus::warning(law_, H);
+    if constexpr (WarningLaw<L>)
+      return law_.warning(H);
+    else
+      return {};
   }
 
  private:

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a body with internal stress can report: fields and measures from the state at its stress
+// points. Apart from the law and the integration rule, which only say what that state is.
+#pragma once
+#include "meniscus/core/tensor.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+namespace meniscus {
+
+/// One stress point of a body.
+struct StressPoint {
+  Index owner;     ///< particle of the body whose cell it lies in
+  Real weight;     ///< reference volume (2D: area)
+  Tensor<Real> H;  ///< F - I
+  Tensor<Real> P;  ///< elastic first Piola stress
+};
+
+/// Calls the function for all stress points of a body in a fixed order.
+using VisitStressPoints =
+    std::function<void(const Motion&, const std::function<void(const StressPoint&)>&)>;
+
+/// J, F, pressure, von Mises and Cauchy stress: averages over the stress points of each particle's
+/// cell, weighted by volume. `particles` is the size of the body.
+std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index particles);
+
+/// Current volume, smallest J and mean pressure of a body in `space_dimension` dimensions.
+std::vector<MeasureSource> stress_measures(const VisitStressPoints& visit, int space_dimension);
+
+}  // namespace meniscus

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields and measures from the state at the stress points.
+#include "meniscus/physics/stress_output.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace meniscus {
+namespace {
+
+Real jacobian(const StressPoint& point) {
+  return 1 + volume_change(point.H);
+}
+
+Tensor<Real> cauchy_stress(const StressPoint& point) {
+  return (1 / jacobian(point)) * (point.P * transpose(deformation_gradient(point.H)));
+}
+
+std::array<Real, 9> row_major(const Tensor<Real>& x) {
+  std::array<Real, 9> a;
+  for (int k = 0; k < 9; ++k) at(a, k) = x(k / 3, k % 3);
+  return a;
+}
+
+Real von_mises(const Tensor<Real>& sigma) {
+  const Tensor<Real> deviator = sigma - Tensor<Real>::diagonal(trace(sigma) / 3);
+  return std::sqrt(1.5 * contract(deviator, deviator));
+}
+
+/// A field whose value at a stress point is the array value(point).
+template <class Value>
+FieldSource averaged(const VisitStressPoints& visit, Index particles, std::string name,
+                     Dimension dimension, std::string meaning, Value value) {
+  constexpr int components =
+      static_cast<int>(std::tuple_size_v<std::invoke_result_t<Value, const StressPoint&>>);
+  const auto compute = [visit, particles, value](const Motion& motion, std::span<Real> out) {
+    std::vector<Real> volume(static_cast<std::size_t>(particles), 0.0);
+    std::fill(out.begin(), out.end(), 0.0);
+    visit(motion, [&](const StressPoint& point) {
+      at(volume, point.owner) += point.weight;
+      const auto x = value(point);
+      for (int c = 0; c < components; ++c)
+        at(out, point.owner * components + c) += point.weight * at(x, c);
+    });
+    for (Index A = 0; A < particles; ++A)
+      for (int c = 0; c < components; ++c)
+        if (at(volume, A) > 0) at(out, A * components + c) /= at(volume, A);
+  };
+  return {std::move(name), components, dimension, std::move(meaning), compute};
+}
+
+}  // namespace
+
+std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index particles) {
+  const auto scalar = [](Real x) { return std::array{x}; };
+  return {
+      averaged(visit, particles, "J", dimension::none, "det F, mean over the particle's cell",
+               [=](const StressPoint& point) { return scalar(jacobian(point)); }),
+      averaged(visit, particles, "F", dimension::none,
+               "deformation gradient, mean over the particle's cell, row-major",
+               [](const StressPoint& point) { return row_major(deformation_gradient(point.H)); }),
+      averaged(visit, particles, "pressure", dimension::pressure,
+               "- tr(sigma)/3 of the elastic Cauchy stress",
+               [=](const StressPoint& point) { return scalar(-trace(cauchy_stress(point)) / 3); }),
+      averaged(visit, particles, "von_mises", dimension::pressure,
+               "von Mises stress of the elastic Cauchy stress",
+               [=](const StressPoint& point) { return scalar(von_mises(cauchy_stress(point))); }),
+      averaged(visit, particles, "cauchy_stress", dimension::pressure,
+               "elastic Cauchy stress, row-major",
+               [](const StressPoint& point) { return row_major(cauchy_stress(point)); }),
+  };
+}
+
+std::vector<MeasureSource> stress_measures(const VisitStressPoints& visit, int space_dimension) {
+  const auto volume = [visit](const Motion& motion) {
+    Real V = 0;
+    visit(motion, [&](const StressPoint& point) { V += point.weight * jacobian(point); });
+    return V;
+  };
+  const auto least_jacobian = [visit](const Motion& motion) {
+    Real least = std::numeric_limits<Real>::max();
+    visit(motion, [&](const StressPoint& point) { least = std::min(least, jacobian(point)); });
+    return least;
+  };
+  // J tr(sigma) = P : F, and J times the weight is the current volume.
+  const auto mean_pressure = [visit](const Motion& motion) {
+    Real sum = 0, V = 0;
+    visit(motion, [&](const StressPoint& point) {
+      sum -= point.weight * contract(point.P, deformation_gradient(point.H)) / 3;
+      V += point.weight * jacobian(point);
+    });
+    return sum / V;
+  };
+  return {
+      {"volume", space_dimension == 3 ? dimension::volume : dimension::area,
+       "current volume (2D: area)", volume},
+      {"min_J", dimension::none, "smallest det F of all stress points", least_jacobian},
+      {"mean_pressure", dimension::pressure, "pressure, mean over the current volume",
+       mean_pressure},
+  };
+}
+
+}  // namespace meniscus
