@@ -21,7 +21,8 @@ MAY_INCLUDE = {
     "solve": ["core", "approx", "body", "physics"],
     "io": ["core"],
     "scene": ["core", "approx", "body", "physics", "solve", "io"],
-    "app": ["core", "approx", "body", "physics", "solve", "io", "scene"],
+    "study": ["core", "approx", "body", "physics", "solve", "scene"],
+    "app": ["core", "approx", "body", "physics", "solve", "io", "scene", "study"],
 }
 LEAVES = {"materials": "physics", "contact": "physics"}
 

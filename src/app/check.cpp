@@ -2,7 +2,7 @@
 // Pre-flight: what a run of the scene would be.
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/outputs.hpp"
-#include "meniscus/app/simulation.hpp"
+#include "meniscus/scene/simulation.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>

@@ -76,15 +76,37 @@ void add_run_options(CLI::App& command, RunRequest& request) {
   command.add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
 }
 
+CLI::App* add_study_command(CLI::App& app, StudyRequest& request, bool& list) {
+  CLI::App* command =
+      app.add_subcommand("study", "error, observed order, time and memory of a family of methods");
+  CLI::Option* name = command->add_option("NAME", request.name, "study to run");
+  command->add_flag("--list", list, "print the known studies")->excludes(name);
+  command->add_option("--levels", request.levels, "resolutions, e.g. --levels 6 10 14")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--set", request.set, "key=value: settings of the study")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command->add_option("--output", request.output, "directory for study.csv and study.json")
+      ->type_name("DIR");
+  command->add_option("--threads", request.threads, "number of threads; all cores by default")
+      ->check(CLI::Range(1, 4096));
+  command->add_flag("--short", request.brief, "the short form of the tests: few levels, seconds");
+  return command;
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("Meniscus: a meshfree simulator of drops, solids and cells");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 ok, 1 internal error, 2 usage, 3 input, 4 numerical failure, 5 files,\n"
-      "7 an expectation of the scene was missed, 128 + n stopped by signal n after a checkpoint\n"
+      "7 an expectation of the scene or study was missed, 128 + n stopped by signal n after a "
+      "checkpoint\n"
       "(130 Ctrl-C, 143 SIGTERM, 142 the limit on wall-clock time). A second signal ends at once.");
   RunRequest request;
   request.command_line = portable_command_line(argc, argv);
+  StudyRequest study_request;
+  study_request.command_line = request.command_line;
+  bool list = false;
   std::string file;
 
   CLI::App* run_command = app.add_subcommand("run", "run a scene");
@@ -97,6 +119,7 @@ int dispatch(int argc, char** argv) {
       app.add_subcommand("info", "print what is in a result file or checkpoint");
   info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")
       ->required();
+  CLI::App* study_command = add_study_command(app, study_request, list);
   CLI::App* version_command = app.add_subcommand("version", "print version and build");
 
   try {
@@ -106,6 +129,10 @@ int dispatch(int argc, char** argv) {
   }
   if (run_command->parsed()) return run(request);
   if (check_command->parsed()) return check(request);
+  if (study_command->parsed()) {
+    if (!list) return study(study_request);
+    list_studies();
+  }
   if (keys_command->parsed()) describe_keys(std::cout);
   if (info_command->parsed()) std::cout << describe_file(file);
   if (version_command->parsed()) print_version();

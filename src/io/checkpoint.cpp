@@ -3,6 +3,7 @@
 #include "meniscus/io/checkpoint.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/io/files.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 #include <cinttypes>
 #include <cstdio>
 
-#include "files.hpp"
 #include "hdf5_file.hpp"
 #include "meta.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small text files through the C library, whose errors carry a reason.
-#include "files.hpp"
+#include "meniscus/io/files.hpp"
 
 #include "meniscus/core/error.hpp"
 
@@ -54,6 +54,12 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
 
 void overwrite_beginning(const std::filesystem::path& path, std::string_view content) {
   write_to(path, "r+b", content);
+}
+
+void make_directory(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw_file_error("make the directory", path, error.value());
 }
 
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {

@@ -3,11 +3,11 @@
 #include "hdf5_file.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/io/files.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
 
-#include "files.hpp"
 #include "hdf5_driver.hpp"
 
 namespace meniscus::hdf5 {

@@ -3,6 +3,7 @@
 #include "meniscus/io/history.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/io/files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,8 +13,6 @@
 #include <cstdlib>
 #include <iterator>
 #include <stdexcept>
-
-#include "files.hpp"
 
 namespace meniscus {
 namespace {

@@ -3,6 +3,7 @@
 #include "meniscus/io/run_directory.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/io/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,8 +11,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-
-#include "files.hpp"
 
 namespace meniscus {
 namespace {
@@ -43,9 +42,7 @@ void remove_run(const std::filesystem::path& directory) {
 
 RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
     : path_(std::move(path)) {
-  std::error_code error;
-  std::filesystem::create_directories(path_, error);
-  if (error) throw_file_error("make the directory", path_, error.value());
+  make_directory(path_);
   if (!std::filesystem::is_directory(path_)) throw_file_error("write to", path_, ENOTDIR);
   if (access(path_.c_str(), W_OK | X_OK) != 0) throw_file_error("write to", path_, errno);
   if (existing == ExistingRun::refuse) refuse_existing_run(path_);

@@ -2,9 +2,9 @@
 // The XDMF description of a result file.
 #include "xdmf.hpp"
 
-#include <fmt/format.h>
+#include "meniscus/io/files.hpp"
 
-#include "files.hpp"
+#include <fmt/format.h>
 
 namespace meniscus {
 namespace {

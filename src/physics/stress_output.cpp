@@ -2,9 +2,12 @@
 // Fields and measures from the state at the stress points.
 #include "meniscus/physics/stress_output.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <type_traits>
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // No step of a run takes memory once it is warm. Every operator new of this program is counted.
-#include "meniscus/app/simulation.hpp"
+#include "meniscus/scene/simulation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The same bits for any number of threads: every force term, and a whole small run.
-#include "meniscus/app/simulation.hpp"
 #include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/scene/simulation.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

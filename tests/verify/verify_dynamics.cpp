@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Orders of convergence of whole runs, which a single scene cannot state.
 // MENISCUS_VERIFY=full in the environment adds the larger sizes.
-#include "meniscus/app/simulation.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/scene/simulation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -37,4 +37,19 @@ int run(const RunRequest& request);
 /// them.
 int check(const RunRequest& request);
 
+struct StudyRequest {
+  std::string name, output, command_line;
+  std::vector<int> levels;  ///< empty: those of the study
+  std::vector<std::string> set;
+  int threads = 0;  ///< 0: all cores
+  bool brief = false;
+};
+
+/// Runs a study, prints its table and its checks, and writes study.csv and study.json to the output
+/// directory (none if empty); returns exit_expectation if a check is missed. Throws as run().
+int study(const StudyRequest& request);
+
+/// Prints the known studies.
+void list_studies();
+
 }  // namespace meniscus

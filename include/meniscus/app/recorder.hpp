@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run writes: rows of the history, frames, checkpoints, and when.
 #pragma once
-#include "meniscus/app/simulation.hpp"
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/history.hpp"
 #include "meniscus/io/result_file.hpp"
+#include "meniscus/scene/simulation.hpp"
 
 namespace meniscus {
 

@@ -22,6 +22,8 @@ void overwrite_beginning(const std::filesystem::path& path, std::string_view con
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
 /// Writes under the temporary name, then renames.
 void replace_file(const std::filesystem::path& path, std::string_view content);
+/// Makes the directory and those above it where they are missing.
+void make_directory(const std::filesystem::path& path);
 /// Returns when the file (or the list of names of a directory) is on the disk.
 void sync_to_disk(const std::filesystem::path& path);
 

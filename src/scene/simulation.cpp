@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Beginning, advancing, saving and restoring a run.
-#include "meniscus/app/simulation.hpp"
+#include "meniscus/scene/simulation.hpp"
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/solve/central_difference.hpp"

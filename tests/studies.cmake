@@ -1,0 +1,14 @@
+# Every study in its short form (label verify), where its orders and targets are asserted, and in
+# full (configuration full: tools/verify), which writes verification/NAME.
+file(GLOB study_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/study/*.cpp)
+list(REMOVE_ITEM study_sources ${PROJECT_SOURCE_DIR}/src/study/study.cpp)
+
+foreach(source ${study_sources})
+  cmake_path(GET source STEM name)
+  add_test(NAME study.${name}.short COMMAND meniscus study ${name} --short
+    --output ${CMAKE_CURRENT_BINARY_DIR}/studies/${name})
+  add_test(NAME study.${name}.full CONFIGURATIONS full COMMAND meniscus study ${name}
+    --output ${PROJECT_SOURCE_DIR}/verification/${name})
+  set_tests_properties(study.${name}.short study.${name}.full PROPERTIES LABELS verify
+    PROCESSORS 2 ENVIRONMENT OMP_WAIT_POLICY=passive)
+endforeach()
