@@ -120,6 +120,12 @@ std::string json(const StudyEntry& entry, const StudyRun& run, const StudyReques
                     json_text(c.what), json_number(c.value), json_text(c.allowed.text()), c.met());
     separator = ",\n";
   }
+  text += "],\n\"notes\": [";
+  separator = "\n";
+  for (const std::string& note : run.notes()) {
+    text += separator + json_text(note);
+    separator = ",\n";
+  }
   return text + "]\n}\n";
 }
 
@@ -157,10 +163,11 @@ int study(const StudyRequest& request) {
   std::vector<int> levels = request.levels;
   if (levels.empty()) levels = request.brief ? entry.brief_levels : entry.levels;
   std::sort(levels.begin(), levels.end());
-  StudyRun run(levels, request.brief, settings.root(), print_measurement);
+  StudyRun run(levels, request.brief, settings, print_measurement);
   fmt::print("{}\nlevels: {}; time: set-up + method, wall clock, {} threads\n", entry.summary,
              entry.level_meaning, omp_get_max_threads());
   entry.run(run);
+  if (!run.notes().empty()) fmt::print("\n{}\n", fmt::join(run.notes(), "\n"));
   const int missed = print_checks(run);
   if (!request.output.empty()) {
     replace_file(output / "study.csv", csv(run));

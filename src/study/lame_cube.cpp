@@ -81,7 +81,7 @@ Measurement measure(const Method& method, int cells) {
 }
 
 void run(StudyRun& study) {
-  study.settings().done();
+  study.settings_read();
   std::vector<Method> methods{{"q_scni", ""},
                               {"gauss 2", "integration = \"gauss\"\ngauss_points = 2"}};
   if (!study.brief()) {

@@ -46,7 +46,7 @@ class StudyRun {
   using Listener = std::function<void(const StudyRun&)>;
 
   /// `listener` is called after each new measurement.
-  StudyRun(std::vector<int> levels, bool brief, Block settings, Listener listener)
+  StudyRun(std::vector<int> levels, bool brief, SceneInput settings, Listener listener)
       : levels_(std::move(levels)),
         brief_(brief),
         settings_(std::move(settings)),
@@ -55,13 +55,22 @@ class StudyRun {
   const std::vector<int>& levels() const { return levels_; }
   /// The short form, seconds altogether: studies drop methods, not only levels.
   bool brief() const { return brief_; }
-  /// Keys given by --set; a study reads them before it measures.
-  const Block& settings() const { return settings_; }
+  /// Keys given by --set; a study reads them before it measures, and then calls settings_read().
+  const Block& settings() const { return settings_.root(); }
+  /// Throws InputError with every problem of the settings, unknown keys among them.
+  void settings_read() const {
+    settings().done();
+    settings_.check();
+  }
 
   void record(Measurement measurement);
   /// Notes whether `value` is `allowed`; a missed one decides the exit code.
   void require(std::string what, Real value, Range allowed);
 
+  /// A sentence about the results, printed after them.
+  void note(std::string sentence) { notes_.push_back(std::move(sentence)); }
+
+  const std::vector<std::string>& notes() const { return notes_; }
   const std::vector<Measurement>& measurements() const { return measurements_; }
   const std::vector<Check>& checks() const { return checks_; }
 
@@ -76,10 +85,11 @@ class StudyRun {
  private:
   std::vector<int> levels_;
   bool brief_;
-  Block settings_;
+  SceneInput settings_;
   Listener listener_;
   std::vector<Measurement> measurements_;
   std::vector<Check> checks_;
+  std::vector<std::string> notes_;
 };
 
 struct StudyEntry {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reference bodies of surface studies.
+#pragma once
+#include "meniscus/body/geometry.hpp"
+
+#include <string>
+#include <vector>
+
+namespace meniscus::study {
+
+/// Names of the shapes that reference_body() knows; the first one is smooth, the others have edges.
+template <int D>
+const std::vector<std::string>& reference_shapes();
+
+/// A ball or disk of radius 1 with n cells along an edge of the core inside n / 2 shells; also box,
+/// cylinder and rectangle, for what needs no curvature. In spatial order.
+template <int D>
+Geometry<D> reference_body(const std::string& shape, int n);
+
+/// Throws InputError, saying why and what to do instead, if the body has edges.
+template <int D>
+void require_curvature(const std::string& shape, const Geometry<D>& geometry);
+
+}  // namespace meniscus::study

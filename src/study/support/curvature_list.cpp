@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The methods of the curvature study.
+#include "curvature_list.hpp"
+
+namespace meniscus::study {
+namespace {
+
+template <int D>
+class List {
+ public:
+  explicit List(std::string panel) : panel_(std::move(panel)) {}
+
+  CurvatureMethod<D>& add(int degree, Real factor, Window window, Places places) {
+    methods.push_back(curvature_method<D>(degree, factor, window, places));
+    methods.back().panel = panel_;
+    return methods.back();
+  }
+  void add_recovered(int degree, Real factor, Window window, Places places) {
+    CurvatureMethod<D>& m = add(degree, factor, window, places);
+    m.second = SecondDerivatives::recovered;
+    m.line += ", recovered";
+  }
+  void add_smoothed(Real factor, Window window, Places places) {
+    CurvatureMethod<D>& m = add(2, factor, window, places);
+    m.smoothed = true;
+    m.line += ", smoothed";
+  }
+
+  std::vector<CurvatureMethod<D>> methods;
+
+ private:
+  std::string panel_;
+};
+
+constexpr auto cubic = Window::cubic_spline, quintic = Window::quintic_spline;
+constexpr auto points = Places::points, nodes = Places::nodes;
+
+}  // namespace
+
+template <int D>
+std::vector<CurvatureMethod<D>> main_methods(bool brief) {
+  List<D> list("methods");
+  list.add(2, 1.8, cubic, points);
+  list.add_recovered(2, 1.8, cubic, points);
+  list.add(3, 2.0, cubic, points);
+  if (brief) return list.methods;
+  list.add(2, 1.5, cubic, points);
+  list.add(2, 2.0, cubic, points);
+  list.add(2, 2.0, quintic, nodes);
+  list.add(3, 1.75, cubic, points);
+  list.add_recovered(3, 2.0, cubic, points);
+  return list.methods;
+}
+
+template <int D>
+std::vector<CurvatureMethod<D>> all_methods() {
+  std::vector<CurvatureMethod<D>> all;
+  const auto append = [&](const List<D>& list) {
+    all.insert(all.end(), list.methods.begin(), list.methods.end());
+  };
+  for (const Places places : {points, nodes})
+    for (const Window window : {cubic, quintic, Window::wendland_c2, Window::wendland_c4}) {
+      List<D> list(fmt::format("{}, {}", at(window_names, static_cast<int>(window)),
+                               places == points ? "points" : "nodes"));
+      for (const Real factor : {1.5, 1.8, 2.0, 2.3}) list.add(2, factor, window, places);
+      append(list);
+    }
+
+  List<D> bases("bases");
+  bases.add(1, 1.6, cubic, points);
+  bases.add(3, 1.75, cubic, points);
+  bases.add(3, 2.0, cubic, points);
+  bases.add(3, 2.0, cubic, nodes);
+  append(bases);
+
+  List<D> recovered("recovered");
+  for (const Real factor : {1.5, 1.8, 2.0, 2.3}) recovered.add_recovered(2, factor, cubic, points);
+  recovered.add_recovered(2, 2.3, quintic, points);
+  recovered.add_recovered(2, 1.8, cubic, nodes);
+  recovered.add_recovered(3, 1.75, cubic, points);
+  recovered.add_recovered(3, 2.0, cubic, points);
+  append(recovered);
+
+  List<D> smoothed("smoothed");
+  smoothed.add_smoothed(1.8, cubic, points);
+  smoothed.add_smoothed(2.3, quintic, points);
+  smoothed.add_smoothed(2.3, quintic, nodes);
+  append(smoothed);
+
+  List<D> stages("re-referenced");
+  for (const int k : {2, 4, 8}) {
+    CurvatureMethod<D>& m = stages.add(2, 1.8, cubic, points);
+    m.stages = k;
+    m.line += fmt::format(", {} stages", k);
+  }
+  append(stages);
+  return all;
+}
+
+template std::vector<CurvatureMethod<2>> main_methods(bool);
+template std::vector<CurvatureMethod<3>> main_methods(bool);
+template std::vector<CurvatureMethod<2>> all_methods();
+template std::vector<CurvatureMethod<3>> all_methods();
+
+}  // namespace meniscus::study

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The maps of the curvature studies, and the test that a map does not fold.
+#include "maps.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+namespace meniscus::study {
+namespace {
+
+template <int D>
+using Position = std::array<Jet<D>, D>;
+
+/// (x, y) turned by an angle that varies in the plane: r^2 is kept.
+template <int D>
+void turn(Position<D>& x, std::size_t i, std::size_t j, const Jet<D>& angle) {
+  const Jet<D> c = cos(angle), s = sin(angle), xi = x[i], xj = x[j];
+  x[i] = c * xi - s * xj;
+  x[j] = s * xi + c * xj;
+}
+
+/// The x axis bent to a circle of radius 2 in the plane of x and the last coordinate.
+template <int D>
+Position<D> bend(Position<D> x) {
+  const Jet<D> angle = 0.5 * x[0], radius = 2.0 + x[D - 1];
+  x[0] = radius * sin(angle);
+  x[D - 1] = radius * cos(angle) - 2.0;
+  return x;
+}
+
+/// Waves without symmetry, each direction moved by the next.
+template <int D>
+Position<D> wave(const Position<D>& X) {
+  Position<D> x = X;
+  for (std::size_t i = 0; i < D; ++i)
+    x[i] = X[i] + 0.12 * sin(2.0 * X[(i + 1) % D] + static_cast<Real>(i) + 0.3 * X[i]);
+  return x;
+}
+
+Position<2> thin(const Position<2>& X) {
+  const Jet<2> r2 = X[0] * X[0];
+  return {X[0], 0.5 * X[1] * (0.207161 + r2 * (2.002558 - 1.122762 * r2))};
+}
+
+/// Turned by an angle that grows with r^2, then stretched along y.
+SmoothMap<2> swirl(Real angle, Real stretch) {
+  return smooth_map<2>([=](Position<2> x) {
+    turn<2>(x, 0, 1, angle * (x[0] * x[0] + x[1] * x[1]));
+    x[1] = stretch * x[1];
+    return x;
+  });
+}
+
+/// twist_ellipsoid() with other angles (by the factor s) and stretch.
+SmoothMap<3> twist(Real s, Real stretch) {
+  return smooth_map<3>([=](Position<3> x) {
+    turn<3>(x, 0, 2, 0.7 * s * x[1]);
+    turn<3>(x, 0, 1, -0.6 * s * x[2]);
+    x[1] = stretch * x[1];
+    return x;
+  });
+}
+
+}  // namespace
+
+template <>
+const std::vector<NamedMap<3>>& named_maps() {
+  static const std::vector<NamedMap<3>> maps{
+      {"twist_ellipsoid", [](Real s) { return twist(s, 1 + 0.5 * s); }},
+      {"biconcave", straight_path(biconcave())},
+      {"twist", [](Real s) { return twist(s, 1); }},
+      {"bent", straight_path(smooth_map<3>(bend<3>))},
+      {"wavy", straight_path(smooth_map<3>(wave<3>))}};
+  return maps;
+}
+
+template <>
+const std::vector<NamedMap<2>>& named_maps() {
+  static const std::vector<NamedMap<2>> maps{
+      {"swirl_ellipse", [](Real s) { return swirl(0.7 * s, 1 + 0.5 * s); }},
+      {"biconcave", straight_path(smooth_map<2>(thin))},
+      {"swirl", [](Real s) { return swirl(0.7 * s, 1); }},
+      {"bent", straight_path(smooth_map<2>(bend<2>))},
+      {"wavy", straight_path(smooth_map<2>(wave<2>))}};
+  return maps;
+}
+
+template <int D>
+std::function<SmoothMap<D>(Real)> straight_path(SmoothMap<D> map) {
+  return [map = std::move(map)](Real s) -> SmoothMap<D> {
+    return [map, s](const Vec<D>& X) {
+      MapPoint<D> point = map(X);
+      point.x = (1 - s) * X + s * point.x;
+      point.F = (1 - s) * Mat<D>::Identity() + s * point.F;
+      for (Mat<D>& G : point.G) G *= s;
+      return point;
+    };
+  };
+}
+
+template <int D>
+void require_no_fold(const NamedMap<D>& map, std::span<const Vec<D>> places) {
+  for (const Vec<D>& X : places) {
+    const Real J = map.map(X).F.determinant();
+    if (J > 0) continue;
+    std::string place = fmt::format("{:.4g}", X[0]);
+    for (int i = 1; i < D; ++i) place += fmt::format(", {:.4g}", X[i]);
+    throw InputError(fmt::format(
+        "The map '{}' folds the body: det F = {:.4g} at X = ({}). A map must keep det F > 0 on "
+        "the whole unit {}; make its displacements smaller or exchange two of its components.",
+        map.name, J, place, D == 3 ? "ball" : "disk"));
+  }
+}
+
+template std::function<SmoothMap<2>(Real)> straight_path(SmoothMap<2>);
+template std::function<SmoothMap<3>(Real)> straight_path(SmoothMap<3>);
+template void require_no_fold(const NamedMap<2>&, std::span<const Vec<2>>);
+template void require_no_fold(const NamedMap<3>&, std::span<const Vec<3>>);
+
+}  // namespace meniscus::study

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Maps of the unit ball and disk onto exact surfaces, the solutions of curvature studies. None is
+// affine or quadratic: those a quadratic basis reproduces.
+#pragma once
+#include "meniscus/body/smooth_map.hpp"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace meniscus::study {
+
+/// A map and the way from the identity (s = 0) to it (s = 1).
+template <int D>
+struct NamedMap {
+  std::string name;
+  std::function<SmoothMap<D>(Real s)> path;
+  SmoothMap<D> map;
+
+  NamedMap(std::string map_name, std::function<SmoothMap<D>(Real)> way)
+      : name(std::move(map_name)), path(std::move(way)), map(path(1)) {}
+};
+
+/// 3D: twist_ellipsoid, biconcave, twist (the unit sphere onto itself), bent, wavy.
+/// 2D: swirl_ellipse, biconcave, swirl (the unit circle onto itself), bent, wavy.
+/// Twists and swirls grow by their angle, the others straight.
+template <int D>
+const std::vector<NamedMap<D>>& named_maps();
+
+/// The straight way X + s (x(X) - X).
+template <int D>
+std::function<SmoothMap<D>(Real)> straight_path(SmoothMap<D> map);
+
+/// The maps that a study works on.
+struct Maps {
+  std::vector<NamedMap<2>> plane;
+  std::vector<NamedMap<3>> space;
+};
+
+/// The map of a TOML file: formulas x, y of (x, y) for the disk, or x, y, z of (x, y, z) for the
+/// ball, the variables being the reference place. Derivatives by central differences of eighth
+/// order (formula_map.cpp). Throws FileError, and InputError for wrong formulas and for those that
+/// are not twice differentiable on the unit ball.
+Maps map_from_file(const std::string& path);
+
+/// Throws InputError, naming map, place and determinant, if det F <= 0 (or is not a number) at one
+/// of `places`: the map folds the body, turns it inside out or has a pole.
+template <int D>
+void require_no_fold(const NamedMap<D>& map, std::span<const Vec<D>> places);
+
+}  // namespace meniscus::study

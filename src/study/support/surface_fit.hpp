@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Smoothing of a quantity along a surface: moving least squares over the points around, so that
+// errors that change sign from point to point cancel and smooth fields keep their order.
+#pragma once
+#include "meniscus/approx/neighbor_search.hpp"
+
+#include <span>
+#include <vector>
+
+namespace meniscus::study {
+
+/// Replaces values at surface points by the value of the quadratic polynomial of the tangent
+/// coordinates fitted to the values at the points within 1.2 d_24 (2D: 1.2 d_12), cubic-spline
+/// weights.
+template <int D>
+class SurfaceFit {
+ public:
+  explicit SurfaceFit(std::span<const Vec<D>> points);
+  void apply(std::vector<Real>& values) const;
+  std::size_t bytes() const;
+
+ private:
+  std::vector<Offset> start_{0};
+  std::vector<Index> point_;
+  std::vector<Real> weight_;
+};
+
+}  // namespace meniscus::study
