@@ -3,9 +3,10 @@
 // ellipsoid, net force and torque on a surface without symmetry, and the jump of Young and Laplace.
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/study/study.hpp"
-#include "support/force_cases.hpp"
 
 #include <fmt/format.h>
+
+#include "support/force_cases.hpp"
 
 namespace meniscus {
 namespace {
@@ -129,8 +130,8 @@ void require_laws(StudyRun& study) {
   if (study.levels().size() < 2) return;
   study.require("order of nodal forces, curvature 3x3",
                 study.overall_order("curvature 3x3", "nodal force"), {1.5, 1e300});
-  study.require("order of nodal forces, triangles",
-                study.overall_order("triangles", "nodal force"), {0.8, 1e300});
+  study.require("order of nodal forces, triangles", study.overall_order("triangles", "nodal force"),
+                {0.8, 1e300});
   study.require("order of the work of dilation, triangles",
                 study.overall_order("triangles", "work of dilation"), {1.8, 1e300});
   study.require("order of the work of dilation, weak 3x3",
@@ -141,8 +142,7 @@ void run(StudyRun& study) {
   const Real factor = study.settings().real("support", dimension::none, {1.5, 3}, 2.0);
   study.settings_read();
   std::vector<std::pair<int, Cases>> resolutions;
-  for (const int level : study.levels())
-    resolutions.emplace_back(level, make_cases(level, factor));
+  for (const int level : study.levels()) resolutions.emplace_back(level, make_cases(level, factor));
   for (const Form& form : forms(study.brief()))
     for (const auto& [level, cases] : resolutions) study.record(measure(form, cases, level));
   if (factor == 2) require_noted(study);

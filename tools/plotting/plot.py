@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the pictures of a run. Called by tools/plot."""
+"""Draws the pictures of a run or of a convergence study. Called by tools/plot."""
 
 import argparse
 import pathlib
@@ -12,6 +12,7 @@ matplotlib.use("Agg")
 import drop_decay
 import histories
 import sections
+import studies
 import style
 import surfaces
 from results import Results
@@ -19,11 +20,13 @@ from results import Results
 
 def arguments():
     parser = argparse.ArgumentParser(
-        prog="tools/plot", description="Draws pictures of a run into DIR/plots."
+        prog="tools/plot", description="Draws pictures of a run or a study into DIR/plots."
     )
-    parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run")
+    parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run or study")
     parser.add_argument(
-        "--field", help="field that colours the cross-sections (default: the first scalar)"
+        "--field",
+        help="field that colours the cross-sections (default: the first scalar); "
+        "error of a study that is drawn (default: the first two)",
     )
     parser.add_argument(
         "--frames", type=int, default=5, help="number of cross-sections (default 5)"
@@ -31,16 +34,22 @@ def arguments():
     return parser.parse_args()
 
 
+def pictures_of(args):
+    if (args.dir / "study.json").exists():
+        return studies.draw(studies.Study(args.dir), args.field)
+    run = Results(args.dir)
+    return {
+        **histories.draw(run),
+        **drop_decay.draw(run),
+        **sections.draw(run, args.field, args.frames),
+        **surfaces.draw(run),
+    }
+
+
 def main():
     args = arguments()
     try:
-        run = Results(args.dir)
-        pictures = {
-            **histories.draw(run),
-            **drop_decay.draw(run),
-            **sections.draw(run, args.field, args.frames),
-            **surfaces.draw(run),
-        }
+        pictures = pictures_of(args)
     except (OSError, ValueError) as error:
         sys.exit(f"tools/plot: {error}")
     folder = args.dir / "plots"

@@ -47,6 +47,7 @@ std::vector<CurvatureMethod<D>> main_methods(bool brief) {
   list.add(2, 1.5, cubic, points);
   list.add(2, 2.0, cubic, points);
   list.add(2, 2.0, quintic, nodes);
+  list.add_recovered(2, 2.3, quintic, points);
   list.add(3, 1.75, cubic, points);
   list.add_recovered(3, 2.0, cubic, points);
   return list.methods;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The methods that the curvature study compares, by panel of its plots.
 #pragma once
-#include "curvature_methods.hpp"
-
 #include <fmt/format.h>
+
+#include "curvature_methods.hpp"
 
 namespace meniscus::study {
 

@@ -5,11 +5,12 @@
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/core/surface_geometry.hpp"
-#include "surface_fit.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+
+#include "surface_fit.hpp"
 
 namespace meniscus::study {
 namespace {
@@ -135,8 +136,7 @@ class Stage {
     curvature.resize(surface_.X.size());
     parallel_for(surface_.size(), [&](Index q) {
       const auto frame = frame_at(gradient_matrix(rows_, q, d.data()), q);
-      at(curvature, q) =
-          twice_mean_curvature(frame, embed<D>(bending(q, d, frame), 0), grad_N(q));
+      at(curvature, q) = twice_mean_curvature(frame, embed<D>(bending(q, d, frame), 0), grad_N(q));
     });
   }
 
@@ -227,12 +227,9 @@ Measurement::Numbers errors_of(const Found<D>& found, const SurfacePoints<D>& ex
     F_size += da * at(map, q).F.squaredNorm();
     area += da;
   }
-  return {{"L2", std::sqrt(square / size)},
-          {"max", largest / std::sqrt(size / area)},
-          {"mean", mean / mean_size},
-          {"rms", std::sqrt(rms / rms_size)},
-          {"normal", std::sqrt(normal / area)},
-          {"F", std::sqrt(F / F_size)}};
+  return {{"L2", std::sqrt(square / size)},     {"max", largest / std::sqrt(size / area)},
+          {"mean", mean / mean_size},           {"rms", std::sqrt(rms / rms_size)},
+          {"normal", std::sqrt(normal / area)}, {"F", std::sqrt(F / F_size)}};
 }
 
 }  // namespace
@@ -250,8 +247,9 @@ template <int D>
 Measurement CurvatureProblem<D>::measure(const CurvatureMethod<D>& method) const {
   SurfacePoints<D> surface = method.places == Places::points ? points_ : nodes_, exact = surface;
   std::vector<MapPoint<D>> map;
-  for (const Vec<D>& X : surface.X) map.push_back(map_.map(X));
-  carry(exact, map_.map);
+  const SmoothMap<D> whole = map_.path(method.stages, method.stages);
+  for (const Vec<D>& X : surface.X) map.push_back(whole(X));
+  carry(exact, whole);
 
   Measurement result{.method = fmt::format("{}, {}: {}", map_.name, method.panel, method.line),
                      .particles = static_cast<Index>(X_.size()),
@@ -261,8 +259,7 @@ Measurement CurvatureProblem<D>::measure(const CurvatureMethod<D>& method) const
   found.F.assign(map.size(), Mat<D>::Identity());
   std::optional<Real> G;
   for (int k = 1; k <= method.stages; ++k) {
-    const NodalVectors d =
-        coefficients<D>(map_.path(static_cast<Real>(k) / method.stages), X_);
+    const NodalVectors d = coefficients<D>(map_.path(k, method.stages), X_);
     const Stopwatch set_up;
     Stage<D> stage(method, cloud, surface);
     std::optional<SurfaceFit<D>> fit;

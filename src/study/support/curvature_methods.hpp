@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curvature of a surface that carries an exact map, found from the particles alone, and its errors.
 #pragma once
-#include "maps.hpp"
-
 #include "meniscus/approx/particle_set.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/study/study.hpp"
+
+#include "maps.hpp"
 
 namespace meniscus::study {
 
@@ -39,10 +39,10 @@ class CurvatureProblem {
   CurvatureProblem(const Geometry<D>& unit, NamedMap<D> map);
 
   /// Errors relative to the exact results: 2 kappa in L2 over the current surface ("L2"),
-  /// largest error over the L2 mean of 2 kappa ("max"), and mean and root mean square over the places
-  /// without weights, over those of 2 kappa ("mean", "rms"); normal, F and G in L2 (G for one stage
-  /// and the direct method only). set_up: supports and shape functions; time: one evaluation of
-  /// 2 kappa at all places (all stages together).
+  /// largest error over the L2 mean of 2 kappa ("max"), and mean and root mean square over the
+  /// places without weights, over those of 2 kappa ("mean", "rms"); normal, F and G in L2 (G for
+  /// one stage and the direct method only). set_up: supports and shape functions; time: one
+  /// evaluation of 2 kappa at all places (all stages together).
   Measurement measure(const CurvatureMethod<D>& method) const;
 
  private:

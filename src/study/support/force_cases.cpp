@@ -2,12 +2,13 @@
 // Bodies on which forces of surface tension are known exactly.
 #include "force_cases.hpp"
 
-#include "bodies.hpp"
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/surface_geometry.hpp"
 
 #include <Eigen/Geometry>
+
+#include "bodies.hpp"
 
 namespace meniscus::study {
 namespace {
@@ -29,14 +30,12 @@ void add_exact_forces(ForceCase& c, const SmoothMap<3>& map) {
   constexpr Index some = 8192;
   for (Index first = 0; first < current.size(); first += some) {
     const Index count = std::min(some, current.size() - first);
-    const auto rows =
-        build_point_rows<3>(c.body->particles,
-                            {reference.X.data() + first, static_cast<std::size_t>(count)},
-                            {.value = true}, "body");
+    const auto rows = build_point_rows<3>(
+        c.body->particles, {reference.X.data() + first, static_cast<std::size_t>(count)},
+        {.value = true}, "body");
     for (Index q = 0; q < count; ++q) {
       const Index p = first + q;
-      const Vec<3> t =
-          -at(current.grad_N, p).trace() * at(current.area, p) * at(current.N, p);
+      const Vec<3> t = -at(current.grad_N, p).trace() * at(current.area, p) * at(current.N, p);
       const Vec<3>& x = at(current.X, p);
       c.dilation += t.dot(x);
       c.stretching += t.dot(Vec<3>(-0.5 * x[0], x[1], -0.5 * x[2]));
@@ -97,8 +96,7 @@ NodalVectors positions(const ForceCase& c) {
 
 NodalVectors linear_motion(const ForceCase& c, const Mat<3>& V) {
   NodalVectors v = positions(c);
-  for (Index A = 0; A < c.body->size(); ++A)
-    set_vector<3>(v, A, Vec<3>(V * vector_at<3>(v, A)));
+  for (Index A = 0; A < c.body->size(); ++A) set_vector<3>(v, A, Vec<3>(V * vector_at<3>(v, A)));
   return v;
 }
 
@@ -118,8 +116,8 @@ Balance balance_of(const ForceCase& c, const NodalVectors& force) {
 
 NodalVectors unit_pressure(const ForceCase& c, int k) {
   const SurfacePoints<3> surface = surface_points(c.body->geometry, k);
-  const auto rows = build_point_rows<3>(c.body->particles, surface.X,
-                                        {.value = true, .gradient = true}, "body");
+  const auto rows =
+      build_point_rows<3>(c.body->particles, surface.X, {.value = true, .gradient = true}, "body");
   NodalVectors force(c.u.size(), Lanes::zero());
   for (Index q = 0; q < rows.size(); ++q) {
     const auto column = gradient_at(rows, q, c.u.data());

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies on which forces of surface tension are known exactly.
 #pragma once
-#include "maps.hpp"
-
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
 
 #include <memory>
+
+#include "maps.hpp"
 
 namespace meniscus::study {
 

@@ -2,14 +2,14 @@
 // A map given by formulas. Its derivatives are central differences of eighth order with the step
 // 0.02 (the body has radius 1): the error is about 1e-13 in F and 1e-11 in G for formulas that vary
 // over lengths of order one, far below the errors studied.
-#include "maps.hpp"
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+
+#include "maps.hpp"
 
 namespace meniscus::study {
 namespace {

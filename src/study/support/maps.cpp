@@ -4,8 +4,9 @@
 
 #include "meniscus/core/error.hpp"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+
+#include <Eigen/LU>
 
 namespace meniscus::study {
 namespace {
@@ -44,52 +45,63 @@ Position<2> thin(const Position<2>& X) {
   return {X[0], 0.5 * X[1] * (0.207161 + r2 * (2.002558 - 1.122762 * r2))};
 }
 
-/// Turned by an angle that grows with r^2, then stretched along y.
-SmoothMap<2> swirl(Real angle, Real stretch) {
+/// Turned by an angle that grows with r^2, at the rim by 0.7 per unit length: a circle stays.
+SmoothMap<2> swirl(Real part) {
   return smooth_map<2>([=](Position<2> x) {
-    turn<2>(x, 0, 1, angle * (x[0] * x[0] + x[1] * x[1]));
-    x[1] = stretch * x[1];
+    turn<2>(x, 0, 1, 0.35 * part * (x[0] * x[0] + x[1] * x[1]));
     return x;
   });
 }
 
-/// twist_ellipsoid() with other angles (by the factor s) and stretch.
-SmoothMap<3> twist(Real s, Real stretch) {
+/// The twists of twist_ellipsoid(): a sphere stays.
+SmoothMap<3> twist(Real part) {
   return smooth_map<3>([=](Position<3> x) {
-    turn<3>(x, 0, 2, 0.7 * s * x[1]);
-    turn<3>(x, 0, 1, -0.6 * s * x[2]);
-    x[1] = stretch * x[1];
+    turn<3>(x, 0, 2, 0.7 * part * x[1]);
+    turn<3>(x, 0, 1, -0.6 * part * x[2]);
     return x;
   });
+}
+
+/// One `turn_by` (its argument: part of the whole angle) per stage, all after one another, and the
+/// stretch of y by up to `stretch`.
+template <int D>
+typename NamedMap<D>::Path turning_path(SmoothMap<D> (*turn_by)(Real), Real stretch) {
+  return [=](int stage, int stages) {
+    Vec<D> axes = Vec<D>::Ones();
+    axes[1] = std::pow(stretch, static_cast<Real>(stage) / stages);
+    const SmoothMap<D> part = turn_by(1.0 / stages);
+    SmoothMap<D> map = part;
+    for (int j = 1; j < stage; ++j) map = compose<D>(part, map);
+    return compose<D>(affine_map<D>(axes.asDiagonal(), Vec<D>::Zero()), map);
+  };
 }
 
 }  // namespace
 
 template <>
 const std::vector<NamedMap<3>>& named_maps() {
-  static const std::vector<NamedMap<3>> maps{
-      {"twist_ellipsoid", [](Real s) { return twist(s, 1 + 0.5 * s); }},
-      {"biconcave", straight_path(biconcave())},
-      {"twist", [](Real s) { return twist(s, 1); }},
-      {"bent", straight_path(smooth_map<3>(bend<3>))},
-      {"wavy", straight_path(smooth_map<3>(wave<3>))}};
+  static const std::vector<NamedMap<3>> maps{{"twist_ellipsoid", turning_path<3>(twist, 1.5)},
+                                             {"biconcave", straight_path(biconcave())},
+                                             {"twist", turning_path<3>(twist, 1)},
+                                             {"bent", straight_path(smooth_map<3>(bend<3>))},
+                                             {"wavy", straight_path(smooth_map<3>(wave<3>))}};
   return maps;
 }
 
 template <>
 const std::vector<NamedMap<2>>& named_maps() {
-  static const std::vector<NamedMap<2>> maps{
-      {"swirl_ellipse", [](Real s) { return swirl(0.7 * s, 1 + 0.5 * s); }},
-      {"biconcave", straight_path(smooth_map<2>(thin))},
-      {"swirl", [](Real s) { return swirl(0.7 * s, 1); }},
-      {"bent", straight_path(smooth_map<2>(bend<2>))},
-      {"wavy", straight_path(smooth_map<2>(wave<2>))}};
+  static const std::vector<NamedMap<2>> maps{{"swirl_ellipse", turning_path<2>(swirl, 1.5)},
+                                             {"biconcave_2d", straight_path(smooth_map<2>(thin))},
+                                             {"swirl", turning_path<2>(swirl, 1)},
+                                             {"bent_2d", straight_path(smooth_map<2>(bend<2>))},
+                                             {"wavy_2d", straight_path(smooth_map<2>(wave<2>))}};
   return maps;
 }
 
 template <int D>
-std::function<SmoothMap<D>(Real)> straight_path(SmoothMap<D> map) {
-  return [map = std::move(map)](Real s) -> SmoothMap<D> {
+typename NamedMap<D>::Path straight_path(SmoothMap<D> map) {
+  return [map = std::move(map)](int stage, int stages) -> SmoothMap<D> {
+    const Real s = static_cast<Real>(stage) / stages;
     return [map, s](const Vec<D>& X) {
       MapPoint<D> point = map(X);
       point.x = (1 - s) * X + s * point.x;
@@ -114,8 +126,8 @@ void require_no_fold(const NamedMap<D>& map, std::span<const Vec<D>> places) {
   }
 }
 
-template std::function<SmoothMap<2>(Real)> straight_path(SmoothMap<2>);
-template std::function<SmoothMap<3>(Real)> straight_path(SmoothMap<3>);
+template NamedMap<2>::Path straight_path(SmoothMap<2>);
+template NamedMap<3>::Path straight_path(SmoothMap<3>);
 template void require_no_fold(const NamedMap<2>&, std::span<const Vec<2>>);
 template void require_no_fold(const NamedMap<3>&, std::span<const Vec<3>>);
 

@@ -12,26 +12,30 @@
 
 namespace meniscus::study {
 
-/// A map and the way from the identity (s = 0) to it (s = 1).
+/// A map, and ways to its surface in stages. The exact surface at the end is that of `map`; where
+/// its points come from may depend on the number of stages.
 template <int D>
 struct NamedMap {
+  /// Reference to the state after `stage` of `stages` stages.
+  using Path = std::function<SmoothMap<D>(int stage, int stages)>;
+
   std::string name;
-  std::function<SmoothMap<D>(Real s)> path;
+  Path path;
   SmoothMap<D> map;
 
-  NamedMap(std::string map_name, std::function<SmoothMap<D>(Real)> way)
-      : name(std::move(map_name)), path(std::move(way)), map(path(1)) {}
+  NamedMap(std::string map_name, Path way)
+      : name(std::move(map_name)), path(std::move(way)), map(path(1, 1)) {}
 };
 
 /// 3D: twist_ellipsoid, biconcave, twist (the unit sphere onto itself), bent, wavy.
-/// 2D: swirl_ellipse, biconcave, swirl (the unit circle onto itself), bent, wavy.
-/// Twists and swirls grow by their angle, the others straight.
+/// 2D: swirl_ellipse, biconcave_2d, swirl (the unit circle onto itself), bent_2d, wavy_2d.
+/// Stages of twists are twists by a part of the angle, one after the other; others go straight.
 template <int D>
 const std::vector<NamedMap<D>>& named_maps();
 
-/// The straight way X + s (x(X) - X).
+/// The straight way X + s (x(X) - X), s = stage / stages.
 template <int D>
-std::function<SmoothMap<D>(Real)> straight_path(SmoothMap<D> map);
+typename NamedMap<D>::Path straight_path(SmoothMap<D> map);
 
 /// The maps that a study works on.
 struct Maps {

@@ -20,7 +20,9 @@ Eigen::Matrix<Real, D, D - 1> tangents(std::span<const Vec<D>> points,
                                        const std::vector<Index>& near, const Vec<D>& x) {
   Mat<D> covariance = Mat<D>::Zero();
   for (const Index q : near) covariance += (at(points, q) - x) * (at(points, q) - x).transpose();
-  return Eigen::SelfAdjointEigenSolver<Mat<D>>(covariance).eigenvectors().template rightCols<D - 1>();
+  return Eigen::SelfAdjointEigenSolver<Mat<D>>(covariance)
+      .eigenvectors()
+      .template rightCols<D - 1>();
 }
 
 template <int D>
