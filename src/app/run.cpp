@@ -67,6 +67,19 @@ void warn_doubtful(const Simulation<D>& simulation, std::set<std::string>& said,
   }
 }
 
+/// Says once that energy appears or disappears, which no exact solution does.
+template <int D>
+void warn_imbalance(const Simulation<D>& simulation, const Ledger& ledger,
+                    std::set<std::string>& said, RunLog& log) {
+  constexpr Real bearable = 0.2;
+  const Real error = simulation.audit().balance_error(ledger);
+  if (std::abs(error) < bearable || !said.insert("energy balance").second) return;
+  log.warning(fmt::format(
+      "t = {:.6g}: the energy balance is off by {:.0f} % of the energy exchanged so far; the step "
+      "is too long (lower time.safety) or the motion is not resolved by the particles",
+      simulation.state().time, 100 * error));
+}
+
 /// Steps until the end of the scene, the time to stop, or a request to; returns the signal of the
 /// request, if there was one. Only what the scene says decides the steps, so that a run that was
 /// stopped anywhere goes on as if it had not been.
@@ -82,7 +95,10 @@ std::optional<int> run_steps(Simulation<D>& simulation, Recorder<D>& recorder, R
     simulation.advance();
     const auto ledger = recorder.record(before);
     progress.show(simulation.state(), simulation.last_step(), ledger);
-    if (ledger) warn_doubtful(simulation, said, log);
+    if (ledger) {
+      warn_doubtful(simulation, said, log);
+      warn_imbalance(simulation, *ledger, said, log);
+    }
     if (const auto warning = simulation.controller().take_warning()) log.warning(*warning);
     if (interruption.elapsed_seconds() > next_checkpoint) {
       recorder.checkpoint();

@@ -28,6 +28,8 @@ struct Measurement {
   double time = 0;        ///< wall time of what the method does, s
   std::size_t bytes = 0;  ///< held by the method
 
+  std::string remark = {};  ///< e.g. the cause of a failure
+
   /// Throws std::out_of_range if there is none of this name.
   Real error(std::string_view name) const;
 };
@@ -46,7 +48,7 @@ class StudyRun {
   using Listener = std::function<void(const StudyRun&)>;
 
   /// `listener` is called after each new measurement.
-  StudyRun(std::vector<int> levels, bool brief, Block settings, Listener listener)
+  StudyRun(std::vector<int> levels, bool brief, SceneInput settings, Listener listener)
       : levels_(std::move(levels)),
         brief_(brief),
         settings_(std::move(settings)),
@@ -56,7 +58,9 @@ class StudyRun {
   /// The short form, seconds altogether: studies drop methods, not only levels.
   bool brief() const { return brief_; }
   /// Keys given by --set; a study reads them before it measures.
-  const Block& settings() const { return settings_; }
+  const Block& settings() const { return settings_.root(); }
+  /// Throws InputError if a setting was refused, or was not asked for. Call before measuring.
+  void finish_settings() const;
 
   void record(Measurement measurement);
   /// Notes whether `value` is `allowed`; a missed one decides the exit code.
@@ -76,7 +80,7 @@ class StudyRun {
  private:
   std::vector<int> levels_;
   bool brief_;
-  Block settings_;
+  SceneInput settings_;
   Listener listener_;
   std::vector<Measurement> measurements_;
   std::vector<Check> checks_;
