@@ -222,7 +222,9 @@ PointRule<D> build_nodal_rule(const Body<D>& body) {
 
 template <int D>
 std::vector<Real> shape_integrals(const Body<D>& body) {
-  const auto points = cell_gauss_points(body.geometry.grid, 3);
+  // First moments are exact: X det J has degree 2 D + 1 per direction in curved cells.
+  const auto points =
+      cell_gauss_points(body.geometry.grid, body.geometry.grid.bulges.empty() ? 3 : D + 1);
   const auto rows = build_point_rows<D>(body.particles, points.X, {.value = true}, body.name);
   std::vector<Real> integral(static_cast<std::size_t>(body.size()), 0.0);
   for (Index q = 0; q < rows.size(); ++q)
