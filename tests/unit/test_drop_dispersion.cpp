@@ -2,9 +2,9 @@
 #include "meniscus/study/drop_dispersion.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 namespace meniscus {
 namespace {
