@@ -1,9 +1,12 @@
 # Every study in its short form (label verify), where its orders and targets are asserted, and in
 # full (configuration full: tools/verify), which writes verification/NAME.
 file(GLOB study_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/study/*.cpp)
-list(REMOVE_ITEM study_sources ${PROJECT_SOURCE_DIR}/src/study/study.cpp)
 
 foreach(source ${study_sources})
+  file(STRINGS ${source} registration REGEX "^const bool registered")
+  if(NOT registration)
+    continue()  # a part of studies
+  endif()
   cmake_path(GET source STEM name)
   add_test(NAME study.${name}.short COMMAND meniscus study ${name} --short
     --output ${CMAKE_CURRENT_BINARY_DIR}/studies/${name})

@@ -6,6 +6,7 @@
 #include "meniscus/app/progress.hpp"
 #include "meniscus/app/recorder.hpp"
 #include "meniscus/app/restart.hpp"
+#include "meniscus/app/warnings.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/run_log.hpp"
 #include "meniscus/scene/expectations.hpp"
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <csignal>
 #include <limits>
-#include <set>
 #include <sstream>
 
 namespace meniscus {
@@ -55,18 +55,6 @@ int report_expectations(const Scene<D>& scene, const RunDirectory& directory, Ru
   return exit_ok;
 }
 
-/// States that a law should not be trusted in; said once per body.
-template <int D>
-void warn_doubtful(const Simulation<D>& simulation, std::set<std::string>& said, RunLog& log) {
-  for (const auto& term : simulation.scene().system.terms) {
-    if (said.contains(term->name())) continue;
-    if (const auto warning = term->warning(simulation.state().motion())) {
-      log.warning(fmt::format("t = {:.6g}: {}", simulation.state().time, *warning));
-      said.insert(term->name());
-    }
-  }
-}
-
 /// Steps until the end of the scene, the time to stop, or a request to; returns the signal of the
 /// request, if there was one. Only what the scene says decides the steps, so that a run that was
 /// stopped anywhere goes on as if it had not been.
@@ -75,14 +63,14 @@ std::optional<int> run_steps(Simulation<D>& simulation, Recorder<D>& recorder, R
                              const Interruption& interruption, Progress& progress, Real stop) {
   const double checkpoint_seconds = 60 * simulation.scene().output.checkpoint_minutes;
   double next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
-  std::set<std::string> said;
+  Warnings<D> warnings(simulation, log);
   while (simulation.state().time < stop) {
     if (const auto signal = interruption.requested()) return signal;
     const Real before = simulation.state().time;
     simulation.advance();
     const auto ledger = recorder.record(before);
     progress.show(simulation.state(), simulation.last_step(), ledger);
-    if (ledger) warn_doubtful(simulation, said, log);
+    if (ledger) warnings.look(*ledger);
     if (const auto warning = simulation.controller().take_warning()) log.warning(*warning);
     if (interruption.elapsed_seconds() > next_checkpoint) {
       recorder.checkpoint();

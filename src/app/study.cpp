@@ -33,6 +33,7 @@ void print_measurement(const StudyRun& run) {
   for (const auto& [name, value] : m.values) fmt::print(", {} {:.6g}", name, value);
   fmt::print("; {:.3g} + {:.3g} s, {:.3g} MB\n", m.set_up, m.time,
              1e-6 * static_cast<Real>(m.bytes));
+  if (!m.remark.empty()) fmt::print("        {}\n", m.remark);
   std::fflush(stdout);
 }
 
@@ -106,10 +107,11 @@ std::string json(const StudyEntry& entry, const StudyRun& run, const StudyReques
       if (const auto order = run.order(m, error.first)) orders.emplace_back(error.first, *order);
     text += fmt::format(
         "{}{{\"method\": {}, \"level\": {}, \"particles\": {}, \"h\": {}, \"errors\": {}, "
-        "\"orders\": {}, \"values\": {}, \"set_up\": {}, \"time\": {}, \"bytes\": {}}}",
+        "\"orders\": {}, \"values\": {}, \"set_up\": {}, \"time\": {}, \"bytes\": {}, \"remark\": "
+        "{}}}",
         separator, json_text(m.method), m.level, m.particles, json_number(m.h),
         json_object(m.errors), json_object(orders), json_object(m.values), json_number(m.set_up),
-        json_number(m.time), m.bytes);
+        json_number(m.time), m.bytes, json_text(m.remark));
     separator = ",\n";
   }
   text += "],\n\"checks\": [";

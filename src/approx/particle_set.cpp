@@ -11,6 +11,27 @@
 #include <numeric>
 
 namespace meniscus {
+namespace {
+
+/// Whether a support around X reaches one of four points, up to rounding of the distance.
+template <int D>
+class FourPoints {
+ public:
+  explicit FourPoints(const std::array<Vec<D>, 4>& x) {
+    for (int i = 0; i < D; ++i) at(x_, i) = {x[0][i], x[1][i], x[2][i], x[3][i]};
+  }
+  bool operator()(const Vec<D>& X, Real support) const {
+    Lanes squared = Lanes::zero();
+    for (int i = 0; i < D; ++i) squared += (X[i] - at(x_, i)) * (X[i] - at(x_, i));
+    const Lanes inside = support * support * (1 + 1e-12) - squared;
+    return _mm256_movemask_pd(inside.v) != 15;  // bits: the signs of the lanes
+  }
+
+ private:
+  std::array<Lanes, D> x_;
+};
+
+}  // namespace
 
 template <int D>
 ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window)
@@ -31,33 +52,50 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, Window window)
       search_(X_) {}
 
 template <int D>
-void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
-                                std::vector<Candidate<D>>& found) const {
+template <class Keep>
+void ParticleSet<D>::find(const Vec<D>& centre, Real radius, Keep&& keep,
+                          std::vector<Candidate<D>>& found) const {
   thread_local std::vector<Index> near;
   // Supports differ: the search finds many more than it keeps, so it does not sort.
   search_.within_unsorted(centre, radius + largest_support_, near);
-  std::erase_if(near,
-                [&](Index A) { return (at(X_, A) - centre).norm() >= radius + at(support_, A); });
+  std::erase_if(near, [&](Index A) { return !keep(at(X_, A), at(support_, A)); });
   std::sort(near.begin(), near.end());
   found.clear();
   for (const Index A : near) found.push_back({A, at(support_, A), at(X_, A)});
 }
 
 template <int D>
-void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
-                 std::vector<Candidate<D>>& near, std::vector<std::size_t>& number) {
+void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
+                                std::vector<Candidate<D>>& found) const {
+  const auto keep = [&](const Vec<D>& X, Real support) {
+    return (X - centre).norm() < radius + support;
+  };
+  find(centre, radius, keep, found);
+}
+
+template <int D>
+void ParticleSet<D>::candidates(const std::array<Vec<D>, 4>& points,
+                                std::vector<Candidate<D>>& found) const {
   const Vec<D> centre = 0.25 * ((points[0] + points[1]) + (points[2] + points[3]));
   Real radius = 0;
   for (const Vec<D>& x : points) radius = std::max(radius, (x - centre).norm());
-  radius *= 1 + 1e-12;
-  near.clear();
-  number.clear();
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const Real reach = candidates[k].support + radius;
-    if ((candidates[k].X - centre).squaredNorm() >= reach * reach) continue;
-    near.push_back(candidates[k]);
-    number.push_back(k);
+  find(centre, radius * (1 + 1e-12), FourPoints<D>(points), found);
+}
+
+template <int D>
+void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
+                 std::vector<Candidate<D>>& near, std::vector<std::size_t>& number) {
+  const FourPoints<D> four(points);
+  near.resize(candidates.size());
+  number.resize(candidates.size());
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {  // without a branch: it would be a guess
+    near[kept] = candidates[k];
+    number[kept] = k;
+    kept += four(candidates[k].X, candidates[k].support);
   }
+  near.resize(kept);
+  number.resize(kept);
 }
 
 template <int D>

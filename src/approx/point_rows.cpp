@@ -11,20 +11,34 @@ namespace {
 
 constexpr Index group_size = 4;  // points of one batch of ReproducingKernel; they share a search
 
+/// Room for `entries` more of them.
+template <int D>
+void grow(PointRows<D>& rows, std::size_t entries, RowContent content) {
+  const std::size_t size = rows.particle.size() + entries;
+  rows.particle.resize(size);
+  if (content.value) rows.value.resize(size);
+  if (content.gradient) rows.gradient.resize(size * D);
+  if (content.hessian) rows.hessian.resize(size * static_cast<std::size_t>(hessian_count(D)));
+}
+
 template <int D>
 void append_row(PointRows<D>& rows, const std::vector<Candidate<D>>& candidates, RowContent content,
                 const auto& kernel, int lane) {
+  std::size_t e = rows.particle.size(), reaching = 0;
+  for (std::size_t k = 0; k < candidates.size(); ++k) reaching += kernel.reaches(k, lane);
+  grow(rows, reaching, content);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (!kernel.reaches(k, lane)) continue;
-    rows.particle.push_back(candidates[k].particle);
-    if (content.value) rows.value.push_back(kernel.value(k)[lane]);
+    rows.particle[e] = candidates[k].particle;
+    if (content.value) rows.value[e] = kernel.value(k)[lane];
     if (content.gradient)
-      for (int i = 0; i < D; ++i) rows.gradient.push_back(kernel.gradient(k, i)[lane]);
+      for (int i = 0; i < D; ++i) at(rows.gradient, e * D + i) = kernel.gradient(k, i)[lane];
     if (content.hessian)
       for (int ij = 0; ij < hessian_count(D); ++ij)
-        rows.hessian.push_back(kernel.hessian(k, ij)[lane]);
+        at(rows.hessian, e * hessian_count(D) + ij) = kernel.hessian(k, ij)[lane];
+    ++e;
   }
-  rows.start.push_back(static_cast<Offset>(rows.particle.size()));
+  rows.start.push_back(static_cast<Offset>(e));
 }
 
 template <int D, int Degree>
@@ -36,11 +50,8 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   std::array<Vec<D>, group_size> batch;  // the last point fills up
   for (std::size_t lane = 0; lane < group_size; ++lane)
     batch[lane] = points[std::min(lane, points.size() - 1)];
-  const Vec<D> centre = 0.25 * ((batch[0] + batch[1]) + (batch[2] + batch[3]));
-  Real radius = 0;
-  for (const Vec<D>& x : batch) radius = std::max(radius, (x - centre).norm());
   thread_local std::vector<Candidate<D>> candidates;
-  particles.candidates(centre, radius * (1 + 1e-12), candidates);
+  particles.candidates(batch, candidates);
 
   // The limit is known for the quadratic basis; a cubic one is worse conditioned by nature.
   const Real least = Degree > 2 ? 1e-6 : ParticleSet<D>::unusable_quality;
@@ -54,6 +65,9 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   rows.particle.reserve(candidates.size() * points.size());
   rows.value.reserve(content.value ? candidates.size() * points.size() : 0);
   rows.gradient.reserve(content.gradient ? D * candidates.size() * points.size() : 0);
+  rows.hessian.reserve(content.hessian ? static_cast<std::size_t>(hessian_count(D)) *
+                                             candidates.size() * points.size()
+                                       : 0);
   for (std::size_t lane = 0; lane < points.size(); ++lane) {
     particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane], body, least);
     append_row(rows, candidates, content, kernel, static_cast<int>(lane));

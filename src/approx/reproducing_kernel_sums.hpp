@@ -11,7 +11,8 @@ namespace meniscus {
 namespace {
 
 template <std::size_t N>
-Lanes dot(const std::array<Lanes, N>& a, const std::array<Lanes, N>& b) {
+[[gnu::always_inline]] inline Lanes dot(const std::array<Lanes, N>& a,
+                                        const std::array<Lanes, N>& b) {
   Lanes even = a[0] * b[0], odd = a[1] * b[1];  // two chains hide the latency
   unroll<N / 2 - 1>([&](auto k) {
     even += a[2 * k + 2] * b[2 * k + 2];
@@ -21,20 +22,15 @@ Lanes dot(const std::array<Lanes, N>& a, const std::array<Lanes, N>& b) {
   return even + odd;
 }
 
-template <std::size_t N>
-void add_scaled(std::array<Lanes, N>& sum, Lanes factor, const std::array<Lanes, N>& a) {
-  unroll<N>([&](auto k) { sum[k] += factor * a[k]; });
-}
-
 template <int D, int Degree>
 constexpr auto basis_length = static_cast<std::size_t>(monomial_count(D, Degree));
 
-/// Value of all monomials up to Degree at s, times `start`.
+/// Values of all monomials up to Degree at s.
 template <int D, int Degree>
 [[gnu::always_inline]] inline std::array<Lanes, basis_length<D, Degree>> monomials_at(
-    const std::array<Lanes, D>& s, Lanes start) {
+    const std::array<Lanes, D>& s) {
   std::array<Lanes, basis_length<D, Degree>> m;
-  m[0] = start;
+  m[0] = Lanes(1.0);
   unroll<m.size() - 1>([&](auto k) {
     constexpr Monomials<D, Degree> table;
     constexpr auto factor = static_cast<std::size_t>(table.factor[k + 1]);
@@ -44,12 +40,37 @@ template <int D, int Degree>
   return m;
 }
 
-}  // namespace
-
-template <int D, int Degree>
-auto ReproducingKernel<D, Degree>::basis(const std::array<Lanes, D>& s) -> BasisVector {
-  return monomials_at<D, Degree>(s, Lanes(1.0));
+/// sum[n] += m1 and m2, the values of monomial n at s1 and s2, and the same for all its multiples:
+/// depth first, so that only the factors of the current one are kept. Two points at once, because
+/// the sums do not fit into registers.
+template <int D, int Degree, int n = 0>
+[[gnu::always_inline]] inline void add_monomials(std::array<Lanes, basis_length<D, Degree>>& sum,
+                                                 const std::array<Lanes, D>& s1, Lanes m1,
+                                                 const std::array<Lanes, D>& s2, Lanes m2) {
+  constexpr Monomials<D, Degree> table;
+  Lanes& total = sum[static_cast<std::size_t>(n)];
+  total += m1;
+  total += m2;
+  constexpr int first = table.first_multiple(n);
+  if constexpr (first > 0) {
+    constexpr auto variable =
+        static_cast<std::size_t>(table.variable[static_cast<std::size_t>(first)]);
+    unroll<D - variable>([&](auto k) {
+      add_monomials<D, Degree, first + static_cast<int>(k)>(sum, s1, m1 * s1[variable + k], s2,
+                                                            m2 * s2[variable + k]);
+    });
+  }
 }
+
+/// Calls f(i, j, ij) for the entries of a packed second derivative.
+template <int D, class F>
+[[gnu::always_inline]] inline void for_hessian(F&& f) {
+  std::size_t ij = 0;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t j = i; j < D; ++j, ++ij) f(i, j, ij);
+}
+
+}  // namespace
 
 template <int D, int Degree>
 void ReproducingKernel<D, Degree>::factorise_moments() {
@@ -93,33 +114,156 @@ template <int D, int Degree>
 template <class W>
 void ReproducingKernel<D, Degree>::evaluate_windows(const std::array<Vec<D>, 4>& points,
                                                     std::span<const Candidate<D>> candidates,
-                                                    Derivatives order, Real inverse_H) {
-  const bool first = order != Derivatives::none, second = order == Derivatives::second;
+                                                    Derivatives order, Real H) {
   std::array<Lanes, D> x;
   for (int i = 0; i < D; ++i) at(x, i) = {points[0][i], points[1][i], points[2][i], points[3][i]};
-  kernel_.resize(candidates.size());
+  const Real inverse_H = 1 / H;
+  // One code for all orders, else the contraction of products would make their bits differ.
+  kernel_.resize(candidates.size() + candidates.size() % 2);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     Kernel& kernel = kernel_[k];
     const Candidate<D>& c = candidates[k];
-    std::array<Lanes, D> d;
-    Lanes r2 = Lanes::zero();
+    Lanes s2 = Lanes::zero();
     for (int i = 0; i < D; ++i) {
-      at(d, i) = c.X[i] - at(x, i);
-      r2 += at(d, i) * at(d, i);
-      at(kernel.s, i) = at(d, i) * inverse_H;
+      at(kernel.s, i) = (c.X[i] - at(x, i)) * inverse_H;
+      s2 += at(kernel.s, i) * at(kernel.s, i);
     }
-    const Real inverse_support = 1 / c.support;
-    const WindowValue w = W::at(sqrt(r2) * inverse_support);
+    const Real ratio = H / c.support;
+    const WindowValue w = W::at(sqrt(s2) * ratio);
     kernel.phi = w.phi;
-    if (!first) continue;
-    const Lanes alpha = w.alpha * (inverse_support * inverse_support);
-    for (int i = 0; i < D; ++i) at(kernel.phi_i, i) = -alpha * at(d, i);
-    if (!second) continue;
-    const Lanes beta = w.beta * (inverse_support * inverse_support) / max(r2, 1e-300);
-    for (int i = 0; i < D; ++i)
-      for (int j = i; j < D; ++j)
-        at(kernel.phi_ij, hessian_index(D, i, j)) =
-            i == j ? alpha + beta * at(d, i) * at(d, i) : beta * at(d, i) * at(d, j);
+    if (order == Derivatives::none) continue;
+    kernel.a = w.alpha * (ratio * ratio);
+    if (order == Derivatives::first) continue;
+    kernel.b = w.beta * (ratio * ratio) / max(s2, 1e-300);
+  }
+  if (kernel_.size() > candidates.size()) kernel_.back() = Kernel{};  // pairs: adds nothing
+}
+
+template <int D, int Degree>
+void ReproducingKernel<D, Degree>::sum_moments() {
+  constexpr auto n = static_cast<std::size_t>(basis_size);
+  static constexpr auto product = monomial_products<D, Degree>();
+  std::array<Lanes, basis_length<D, 2 * Degree>> moment;
+  moment.fill(Lanes::zero());
+  for (std::size_t k = 0; k < kernel_.size(); k += 2) {
+    const Kernel &one = kernel_[k], &two = kernel_[k + 1];
+    add_monomials<D, 2 * Degree>(moment, one.s, one.phi, two.s, two.phi);
+  }
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b <= a; ++b) factor_[a * n + b] = at(moment, product[a][b]);
+}
+
+template <int D, int Degree>
+auto ReproducingKernel<D, Degree>::first_right_hand_sides(const BasisVector& c) const
+    -> std::array<BasisVector, D> {
+  // - sum Phi_A,i P_A (P_A.c) = sum a_A (P_A.c) s_i P_A: monomials of one degree more.
+  std::array<Lanes, basis_length<D, Degree + 1>> sum;
+  sum.fill(Lanes::zero());
+  for (std::size_t k = 0; k < kernel_.size(); k += 2) {
+    const Kernel &one = kernel_[k], &two = kernel_[k + 1];
+    add_monomials<D, Degree + 1>(sum, one.s, one.a * dot(monomials_at<D, Degree>(one.s), c), two.s,
+                                 two.a * dot(monomials_at<D, Degree>(two.s), c));
+  }
+  std::array<BasisVector, D> right;
+  static constexpr auto times = monomial_multiples<D, Degree>();
+  for (std::size_t i = 0; i < D; ++i) {
+    for (std::size_t m = 0; m < right[i].size(); ++m) right[i][m] = at(sum, times[m][i]);
+    right[i][1 + i] += 1.0;
+  }
+  return right;
+}
+
+template <int D, int Degree>
+auto ReproducingKernel<D, Degree>::second_right_hand_sides(
+    const BasisVector& c, const std::array<BasisVector, D>& c_i) const
+    -> std::array<BasisVector, static_cast<std::size_t>(hessian_count(D))> {
+  constexpr auto pairs = static_cast<std::size_t>(hessian_count(D));
+  std::array<BasisVector, pairs> right;
+  for (BasisVector& r : right) r.fill(Lanes::zero());
+  if constexpr (Degree >= 2)
+    for_hessian<D>([&](std::size_t i, std::size_t j, std::size_t ij) {
+      right[ij][1 + D + ij] = Lanes(i == j ? 2.0 : 1.0);
+    });
+  // Phi_A,ij (P_A.c) + Phi_A,i (P_A.c,j) + Phi_A,j (P_A.c,i)
+  const auto factors = [&](const Kernel& kernel, const BasisVector& P) {
+    const Lanes Pc = dot(P, c), a_Pc = kernel.a * Pc, b_Pc = kernel.b * Pc;
+    std::array<Lanes, D> a_Pc_i;
+    for (std::size_t i = 0; i < D; ++i) a_Pc_i[i] = kernel.a * dot(P, c_i[i]);
+    std::array<Lanes, pairs> factor;
+    for_hessian<D>([&](std::size_t i, std::size_t j, std::size_t ij) {
+      factor[ij] = kernel.s[j] * (b_Pc * kernel.s[i] - a_Pc_i[i]) - kernel.s[i] * a_Pc_i[j];
+      if (i == j) factor[ij] += a_Pc;
+    });
+    return factor;
+  };
+  for (std::size_t k = 0; k < kernel_.size(); k += 2) {
+    const BasisVector P1 = monomials_at<D, Degree>(kernel_[k].s),
+                      P2 = monomials_at<D, Degree>(kernel_[k + 1].s);
+    const auto factor1 = factors(kernel_[k], P1), factor2 = factors(kernel_[k + 1], P2);
+    for (std::size_t ij = 0; ij < pairs; ++ij)
+      unroll<P1.size()>([&](auto m) {
+        right[ij][m] -= factor1[ij] * P1[m];
+        right[ij][m] -= factor2[ij] * P2[m];
+      });
+  }
+  return right;
+}
+
+template <int D, int Degree>
+template <Derivatives order>
+void ReproducingKernel<D, Degree>::evaluate_order(const std::array<Vec<D>, 4>& points,
+                                                  std::span<const Candidate<D>> candidates) {
+  constexpr bool first = order != Derivatives::none, second = order == Derivatives::second;
+  constexpr auto pairs = static_cast<std::size_t>(hessian_count(D));
+  Real H = 0;
+  for (const auto& candidate : candidates) H = std::max(H, candidate.support);
+  with_window(window_,
+              [&](auto w) { evaluate_windows<decltype(w)>(points, candidates, order, H); });
+  sum_moments();
+  factorise_moments();
+
+  BasisVector unit;
+  unit.fill(Lanes::zero());
+  unit[0] = Lanes(1.0);
+  const BasisVector c = solve(unit);
+  std::array<BasisVector, D> c_i;
+  std::array<BasisVector, pairs> c_ij;
+  if constexpr (first) {
+    c_i = first_right_hand_sides(c);
+    for (BasisVector& x : c_i) x = solve(x);
+  }
+  if constexpr (second) {
+    c_ij = second_right_hand_sides(c, c_i);
+    for (BasisVector& x : c_ij) x = solve(x);
+  }
+
+  const Real inverse_H = 1 / H, inverse_H2 = inverse_H * inverse_H;
+  value_.resize(candidates.size());
+  if constexpr (first) gradient_.resize(candidates.size() * D);
+  if constexpr (second) hessian_.resize(candidates.size() * pairs);
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Kernel& kernel = kernel_[k];
+    const BasisVector P = monomials_at<D, Degree>(kernel.s);
+    const Lanes Pc = dot(P, c);
+    value_[k] = Pc * kernel.phi;
+    if constexpr (first) {
+      const Lanes a_Pc = kernel.a * Pc;
+      std::array<Lanes, D> Pc_i;
+      for (std::size_t i = 0; i < D; ++i) {
+        Pc_i[i] = dot(P, c_i[i]);
+        gradient_[k * D + i] = inverse_H * (Pc_i[i] * kernel.phi - a_Pc * kernel.s[i]);
+      }
+      if constexpr (second) {
+        const Lanes b_Pc = kernel.b * Pc;
+        for_hessian<D>([&](std::size_t i, std::size_t j, std::size_t ij) {
+          const Lanes mixed = kernel.s[i] * Pc_i[j] + kernel.s[j] * Pc_i[i];
+          Lanes N_ij =
+              dot(P, c_ij[ij]) * kernel.phi - kernel.a * mixed + b_Pc * (kernel.s[i] * kernel.s[j]);
+          if (i == j) N_ij += a_Pc;
+          hessian_[k * pairs + ij] = inverse_H2 * N_ij;
+        });
+      }
+    }
   }
 }
 
@@ -127,97 +271,13 @@ template <int D, int Degree>
 void ReproducingKernel<D, Degree>::evaluate(const std::array<Vec<D>, 4>& points,
                                             std::span<const Candidate<D>> candidates,
                                             Derivatives order) {
-  constexpr auto n = static_cast<std::size_t>(basis_size);
-  constexpr auto pairs = static_cast<std::size_t>(hessian_count(D));
-  static constexpr auto product = monomial_products<D, Degree>();
-  const bool first = order != Derivatives::none, second = order == Derivatives::second;
-
-  Real H = 0;
-  for (const auto& c : candidates) H = std::max(H, c.support);
-  const Real inverse_H = 1 / H;
-  with_window(window_,
-              [&](auto w) { evaluate_windows<decltype(w)>(points, candidates, order, inverse_H); });
-
-  std::array<Lanes, static_cast<std::size_t>(monomial_count(D, 2 * Degree))> moment;
-  moment.fill(Lanes::zero());
-  const std::size_t even = kernel_.size() / 2 * 2;
-  for (std::size_t k = 0; k < even; k += 2) {  // two at once: the sums do not fit into registers
-    const auto m1 = monomials_at<D, 2 * Degree>(kernel_[k].s, kernel_[k].phi);
-    const auto m2 = monomials_at<D, 2 * Degree>(kernel_[k + 1].s, kernel_[k + 1].phi);
-    unroll<m1.size()>([&](auto a) { moment[a] += m1[a] + m2[a]; });
-  }
-  if (even < kernel_.size()) {
-    const auto m = monomials_at<D, 2 * Degree>(kernel_[even].s, kernel_[even].phi);
-    unroll<m.size()>([&](auto a) { moment[a] += m[a]; });
-  }
-  for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b <= a; ++b) factor_[a * n + b] = at(moment, product[a][b]);
-  factorise_moments();
-
-  BasisVector right;
-  right.fill(Lanes::zero());
-  right[0] = Lanes(1.0);
-  const BasisVector c = solve(right);
-
-  std::array<BasisVector, D> c_i;
-  if (first) {
-    for (std::size_t i = 0; i < D; ++i) {
-      c_i[i].fill(Lanes::zero());
-      c_i[i][1 + i] = Lanes(inverse_H);
-    }
-    for (const Kernel& kernel : kernel_) {
-      const BasisVector P = basis(kernel.s);
-      const Lanes Pc = dot(P, c);
-      for (std::size_t i = 0; i < D; ++i) add_scaled(c_i[i], -kernel.phi_i[i] * Pc, P);
-    }
-    for (std::size_t i = 0; i < D; ++i) c_i[i] = solve(c_i[i]);
-  }
-
-  std::array<BasisVector, pairs> c_ij;
-  if (second) {
-    for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t j = i; j < D; ++j) {
-        const auto ij =
-            static_cast<std::size_t>(hessian_index(D, static_cast<int>(i), static_cast<int>(j)));
-        c_ij[ij].fill(Lanes::zero());
-        if constexpr (Degree >= 2)
-          c_ij[ij][1 + D + ij] = Lanes((i == j ? 2 : 1) * inverse_H * inverse_H);
-      }
-    for (const Kernel& kernel : kernel_) {
-      const BasisVector P = basis(kernel.s);
-      const Lanes Pc = dot(P, c);
-      std::array<Lanes, D> Pc_i;
-      for (std::size_t i = 0; i < D; ++i) Pc_i[i] = dot(P, c_i[i]);
-      std::size_t ij = 0;
-      for (std::size_t i = 0; i < D; ++i)
-        for (std::size_t j = i; j < D; ++j, ++ij)
-          add_scaled(
-              c_ij[ij],
-              -(kernel.phi_ij[ij] * Pc + kernel.phi_i[i] * Pc_i[j] + kernel.phi_i[j] * Pc_i[i]), P);
-    }
-    for (std::size_t ij = 0; ij < pairs; ++ij) c_ij[ij] = solve(c_ij[ij]);
-  }
-
-  value_.resize(candidates.size());
-  if (first) gradient_.resize(candidates.size() * D);
-  if (second) hessian_.resize(candidates.size() * pairs);
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const Kernel& kernel = kernel_[k];
-    const BasisVector P = basis(kernel.s);
-    const Lanes Pc = dot(P, c);
-    value_[k] = Pc * kernel.phi;
-    if (!first) continue;
-    std::array<Lanes, D> Pc_i;
-    for (std::size_t i = 0; i < D; ++i) {
-      Pc_i[i] = dot(P, c_i[i]);
-      gradient_[k * D + i] = Pc_i[i] * kernel.phi + Pc * kernel.phi_i[i];
-    }
-    if (!second) continue;
-    std::size_t ij = 0;
-    for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t j = i; j < D; ++j, ++ij)
-        hessian_[k * pairs + ij] = dot(P, c_ij[ij]) * kernel.phi + Pc_i[i] * kernel.phi_i[j] +
-                                   Pc_i[j] * kernel.phi_i[i] + Pc * kernel.phi_ij[ij];
+  switch (order) {
+    case Derivatives::none:
+      return evaluate_order<Derivatives::none>(points, candidates);
+    case Derivatives::first:
+      return evaluate_order<Derivatives::first>(points, candidates);
+    case Derivatives::second:
+      return evaluate_order<Derivatives::second>(points, candidates);
   }
 }
 

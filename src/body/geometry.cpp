@@ -97,6 +97,7 @@ Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bo
   Geometry<D> geometry{std::move(unit), {}, std::move(patches), std::move(map), smooth};
   geometry.unit_X = geometry.grid.X;
   for (auto& X : geometry.grid.X) X = geometry.map(X).x;
+  curve_boundary(geometry);
   check_jacobians(geometry.grid, "The shape");
   return geometry;
 }
@@ -105,6 +106,7 @@ template <int D>
 Geometry<D> apply_map(const SmoothMap<D>& map, Geometry<D> geometry) {
   for (auto& X : geometry.grid.X) X = map(X).x;
   geometry.map = compose<D>(map, std::move(geometry.map));
+  curve_boundary(geometry);
   check_jacobians(geometry.grid, "The map");
   return geometry;
 }

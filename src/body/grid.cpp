@@ -40,6 +40,16 @@ std::string place(const Vec<D>& X) {
                 : fmt::format("({:g}, {:g}, {:g})", X[0], X[1], X[D - 1]);
 }
 
+/// Calls f(X, weight) for the Gauss points of one cell.
+template <int D, class F>
+void for_gauss_points(const Grid<D>& grid, Index cell, const TensorRule<D>& rule, F&& f) {
+  const auto corners = grid.corner_points(at(grid.cells, cell));
+  for (std::size_t q = 0; q < rule.x.size(); ++q) {
+    const CellPoint<D, D> p = cell_point(corners, grid.bulge(cell), rule.x[q]);
+    f(p.X, rule.w[q] * p.J.determinant());
+  }
+}
+
 }  // namespace
 
 void require_countable(Real cells) {
@@ -98,7 +108,7 @@ std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell) {
   for (int q = 0; q < points; ++q) {
     Vec<D> xi;
     for (int k = 0, rest = q; k < D; ++k, rest /= 3) xi[k] = rest % 3 - 1;
-    const CellPoint<D, D> point = multilinear<D, D>(corners, xi);
+    const CellPoint<D, D> point = cell_point(corners, grid.bulge(cell), xi);
     if (!(point.J.determinant() > 0)) return point;
   }
   return {};
@@ -130,9 +140,13 @@ NodeCells cells_of_nodes(const Grid<D>& grid) {
 
 template <int D>
 Real volume(const Grid<D>& grid) {
-  // det J has degree 2 per direction: two points are exact.
-  const CellPoints<D> points = cell_gauss_points(grid, 2);
-  return std::accumulate(points.weight.begin(), points.weight.end(), Real(0));
+  // det J has degree 2 per direction, 2 D - 1 where the cell is curved.
+  const TensorRule<D> straight = tensor_rule<D>(2), curved = tensor_rule<D>(D);
+  Real sum = 0;
+  for (Index e = 0; e < grid.cell_count(); ++e)
+    for_gauss_points(grid, e, grid.bulge(e) ? curved : straight,
+                     [&](const Vec<D>&, Real weight) { sum += weight; });
+  return sum;
 }
 
 template <int D>
@@ -173,14 +187,11 @@ CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
   points.per_cell = static_cast<int>(rule.x.size());
   points.X.reserve(grid.cells.size() * rule.x.size());
   points.weight.reserve(grid.cells.size() * rule.x.size());
-  for (const auto& cell : grid.cells) {
-    const auto corners = grid.corner_points(cell);
-    for (std::size_t q = 0; q < rule.x.size(); ++q) {
-      const CellPoint<D, D> p = multilinear<D, D>(corners, rule.x[q]);
-      points.X.push_back(p.X);
-      points.weight.push_back(rule.w[q] * p.J.determinant());
-    }
-  }
+  for (Index e = 0; e < grid.cell_count(); ++e)
+    for_gauss_points(grid, e, rule, [&](const Vec<D>& X, Real weight) {
+      points.X.push_back(X);
+      points.weight.push_back(weight);
+    });
   return points;
 }
 

@@ -16,19 +16,24 @@ namespace meniscus {
 
 namespace {
 
-constexpr int points_per_direction = 3;  // X X^T det J has degree 4 per direction
+/// X X^T det J has degree 4 per direction, 2 D + 3 where the cell is curved.
+template <int D>
+int points_along(int k, unsigned curved) {
+  return (curved >> k) & 1 ? D + 2 : 3;
+}
 
 /// Multilinear shape functions of the corners at one reference point.
 template <int D>
 struct TabulatedPoint {
   Eigen::Matrix<Real, 1 << D, 1> N;
   Eigen::Matrix<Real, 1 << D, D> dN;
+  BulgeFunctions<D> bulge;
   Real w;
 };
 
 template <int D>
 TabulatedPoint<D> tabulate(const Vec<D>& xi, Real w) {
-  TabulatedPoint<D> point;
+  TabulatedPoint<D> point{{}, {}, BulgeFunctions<D>(xi), w};
   for (int a = 0; a < (1 << D); ++a) {
     // The shape function of a corner is the map of corner values that are 1 there and 0 elsewhere.
     std::array<Vec<D>, (1 << D)> unit;
@@ -38,7 +43,6 @@ TabulatedPoint<D> tabulate(const Vec<D>& xi, Real w) {
     point.N[a] = p.X[0];
     point.dN.row(a) = p.J.row(0);
   }
-  point.w = w;
   return point;
 }
 
@@ -47,9 +51,14 @@ class OctantTable {
  public:
   using Points = std::vector<TabulatedPoint<D>>;
 
-  static const OctantTable& instance() {
-    static const OctantTable table;
-    return table;
+  /// For cells that are curved in the directions of the bits of `curved`.
+  static const OctantTable& instance(unsigned curved) {
+    static const std::vector<OctantTable> tables = [] {
+      std::vector<OctantTable> all;
+      for (unsigned c = 0; c < (1u << D); ++c) all.push_back(OctantTable(c));
+      return all;
+    }();
+    return at(tables, curved);
   }
   const Points& volume(int corner) const { return at(volume_, corner); }
   /// The facet xi_k = 0 of the octant; the same object for the two octants that share it.
@@ -58,8 +67,10 @@ class OctantTable {
   const Points& outer(int corner, int k) const { return at(outer_, corner * D + k); }
 
  private:
-  OctantTable() {
-    const TensorRule<D> cube = tensor_rule<D>(points_per_direction);
+  explicit OctantTable(unsigned curved) {
+    std::array<int, D> count;
+    for (int k = 0; k < D; ++k) at(count, k) = points_along<D>(k, curved);
+    const TensorRule<D> cube = tensor_rule<D>(count);
     for (int corner = 0; corner < (1 << D); ++corner) {
       Points octant;
       for (std::size_t q = 0; q < cube.x.size(); ++q) {
@@ -69,14 +80,17 @@ class OctantTable {
       }
       volume_.push_back(octant);
       for (int k = 0; k < D; ++k) {
-        inner_.push_back(facet(corner, k, 0));
-        outer_.push_back(facet(corner, k, corner_sign(corner, k)));
+        inner_.push_back(facet(corner, k, 0, curved));
+        outer_.push_back(facet(corner, k, corner_sign(corner, k), curved));
       }
     }
   }
 
-  static Points facet(int corner, int k, Real level) {
-    const TensorRule<D - 1> square = tensor_rule<D - 1>(points_per_direction);
+  static Points facet(int corner, int k, Real level, unsigned curved) {
+    std::array<int, D - 1> count;
+    for (int l = 0, d = 0; l < D; ++l)
+      if (l != k) at(count, d++) = points_along<D>(l, curved);
+    const TensorRule<D - 1> square = tensor_rule<D - 1>(count);
     Points points;
     for (std::size_t q = 0; q < square.x.size(); ++q) {
       Vec<D> xi;
@@ -90,15 +104,29 @@ class OctantTable {
   std::vector<Points> volume_, inner_, outer_;
 };
 
+/// The map of one cell at tabulated points.
 template <int D>
-using Corners = Eigen::Matrix<Real, D, (1 << D)>;
+class CellMap {
+ public:
+  CellMap(const Grid<D>& grid, Index cell) : bulge_(grid.bulge(cell)) {
+    for (int a = 0; a < (1 << D); ++a) corners_.col(a) = at(grid.X, at(at(grid.cells, cell), a));
+  }
+  const OctantTable<D>& table() const {
+    return OctantTable<D>::instance(bulge_ ? bulge_->curved : 0);
+  }
+  CellPoint<D, D> operator()(const TabulatedPoint<D>& p) const {
+    CellPoint<D, D> point{corners_ * p.N, corners_ * p.dN};
+    if (bulge_) {
+      point.X += bulge_->deviation * p.bulge.N;
+      point.J += bulge_->deviation * p.bulge.dN;
+    }
+    return point;
+  }
 
-template <int D>
-Corners<D> gather(const Grid<D>& grid, Index cell) {
-  Corners<D> corners;
-  for (int a = 0; a < (1 << D); ++a) corners.col(a) = at(grid.X, at(at(grid.cells, cell), a));
-  return corners;
-}
+ private:
+  Eigen::Matrix<Real, D, (1 << D)> corners_;
+  const Bulge<D>* bulge_;
+};
 
 /// Column k of cof J: normal of the surface xi_k = const, its length the area ratio.
 template <int D>
@@ -110,12 +138,12 @@ Vec<D> facet_normal(const Mat<D>& J, int k) {
 }
 
 template <int D>
-void append_facet(CellQuadrature<D>& q, const Corners<D>& corners,
+void append_facet(CellQuadrature<D>& q, const CellMap<D>& map,
                   const std::vector<TabulatedPoint<D>>& points, int k, Real sign) {
   for (const auto& p : points) {
-    const Mat<D> J = corners * p.dN;
-    q.facet_X.push_back(corners * p.N);
-    q.facet_dA.push_back(sign * (p.w * facet_normal<D>(J, k)));
+    const CellPoint<D, D> point = map(p);
+    q.facet_X.push_back(point.X);
+    q.facet_dA.push_back(sign * (p.w * facet_normal<D>(point.J, k)));
   }
 }
 
@@ -142,35 +170,34 @@ NodalCells<D>::NodalCells(const Grid<D>& grid)
 
 template <int D>
 void NodalCells<D>::volume_points(Index node, CellQuadrature<D>& q) const {
-  const auto& table = OctantTable<D>::instance();
   q.volume_X.clear();
   q.volume_w.clear();
   for (const auto& [cell, corner] : octants_.of(node)) {
-    const Corners<D> corners = gather(*grid_, cell);
-    for (const auto& p : table.volume(corner)) {
-      const Mat<D> J = corners * p.dN;
-      q.volume_X.push_back(corners * p.N);
-      q.volume_w.push_back(p.w * J.determinant());
+    const CellMap<D> map(*grid_, cell);
+    for (const auto& p : map.table().volume(corner)) {
+      const CellPoint<D, D> point = map(p);
+      q.volume_X.push_back(point.X);
+      q.volume_w.push_back(p.w * point.J.determinant());
     }
   }
 }
 
 template <int D>
 void NodalCells<D>::facet_points(Index node, CellQuadrature<D>& q) const {
-  const auto& table = OctantTable<D>::instance();
   q.facet_X.clear();
   q.facet_dA.clear();
   for (const auto& [cell, corner] : octants_.of(node)) {
-    const Corners<D> corners = gather(*grid_, cell);
+    const CellMap<D> map(*grid_, cell);
     for (int k = 0; k < D; ++k)
-      append_facet<D>(q, corners, table.inner(corner, k), k, -corner_sign(corner, k));
+      append_facet<D>(q, map, map.table().inner(corner, k), k, -corner_sign(corner, k));
   }
   q.body_facets_begin = q.facet_X.size();
   for (const auto& [cell, corner] : octants_.of(node))
     for (int k = 0; k < D; ++k) {
       const int side = 2 * k + ((corner >> k) & 1);
-      if ((at(boundary_sides_, cell) >> side) & 1)
-        append_facet<D>(q, gather(*grid_, cell), table.outer(corner, k), k, corner_sign(corner, k));
+      if (!((at(boundary_sides_, cell) >> side) & 1)) continue;
+      const CellMap<D> map(*grid_, cell);
+      append_facet<D>(q, map, map.table().outer(corner, k), k, corner_sign(corner, k));
     }
 }
 

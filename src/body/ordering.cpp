@@ -97,6 +97,7 @@ void renumber(Grid<D>& grid, std::span<const Index> order) {
   std::stable_sort(cell_order.begin(), cell_order.end(),
                    [&](Index a, Index b) { return lowest(a) < lowest(b); });
   grid.cells = permuted(grid.cells, cell_order);
+  if (!grid.bulge_of.empty()) grid.bulge_of = permuted(grid.bulge_of, cell_order);
   const std::vector<Index> cell_number = inverse(cell_order);
   for (auto& facet : grid.facets) facet.cell = at(cell_number, facet.cell);
   std::sort(grid.facets.begin(), grid.facets.end(), [](const Facet<D>& a, const Facet<D>& b) {

@@ -12,42 +12,77 @@
 namespace meniscus {
 namespace {
 
-/// Calls f(point number, candidate number, N) for every shape function at every point. Points come
-/// in fours that are close together; candidates that reach none of the four are left out.
-template <int D, class F>
-void for_each_value(const ParticleSet<D>& particles, ReproducingKernel<D>& kernel,
-                    std::span<const Vec<D>> points, std::span<const Candidate<D>> candidates,
-                    const std::string& body, F&& f) {
+/// sum_k += sum_q weight_q N_k(x_q) for all candidates k. Points come in fours that are close
+/// together; candidates that reach none of the four are left out.
+template <int D, class Weight, class Sum>
+void add_integrals(const Body<D>& body, std::span<const Vec<D>> points,
+                   std::span<const Weight> weight, std::span<const Candidate<D>> candidates,
+                   std::vector<Sum>& integral) {
+  thread_local ReproducingKernel<D> kernel(body.particles.window());  // keeps its buffers
   thread_local std::vector<Candidate<D>> near;
   thread_local std::vector<std::size_t> number;
+  kernel.use(body.particles.window());
   for (std::size_t q = 0; q < points.size(); q += 4) {
-    std::array<Vec<D>, 4> batch;
-    for (std::size_t lane = 0; lane < 4; ++lane)
+    std::array<Vec<D>, 4> batch;  // the last point fills up, with weight zero
+    std::array<Weight, 4> batch_weight{};
+    for (std::size_t lane = 0; lane < 4; ++lane) {
       batch[lane] = points[std::min(q + lane, points.size() - 1)];
+      if (q + lane < points.size()) batch_weight[lane] = weight[q + lane];
+    }
     select_near<D>(batch, candidates, near, number);
     kernel.evaluate(batch, near, Derivatives::none);
-    const std::size_t lanes = std::min<std::size_t>(4, points.size() - q);
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane], body);
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      body.particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane],
+                                     body.name);
     for (std::size_t k = 0; k < near.size(); ++k)
-      for (std::size_t lane = 0; lane < lanes; ++lane)
-        f(q + lane, number[k], kernel.value(k)[static_cast<int>(lane)]);
+      integral[number[k]].add(kernel.value(k), batch_weight);
   }
 }
+
+/// Integral of N over the cell.
+struct VolumeIntegral {
+  Real value = 0;
+  void add(Lanes N, const std::array<Real, 4>& w) {
+    value += sum(N * Lanes(w[0], w[1], w[2], w[3]));
+  }
+};
+
+/// Integrals of N n_K (1, X - Xb) over the boundary of the cell, which is also the weight at a
+/// point: lane 0 the moment of order 0, lanes 1 + Q those of order 1.
+template <int D>
+struct Flux {
+  std::array<Lanes, D> moment{};
+  Flux() = default;
+  Flux(const Vec<D>& n_dA, const Vec<D>& from_centroid) {
+    Lanes one_and_X = Lanes::zero();
+    one_and_X.set(0, 1);
+    for (int Q = 0; Q < D; ++Q) one_and_X.set(1 + Q, from_centroid[Q]);
+    for (int K = 0; K < D; ++K) at(moment, K) = n_dA[K] * one_and_X;
+  }
+  bool is_zero() const {
+    Lanes size = Lanes::zero();
+    for (const Lanes& m : moment) size += max(m, -m);
+    return sum(size) == 0;
+  }
+  void add(Lanes N, const std::array<Flux, 4>& weight) {
+    for (int lane = 0; lane < 4; ++lane)
+      for (int K = 0; K < D; ++K) at(moment, K) += N[lane] * at(at(weight, lane).moment, K);
+  }
+};
 
 /// One row of the cell rule, before it is packed.
 template <int D>
 struct CellRow {
   std::vector<Candidate<D>> candidates;
-  std::vector<Real> integral;                  // [candidate] of N over the cell
+  std::vector<VolumeIntegral> integral;        // [candidate]
   std::vector<std::array<Lanes, D>> gradient;  // [candidate][K]: (a_K, B_K.)
 };
 
 /// Flux integrals of one nodal cell: a_K = (1/V) oint N n_K,
 /// B_KM = [oint N n_K (X - Xb)_Q - delta_KQ int N] (V S)^-1_QM.
 template <int D>
-void integrate_cell(const Body<D>& body, Index cell, CellQuadrature<D>& quadrature,
-                    ReproducingKernel<D>& kernel, CellRow<D>& row) {
+void integrate_cell(const Body<D>& body, Index cell, CellRow<D>& row) {
+  thread_local CellQuadrature<D> quadrature;
   body.cells.quadrature(cell, quadrature);
   const Vec<D>& centroid = body.cells.centroid(cell);
   Real radius = 0;
@@ -56,38 +91,35 @@ void integrate_cell(const Body<D>& body, Index cell, CellQuadrature<D>& quadratu
   body.particles.candidates(centroid, radius * (1 + 1e-12), row.candidates);
 
   const std::size_t n = row.candidates.size();
-  using Moments = Eigen::Matrix<Real, D, D + 1>;  // oint N n_K (1, X - Xb)
-  thread_local std::vector<Moments> flux;
-  flux.assign(n, Moments::Zero());
-  row.integral.assign(n, 0.0);
-  for_each_value<D>(
-      body.particles, kernel, quadrature.volume_X, row.candidates, body.name,
-      [&](std::size_t q, std::size_t k, Real N) { row.integral[k] += quadrature.volume_w[q] * N; });
-  for_each_value<D>(body.particles, kernel, quadrature.facet_X, row.candidates, body.name,
-                    [&](std::size_t q, std::size_t k, Real N) {
-                      const Vec<D> n_dA = N * quadrature.facet_dA[q];
-                      flux[k].col(0) += n_dA;
-                      flux[k].template rightCols<D>() +=
-                          n_dA * (quadrature.facet_X[q] - centroid).transpose();
-                    });
+  thread_local std::vector<Flux<D>> facet_weight, flux;
+  facet_weight.clear();
+  for (std::size_t q = 0; q < quadrature.facet_X.size(); ++q)
+    facet_weight.emplace_back(quadrature.facet_dA[q], quadrature.facet_X[q] - centroid);
+  flux.assign(n, {});
+  row.integral.assign(n, {});
+  add_integrals<D, Real>(body, quadrature.volume_X, quadrature.volume_w, row.candidates,
+                         row.integral);
+  add_integrals<D, Flux<D>>(body, quadrature.facet_X, facet_weight, row.candidates, flux);
 
   const Real V = body.cells.volume(cell);
   const Mat<D> inverse_VS = (V * body.cells.covariance(cell)).inverse();
   row.gradient.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec<D> a = flux[k].col(0) / V;
-    const Mat<D> B =
-        (flux[k].template rightCols<D>() - row.integral[k] * Mat<D>::Identity()) * inverse_VS;
+    Mat<D> moment;
+    for (int K = 0; K < D; ++K)
+      for (int Q = 0; Q < D; ++Q) moment(K, Q) = at(flux[k].moment, K)[1 + Q];
+    const Mat<D> B = (moment - row.integral[k].value * Mat<D>::Identity()) * inverse_VS;
     for (int K = 0; K < D; ++K) {
-      at(row.gradient[k], K) = Lanes::zero();
-      at(row.gradient[k], K).set(0, a[K]);
-      for (int M = 0; M < D; ++M) at(row.gradient[k], K).set(1 + M, B(K, M));
+      Lanes& g = at(row.gradient[k], K);
+      g = Lanes::zero();
+      g.set(0, at(flux[k].moment, K)[0] / V);
+      for (int M = 0; M < D; ++M) g.set(1 + M, B(K, M));
     }
   }
   // Drop the candidates whose support meets no quadrature point.
   std::size_t kept = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    if (row.integral[k] == 0 && flux[k].isZero(0)) continue;
+    if (row.integral[k].value == 0 && flux[k].is_zero()) continue;
     row.candidates[kept] = row.candidates[k];
     row.integral[kept] = row.integral[k];
     row.gradient[kept++] = row.gradient[k];
@@ -151,13 +183,7 @@ CellOperator<D> build_cell_rule(const Body<D>& body) {
   const Index n = body.size();
   std::vector<CellRow<D>> rows(static_cast<std::size_t>(n));
   parallel_for(
-      n,
-      [&](Index L) {
-        thread_local CellQuadrature<D> quadrature;
-        ReproducingKernel<D> kernel(body.particles.window());
-        integrate_cell(body, L, quadrature, kernel, at(rows, L));
-      },
-      4);
+      n, [&](Index L) { integrate_cell(body, L, at(rows, L)); }, 4);
 
   CellOperator<D> op;
   CellRule<D>& rule = op.rule;
@@ -171,7 +197,7 @@ CellOperator<D> build_cell_rule(const Body<D>& body) {
     for (std::size_t k = 0; k < row.candidates.size(); ++k) {
       rule.particle.push_back(row.candidates[k].particle);
       for (const Lanes& g : row.gradient[k]) rule.coefficient.push_back(g);
-      at(op.shape_integral, row.candidates[k].particle) += row.integral[k];
+      at(op.shape_integral, row.candidates[k].particle) += row.integral[k].value;
     }
     rule.start.push_back(static_cast<Offset>(rule.particle.size()));
     rule.volume.push_back(body.cells.volume(L));
@@ -196,7 +222,9 @@ PointRule<D> build_nodal_rule(const Body<D>& body) {
 
 template <int D>
 std::vector<Real> shape_integrals(const Body<D>& body) {
-  const auto points = cell_gauss_points(body.geometry.grid, 3);
+  // First moments are exact: X det J has degree 2 D + 1 per direction in curved cells.
+  const auto points =
+      cell_gauss_points(body.geometry.grid, body.geometry.grid.bulges.empty() ? 3 : D + 1);
   const auto rows = build_point_rows<D>(body.particles, points.X, {.value = true}, body.name);
   std::vector<Real> integral(static_cast<std::size_t>(body.size()), 0.0);
   for (Index q = 0; q < rows.size(); ++q)

@@ -103,6 +103,12 @@ SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k) {
 }
 
 template <int D>
+Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const Vec<D - 1>& xi) {
+  const auto& patch = at(geometry.patches, facet.patch);
+  return geometry.map(patch.project(blended(geometry, facet, xi).X).X).x;
+}
+
+template <int D>
 void carry(SurfacePoints<D>& points, const SmoothMap<D>& map) {
   for (Index q = 0; q < points.size(); ++q) {
     const MapPoint<D> m = map(at(points.X, q));
@@ -120,9 +126,10 @@ void carry(SurfacePoints<D>& points, const SmoothMap<D>& map) {
   }
 }
 
-#define MENISCUS_INSTANTIATE(D)                                      \
-  template SurfacePoints<D> surface_points(const Geometry<D>&, int); \
-  template SurfacePoints<D> facet_points(const Grid<D>&, int);       \
+#define MENISCUS_INSTANTIATE(D)                                                          \
+  template SurfacePoints<D> surface_points(const Geometry<D>&, int);                     \
+  template Vec<D> surface_point(const Geometry<D>&, const Facet<D>&, const Vec<D - 1>&); \
+  template SurfacePoints<D> facet_points(const Grid<D>&, int);                           \
   template void carry(SurfacePoints<D>&, const SmoothMap<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

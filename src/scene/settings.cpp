@@ -49,7 +49,8 @@ Rows<TimeSettings> TimeSettings::rows() {
       real_row("safety", &S::safety, dimension::none, {0, 1, true, false},
                "automatic step as a fraction of the stable step", 0.9),
       integer_row("check_every", &S::check_every, {1, 1e9},
-                  "steps between two estimates of the stable step", 250),
+                  "most steps between two estimates of the stable step; fewer while it changes",
+                  250),
   };
 }
 

@@ -7,15 +7,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meniscus {
+namespace {
+
+// Steps to the first new estimate, when nothing is known yet of how fast the limit changes, and the
+// fewest between later ones: an estimate costs about as much as ten steps.
+constexpr Real shortest_interval = 5;
+
+}  // namespace
 
 template <int D>
 void StepController<D>::begin(const State& state) {
   stable_ = estimator_.estimate(state);
   first_limit_ = stable_.dt;
-  next_check_ = state.step + choice_.check_every;
+  interval_ = shortest_interval;
+  plan_next_check(state);
   choose_step();
+}
+
+template <int D>
+void StepController<D>::plan_next_check(const State& state) {
+  interval_ =
+      std::min(std::max(interval_, shortest_interval), static_cast<Real>(choice_.check_every));
+  next_check_ = state.step + static_cast<std::int64_t>(interval_);
 }
 
 template <int D>
@@ -30,8 +46,13 @@ void StepController<D>::choose_step() {
 
 template <int D>
 void StepController<D>::reconsider(const State& state) {
+  const Real before = stable_.dt;
   stable_ = estimator_.estimate(state);
-  next_check_ = state.step + choice_.check_every;
+  // So long that the limit changes by 2 % between estimates, and at most 1.5 times as long as
+  // before.
+  constexpr Real tolerated = 0.02, slowest = tolerated / 1.5;
+  interval_ *= tolerated / std::max(slowest, std::abs(std::log(stable_.dt / before)));
+  plan_next_check(state);
   if (stable_.dt < 1e-6 * first_limit_)
     throw SolveError(fmt::format("the stable time step has collapsed from {:.3g} to {:.3g}",
                                  first_limit_, stable_.dt));
@@ -68,7 +89,8 @@ void StepController<D>::save(Snapshot& snapshot) const {
                           stable_.stiffness,
                           stable_.viscosity,
                           choice_.fixed.value_or(0),
-                          choice_.safety};
+                          choice_.safety,
+                          interval_};
   snapshot.add_reals("step_control/numbers", numbers);
   const std::int64_t warned = warned_;
   snapshot.add_integers("step_control/next_check", {&next_check_, 1});
@@ -80,11 +102,12 @@ void StepController<D>::restore(const Snapshot& snapshot) {
   NodalVectors mode(estimator_.mode().size());
   snapshot.copy_to("step_control/mode", {reinterpret_cast<Real*>(mode.data()), 4 * mode.size()});
   estimator_.set_mode(std::move(mode));
-  Real numbers[7];
+  Real numbers[8];
   snapshot.copy_to("step_control/numbers", numbers);
   step_ = numbers[0];
   first_limit_ = numbers[1];
   stable_ = {numbers[2], numbers[3], numbers[4], 0};
+  interval_ = numbers[7];
   next_check_ = snapshot.integer("step_control/next_check");
   warned_ = snapshot.integer("step_control/warned") != 0;
   if (choice_.fixed.value_or(0) != numbers[5] || choice_.safety != numbers[6]) choose_step();

@@ -107,10 +107,12 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
       }
     });
   }
-  if (!(best.dt > 0) || !std::isfinite(best.dt))
+  if (!(best.dt > 0) || !std::isfinite(best.dt)) {
+    system_.compute_forces(state.motion(), base_);  // names the place if a cell is folded
     throw SolveError(
         "no stable time step can be found: the forces at the current state do not make "
         "sense (are all moduli positive and all cells unfolded?)");
+  }
   return best;
 }
 

@@ -60,7 +60,7 @@ Settings read_settings(const StudyRun& study) {
     if (!is_file(map)) map = block.choice("map", known, {});
   }
   settings.jitter = block.real("jitter", dimension::none, {0, 0.5, false, true}, 0.0);
-  study.settings_read();
+  study.finish_settings();
 
   if (is_shape<3>(shape)) require_curvature(shape, reference_body<3>(shape, 2));
   if (is_shape<2>(shape)) require_curvature(shape, reference_body<2>(shape, 2));

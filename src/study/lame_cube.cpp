@@ -16,7 +16,7 @@ constexpr Real young = 1, poisson = 0.3, amplitude = 1e-5;
 constexpr Real mu = young / (2 * (1 + poisson));
 constexpr Real lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
 const Real omega = std::numbers::pi * std::sqrt(2 * mu);
-const Real period = 2 * std::numbers::pi / omega;
+const Real duration = 2 * (2 * std::numbers::pi / omega);  // two periods
 
 /// A scene whose exact solution is u = A sin(w t) (cos pi x sin pi y, -sin pi x cos pi y, 0).
 std::string scene_text(int cells, const std::string& body_keys) {
@@ -44,12 +44,12 @@ displacement = {6}
 velocity = {7}
 rate = {8:.17g}
 )toml",
-                     period, cells, mode(amplitude * omega, "1"), mu, lambda, body_keys,
+                     duration, cells, mode(amplitude * omega, "1"), mu, lambda, body_keys,
                      mode(amplitude, fmt::format("sin({:.17g}*t)", omega)),
                      mode(amplitude * omega, fmt::format("cos({:.17g}*t)", omega)), omega);
 }
 
-/// Keys of the body, and the largest step as a part of the stable one.
+/// `keys`: further keys of the body.
 struct Method {
   std::string name, keys;
 };
@@ -81,7 +81,7 @@ Measurement measure(const Method& method, int cells) {
 }
 
 void run(StudyRun& study) {
-  study.settings_read();
+  study.finish_settings();
   std::vector<Method> methods{{"q_scni", ""},
                               {"gauss 2", "integration = \"gauss\"\ngauss_points = 2"}};
   if (!study.brief()) {
@@ -98,7 +98,7 @@ void run(StudyRun& study) {
 
 const bool registered =
     register_study({"lame_cube",
-                    "elastodynamics: state error of a free cube after one period of its Lame mode",
+                    "elastodynamics: state error of a free cube after two periods of its Lame mode",
                     "cells per edge",
                     {4, 6, 8, 12, 16},
                     {4, 6, 8},

@@ -37,6 +37,11 @@ Real Measurement::error(std::string_view name) const {
   throw std::out_of_range(fmt::format("there is no error '{}' of '{}'", name, method));
 }
 
+void StudyRun::finish_settings() const {
+  settings().done();
+  settings_.check();
+}
+
 void StudyRun::record(Measurement measurement) {
   measurements_.push_back(std::move(measurement));
   listener_(*this);

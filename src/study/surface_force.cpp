@@ -140,7 +140,7 @@ void require_laws(StudyRun& study) {
 
 void run(StudyRun& study) {
   const Real factor = study.settings().real("support", dimension::none, {1.5, 3}, 2.0);
-  study.settings_read();
+  study.finish_settings();
   std::vector<std::pair<int, Cases>> resolutions;
   for (const int level : study.levels()) resolutions.emplace_back(level, make_cases(level, factor));
   for (const Form& form : forms(study.brief()))

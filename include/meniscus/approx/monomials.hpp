@@ -54,6 +54,13 @@ struct Monomials {
     }
   }
 
+  /// The first of the monomials whose `factor` is n; they follow each other. 0 if there is none.
+  constexpr int first_multiple(int n) const {
+    for (int k = 1; k < size; ++k)
+      if (factor[static_cast<std::size_t>(k)] == n) return k;
+    return 0;
+  }
+
   /// Number of the monomial with these exponents; -1 if there is none.
   constexpr int find(const std::array<int, D>& e) const {
     for (int k = 0; k < size; ++k)
@@ -61,6 +68,21 @@ struct Monomials {
     return -1;
   }
 };
+
+/// multiple[a][i]: number, among the monomials up to Degree + 1, of a times variable i.
+template <int D, int Degree>
+constexpr auto monomial_multiples() {
+  constexpr Monomials<D, Degree> basis;
+  constexpr Monomials<D, Degree + 1> above;
+  std::array<std::array<int, D>, static_cast<std::size_t>(basis.size)> multiple{};
+  for (std::size_t a = 0; a < multiple.size(); ++a)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i) {
+      std::array<int, D> e = basis.exponent[a];
+      ++e[i];
+      multiple[a][i] = above.find(e);
+    }
+  return multiple;
+}
 
 /// product[a][b]: number, among the monomials up to 2 Degree, of the product of a and b.
 template <int D, int Degree>

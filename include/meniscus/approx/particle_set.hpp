@@ -32,6 +32,8 @@ class ParticleSet {
 
   /// All particles whose support reaches into the ball around `centre`, by ascending number.
   void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
+  /// All particles whose support reaches one of the points, by ascending number.
+  void candidates(const std::array<Vec<D>, 4>& points, std::vector<Candidate<D>>& found) const;
 
   /// Deficiency monitor (RKPM note 2.4) at `points`: where the moment matrix is poor, the supports
   /// of the particles around are enlarged in steps of 10 % until it is not, at most to 2.6 times
@@ -50,6 +52,8 @@ class ParticleSet {
   static constexpr Real poor_quality = 1e-2;
 
  private:
+  template <class Keep>
+  void find(const Vec<D>& centre, Real radius, Keep&& keep, std::vector<Candidate<D>>& found) const;
   [[noreturn]] void refuse(Real quality, const Vec<D>& x, const std::string& body) const;
 
   std::vector<Vec<D>> X_;
@@ -59,7 +63,7 @@ class ParticleSet {
   NeighborSearch<D> search_;
 };
 
-/// The candidates that may reach one of the four points, and their numbers in `candidates`.
+/// The candidates whose support reaches one of the four points, and their numbers in `candidates`.
 template <int D>
 void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
                  std::vector<Candidate<D>>& near, std::vector<std::size_t>& number);

@@ -58,23 +58,28 @@ class ReproducingKernel {
 
  private:
   using BasisVector = std::array<Lanes, static_cast<std::size_t>(basis_size)>;
+  /// With s = (x_A - x) / H: H Phi,i = -a s_i, H^2 Phi,ij = a delta_ij + b s_i s_j.
   struct Kernel {
-    std::array<Lanes, D> s;  // (x_A - x) / H
-    Lanes phi;
-    std::array<Lanes, D> phi_i;
-    std::array<Lanes, hessian_count(D)> phi_ij;
+    std::array<Lanes, D> s;
+    Lanes phi, a, b;
   };
 
   template <class W>
   void evaluate_windows(const std::array<Vec<D>, 4>& points,
-                        std::span<const Candidate<D>> candidates, Derivatives order,
-                        Real inverse_H);
+                        std::span<const Candidate<D>> candidates, Derivatives order, Real H);
+  template <Derivatives order>
+  void evaluate_order(const std::array<Vec<D>, 4>& points,
+                      std::span<const Candidate<D>> candidates);
+  void sum_moments();
   void factorise_moments();
   BasisVector solve(const BasisVector& right_hand_side) const;
-  static BasisVector basis(const std::array<Lanes, D>& s);
+  /// Right-hand sides of H c,i and of H^2 c,ij.
+  std::array<BasisVector, D> first_right_hand_sides(const BasisVector& c) const;
+  std::array<BasisVector, static_cast<std::size_t>(hessian_count(D))> second_right_hand_sides(
+      const BasisVector& c, const std::array<BasisVector, D>& c_i) const;
 
   Window window_;
-  std::vector<Kernel> kernel_;
+  std::vector<Kernel> kernel_;  // [candidate], one more if their number is odd
   std::vector<Lanes> value_, gradient_, hessian_;
   std::array<Lanes, static_cast<std::size_t>(basis_size* basis_size)> factor_;
   BasisVector scale_, inverse_pivot_;

@@ -154,12 +154,14 @@ struct PointRule {
   [[gnu::always_inline]] void scatter(Index group, const Tensor<Lanes>& P, Lanes* force) const {
     std::array<Lanes, 4> column[D];
     for (int K = 0; K < D; ++K) column[K] = detail::by_lane(P(0, K), P(1, K), P(2, K));
+    const std::ptrdiff_t ahead = distance_to_next(group);
     for (int lane = 0; lane < count(group); ++lane) {
       const Index q = group * per_group + lane;
       const Real* g = rows.gradient.data() + at(rows.start, q) * D;
       const Index* A = rows.particle.data() + at(rows.start, q);
       const Index* const end = rows.particle.data() + at(rows.start, q + 1);
       for (; A != end; ++A, g += D) {
+        _mm_prefetch(reinterpret_cast<const char*>(g + ahead), _MM_HINT_T0);
         Lanes f = at(column[0], lane) * g[0];
         for (int K = 1; K < D; ++K) f += at(column[K], lane) * g[K];
         force[*A] += f;
@@ -180,6 +182,12 @@ struct PointRule {
   }
 
  private:
+  // Gradients are read once from memory and again from cache: while they are read again, those of
+  // the next group are fetched.
+  std::ptrdiff_t distance_to_next(Index group) const {
+    const Index first = group * per_group;
+    return (at(rows.start, first + count(group)) - at(rows.start, first)) * D;
+  }
   int count(Index group) const { return std::min(per_group, rows.size() - group * per_group); }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/core/types.hpp"
 
+#include <array>
 #include <vector>
 
 namespace meniscus {
@@ -21,23 +22,34 @@ struct TensorRule {
   std::vector<Real> w;
 };
 
+/// k[d] points in direction d.
 template <int P>
-TensorRule<P> tensor_rule(int k) {
-  const GaussRule line = gauss_rule(k);
+TensorRule<P> tensor_rule(const std::array<int, P>& k) {
+  std::array<GaussRule, P> lines;
   int count = 1;
-  for (int d = 0; d < P; ++d) count *= k;
+  for (int d = 0; d < P; ++d) {
+    at(lines, d) = gauss_rule(at(k, d));
+    count *= at(k, d);
+  }
   TensorRule<P> rule;
   for (int q = 0; q < count; ++q) {
     Vec<P> x;
     Real w = 1;
-    for (int d = 0, rest = q; d < P; ++d, rest /= k) {
-      x[d] = at(line.x, rest % k);
-      w *= at(line.w, rest % k);
+    for (int d = 0, rest = q; d < P; rest /= at(k, d++)) {
+      x[d] = at(at(lines, d).x, rest % at(k, d));
+      w *= at(at(lines, d).w, rest % at(k, d));
     }
     rule.x.push_back(x);
     rule.w.push_back(w);
   }
   return rule;
+}
+
+template <int P>
+TensorRule<P> tensor_rule(int k) {
+  std::array<int, P> each;
+  each.fill(k);
+  return tensor_rule<P>(each);
 }
 
 }  // namespace meniscus

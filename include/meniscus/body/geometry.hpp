@@ -36,13 +36,19 @@ struct SurfacePatch {
 /// A body in its reference state: grid, and surface = map(patches of a unit shape).
 template <int D>
 struct Geometry {
-  Grid<D> grid;                          ///< boundary found, patches assigned
+  Grid<D> grid;                          ///< boundary found and curved, patches assigned
   std::vector<Vec<D>> unit_X;            ///< node positions before the map (boundary nodes: exact)
   std::vector<SurfacePatch<D>> patches;  ///< surface of the unit shape
   SmoothMap<D> map;                      ///< unit shape -> body
   /// No edges or corners: the normal is continuous (the curvature form of tension needs it).
   bool smooth = false;
 };
+
+/// Sets the bulges of the grid: edges and facets of the boundary become quadratic and meet the
+/// exact surface in their middles, those between two patches on both. Cells that share only an edge
+/// with the boundary follow it. What deviates by less than 1e-9 of its length is straight.
+template <int D>
+void curve_boundary(Geometry<D>& geometry);
 
 /// The body map(unit shape). `unit` needs X and cells only.
 /// Throws InputError if a boundary facet lies on none of the patches or a mapped cell folds.

@@ -2,6 +2,7 @@
 // Curvilinear grids of hexahedra (2D: quadrilaterals): where the particles of a body come from, and
 // the cells over which it is integrated.
 #pragma once
+#include "meniscus/body/bulge.hpp"
 #include "meniscus/core/types.hpp"
 
 #include <array>
@@ -44,6 +45,9 @@ struct Grid {
   std::vector<Vec<D>> X;
   std::vector<Cell> cells;
   std::vector<Facet<D>> facets;  ///< the boundary; find_boundary() fills it
+  /// Of the cells at a curved surface; curve_boundary() fills them. Both empty in a straight body.
+  std::vector<Bulge<D>> bulges;
+  std::vector<Index> bulge_of;  ///< [cell] number of its bulge; -1: none
 
   Index node_count() const { return static_cast<Index>(X.size()); }
   Index cell_count() const { return static_cast<Index>(cells.size()); }
@@ -51,6 +55,11 @@ struct Grid {
     std::array<Vec<D>, corners> points;
     for (int a = 0; a < corners; ++a) at(points, a) = at(X, at(cell, a));
     return points;
+  }
+  /// Null for a straight cell.
+  const Bulge<D>* bulge(Index cell) const {
+    if (bulge_of.empty() || at(bulge_of, cell) < 0) return nullptr;
+    return &at(bulges, at(bulge_of, cell));
   }
 };
 
@@ -85,6 +94,19 @@ CellPoint<D, P> multilinear(const std::array<Vec<D>, (1 << P)>& corners, const V
   return point;
 }
 
+/// The map of a cell: multilinear, and its bulge if it has one.
+template <int D>
+CellPoint<D, D> cell_point(const std::array<Vec<D>, (1 << D)>& corners, const Bulge<D>* bulge,
+                           const Vec<D>& xi) {
+  CellPoint<D, D> point = multilinear<D, D>(corners, xi);
+  if (bulge) {
+    const BulgeFunctions<D> functions(xi);
+    point.X += bulge->deviation * functions.N;
+    point.J += bulge->deviation * functions.dN;
+  }
+  return point;
+}
+
 /// Throws InputError if a grid of so many cells cannot be numbered (2e8; a few hundred GB).
 void require_countable(Real cells);
 
@@ -94,7 +116,7 @@ template <int D>
 void find_boundary(Grid<D>& grid);
 
 /// A place of the cell where det J <= 0, if there is one. Looks at the 3^D points {-1, 0, 1}^D (in
-/// 2D this proves det J > 0 everywhere).
+/// straight 2D cells this proves det J > 0 everywhere).
 template <int D>
 std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell);
 
@@ -120,7 +142,7 @@ struct NodeCells {
 template <int D>
 NodeCells cells_of_nodes(const Grid<D>& grid);
 
-/// Volume (2D: area) enclosed by the cells, exact for their multilinear maps.
+/// Volume (2D: area) enclosed by the cells, exact for their maps.
 template <int D>
 Real volume(const Grid<D>& grid);
 
@@ -135,8 +157,8 @@ std::vector<std::array<Index, D>> triangulate_boundary(const Grid<D>& grid);
 
 /// Moves the interior nodes one after the other, each coordinate by a number uniform in +-
 /// `fraction` times the shortest cell edge at that node; a move that would fold a cell is drawn
-/// again. Boundary nodes stay. The same seed gives the same grid on every machine. Throws
-/// InputError if a node finds no place in 100 draws or `fraction` is negative.
+/// again. Boundary nodes and bulges stay. The same seed gives the same grid on every machine.
+/// Throws InputError if a node finds no place in 100 draws or `fraction` is negative.
 template <int D>
 void jitter_interior(Grid<D>& grid, Real fraction, std::uint64_t seed);
 

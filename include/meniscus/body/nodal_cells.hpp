@@ -10,13 +10,15 @@
 
 namespace meniscus {
 
-/// Quadrature of one nodal cell and of its closed boundary; exact for what trilinear cells and
-/// quadratic polynomials give. Reused from node to node: buffers keep their memory.
+/// Quadrature of one nodal cell and of its closed boundary; exact for what cell maps and
+/// quadratic polynomials give. An octant has 3 points per direction, D + 2 in the directions in
+/// which its cell is curved; its facets likewise. Reused from node to node: buffers keep their
+/// memory.
 template <int D>
 struct CellQuadrature {
-  std::vector<Vec<D>> volume_X;  ///< 3^D points per octant
+  std::vector<Vec<D>> volume_X;
   std::vector<Real> volume_w;    ///< weights; sum = volume of the nodal cell
-  std::vector<Vec<D>> facet_X;   ///< 3^(D-1) points per octant facet on the cell boundary
+  std::vector<Vec<D>> facet_X;   ///< points of the octant facets on the cell boundary
   std::vector<Vec<D>> facet_dA;  ///< outward normal times weight; sum = 0
   /// Points [0, body_facets_begin) lie between two nodal cells, the others on the body's boundary.
   /// Of the former, the neighbouring nodal cell has the same points, with dA of opposite sign, bit

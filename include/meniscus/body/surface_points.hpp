@@ -28,7 +28,13 @@ struct SurfacePoints {
 template <int D>
 SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k);
 
-/// The same on the multilinear facets themselves, for grids without an exact surface.
+/// The point of the exact surface at xi in [-1, 1]^(D-1) of a facet: where surface_points() puts a
+/// Gauss point xi. On an edge between two patches it lies on both.
+template <int D>
+Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const Vec<D - 1>& xi);
+
+/// The same as surface_points() on the multilinear facets themselves, for grids without an exact
+/// surface.
 template <int D>
 SurfacePoints<D> facet_points(const Grid<D>& grid, int k);
 

@@ -13,7 +13,7 @@ struct TimeSettings {
   std::optional<Real> step;  ///< given: checked against the stable step; else chosen
   std::string step_place;    ///< where the scene gives it, to begin messages with
   Real safety = 0.9;
-  int check_every = 0;  ///< steps between new estimates of the stable step
+  int check_every = 0;  ///< most steps between estimates of the stable step
   static Rows<TimeSettings> rows();
 };
 

@@ -14,7 +14,7 @@ class StepController {
   struct Choice {
     std::optional<Real> fixed;  ///< step asked for
     Real safety = 0.9;          ///< else this fraction of the stable step
-    int check_every = 250;      ///< steps between estimates
+    int check_every = 100;      ///< most steps between estimates
     std::string place = {};     ///< of the fixed step in the scene, to begin a message with
   };
 
@@ -39,11 +39,13 @@ class StepController {
  private:
   void choose_step();
   void reconsider(const State& state);
+  void plan_next_check(const State& state);
 
   StableStepEstimator<D> estimator_;
   Choice choice_;
   StableStep stable_;
   Real step_ = 0, first_limit_ = 0;
+  Real interval_ = 0;  ///< steps from one estimate to the next
   std::int64_t next_check_ = 0;
   bool warned_ = false;
   std::optional<std::string> warning_;

@@ -28,6 +28,8 @@ struct Measurement {
   double time = 0;        ///< wall time of what the method does, s
   std::size_t bytes = 0;  ///< held by the method
 
+  std::string remark = {};  ///< e.g. the cause of a failure
+
   /// Throws std::out_of_range if there is none of this name.
   Real error(std::string_view name) const;
 };
@@ -55,13 +57,10 @@ class StudyRun {
   const std::vector<int>& levels() const { return levels_; }
   /// The short form, seconds altogether: studies drop methods, not only levels.
   bool brief() const { return brief_; }
-  /// Keys given by --set; a study reads them before it measures, and then calls settings_read().
+  /// Keys given by --set; a study reads them before it measures.
   const Block& settings() const { return settings_.root(); }
-  /// Throws InputError with every problem of the settings, unknown keys among them.
-  void settings_read() const {
-    settings().done();
-    settings_.check();
-  }
+  /// Throws InputError if a setting was refused, or was not asked for. Call before measuring.
+  void finish_settings() const;
 
   void record(Measurement measurement);
   /// Notes whether `value` is `allowed`; a missed one decides the exit code.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run should be doubted for, looked at whenever a row of the history is written.
+#pragma once
+#include "meniscus/io/run_log.hpp"
+#include "meniscus/scene/simulation.hpp"
+
+#include <set>
+#include <string>
+
+namespace meniscus {
+
+/// Says each kind of warning once per run.
+template <int D>
+class Warnings {
+ public:
+  Warnings(const Simulation<D>& simulation, RunLog& log);
+
+  /// `ledger` of now.
+  void look(const Ledger& ledger);
+
+ private:
+  /// States that a material law should not be trusted in.
+  void doubtful_laws();
+  /// Energy that appears or disappears, which no exact solution does.
+  void imbalance(const Ledger& ledger);
+  /// A surface smaller than that of the ball (2D: disk) of the same volume, which cannot be: its
+  /// quadrature no longer resolves the folds that surface tension pulls into it.
+  void impossible_areas();
+
+  struct Enclosure {
+    std::string body;
+    const MeasureSource *area, *volume;
+  };
+
+  const Simulation<D>& simulation_;
+  RunLog& log_;
+  std::vector<Enclosure> enclosures_;  ///< bodies under surface tension
+  std::set<std::string> said_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Doubtful states of a run.
+#include "meniscus/app/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meniscus {
+namespace {
+
+const MeasureSource* find_measure(const std::vector<MeasureSource>& measures,
+                                  const std::string& name) {
+  const auto found = std::find_if(measures.begin(), measures.end(),
+                                  [&](const MeasureSource& m) { return m.name == name; });
+  return found == measures.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+template <int D>
+Warnings<D>::Warnings(const Simulation<D>& simulation, RunLog& log)
+    : simulation_(simulation), log_(log) {
+  const Scene<D>& scene = simulation.scene();
+  for (const Body<D>& body : scene.system.bodies) {
+    const MeasureSource* area = find_measure(scene.measures, body.name + ".area");
+    const MeasureSource* volume = find_measure(scene.measures, body.name + ".volume");
+    if (area && volume) enclosures_.push_back({body.name, area, volume});
+  }
+}
+
+template <int D>
+void Warnings<D>::look(const Ledger& ledger) {
+  doubtful_laws();
+  imbalance(ledger);
+  impossible_areas();
+}
+
+template <int D>
+void Warnings<D>::doubtful_laws() {
+  for (const auto& term : simulation_.scene().system.terms) {
+    if (said_.contains(term->name())) continue;
+    if (const auto warning = term->warning(simulation_.state().motion())) {
+      log_.warning(fmt::format("t = {:.6g}: {}", simulation_.state().time, *warning));
+      said_.insert(term->name());
+    }
+  }
+}
+
+template <int D>
+void Warnings<D>::imbalance(const Ledger& ledger) {
+  constexpr Real bearable = 0.2;
+  const Real error = simulation_.audit().balance_error(ledger);
+  if (std::abs(error) < bearable || !said_.insert("energy balance").second) return;
+  log_.warning(fmt::format(
+      "t = {:.6g}: the energy balance is off by {:.0f} % of the energy exchanged so far; the step "
+      "is too long (lower time.safety) or the motion is not resolved by the particles",
+      simulation_.state().time, 100 * error));
+}
+
+template <int D>
+void Warnings<D>::impossible_areas() {
+  constexpr Real bearable = 0.02;
+  const Motion motion = simulation_.state().motion();
+  for (const Enclosure& e : enclosures_) {
+    const std::string kind = "area of " + e.body;
+    if (said_.contains(kind)) continue;
+    const Real area = e.area->compute(motion), volume = e.volume->compute(motion);
+    const Real least = D == 3 ? std::cbrt(36 * std::numbers::pi * volume * volume)
+                              : std::sqrt(4 * std::numbers::pi * volume);
+    if (area > (1 - bearable) * least) continue;
+    said_.insert(kind);
+    log_.warning(fmt::format(
+        "t = {:.6g}: body '{}' has the {} {:.4g}, below the least possible {:.4g} for its {}: the "
+        "surface is no longer resolved (finer particles, a larger support_factor, or a reference "
+        "shape nearer to the present one)",
+        simulation_.state().time, e.body, D == 3 ? "surface area" : "circumference", area, least,
+        D == 3 ? "volume" : "area"));
+  }
+}
+
+template class Warnings<2>;
+template class Warnings<3>;
+
+}  // namespace meniscus

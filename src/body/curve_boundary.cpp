@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far the exact surface lies from the middles of boundary edges and facets.
+#include "meniscus/body/surface_points.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <utility>
+
+namespace meniscus {
+
+namespace {
+
+using EdgeNodes = std::pair<Index, Index>;  // ascending
+
+template <int D>
+using EdgeDeviations = std::map<EdgeNodes, Vec<D>>;
+
+EdgeNodes edge_nodes(Index a, Index b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// An edge of the reference facet: its ends and its middle. In 2D it is the facet.
+template <int D>
+struct FacetEdge {
+  std::array<int, 2> corners{0, 1};
+  Vec<D - 1> middle = Vec<D - 1>::Zero();
+};
+
+template <int D>
+std::vector<FacetEdge<D>> facet_edges() {
+  if constexpr (D == 2) {
+    return {FacetEdge<2>{}};
+  } else {
+    std::vector<FacetEdge<3>> edges;
+    for (int across = 0; across < 2; ++across)
+      for (int upper = 0; upper < 2; ++upper) {
+        const int corner = upper << across;
+        edges.push_back({{corner, corner | (1 << (1 - across))},
+                         corner_sign(corner, across) * Vec<2>::Unit(across)});
+      }
+    return edges;
+  }
+}
+
+bool is_rounding(Real deviation, Real length) {
+  return deviation < 1e-9 * length;
+}
+
+/// Exact middles minus straight ones of the boundary edges that are curved.
+template <int D>
+EdgeDeviations<D> edge_deviations(const Geometry<D>& geometry) {
+  EdgeDeviations<D> deviations;
+  const auto edges = facet_edges<D>();
+  for (const auto& facet : geometry.grid.facets)
+    for (const auto& edge : edges) {
+      const Index a = at(facet.nodes, edge.corners[0]), b = at(facet.nodes, edge.corners[1]);
+      const auto [place, is_new] = deviations.try_emplace(edge_nodes(a, b), Vec<D>::Zero());
+      if (!is_new) continue;
+      const Vec<D>&A = at(geometry.grid.X, a), &B = at(geometry.grid.X, b);
+      place->second = surface_point(geometry, facet, edge.middle) - 0.5 * (A + B);
+    }
+  std::erase_if(deviations, [&](const auto& edge) {
+    const auto& [nodes, deviation] = edge;
+    const Vec<D> line = at(geometry.grid.X, nodes.first) - at(geometry.grid.X, nodes.second);
+    return is_rounding(deviation.norm(), line.norm());
+  });
+  return deviations;
+}
+
+template <int D>
+Bulge<D> bulge_of_edges(const typename Grid<D>::Cell& cell, const EdgeDeviations<D>& deviations,
+                        const std::vector<char>& at_curved_edge) {
+  Bulge<D> bulge;
+  for (int m = 0; m < Bulge<D>::mode_count; ++m) {
+    const auto [along, upper] = at(Bulge<D>::modes, m);
+    if (std::popcount(along) != 1) continue;
+    const Index a = at(cell, upper), b = at(cell, upper | along);
+    if (!at(at_curved_edge, a) || !at(at_curved_edge, b)) continue;
+    const auto found = deviations.find(edge_nodes(a, b));
+    if (found != deviations.end()) bulge.add(m, found->second);
+  }
+  return bulge;
+}
+
+/// Adds the exact centre of a facet minus that of the cell with curved edges.
+void add_facet(const Geometry<3>& geometry, const Facet<3>& facet, Bulge<3>& bulge) {
+  const int k = facet.side / 2;
+  const BulgeMode wanted{7u & ~(1u << k), unsigned(facet.side % 2) << k};
+  const auto& modes = Bulge<3>::modes;
+  const auto mode = std::find_if(modes.begin(), modes.end(), [&](const BulgeMode& m) {
+    return m.along == wanted.along && m.upper == wanted.upper;
+  });
+  const auto corners = geometry.grid.corner_points(at(geometry.grid.cells, facet.cell));
+  const Vec<3> centre = (facet.side % 2 ? 1 : -1) * Vec<3>::Unit(k);
+  const Vec<3> deviation =
+      surface_point<3>(geometry, facet, Vec<2>::Zero()) - cell_point<3>(corners, &bulge, centre).X;
+  const Vec<3> diagonal = at(geometry.grid.X, facet.nodes[3]) - at(geometry.grid.X, facet.nodes[0]);
+  if (!is_rounding(deviation.norm(), diagonal.norm()))
+    bulge.add(static_cast<int>(mode - modes.begin()), deviation);
+}
+
+}  // namespace
+
+template <int D>
+void curve_boundary(Geometry<D>& geometry) {
+  Grid<D>& grid = geometry.grid;
+  grid.bulges.clear();
+  const EdgeDeviations<D> deviations = edge_deviations(geometry);
+  std::vector<char> at_curved_edge(grid.X.size(), 0);
+  for (const auto& [nodes, deviation] : deviations)
+    at(at_curved_edge, nodes.first) = at(at_curved_edge, nodes.second) = 1;
+
+  grid.bulge_of.assign(grid.cells.size(), -1);
+  auto facet = grid.facets.begin();  // facets are ordered by cell
+  for (Index e = 0; e < grid.cell_count(); ++e) {
+    Bulge<D> bulge = bulge_of_edges<D>(at(grid.cells, e), deviations, at_curved_edge);
+    for (; facet != grid.facets.end() && facet->cell == e; ++facet)
+      if constexpr (D == 3) add_facet(geometry, *facet, bulge);
+    if (!bulge.curved) continue;
+    at(grid.bulge_of, e) = static_cast<Index>(grid.bulges.size());
+    grid.bulges.push_back(bulge);
+  }
+  if (grid.bulges.empty()) grid.bulge_of.clear();
+}
+
+template void curve_boundary(Geometry<2>&);
+template void curve_boundary(Geometry<3>&);
+
+}  // namespace meniscus
