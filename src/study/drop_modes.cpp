@@ -172,8 +172,14 @@ void run(StudyRun& study) {
     for (const int l : {2, 3})
       for (const Real Oh : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0}) cases.push_back({l, Oh});
   }
-  for (const Case& mode : cases)
+  for (const Case& mode : cases) {
     for (const int core : study.levels()) study.record(measure(mode, core, bulk_modulus));
+    const Measurement& finest = study.measurements().back();
+    if (finest.level >= 6)
+      study.require(finest.method + ": error of the rate, " + std::to_string(finest.level) +
+                        " cells per edge of the core",
+                    finest.error("rate"), {0, 0.02});
+  }
 }
 
 const bool registered =

@@ -1,0 +1,53 @@
+#!/usr/bin/python3
+"""verification_table.py DIR...: one Markdown table of the studies in these directories.
+
+Of each method the finest level: its first error, the observed order against the level before, wall
+time (set-up + method) and memory; below, how many checks of each study are met.
+"""
+
+import json
+import pathlib
+import sys
+
+
+def finest(measurements):
+    """The last measurement of each method, in order of appearance."""
+    return {m["method"]: m for m in measurements if m["errors"]}.values()
+
+
+def row(study, m):
+    name, error = next(iter(m["errors"].items()))
+    order = m["orders"].get(name)
+    cells = [
+        study,
+        m["method"],
+        str(m["particles"]),
+        f"{name} {error:.2g}" if error is not None else f"{name} -",
+        f"{order:.1f}" if order is not None else "",
+        f"{m['set_up']:.2g} + {m['time']:.2g}",
+        f"{1e-6 * m['bytes']:.3g}",
+    ]
+    return "| " + " | ".join(cells) + " |"
+
+
+def main():
+    studies = []
+    for folder in map(pathlib.Path, sys.argv[1:]):
+        if (folder / "study.json").is_file():
+            studies.append(json.loads((folder / "study.json").read_text()))
+    print("| study | method | particles | error | order | time (s) | MB |")
+    print("|---|---|---|---|---|---|---|")
+    for study in studies:
+        for m in finest(study["measurements"]):
+            print(row(study["study"], m))
+    print()
+    for study in studies:
+        met = sum(check["met"] for check in study["checks"])
+        print(f"{study['study']}: {met} of {len(study['checks'])} checks met")
+        for check in study["checks"]:
+            if not check["met"]:
+                print(f"  MISSED: {check['what']}: {check['value']}, asked {check['allowed']}")
+
+
+if __name__ == "__main__":
+    main()
