@@ -151,7 +151,8 @@ void run(StudyRun& study) {
 
 const bool registered =
     register_study({"surface_force",
-                    "forms of surface tension: nodal force, work, balance, Young-Laplace, cost",
+                    "forms of surface tension: nodal force, work, balance, Young-Laplace, cost; "
+                    "--set support=NUMBER (of d_20)",
                     "cells per edge of the core of the ball",
                     {6, 10, 14, 20},
                     {4, 6},
