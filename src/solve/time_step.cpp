@@ -65,13 +65,14 @@ template <int D>
 StableStep StableStepEstimator<D>::estimate(const State& state) {
   constexpr int most_iterations = 300;
   constexpr int settled_for = 4;
-  constexpr Real tolerance = 1e-3;
+  constexpr Real tolerance = 2e-3;
 
   base_.resize(mode_.size());
   system_.add_up(state.motion(), base_);
   const bool viscous = system_.viscous();
   StableStep best{0, 0, 0, 1};
   Real dt = 0;  // weighs stiffness against viscosity; known after the first iteration
+  Real last_fall = 0;
   for (int iteration = 0, settled = 0; iteration < most_iterations; ++iteration) {
     Real largest = 0, mass_norm = 0;
     for (const Lanes& w : mode_) largest = std::max(largest, std::sqrt(sum(w * w)));
@@ -93,9 +94,16 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
     }
     best.evaluations += viscous ? 2 : 1;
     const Real limit = 4 / (c + std::sqrt(c * c + 4 * k));
-    settled = std::abs(limit - dt) < tolerance * limit ? settled + 1 : 0;
+    // The limit falls from iteration to iteration, in the end as a geometric series: what is left
+    // of it is taken off.
+    const Real fall = dt - limit, slope = last_fall - fall;
+    const Real left =
+        fall > 0 && slope > 0 ? std::min(fall * fall / slope, 0.1 * limit) : std::abs(fall);
+    settled = left < tolerance * limit ? settled + 1 : 0;
+    last_fall = fall;
     dt = limit;
-    best = {dt, std::sqrt(k), c, best.evaluations};
+    const Real scale = limit / (limit - std::min(left, 0.1 * limit));
+    best = {dt / scale, scale * std::sqrt(k), scale * c, best.evaluations};
     if (settled >= settled_for) break;
 
     // mode <- M^-1 (dt^2/4 K + dt/2 C) mode

@@ -89,7 +89,7 @@ std::string box(const std::string& cells, const std::string& keys, Real end,
 std::string drop(const std::string& axes, int core, Real Oh, Real end,
                  const std::string& keys = "") {
   return fmt::format(
-      "dimension = 3\ntime = {{ end = {}, safety = 0.3 }}\n[[body]]\nname = \"body\"\nshape = "
+      "dimension = 3\ntime = {{ end = {}, safety = 0.2 }}\n[[body]]\nname = \"body\"\nshape = "
       "\"ellipsoid\"\n"
       "semi_axes = {}\ncore = {}\nlayers = {}\n{}material = {{ type = \"newtonian\", density = 1, "
       "bulk_modulus = 200, viscosity = {} }}\n[[surface_tension]]\nbody = \"body\"\ngamma = 1\n",
