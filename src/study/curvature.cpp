@@ -171,6 +171,8 @@ void require_targets(StudyRun& study) {
   limit(map + "cubic_spline, points: " + line, "max", 2.5e-2);
   limit(map + "bases: " + cubic, "L2", 9e-4);
   limit(map + "recovered: " + line + ", recovered", "L2", 2e-3);
+  // Between close or fine levels the order of the quadratic basis is lower.
+  if (study.levels().front() > 6 || study.levels().back() < 2 * study.levels().front()) return;
   const auto order = [&](const std::string& method, Real least) {
     const Real found = study.overall_order(method, "L2");
     if (!std::isnan(found)) study.require("order of L2, " + method, found, {least, 1e300});
@@ -190,11 +192,13 @@ void compare_height_functions(StudyRun& study) {
   for (const Measurement& first : study.measurements()) {
     if (first.values.size() < 2 || std::count(done.begin(), done.end(), first.method)) continue;
     done.push_back(first.method);
-    std::string text = first.method + ", of height functions at equal points per diameter:";
-    bool below = true;
+    std::string text =
+        first.method + ", errors over those of height functions, by points per diameter:";
+    bool below = true, published = false;
     for (const Measurement& m : study.measurements()) {
       if (m.method != first.method || m.values.size() < 4) continue;
-      text += fmt::format(" {:.0f}:", m.values[0].second);
+      published = true;
+      text += fmt::format(" [{:.0f}]", m.values[0].second);
       const std::array<const char*, 3> errors{"mean", "rms", "max"};
       for (std::size_t k = 0; k < errors.size(); ++k) {
         const Real ratio = m.error(errors[k]) / m.values[k + 1].second;
@@ -202,7 +206,7 @@ void compare_height_functions(StudyRun& study) {
         below = below && ratio < 1;
       }
     }
-    study.note(text + (below ? " below." : " NOT BELOW everywhere."));
+    if (published) study.note(text + (below ? " all below." : " NOT all below."));
   }
 }
 
@@ -218,7 +222,8 @@ void run(StudyRun& study) {
 
 const bool registered =
     register_study({"curvature",
-                    "curvature of exact surfaces from the deformation of a ball or disk",
+                    "curvature of exact surfaces from the deformation of a ball or disk; "
+                    "--set map=NAME or FILE.toml, shape=NAME, jitter=NUMBER",
                     "cells per edge of the core of the ball or disk",
                     {6, 10, 14, 20},
                     {4, 6, 8},
