@@ -62,7 +62,7 @@ std::vector<MeasureSource> chosen_measures(const Scene<D>& scene) {
 template <int D>
 std::vector<HistoryColumn> history_columns(const Scene<D>& scene) {
   const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
-  const std::string energy = unit(dimension::energy);
+  const std::string energy = scene.symbol_of_sum(dimension::energy);
   std::vector<HistoryColumn> columns{{"time", unit(dimension::time)},
                                      {"step", "1"},
                                      {"dt", unit(dimension::time)},

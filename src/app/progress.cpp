@@ -9,12 +9,13 @@
 
 namespace meniscus {
 
-Progress::Progress(const State& begin, Real end, const UnitSystem& units, bool quiet)
+Progress::Progress(const State& begin, Real end, std::string time_unit, std::string energy_unit,
+                   bool quiet)
     : first_time_(begin.time),
       end_(end),
       first_step_(begin.step),
-      time_unit_(units.symbol(dimension::time)),
-      energy_unit_(units.symbol(dimension::energy)),
+      time_unit_(std::move(time_unit)),
+      energy_unit_(std::move(energy_unit)),
       on_(!quiet && isatty(STDOUT_FILENO)) {}
 
 void Progress::show(const State& state, Real dt, const std::optional<Ledger>& ledger) {

@@ -53,9 +53,9 @@ ResultFile make_result_file(const Simulation<D>& simulation, const RunDirectory&
     const ReferenceArrays<D>& a = arrays.emplace_back(body);
     bodies.push_back({body.name,
                       {{"X", D, unit(dimension::length), a.X},
-                       {"volume", 1, unit(D == 3 ? dimension::volume : dimension::area), a.volume},
+                       {"volume", 1, scene.symbol_of_sum(dimension::volume), a.volume},
                        {"support", 1, unit(dimension::length), a.support},
-                       {"mass", 1, unit(dimension::mass), a.mass}},
+                       {"mass", 1, scene.symbol_of_sum(dimension::mass), a.mass}},
                       {{"surface", 1 << (D - 1), a.facets}}});
   }
   return {directory, provenance, bodies, result_options(simulation, continued)};
@@ -160,21 +160,21 @@ void Recorder<D>::write_frame(bool with_state) {
   const State& state = simulation_.state();
   std::deque<std::vector<Real>> storage;
   std::vector<Field> fields;
-  const auto add = [&](const std::string& name, int components, Dimension d,
+  const auto add = [&](const std::string& name, int components, std::string unit,
                        std::vector<Real> values) {
-    fields.push_back(
-        {name, components, scene.units.symbol(d), storage.emplace_back(std::move(values))});
+    fields.push_back({name, components, std::move(unit), storage.emplace_back(std::move(values))});
   };
-  add("position", D, dimension::length, positions(scene.system, state));
+  add("position", D, scene.units.symbol(dimension::length), positions(scene.system, state));
   for (const std::string& name : scene.output.fields) {
     if (name == "displacement")
-      add(name, D, dimension::length, at_places(scene.system, state.u));
+      add(name, D, scene.units.symbol(dimension::length), at_places(scene.system, state.u));
     else if (name == "velocity")
-      add(name, D, dimension::velocity, at_places(scene.system, state.v));
+      add(name, D, scene.units.symbol(dimension::velocity), at_places(scene.system, state.v));
     else if (name == "force")
-      add(name, D, dimension::force, packed<D>(state.force));
+      add(name, D, scene.symbol_of_sum(dimension::force), packed<D>(state.force));
     else
-      add(name, source(scene, 0, name).components, source(scene, 0, name).dimension,
+      add(name, source(scene, 0, name).components,
+          scene.units.symbol(source(scene, 0, name).dimension),
           of_all_bodies(scene, name, state.motion()));
   }
   std::optional<Snapshot> snapshot;

@@ -148,7 +148,8 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
         .write(simulation.state().step, simulation.state().time, simulation.snapshot());
   Recorder<D> recorder(simulation, directory, origin, in_place);
   if (!restart) recorder.record(-1);
-  Progress progress(simulation.state(), stop, scene.units, request.quiet);
+  Progress progress(simulation.state(), stop, scene.units.symbol(dimension::time),
+                    scene.symbol_of_sum(dimension::energy), request.quiet);
   const std::int64_t first_step = simulation.state().step;
   const double set_up_seconds = interruption.elapsed_seconds();
   std::optional<int> signal;

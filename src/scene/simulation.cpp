@@ -74,7 +74,7 @@ Snapshot Simulation<D>::snapshot() const {
   Snapshot s;
   s.add_reals("displacement", packed<D>(state_.u), scene_.units.symbol(dimension::length));
   s.add_reals("velocity", packed<D>(state_.v), scene_.units.symbol(dimension::velocity));
-  s.add_reals("force", packed<D>(state_.force), scene_.units.symbol(dimension::force));
+  s.add_reals("force", packed<D>(state_.force), scene_.symbol_of_sum(dimension::force));
   const Real numbers[] = {state_.time,           state_.dissipated,
                           state_.external_work,  state_.dissipation_power,
                           state_.external_power, last_step_};

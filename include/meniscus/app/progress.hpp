@@ -11,7 +11,8 @@ namespace meniscus {
 class Progress {
  public:
   /// The run begins now, at `begin`, and is meant to reach the time `end`.
-  Progress(const State& begin, Real end, const UnitSystem& units, bool quiet);
+  Progress(const State& begin, Real end, std::string time_unit, std::string energy_unit,
+           bool quiet);
   /// `ledger`: the newest one, if there is a new one.
   void show(const State& state, Real dt, const std::optional<Ledger>& ledger);
   void finish();

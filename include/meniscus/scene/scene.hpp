@@ -25,6 +25,12 @@ struct Scene {
   std::vector<std::pair<std::string, ExpectSettings>> expectations;
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
+
+  /// How a sum over bodies (mass, force, energy) is written; in the plane it is per unit depth.
+  std::string symbol_of_sum(Dimension d) const {
+    if (D == 2) --d.length;
+    return units.symbol(d);
+  }
 };
 
 /// 2 or 3. Throws InputError if the scene does not say.
