@@ -32,6 +32,7 @@ struct MooneyRivlin {
   }
 
   Real p_wave_modulus() const { return 4 * lambda + 8.0 / 3.0 * (c1 + c2); }
+  Real bulk_over_shear() const { return 2 * lambda / (c1 + c2); }
 
   /// In L = ln J, x = 2 L/3 and g = tr E - L, whose first-order parts cancel by hand:
   /// I1 - 3 I3^(1/3) = 2 g - 3 (e^x - 1 - x), I2 - 3 I3^(2/3) = 4 (g + II_E) - 3 (e^2x - 1 - 2 x).

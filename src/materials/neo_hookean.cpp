@@ -27,6 +27,7 @@ struct NeoHookean {
   }
 
   Real p_wave_modulus() const { return lambda + 2 * mu; }
+  Real bulk_over_shear() const { return lambda / mu + 2.0 / 3.0; }
 
   /// With (I1 - 3)/2 = tr H + H:H/2 the first-order parts of (I1 - 3)/2 and ln J cancel by hand.
   template <class T>

@@ -31,6 +31,7 @@ struct StVenantKirchhoff {
   }
 
   Real p_wave_modulus() const { return lambda + 2 * mu; }
+  Real bulk_over_shear() const { return lambda / mu + 2.0 / 3.0; }
 
   /// W = lambda/2 tr^2 E + mu E:E.
   template <class T>

@@ -69,6 +69,11 @@ void plan_bodies(const Block& root, Plan<D>& plan) {
     if (!settings.name.empty() && !names.insert(settings.name).second)
       block.problem("name", fmt::format("the name '{}' is used twice", settings.name));
     require_plain_name(block, settings.name);
+    if (settings.volumetric == "cell_average" && settings.integration != "q_scni")
+      block.problem("volumetric",
+                    fmt::format("'cell_average' averages over nodal cells, which integration = "
+                                "\"{}\" does not have; allowed are automatic, full",
+                                settings.integration));
     require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
     require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
     Geometry<D> geometry = read_geometry<D>(block);

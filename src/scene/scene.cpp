@@ -65,8 +65,9 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
   body.first = scene.system.size();
   body.at_particles =
       build_point_rows<D>(body.particles, body.particles.X(), {.value = true}, body.name);
-  auto built =
-      planned.material->build(body, {planned.settings.integration, planned.settings.gauss_points});
+  auto built = planned.material->build(
+      body,
+      {planned.settings.integration, planned.settings.gauss_points, planned.settings.volumetric});
   scene.system.mass.insert(scene.system.mass.end(), body.mass.begin(), body.mass.end());
   scene.notes.push_back(fmt::format(
       "body '{}': {} particles, {} cells, mean spacing {:.4g} {}, {:.1f} neighbours per particle, "
@@ -76,6 +77,11 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
       static_cast<Real>(body.at_particles.entries()) / body.size(),
       static_cast<Real>(built.force->pairs()) / body.size(),
       1e-6 * static_cast<Real>(built.force->bytes())));
+  if (built.cell_average)
+    scene.notes.push_back(
+        fmt::format("body '{}': the volume change is averaged over each nodal cell (volumetric = "
+                    "\"cell_average\")",
+                    name));
   if (built.mass.raised > 0)
     scene.notes.push_back(
         fmt::format("body '{}': the masses of {} particles were raised to 0.3 of their cells, the "

@@ -90,6 +90,11 @@ Rows<BodySettings> BodySettings::rows() {
                  "q_scni"),
       integer_row("gauss_points", &S::gauss_points, {1, 8},
                   "Gauss points per direction and cell, for integration = \"gauss\"", 3),
+      choice_row("volumetric", &S::volumetric, {"automatic", "full", "cell_average"},
+                 "volume change at every stress point, or its mean over each nodal cell "
+                 "(integration = \"q_scni\"), which does not lock where solids are nearly "
+                 "incompressible; automatic: cell_average where bulk / shear modulus >= 1000",
+                 "automatic"),
       choice_row("window", &S::window, windows(), "window function of the kernel", "cubic_spline"),
       real_row("support_factor", &S::support_factor, dimension::none, {1, 10},
                "support of a particle / distance to its neighbour of rank support_rank", 1.8),

@@ -34,7 +34,8 @@ void for_all(const std::function<void(Body<D>&, ForceTerm&)>& check) {
   const auto body = test::body_of<D>(small_body<D>());
   for (const auto& [law, text] : test::law_texts())
     for (const Integration& integration : test::integrations()) {
-      SCOPED_TRACE(law + ", " + integration.rule + ", " + std::to_string(D) + "D");
+      SCOPED_TRACE(law + ", " + integration.rule + ", " + integration.volumetric + ", " +
+                   std::to_string(D) + "D");
       const auto term = test::internal_force<D>(*body, law, integration);
       check(*body, *term);
     }

@@ -12,9 +12,13 @@
 
 namespace meniscus {
 
+/// What the loop over stress points needs of a law: the stresses of a group of points.
+template <class L>
+concept GroupLaw = ElasticIn<L, Lanes> &&(ViscousIn<L, Lanes> || !L::viscous);
+
 /// `Rule` is CellRule<D> or PointRule<D>. One law for the whole body, or one for each group of
 /// stress points.
-template <int D, Law L, class Rule>
+template <int D, GroupLaw L, class Rule>
 class InternalForce final : public ForceTerm {
  public:
   InternalForce(const Body<D>& body, Rule rule, std::vector<L> laws)
@@ -123,7 +127,7 @@ class InternalForce final : public ForceTerm {
   Failure failure_;
 };
 
-template <int D, Law L, class Rule>
+template <int D, GroupLaw L, class Rule>
 void InternalForce<D, L, Rule>::note_failure(Index begin, Index end, const Lanes* u) {
   for (Index g = begin; g < end; ++g) {
     const Tensor<Lanes> H = gradients(g, u);
@@ -136,7 +140,7 @@ void InternalForce<D, L, Rule>::note_failure(Index begin, Index end, const Lanes
   }
 }
 
-template <int D, Law L, class Rule>
+template <int D, GroupLaw L, class Rule>
 void InternalForce<D, L, Rule>::describe_failure(const Lanes* u) {
   const Tensor<Lanes> H = gradients(failed_group_, u);
   for (int lane = 0; lane < rule_.points_per_group(); ++lane) {
@@ -153,7 +157,7 @@ void InternalForce<D, L, Rule>::describe_failure(const Lanes* u) {
   }
 }
 
-template <int D, Law L, class Rule>
+template <int D, GroupLaw L, class Rule>
 void InternalForce<D, L, Rule>::visit(const Motion& motion,
                                       const std::function<void(const StressPoint&)>& f) const {
   const Lanes* u = motion.u.data() + body_.first;
@@ -165,7 +169,7 @@ void InternalForce<D, L, Rule>::visit(const Motion& motion,
   }
 }
 
-template <int D, Law L, class Rule>
+template <int D, GroupLaw L, class Rule>
 std::optional<std::string> InternalForce<D, L, Rule>::warning(const Motion& motion) const {
   if constexpr (WarningLaw<L>) {
     const Lanes* u = motion.u.data() + body_.first;

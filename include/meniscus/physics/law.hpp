@@ -72,6 +72,18 @@ std::optional<std::string> check(const L& law) {
     return {};
 }
 
+/// Bulk modulus / shear modulus at the reference state; nothing for laws without a member
+/// bulk_over_shear(), such as fluids.
+template <Law L>
+std::optional<Real> bulk_over_shear(const L& law) {
+  if constexpr (requires {
+                  { law.bulk_over_shear() } -> std::same_as<Real>;
+                })
+    return law.bulk_over_shear();
+  else
+    return {};
+}
+
 /// A law with a member warning(H): why it should not be trusted at H = F - I, e.g. a loss of
 /// ellipticity. Asked at output times only.
 template <class L>

@@ -4,8 +4,10 @@
 #pragma once
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/physics/cell_average.hpp"
 #include "meniscus/physics/internal_force.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -15,6 +17,9 @@ namespace meniscus {
 struct Integration {
   std::string rule = "q_scni";  ///< "q_scni", "gauss" or "nodal"
   int gauss_points = 3;         ///< per direction and cell, for "gauss"
+  /// "full", "cell_average" (with "q_scni" only) or "automatic": cell_average for "q_scni" where
+  /// the bulk modulus is at least 1000 shear moduli.
+  std::string volumetric = "automatic";
 };
 
 /// A material read from a scene, ready to be put on a body.
@@ -25,6 +30,7 @@ class Material {
   struct Built {
     std::unique_ptr<ForceTerm> force;
     MassReport mass;
+    bool cell_average;  ///< one volume change per nodal cell
   };
   /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
   /// InputError (a formula leaves its range somewhere in the body).
@@ -41,7 +47,10 @@ class MaterialOf final : public Material<D> {
       CellOperator<D> op = build_cell_rule(body);
       std::vector<Vec<D>> places;
       for (Index A = 0; A < body.size(); ++A) places.push_back(body.cells.centroid(A));
-      return put(body, std::move(op.rule), places, op.shape_integral);
+      const std::vector<L> laws = laws_at(places);
+      if (averages(integration, laws))
+        return put<CellAverage<D, L>>(body, std::move(op.rule), laws, op.shape_integral);
+      return put<L>(body, std::move(op.rule), laws, op.shape_integral);
     }
     const bool gauss = integration.rule == "gauss";
     const auto X = body.particles.X();
@@ -51,7 +60,7 @@ class MaterialOf final : public Material<D> {
     PointRule<D> rule =
         gauss ? build_gauss_rule(body, integration.gauss_points) : build_nodal_rule(body);
     if (!law_.uniform()) rule.per_group = 1;
-    return put(body, std::move(rule), places, shape_integrals(body));
+    return put<L>(body, std::move(rule), laws_at(places), shape_integrals(body));
   }
 
  private:
@@ -64,21 +73,32 @@ class MaterialOf final : public Material<D> {
     return law;
   }
 
-  /// `places` of the groups of stress points, for materials that vary.
-  template <class Rule>
-  typename Material<D>::Built put(Body<D>& body, Rule rule, const std::vector<Vec<D>>& places,
+  /// One law for all groups of stress points, or one at the place of each if the material varies.
+  std::vector<L> laws_at(const std::vector<Vec<D>>& places) const {
+    if (law_.uniform()) return {law_.base};
+    std::vector<L> laws;
+    for (const Vec<D>& X : places) laws.push_back(law_at(X));
+    return laws;
+  }
+
+  static bool averages(const Integration& integration, const std::vector<L>& laws) {
+    if (integration.volumetric != "automatic") return integration.volumetric == "cell_average";
+    return std::any_of(laws.begin(), laws.end(),
+                       [](const L& law) { return bulk_over_shear(law) >= 1e3; });
+  }
+
+  /// `Points`: the law of a group of stress points, L itself or what is made of it.
+  template <class Points, class Rule>
+  typename Material<D>::Built put(Body<D>& body, Rule rule, const std::vector<L>& laws,
                                   const std::vector<Real>& shape_integral) const {
-    std::vector<L> laws{law_.base};
     std::vector<Real> density(static_cast<std::size_t>(body.size()), law_.base.density);
-    if (!law_.uniform()) {
-      laws.clear();
-      for (const Vec<D>& X : places) laws.push_back(law_at(X));
+    if (!law_.uniform())
       for (Index A = 0; A < body.size(); ++A)
         at(density, A) = law_at(at(body.particles.X(), A)).density;
-    }
     const MassReport mass = lump_mass(body, density, shape_integral);
-    return {std::make_unique<InternalForce<D, L, Rule>>(body, std::move(rule), std::move(laws)),
-            mass};
+    return {std::make_unique<InternalForce<D, Points, Rule>>(
+                body, std::move(rule), std::vector<Points>(laws.begin(), laws.end())),
+            mass, !std::is_same_v<Points, L>};
   }
 
   Varying<L> law_;

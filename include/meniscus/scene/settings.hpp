@@ -30,7 +30,7 @@ struct OutputSettings {
 
 /// The keys of [[body]] besides those of its shape, and the tables in it.
 struct BodySettings {
-  std::string name, integration, window;
+  std::string name, integration, volumetric, window;
   int gauss_points = 3;
   Real support_factor = 0;    ///< x distance to the rank-th neighbour
   int support_rank = 0;       ///< 0: 20 in 3D, 8 in 2D

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The selective form of the q_scni integration: one volume change per nodal cell. Nearly
+// incompressible solids do not lock with it (RKPM note 5.4).
+#pragma once
+#include "meniscus/physics/law.hpp"
+
+namespace meniscus {
+
+/// A law for the D + 1 stress points of a nodal cell together: each point sees its deformation
+/// gradient at the mean volume change of the cell,
+///   F* = s F,  s^3 = Jm / J,  Jm = mean of J over the points (current / reference volume),
+/// and the energy of the cell is the sum of w W(F*). The stress is its exact gradient: with
+/// P* = dW/dF(F*) and p = P* : F* / 3,
+///   P = s P* + (mean p / Jm - p / J) cof F.
+/// Viscous stress is that of F itself. In linear elasticity this averages the dilatation and keeps
+/// the deviator of each point. Where J is constant in a cell the energy is that of the law itself.
+template <int D, Law L>
+class CellAverage {
+ public:
+  static constexpr bool viscous = L::viscous;
+
+  explicit CellAverage(const L& law) : law_(law) {}
+
+  Lanes energy_density(const Tensor<Lanes>& H) const {
+    const Lanes theta = volume_change(H), mean_theta = mean(theta);
+    return law_.energy_density(scaled(H, stretch(theta, mean_theta)));
+  }
+
+  [[gnu::always_inline]] Tensor<Lanes> stress(const Tensor<Lanes>& H) const {
+    const Lanes theta = volume_change(H), mean_theta = mean(theta);
+    const Lanes s = stretch(theta, mean_theta);
+    const Tensor<Lanes> H_star = scaled(H, s), P = law_.stress(H_star);
+    const Lanes p = (1.0 / 3.0) * (trace(P) + contract(P, H_star));
+    const Lanes excess = mean(p) / (1.0 + mean_theta) - p / (1.0 + theta);
+    return (1.0 + s) * P + excess * cofactor_of_deformation(H);
+  }
+
+  [[gnu::always_inline]] Tensor<Lanes> viscous_stress(
+      const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const requires ViscousLaw<L> {
+    return law_.viscous_stress(H, F_rate);
+  }
+
+  std::optional<std::string> warning(const Tensor<Real>& H) const requires WarningLaw<L> {
+    return law_.warning(H);
+  }
+
+ private:
+  /// Mean over the points of the cell, in all lanes; they have equal weights.
+  static Lanes mean(Lanes x) {
+    if constexpr (D == 3)
+      return 0.25 * sum(x);
+    else
+      return (1.0 / 3.0) * (x[0] + x[1] + x[2]);
+  }
+  /// s - 1 from J - 1 and Jm - 1, without cancellation near the reference state.
+  [[gnu::always_inline]] static Lanes stretch(Lanes theta, Lanes mean_theta) {
+    return expm1((1.0 / 3.0) * log1p((mean_theta - theta) / (1.0 + theta)));
+  }
+  /// F* - I = (1 + s) H + s I, here with s - 1 as argument.
+  [[gnu::always_inline]] static Tensor<Lanes> scaled(const Tensor<Lanes>& H, Lanes s) {
+    return add_diagonal((1.0 + s) * H, s);
+  }
+
+  L law_;
+};
+
+}  // namespace meniscus

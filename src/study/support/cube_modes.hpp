@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vibrations of the free elastic unit cube.
+#pragma once
+#include <vector>
+
+#include "elastic_case.hpp"
+
+namespace meniscus::study {
+
+/// Squares of the circular frequencies of the free unit cube of density 1, ascending, by the method
+/// of Rayleigh and Ritz with products of Legendre polynomials of total degree <= `degree`; the
+/// first six are zero.
+std::vector<Real> cube_modes(Moduli moduli, int degree);
+
+}  // namespace meniscus::study

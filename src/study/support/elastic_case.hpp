@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Linear elastostatics with the force terms of the program: a free body in equilibrium with a
+// displacement that is known exactly.
+#pragma once
+#include "meniscus/body/body.hpp"
+#include "meniscus/physics/material.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace meniscus::study {
+
+/// The unit square or cube of n cells per edge h with supports 2.6 h. Each coordinate of each node
+/// is moved at random by up to +-`jitter` h, along the boundary too.
+template <int D>
+std::unique_ptr<Body<D>> unit_box(int n, Real jitter, std::uint64_t seed = 1);
+
+struct Moduli {
+  Real mu = 1, lambda = 1;
+};
+
+template <int D>
+struct ElasticCase {
+  std::unique_ptr<Body<D>> body;
+  SmoothMap<D> exact;  ///< displacement, with derivatives
+  Moduli moduli;
+  /// Forces of the tractions and body forces of the exact displacement, by the points of the nodal
+  /// cells (RKPM note 5.3).
+  NodalVectors load;
+};
+template <int D>
+ElasticCase<D> elastic_case(std::unique_ptr<Body<D>> body, SmoothMap<D> exact, Moduli moduli);
+
+/// A way to integrate the internal force.
+struct Rule {
+  std::string name;
+  Integration integration;
+};
+/// q_scni, Gauss points 2, 3, 5 and nodal; in short the first two.
+std::vector<Rule> elastic_rules(bool brief);
+
+/// The internal force of a body that obeys linear elasticity: a St.Venant-Kirchhoff solid whose
+/// displacements are 2^-200 of those given, so that nothing of second order is left of it.
+template <int D>
+class LinearBody {
+ public:
+  LinearBody(Body<D>& body, const Integration& integration, Moduli moduli);
+
+  /// K u
+  NodalVectors stiffness_times(const NodalVectors& u);
+  /// u . K u / 2
+  Real energy(const NodalVectors& u);
+  const ForceTerm& term() const { return *term_; }
+  Index size() const { return size_; }
+
+ private:
+  Index size_;
+  std::unique_ptr<ForceTerm> term_;
+};
+
+/// Motions without strain, orthonormal as vectors of coefficients.
+template <int D>
+std::vector<NodalVectors> rigid_modes(const Body<D>& body);
+
+struct Solution {
+  NodalVectors u;  ///< without rigid part
+  int iterations;
+  Real residual;  ///< |f - K u| / |f|
+};
+/// K u = load by conjugate gradients, up to a rigid motion. Ends where the residual is below
+/// `tolerance` or does not fall any more.
+template <int D>
+Solution solve(LinearBody<D>& linear, const ElasticCase<D>& c, Real tolerance);
+
+/// Relative errors of displacement and gradient; the best rigid motion is taken off.
+struct ElasticErrors {
+  Real L2, H1;
+};
+template <int D>
+ElasticErrors errors_of(const ElasticCase<D>& c, NodalVectors u);
+
+}  // namespace meniscus::study

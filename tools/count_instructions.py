@@ -1,0 +1,109 @@
+#!/usr/bin/python3
+"""count_instructions.py PROGRAM: instructions of small scenes by effect (see tools/instructions).
+
+A function belongs to an effect by its name, that of an outlined loop by the function it is in.
+Functions that register materials and describe keys run at every start and belong to none.
+"""
+
+import collections
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+EFFECTS = {
+    "surface tension": r"SurfaceTension<|_surface_tension<",
+    "curvature": r"CurvatureSurfaceTension<|hessian_along|\(meniscus::Derivatives\)2",
+    # Its stress is inlined into the loop over stress points of a viscous law.
+    "viscosity": r"InternalForce<[23], .*Newtonian|viscous_stress",
+    "cell average": r"InternalForce<[23], meniscus::CellAverage<",
+    "internal force": r"InternalForce<",
+}
+
+BODY = """
+dimension = 3
+time = { end = 0.5 }
+[[body]]
+name = "body"
+"""
+SOLID = 'material = { type = "neo_hookean", density = 1, mu = 1, lambda = 1 }\n'
+CUBE = BODY + 'shape = "box"\nsize = [1, 1, 1]\ncells = [3, 3, 3]\n'
+DROP = (
+    BODY + 'shape = "ball"\nradius = 1\ncore = 2\nlayers = 1\n'
+    'material = { type = "newtonian", density = 1, bulk_modulus = 20, viscosity = 0.3 }\n'
+)
+SPIN = 'initial_velocity = ["0.01*y", "-0.01*x", "0"]\n'
+TENSION = '[[surface_tension]]\nbody = "body"\ngamma = 0.01\n'
+
+# name of the scene: text, the effects it has
+SCENES = {
+    "elastic cube": (CUBE + SPIN + SOLID, {"internal force"}),
+    "elastic cube, cell average": (
+        CUBE + 'volumetric = "cell_average"\n' + SPIN + SOLID,
+        {"internal force", "cell average"},
+    ),
+    "viscous drop": (DROP, {"internal force", "viscosity"}),
+    "elastic cube, tension": (CUBE + SOLID + TENSION, {"internal force", "surface tension"}),
+    "viscous drop, tension by curvature": (
+        DROP + TENSION + 'form = "curvature"\n',
+        {"internal force", "viscosity", "surface tension", "curvature"},
+    ),
+}
+
+
+def instructions(profile):
+    """Instructions of every function itself, from the output of callgrind."""
+    names, count, function, is_call = {}, collections.Counter(), None, False
+    for line in profile.read_text().splitlines():
+        if line.startswith("fn="):
+            number, _, name = line[3:].partition(" ")
+            function = names.setdefault(number, name)
+        elif line.startswith("cfn="):
+            number, _, name = line[4:].partition(" ")
+            names.setdefault(number, name)
+        elif line.startswith("calls="):
+            is_call = True
+        elif re.match(r"[0-9+*-]", line):
+            if not is_call:  # else what the called function takes
+                count[function] += int(line.split()[1])
+            is_call = False
+    return count
+
+
+def measure(program, text, folder):
+    (folder / "scene.toml").write_text(text)
+    profile = folder / "profile"
+    done = subprocess.run(
+        ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}",
+         program, "run", folder / "scene.toml", "--output", folder / "out", "--overwrite", "-q"],
+        env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True,
+    )  # fmt: skip
+    if done.returncode:
+        sys.exit(f"the program failed under callgrind:\n{done.stdout}{done.stderr}")
+    return instructions(profile)
+
+
+def main():
+    program, wrong = pathlib.Path(sys.argv[1]).resolve(), []
+    print("| instructions of | " + " | ".join(EFFECTS) + " | all |")
+    print("|---" * (len(EFFECTS) + 2) + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        for scene, (text, has) in SCENES.items():
+            count = measure(program, text, pathlib.Path(folder))
+            row = []
+            for effect, pattern in EFFECTS.items():
+                own = sum(n for name, n in count.items() if re.search(pattern, name))
+                row.append(own)
+                if (own > 0) != (effect in has):
+                    wrong.append(f"{scene}: {own} instructions of {effect}")
+            row.append(sum(count.values()))
+            print(f"| {scene} | " + " | ".join(map(str, row)) + " |", flush=True)
+    for line in wrong:
+        print("WRONG:", line)
+    sys.exit(1 if wrong else 0)
+
+
+if __name__ == "__main__":
+    main()
