@@ -4,6 +4,7 @@
 #include "meniscus/body/grid.hpp"
 #include "meniscus/body/smooth_map.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace meniscus {
@@ -42,6 +43,8 @@ struct Geometry {
   SmoothMap<D> map;                      ///< unit shape -> body
   /// No edges or corners: the normal is continuous (the curvature form of tension needs it).
   bool smooth = false;
+  /// Of the reference position: unit, along the wall's normal; empty if the shape has none.
+  std::function<Vec<D>(const Vec<D>& X)> director = {};
 };
 
 /// Sets the bulges of the grid: edges and facets of the boundary become quadratic and meet the

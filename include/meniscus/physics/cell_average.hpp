@@ -44,6 +44,15 @@ class CellAverage {
     return law_.warning(H);
   }
 
+  Real p_wave_modulus() const { return law_.p_wave_modulus(); }
+
+  CellAverage at_time(Real t) const requires RampedLaw<L> { return CellAverage(law_.at_time(t)); }
+  Lanes energy_rate(const Tensor<Lanes>& H) const requires RampedLaw<L> {
+    const Lanes theta = volume_change(H);
+    return law_.energy_rate(scaled(H, stretch(theta, mean(theta))));
+  }
+  Real steady_after() const requires RampedLaw<L> { return law_.steady_after(); }
+
  private:
   /// Mean over the points of the cell, in all lanes; they have equal weights.
   static Lanes mean(Lanes x) {
