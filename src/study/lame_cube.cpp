@@ -71,7 +71,7 @@ constexpr std::array<Peer, 8> peers{
     {{"LAMMPS 29 Sep 2021, MACHDYN smd/tlsph", "in.lame_smd", 4913, 0.165, 3.06},
      {"LAMMPS 29 Sep 2021, MACHDYN smd/tlsph", "in.lame_smd", 29791, 0.079, 35.5},
      {"Karamelo, TLMPM linear", "lame.mpm", 32768, 0.217, 8.7},
-     {"OpenIFEM rkpm-rk4, linear basis", "Lame cube", 4913, 0.061, 17.6},
+     {"OpenIFEM rkpm-rk4, linear basis", "of its own form", 4913, 0.061, 17.6},
      {"CalculiX 2.20, explicit C3D8", "gen_ccx.py", 15625, 0.0221, 7.7},
      {"CalculiX 2.20, explicit C3D8", "gen_ccx.py", 35937, 0.0122, 25.6},
      {"CalculiX 2.20, implicit C3D20", "gen_ccx.py", 425, 0.0069, 8.2},

@@ -190,7 +190,7 @@ class Reports(ProgramTest):
                 "[time]": "end step safety check_every",
                 "[output]": "frames_every history_every fields measures precision compression "
                             "restartable checkpoint_minutes",
-                "[[body]]": "name integration gauss_points window support_factor support_rank "
+                "[[body]]": "name integration gauss_points volumetric window support_factor support_rank "
                             "support_spacings initial_displacement initial_velocity",
                 "[[body]] of any shape": "shape jitter jitter_seed",
                 "[[surface_tension]]": "body gamma form points",
