@@ -71,7 +71,7 @@ void Simulation<D>::advance() {
   try {
     last_step_ = controller_.next(state_, scene_.time.end);
     meniscus::advance(scene_.system, state_, last_step_);
-    if (relaxation_) relaxation_->lead(state_, last_step_);
+    if (relaxation_) relaxation_->damp(state_, last_step_);
   } catch (const SolveError& e) {
     // The step left its broken forces; those of the places it was taken back to can be shown.
     scene_.system.add_up(state_.motion(), state_.force);

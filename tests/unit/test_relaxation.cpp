@@ -87,7 +87,7 @@ void expect_loaded_brick(const std::string& law) {
   for (int n = 0; n < 20000 && !relaxation.at_rest(); ++n) {
     const Real dt = controller.next(one.state, 1e300);
     advance(one.system, one.state, dt);
-    relaxation.lead(one.state, dt);
+    relaxation.damp(one.state, dt);
     audit.follow(one.system, one.state, take_ledger(one.system, one.state));
   }
   EXPECT_TRUE(relaxation.at_rest());

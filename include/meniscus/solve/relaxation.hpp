@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way to equilibrium: explicit dynamics that is led downhill, until nothing moves.
+// The way to equilibrium: explicit dynamics with the damping that its motion asks for.
 #pragma once
 #include "meniscus/core/snapshot.hpp"
 #include "meniscus/solve/system.hpp"
 
 namespace meniscus {
 
-/// Fast inertial relaxation (FIRE; Bitzek et al. 2006) on top of the steps of central differences:
-/// as long as the forces do work, the velocity turns into their direction; when they no longer do,
-/// the motion stops and begins anew. Forces are those of dynamics, and so is the stable step. Loads
-/// with ramps run over the same time.
+/// Dynamic relaxation with adaptive damping (Underwood 1983): after every step of central
+/// differences velocities shrink by exp(-2 zeta omega dt), zeta = 0.6, where omega^2 = - du.df /
+/// du.M du is the Rayleigh quotient of the stiffness for the motion of that step. Fast vibrations
+/// are braked hard, then omega falls to the slowest mode that moves. Forces are those of dynamics,
+/// and so is the stable step. Loads with ramps run over the same time.
 ///
 /// After the last ramp the bodies are observed over quarter periods of the slowest mode that moves:
 /// they are at rest when both measures below are small at the end of two in a row. Neither momentum
@@ -30,9 +31,9 @@ class Relaxation {
   /// Begins to observe at `state`, which has its forces.
   void begin(const State& state);
 
-  /// To be called after every step: leads the velocities, books what that takes from the kinetic
+  /// To be called after every step: damps the velocities, books what that takes from the kinetic
   /// energy as dissipated, and judges the state at the end of a quarter period.
-  void lead(State& state, Real dt);
+  void damp(State& state, Real dt);
 
   bool at_rest() const { return settled_periods_ >= 2; }
   /// Of the present state.
@@ -47,18 +48,15 @@ class Relaxation {
   void restore(const Snapshot& snapshot, const State& state);
 
  private:
-  void stop(State& state);
-  void turn(State& state, Real work);
   void open_period(const State& state, Real length);
   void judge(const State& state, Real dt);
-  /// sqrt(- du.df / du.M du) of the changes since the beginning of the period; 0 if there is none.
-  Real frequency(const State& state) const;
+  /// sqrt(- du.df / du.M du) of the changes since displacements u and forces f; 0 if that is none.
+  Real frequency_since(const NodalVectors& u, const NodalVectors& f, const State& state) const;
   Real largest_change(const State& state) const;
 
   System<D>& system_;
   Tolerances tolerances_;
-  Real mixing_ = 0;                       ///< alpha of FIRE
-  std::int64_t downhill_steps_ = 0;       ///< since the last stop
+  NodalVectors last_u_, last_force_;      ///< after the step before
   NodalVectors period_u_, period_force_;  ///< at the beginning of the quarter period
   Real period_begin_ = 0, period_length_ = 0;
   Real shape_change_ = 1;
