@@ -26,7 +26,7 @@ struct PlaneContact {
 };
 
 /// `beta_product`: beta1 beta2 of the two bodies. Closed form without a cut-off (CGCM note 3.1);
-/// exact to rounding, softening_gap to its root, with one.
+/// with one all is exact to rounding, but softening_gap to half the digits.
 PlaneContact plane_contact(const ContactLaw& law, Real beta_product);
 
 /// Energy, pressure and stiffness of two half spaces at the gap g > 0.
