@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Two half spaces: in closed form without a cut-off, by quadrature over one surface with one.
+#include "meniscus/physics/contact_numbers.hpp"
+
+#include "meniscus/body/gauss.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "plane_field.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Integral of f(r, rho), r^2 = gap^2 + rho^2, over the plane (2D: the line) at the distance `gap`
+/// from a point, within the cut-off. Panels are as wide as their distance from the point, so that
+/// 20 Gauss points each are exact to rounding.
+template <class F>
+Real over_plane(const ContactLaw& law, Real gap, F&& f) {
+  constexpr Real pi = std::numbers::pi;
+  const auto rho_of = [gap](Real r) { return r > gap ? std::sqrt((r - gap) * (r + gap)) : 0; };
+  const std::array<Real, 2> ends{rho_of(switch_begin * law.reach()), rho_of(law.reach())};
+  const GaussRule rule = gauss_rule(20);
+  const bool line = dimension_of(law.kernel) == 2;
+  Real sum = 0, begin = 0;
+  for (const Real end : ends)
+    while (begin < end) {
+      const Real half = std::min(end - begin, std::hypot(begin, gap)) / 2;
+      for (int q = 0; q < 20; ++q) {
+        const Real rho = begin + half * (1 + at(rule.x, q));
+        const Real area = half * at(rule.w, q) * (line ? 2 : 2 * pi * rho);
+        sum += area * f(pair_functions(law, std::hypot(gap, rho)), std::hypot(gap, rho));
+      }
+      begin = 2 * half < end - begin ? begin + 2 * half : end;
+    }
+  return sum;
+}
+
+/// The zero of a function that changes its sign between a and b, to rounding.
+template <class F>
+Real bisect(Real a, Real b, F&& f) {
+  const bool rises = f(b) > 0;
+  while (true) {
+    const Real middle = a + (b - a) / 2;
+    if (middle == a || middle == b) return middle;
+    ((f(middle) > 0) == rises ? b : a) = middle;
+  }
+}
+
+/// Where f is least between a and b, to half the digits (golden section).
+template <class F>
+Real minimum(Real a, Real b, F&& f) {
+  constexpr Real golden = 1 / std::numbers::phi_v<Real>;
+  while (b - a > 1e-9 * b) {
+    const Real left = b - golden * (b - a), right = a + golden * (b - a);
+    f(left) < f(right) ? b = right : a = left;
+  }
+  return (a + b) / 2;
+}
+
+}  // namespace
+
+PlaneState plane_state(const ContactLaw& law, Real beta_product, Real gap) {
+  if (!law.cut()) {
+    const PlaneField field(law);
+    return {-beta_product * field.S(gap), beta_product * field.U(gap),
+            -beta_product * field.dU(gap)};
+  }
+  using Pair = PairFunctions<Real>;
+  const Real u = over_plane(law, gap, [](const Pair& f, Real) { return f.u; });
+  const Real psi = over_plane(law, gap, [](const Pair& f, Real) { return f.psi; });
+  const Real bend = over_plane(law, gap, [](const Pair& f, Real r) { return f.dpsi / r; });
+  return {-beta_product * u, beta_product * gap * psi, -beta_product * (psi + gap * gap * bend)};
+}
+
+PlaneContact plane_contact(const ContactLaw& law, Real beta_product) {
+  const auto state = [&](Real gap) { return plane_state(law, beta_product, gap); };
+  const PlaneField uncut(law);
+  PlaneContact c;
+  c.equilibrium_gap = uncut.root(0);
+  c.peak_gap = uncut.root(1);
+  c.softening_gap = uncut.root(2);
+  c.uncut_adhesion = beta_product * uncut.S(c.equilibrium_gap);
+  if (law.cut()) {
+    const auto stiffness = [&](Real gap) { return state(gap).stiffness; };
+    c.softening_gap = minimum(c.peak_gap, 1.5 * c.softening_gap, stiffness);
+    c.peak_gap = bisect(c.equilibrium_gap, c.softening_gap, stiffness);
+    c.equilibrium_gap =
+        bisect(c.equilibrium_gap / 2, c.peak_gap, [&](Real gap) { return state(gap).pressure; });
+  }
+  const PlaneState rest = state(c.equilibrium_gap);
+  c.adhesion = -rest.energy;
+  c.stiffness = rest.stiffness;
+  c.peak_traction = -state(c.peak_gap).pressure;
+  c.softening = -state(c.softening_gap).stiffness;
+  return c;
+}
+
+std::optional<Real> contact_angle(Real adhesion, Real gamma) {
+  if (adhesion >= 2 * gamma) return std::nullopt;
+  return std::acos(adhesion / gamma - 1);
+}
+
+std::string contact_angle_text(Real adhesion, Real gamma) {
+  const std::optional<Real> angle = contact_angle(adhesion, gamma);
+  return angle ? fmt::format("{:.4g} degrees", *angle * 180 / std::numbers::pi)
+               : std::string("complete wetting");
+}
+
+}  // namespace meniscus

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Half space and point: a power law of the distance.
+#pragma once
+#include "meniscus/physics/contact_law.hpp"
+
+namespace meniscus {
+
+/// U of a half space without cut-off at the distance a, per density beta2:
+///   U(a) = epsilon sigma0^(3 - planar) (A z^-m - B z^-n), z = a/sigma0 (CGCM note 3.1).
+/// `space` and `integrated` are the same.
+class PlaneField {
+ public:
+  explicit PlaneField(const ContactLaw& law) : sigma0_(law.sigma0) {
+    constexpr Real pi = std::numbers::pi;
+    const bool planar = law.kernel == PairKernel::planar;
+    A_ = planar ? 63 * pi / 2560 : pi / 45;
+    B_ = planar ? 3 * pi / 16 : pi / 3;
+    m_ = planar ? 10 : 9;
+    n_ = m_ - 6;
+    unit_ = law.epsilon * law.sigma0 * law.sigma0 * (planar ? 1 : law.sigma0);
+  }
+
+  /// The k-th derivative of U; k = -1: minus the integral from a to infinity, that is S along the
+  /// normal. k = -1, 0, 1 or 2.
+  Real derivative(int k, Real a) const {
+    const Real z = a / sigma0_;
+    Real scale = k < 0 ? sigma0_ : 1;
+    for (int i = 0; i < k; ++i) scale /= sigma0_;
+    return unit_ * scale * (A_ * power(m_, k, z) - B_ * power(n_, k, z));
+  }
+  Real S(Real a) const { return derivative(-1, a); }
+  Real U(Real a) const { return derivative(0, a); }
+  Real dU(Real a) const { return derivative(1, a); }
+
+  /// The distance where the k-th derivative is zero.
+  Real root(int k) const {
+    return sigma0_ * std::pow(A_ * power(m_, k, 1) / (B_ * power(n_, k, 1)), 1.0 / 6);
+  }
+
+ private:
+  /// d^k/dz^k z^-p.
+  static Real power(int p, int k, Real z) {
+    Real factor = k < 0 ? Real(1) / (1 - p) : 1, value = 1;
+    for (int i = 0; i < k; ++i) factor *= -(p + i);
+    for (int i = 0; i < p + k; ++i) value *= 1 / z;
+    return factor * value;
+  }
+
+  Real sigma0_, unit_, A_, B_;
+  int m_, n_;
+};
+
+/// The same, going on linearly in U below the least gap, through the surface: always repulsive
+/// there, with a continuous slope, and S its integral.
+class GuardedPlane {
+ public:
+  explicit GuardedPlane(const ContactLaw& law)
+      : exact_(law),
+        core_(least_gap * law.sigma0),
+        S_(exact_.S(core_)),
+        U_(exact_.U(core_)),
+        dU_(exact_.dU(core_)) {}
+
+  Real U(Real a) const { return a < core_ ? U_ + dU_ * (a - core_) : exact_.U(a); }
+  Real S(Real a) const {
+    const Real d = a - core_;
+    return a < core_ ? S_ + d * (U_ + d * dU_ / 2) : exact_.S(a);
+  }
+
+ private:
+  PlaneField exact_;
+  Real core_, S_, U_, dU_;
+};
+
+}  // namespace meniscus
