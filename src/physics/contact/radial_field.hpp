@@ -25,7 +25,7 @@ class RoundPartner final : public RigidPartner<D> {
         radius_(radius),
         cavity_(cavity),
         beta_(cavity ? -beta : beta),  // all space less the ball
-        core_(cavity ? radius - least_gap * law.sigma0 : radius + least_gap * law.sigma0) {
+        core_(cavity ? radius - law.guard * law.sigma0 : radius + law.guard * law.sigma0) {
     if (core_ > 0) {
       at_core_ = exact_.at(core_);
       slope_ = exact_.slope(core_);
