@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rigid half spaces, balls, cylinders and cavities against reference values and their limits.
+#include "meniscus/body/gauss.hpp"
+#include "meniscus/physics/rigid_partner.hpp"
+
+#include <functional>
+
+#include "contact_reference.hpp"
+
+namespace meniscus {
+namespace {
+
+using test::contact_references;
+using test::expect_relative;
+
+constexpr Real pi = std::numbers::pi;
+const ContactLaw unit_space{PairKernel::space, 1, 1};
+const ContactLaw unit_integrated{PairKernel::integrated, 1, 1};
+const ContactLaw unit_planar{PairKernel::planar, 1, 1};
+
+TEST(RigidHalfSpace, HasTheReferenceValues) {
+  for (const auto& reference : contact_references("halfspace_sigma1_zz_eq3.34")) {
+    const Real a = reference.inputs["a"];
+    const Vec<3> up = Vec<3>::UnitZ();
+    const auto f = rigid_half_space<3>(unit_space, 1, Vec<3>::Zero(), up)->field(a * up);
+    EXPECT_NEAR(-f.U, reference.value[0], 1e-12 * std::abs(reference.value[0]) + 1e-14);
+    EXPECT_EQ(f.grad_S(2, 2), f.U);
+    const auto line = rigid_half_space<2>(unit_integrated, 1, Vec<2>::Zero(), Vec<2>::UnitY());
+    const auto g = line->field({7, a});
+    EXPECT_EQ(g.U, f.U);
+    EXPECT_EQ(g.S[1], f.S[2]);
+  }
+  const auto planar = contact_references("planar_variant_halfplane_U")[0];
+  const auto half_plane = rigid_half_space<2>(unit_planar, 1, Vec<2>::Zero(), Vec<2>::UnitX());
+  const Real a = planar.inputs["a"];
+  expect_relative(half_plane->field({a, 3}).U, planar.value[0], planar.rel_tol, "planar");
+}
+
+TEST(RigidHalfSpace, TiltsAndScales) {
+  const ContactLaw law{PairKernel::space, 2.3, 0.6};
+  const Vec<3> normal(1, -2, 2), m = normal / 3, point(0.4, 0.1, -0.7);
+  const auto partner = rigid_half_space<3>(law, 1.9, point, normal);
+  const Vec<3> x = point + 0.45 * m + Vec<3>(2, 1, 0);  // (2, 1, 0).m = 0
+  EXPECT_NEAR(partner->distance(x), 0.45, 1e-15);
+  const auto f = partner->field(x);
+  const Real s = std::pow(0.6 / 0.45, 6), volume = pi * 2.3 * std::pow(0.45, 3) * 1.9;
+  expect_relative(f.U, volume * (s * s / 45 - s / 3), 1e-14, "U");
+  EXPECT_NEAR((f.S + volume * 0.45 * (s * s / 360 - s / 6) * m).norm(), 0, 1e-14 * f.S.norm());
+  EXPECT_NEAR((f.grad_S - f.U * m * m.transpose()).norm(), 0, 1e-14 * std::abs(f.U));
+}
+
+/// {tangential, radial stress, U} of a unit density at the distance a from the centre, as the
+/// references have it: Sigma = -grad S.
+template <int D>
+std::vector<Real> radial_values(const RigidPartner<D>& partner, Real a) {
+  const Vec<D> k = D == 2 ? Vec<D>(Vec<D>::Unit(0) * 0.6 + Vec<D>::Unit(1) * 0.8)
+                          : Vec<D>(Vec<D>::Ones() / std::sqrt(3.0));
+  const auto f = partner.field(a * k);
+  Vec<D> t = Vec<D>::Zero();
+  t[0] = -k[1];
+  t[1] = k[0];
+  t.normalize();
+  EXPECT_NEAR(f.S.dot(t), 0, 1e-15 * f.S.norm());
+  return {-t.dot(f.grad_S * t), -k.dot(f.grad_S * k), f.U};
+}
+
+/// Values at `a` of a full ball of radius R, also for a < R where only the cavity can be had.
+template <int D>
+std::vector<Real> ball_values(const ContactLaw& law, Real a, Real R) {
+  if (a > R) return radial_values(*rigid_ball<D>(law, 1, Vec<D>::Zero(), R), a);
+  auto values = radial_values(*rigid_cavity<D>(law, 1, Vec<D>::Zero(), R), a);
+  for (Real& value : values) value = -value;
+  return values;
+}
+
+template <int D>
+void expect_ball_references(const std::string& name, const ContactLaw& law) {
+  for (const auto& reference : contact_references(name)) {
+    const auto values = ball_values<D>(law, reference.inputs["a"], reference.inputs["R"]);
+    for (int i = 0; i < 3; ++i)
+      expect_relative(at(values, i), at(reference.value, i), reference.rel_tol / 10,
+                      name + reference.inputs.dump() + " " + std::to_string(i));
+  }
+}
+
+TEST(RigidBall, HasTheReferenceValues) {
+  expect_ball_references<3>("sphere_sigma1_[tangential,radial]_and_U", unit_space);
+  const auto radial = contact_references("sphere_S_radial")[0];
+  const Real a = radial.inputs["a"], R = radial.inputs["R"];
+  const auto ball = rigid_ball<3>(unit_space, 1, Vec<3>::Zero(), R);
+  expect_relative(ball->field({0, a, 0}).S[1], radial.value[0], radial.rel_tol, "S");
+}
+
+TEST(RigidCylinder, HasTheReferenceValues) {
+  expect_ball_references<2>("planestrain_cylinder_sigma1_[tangential,radial]_and_U",
+                            unit_integrated);
+  expect_ball_references<2>("planar_variant_cylinder_sigma1_[tangential,radial]_and_U",
+                            unit_planar);
+}
+
+/// Near and far formula, to the last digits, on both sides of where they change.
+TEST(RigidBall, SeriesAndClosedFormAgree) {
+  for (const Real R : {0.7, 5.0}) {
+    for (const Real ratio : {0.25, 4.0}) {
+      const Real a = R * ratio;
+      const auto before = ball_values<3>(unit_space, a * (1 - 1e-15), R);
+      const auto after = ball_values<3>(unit_space, a * (1 + 1e-15), R);
+      for (int i = 0; i < 3; ++i) expect_relative(at(before, i), at(after, i), 1e-12, "sphere");
+    }
+    for (const ContactLaw& law : {unit_integrated, unit_planar})
+      for (const Real ratio : {0.35, 1 / 0.35}) {
+        const Real a = R * ratio;
+        const auto before = ball_values<2>(law, a * (1 - 1e-15), R);
+        const auto after = ball_values<2>(law, a * (1 + 1e-15), R);
+        for (int i = 0; i < 3; ++i) expect_relative(at(before, i), at(after, i), 1e-12, "cylinder");
+      }
+  }
+}
+
+/// Far away a ball is a point with all its particles: U = V phi, S' = ...
+TEST(RigidBall, IsAPointFarAway) {
+  for (const Real a : {1e3, 1e5}) {
+    const Real volume = 4 * pi / 3, phi = -2 * std::pow(a, -6);
+    expect_relative(ball_values<3>(unit_space, a, 1)[2], volume * phi, 10 / (a * a), "sphere");
+    const auto cylinder = pair_functions(unit_integrated, a).phi * pi;
+    expect_relative(ball_values<2>(unit_integrated, a, 1)[2], cylinder, 10 / (a * a), "cylinder");
+  }
+}
+
+TEST(RigidBall, BecomesAPlate) {
+  const auto plate = rigid_half_space<3>(unit_space, 1, Vec<3>::Zero(), Vec<3>::UnitX());
+  const Real U = plate->field({0.7, 0, 0}).U;
+  for (const Real R : {1e2, 1e4, 1e6}) {
+    const auto outside = ball_values<3>(unit_space, R + 0.7, R);
+    const auto inside = ball_values<3>(unit_space, R - 0.7, R);
+    // The relative curvature term is 5 gap/R at this gap, near the zero of U; minus for a cavity.
+    EXPECT_NEAR(outside[2], U, 5 / R);
+    EXPECT_NEAR(-inside[2], U, 5 / R);
+    EXPECT_NEAR(outside[0], 0, 5 / R);
+    EXPECT_NEAR(-outside[1], U, 5 / R);
+    const auto cylinder = ball_values<2>(unit_integrated, R + 0.7, R);
+    EXPECT_NEAR(cylinder[2], U, 5 / R);
+    EXPECT_NEAR(-cylinder[1], U, 5 / R);
+  }
+  const auto half_plane = rigid_half_space<2>(unit_planar, 1, Vec<2>::Zero(), Vec<2>::UnitX());
+  EXPECT_NEAR(ball_values<2>(unit_planar, 1e6 + 0.7, 1e6)[2], half_plane->field({0.7, 0}).U, 1e-5);
+}
+
+/// Force (form B) along x and energy of a sphere of radius R around the origin in a field that is
+/// axisymmetric about x, with Gauss points on panels that halve towards both poles.
+std::array<Real, 2> force_and_energy(const RigidPartner<3>& partner, Real R) {
+  const GaussRule rule = gauss_rule(20);
+  std::array<Real, 2> sum{0, 0};
+  Real begin = 0;
+  for (int panel = 0; panel < 24; ++panel) {
+    const Real end = panel < 23 ? pi * std::pow(0.5, 0.5 * (23 - panel)) : pi;
+    for (int q = 0; q < 20; ++q) {
+      const Real half = (end - begin) / 2, angle = begin + half * (1 + at(rule.x, q));
+      const Vec<3> n(std::cos(angle), std::sin(angle), 0);
+      const auto f = partner.field(R * n);
+      const Real area = at(rule.w, q) * half * 2 * pi * std::sin(angle) * R * R;
+      sum[0] -= area * f.U * n[0];
+      sum[1] += area * f.S.dot(n);
+    }
+    begin = end;
+  }
+  return sum;
+}
+
+TEST(RigidPartner, PutsTheExactForceAndEnergyOnASphere) {
+  for (const auto& reference : contact_references("sphere_halfspace_[F_repulsive,E]")) {
+    const Real g = reference.inputs["g"], R = reference.inputs["R"];
+    const auto plate = rigid_half_space<3>(unit_space, 1, Vec<3>(R + g, 0, 0), -Vec<3>::UnitX());
+    const auto [force, energy] = force_and_energy(*plate, R);
+    expect_relative(-force, reference.value[0], reference.rel_tol, "force of the plate");
+    expect_relative(energy, reference.value[1], reference.rel_tol, "energy of the plate");
+  }
+  for (const auto& reference : contact_references("two_spheres_[F_repulsive,E]")) {
+    const Real D = reference.inputs["D"], R1 = reference.inputs["R1"], R2 = reference.inputs["R2"];
+    const auto ball = rigid_ball<3>(unit_space, 1, Vec<3>(D, 0, 0), R2);
+    const auto [force, energy] = force_and_energy(*ball, R1);
+    expect_relative(-force, reference.value[0], reference.rel_tol, "force of the ball");
+    expect_relative(energy, reference.value[1], reference.rel_tol, "energy of the ball");
+  }
+}
+
+}  // namespace
+}  // namespace meniscus
