@@ -129,8 +129,8 @@ class PairContact final : public ForceTerm {
   Real energy() const {
     const Side<D>& side = now_->first;
     const Rows& rows = now_->list.of_first();
-    return parallel_sum(static_cast<Index>(rows.active.size()), 0.0, [&](Index k) {
-      const Index c = at(rows.active, k);
+    // Over all clusters: the order of summation must not depend on which are active.
+    return parallel_sum(side.points.clusters(), 0.0, [&](Index c) {
       Lanes T[D], S[1];
       T[0] = Lanes::zero();
       contact::sum_over_partners<contact::Potential<D, Form::components>, D>(

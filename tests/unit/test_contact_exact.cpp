@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact between ellipsoids and spheres against the reference values of the CGCM note: total force,
 // energy, and the work of all linear motions, which tells the forms apart.
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "contact_reference.hpp"
@@ -77,8 +78,7 @@ TEST(ContactEllipsoids, FormsHaveTheSameForceAndTheirOwnWork) {
   };
   const Real total = value_of("ellipsoids_energy").front();
   const Mat<3> exact = matrix_of_nine(value_of("ellipsoids_virial V_mn"));
-  const Mat<3> dissertation = matrix_of_nine(value_of("ellipsoids_virial form A"));
-  using enum ContactForm;
+  const Mat<3> of_dissertation = matrix_of_nine(value_of("ellipsoids_virial form A"));
   using enum SiteDensity;
   const struct {
     ContactForm form;
@@ -86,11 +86,11 @@ TEST(ContactEllipsoids, FormsHaveTheSameForceAndTheirOwnWork) {
     int points;
     Mat<3> virial;
     Real tolerance;
-  } cases[] = {{energy, referential, 5, exact, 1e-4},
-               {ContactForm::energy, constant, 5, exact - total * Mat<3>::Identity(), 1e-4},
-               {pressure, constant, 5, exact - total * Mat<3>::Identity(), 1e-4},
-               {ContactForm::dissertation, constant, 5, dissertation, 1e-4},
-               {volume, referential, 4, exact, 1e-3}};
+  } cases[] = {{ContactForm::energy, referential, 3, exact, 1e-4},
+               {ContactForm::energy, constant, 3, exact - total * Mat<3>::Identity(), 1e-4},
+               {ContactForm::pressure, constant, 3, exact - total * Mat<3>::Identity(), 1e-4},
+               {ContactForm::dissertation, constant, 3, of_dissertation, 1e-4},
+               {ContactForm::volume, referential, 2, exact, 1e-3}};
   for (const auto& c : cases) {
     SCOPED_TRACE(at(contact_form_names, static_cast<int>(c.form)));
     const auto r = bodies.result(c.form, c.density, c.points);
