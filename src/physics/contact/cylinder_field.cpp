@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cylinder and point: complete elliptic integrals (`integrated`) or rational functions (`planar`)
 // when near, power series when far.
-#include "cylinder_field.hpp"
+#include "meniscus/physics/round_field.hpp"
 
 #include <array>
 

@@ -48,7 +48,6 @@ std::vector<Edge> edges_of(const std::vector<Point>& polygon) {
 struct Foot {
   Point place, normal;
   Real distance;
-  bool corner;
 };
 
 class Polygons final : public RigidPartner<2> {
@@ -86,18 +85,14 @@ class Polygons final : public RigidPartner<2> {
     return sum;
   }
 
-  /// S at the least gap over the foot, and from there on that of the half plane. Around a corner
-  /// the normal turns with x.
+  /// From the field at the least gap over the foot on as that of the half plane: the gradient is
+  /// exact over straight edges and approximate around corners.
   RigidField<2> continued(const Foot& f) const {
     RigidField<2> sum = exact(f.place + core_ * f.normal);
-    const Mat<2> nn = f.normal * f.normal.transpose(), across = Mat<2>::Identity() - nn;
-    const Real S = beta_ * (wall_.S(f.distance) - wall_.S(core_));
-    sum.S += S * f.normal;
-    if (f.corner)
-      sum.grad_S = (core_ * sum.grad_S + S * Mat<2>::Identity()) * across / f.distance;
-    else
-      sum.grad_S = sum.grad_S * across;
-    sum.grad_S += beta_ * wall_.U(f.distance) * nn;
+    const Real d = f.distance - core_, U = wall_.U(core_);
+    sum.S += d * (sum.grad_S * f.normal) +
+             beta_ * (wall_.S(f.distance) - wall_.S(core_) - U * d) * f.normal;
+    sum.grad_S += beta_ * (wall_.U(f.distance) - U) * f.normal * f.normal.transpose();
     sum.U = sum.grad_S.trace();
     return sum;
   }
@@ -123,10 +118,10 @@ class Polygons final : public RigidPartner<2> {
     const Point place = edge.begin + along * edge.tangent, from = x - place;
     const Real distance = from.norm();
     const bool corner = (along <= 0 || along >= edge.length) && distance > 0;
-    if (!corner) return {place, edge.normal, edge.normal.dot(from), false};
+    if (!corner) return {place, edge.normal, edge.normal.dot(from)};
     const Point& other = along <= 0 ? edge.normal_before : edge.normal_after;
     const Real sign = from.dot(edge.normal + other) < 0 ? -1 : 1;
-    return {place, sign / distance * from, sign * distance, true};
+    return {place, sign / distance * from, sign * distance};
   }
 
   ContactLaw law_;
