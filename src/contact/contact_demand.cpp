@@ -75,6 +75,8 @@ StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_
   const Real K = plane_state(contact.law, contact.beta_product, reached).stiffness;
   const Real single = 1 + 2 * std::pow(contact.spacing / reached, contact.dimension - 1);
   demand.stiffness = std::max(0.0, K) * single * contact.inverse_inertia;
+  if (demand.stiffness > 0)
+    demand.longest = std::min(demand.longest, 1 / std::sqrt(demand.stiffness));
   return demand;
 }
 
@@ -84,8 +86,8 @@ std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, 
   if (gap > felt * sigma0 || gap >= 2 * spacing) return std::nullopt;
   return fmt::format(
       "contact '{}' is under-resolved: its gap {:.4g} is below twice the distance {:.4g} of its "
-      "points, forces are off by tens of per cent and depend on how points face each other (more "
-      "points per facet, or finer bodies)",
+      "points; the error of its forces grows from 1 % there to tens of per cent at a gap of one "
+      "distance (more points per facet, or finer bodies)",
       contact, gap, spacing);
 }
 

@@ -64,6 +64,11 @@ bool near(const Lanes* x, const Lanes* y, Real distance) {
   return false;
 }
 
+/// Room for so many and half as many more, so that a slowly growing contact seldom takes memory.
+void make_room(std::vector<Index>& rows, std::size_t count) {
+  if (rows.capacity() < count) rows.reserve(count + count / 2);
+}
+
 void find_active(const std::vector<Offset>& start, std::vector<Index>& active) {
   active.clear();
   for (std::size_t c = 0; c + 1 < start.size(); ++c)
@@ -88,6 +93,8 @@ bool ContactList<D>::valid(std::span<const Lanes> first, std::span<const Lanes> 
 
 template <int D>
 void ContactList<D>::build(std::span<const Lanes> first, std::span<const Lanes> second) {
+  first_.active.reserve(first.size() / D);
+  second_.active.reserve(second.size() / D);
   built_first_.assign(first.begin(), first.end());
   built_second_.assign(second.begin(), second.end());
   find_partners(first, second);
@@ -128,6 +135,13 @@ void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const
   });
   first_.start.assign(1, 0);
   first_.partner.clear();
+  std::size_t pairs = 0;
+  for (Found& found : found_) {
+    pairs += found.partner.size();
+    make_room(found.partner, found.partner.size() + 1);
+  }
+  make_room(first_.partner, pairs);
+  make_room(second_.partner, pairs);
   for (const Found& found : found_) {
     first_.partner.insert(first_.partner.end(), found.partner.begin(), found.partner.end());
     for (const Index count : found.count) first_.start.push_back(first_.start.back() + count);

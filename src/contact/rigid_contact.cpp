@@ -32,7 +32,9 @@ class RigidContact final : public ForceTerm {
         beta_product_(body.beta * partner.beta),
         partner_(std::move(partner)),
         now_(std::make_unique<Configuration>(ContactPoints<D>::on_surface(
-            body.body, body.beta, choice.density, choice.points))) {}
+            body.body, body.beta, choice.density, choice.points))) {
+    near_.reserve(now_->all.size());
+  }
 
   std::string name() const override { return "contact '" + name_ + "'"; }
   std::string_view energy_kind() const override { return "contact"; }
