@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   meniscus::bench::add_material_cases();
   meniscus::bench::add_shape_function_cases();
   meniscus::bench::add_force_cases();
+  meniscus::bench::add_contact_cases();
   meniscus::bench::Table table;
   benchmark::RunSpecifiedBenchmarks(&table);
 }

@@ -59,5 +59,6 @@ double shortest(benchmark::State& state, Work&& work) {
 void add_material_cases();
 void add_shape_function_cases();
 void add_force_cases();
+void add_contact_cases();
 
 }  // namespace meniscus::bench

@@ -71,6 +71,21 @@ TEST(ContactNumbers, LoseWhatTheCutoffTakes) {
   }
 }
 
+TEST(ContactNumbers, HoldForTheLeastCutoff) {
+  for (const PairKernel kernel : {PairKernel::space, PairKernel::integrated, PairKernel::planar}) {
+    const ContactLaw law{kernel, 1, 1, least_cutoff};
+    const PlaneContact c = plane_contact(law, 1);
+    EXPECT_LT(c.equilibrium_gap, c.peak_gap);
+    EXPECT_LT(c.peak_gap, c.softening_gap);
+    EXPECT_NEAR(plane_state(law, 1, c.equilibrium_gap).pressure, 0, 1e-13);
+    EXPECT_NEAR(plane_state(law, 1, c.peak_gap).stiffness, 0, 1e-13);
+    EXPECT_GT(c.peak_traction, 0);
+    EXPECT_GT(c.softening, 0);
+    EXPECT_GT(c.lost_adhesion(), 0.1);
+    EXPECT_LT(c.lost_adhesion(), 0.5);
+  }
+}
+
 TEST(ContactNumbers, CutHalfSpaceIsTheClosedFormInSpace) {
   const ContactLaw law{PairKernel::space, 1.7, 0.8, 2.5};
   for (const Real gap : {0.3, 0.5, 1.0, 1.6, 1.9}) {

@@ -160,6 +160,7 @@ TEST(RigidPartner, RefusesNonsense) {
   EXPECT_THROW(rigid_half_space<2>({}, 1, Vec<2>::Zero(), Vec<2>::UnitX()), InputError);
   EXPECT_THROW(rigid_ball<3>({}, 1, o, 0), InputError);
   EXPECT_THROW(rigid_cavity<3>({}, 1, o, -1), InputError);
+  EXPECT_THROW(rigid_cavity<3>({}, 1, o, 0.9 * least_gap), InputError);
 }
 
 TEST(RigidMotion, IsTheFormulaAndItsDerivative) {

@@ -110,6 +110,45 @@ TEST(RigidBall, HasTheFieldOfItsRadialValues) {
   expect_tensors<2>(unit_planar);
 }
 
+/// S and U of a cylinder from the definition: the trapezoidal rule on its circle, which converges
+/// exponentially, in points that lie the denser the nearer the circle is.
+TEST(RigidCylinder, IsTheIntegralOverItsCircle) {
+  const Real R = 3;
+  for (const ContactLaw& law : {unit_integrated, unit_planar})
+    for (const Real a : {0.02, 0.6, 1.04, 1.06, 2.2, 2.7, 3.3, 3.8, 5.0, 8.5, 8.6, 40.0}) {
+      const int n = static_cast<int>(60 * (R + a) / std::abs(a - R)) + 60;
+      Real U = 0, S = 0;
+      for (int i = 0; i < n; ++i) {
+        const Real angle = 2 * pi * i / n, line = 2 * pi * R / n;
+        const Vec<2> normal(std::cos(angle), std::sin(angle)), r = Vec<2>(a, 0) - R * normal;
+        const auto f = pair_functions(law, r.norm());
+        U += line * f.psi * r.dot(normal);
+        S += line * f.u * normal[0];
+      }
+      const RadialField f = CylinderField(law, R).at(a);
+      // U near its zero, and the sums by their own rounding.
+      const Real size = std::abs(U) + std::pow(std::abs(a - R), -6);
+      EXPECT_NEAR(f.U, U, 2e-13 * size) << name_of(law.kernel) << " a " << a;
+      EXPECT_NEAR(f.tangent, S / a, 2e-13 * (std::abs(S / a) + size))
+          << name_of(law.kernel) << " a " << a;
+    }
+}
+
+/// dU/da by differences of sixth order.
+TEST(RigidBall, SlopeIsTheDerivativeOfU) {
+  const auto expect_slope = [](const auto& field, Real a) {
+    const Real h = 2e-3 * std::abs(a - 2);
+    const auto f = [&](int k) { return field.at(a + k * h).U; };
+    const Real slope = (45 * (f(1) - f(-1)) - 9 * (f(2) - f(-2)) + (f(3) - f(-3))) / (60 * h);
+    expect_relative(field.slope(a), slope, 1e-9, "dU/da at " + std::to_string(a));
+  };
+  for (const Real a : {0.3, 1.5, 2.4, 3.0, 9.0}) {
+    expect_slope(SphereField({PairKernel::space, 1.2, 0.7}, 2), a);
+    expect_slope(CylinderField({PairKernel::integrated, 1.2, 0.7}, 2), a);
+    expect_slope(CylinderField({PairKernel::planar, 1.2, 0.7}, 2), a);
+  }
+}
+
 /// Near and far formula, to the last digits, on both sides of where they change.
 TEST(RigidBall, SeriesAndClosedFormAgree) {
   for (const Real R : {0.7, 5.0}) {

@@ -36,7 +36,7 @@ constexpr int dimension_of(PairKernel kernel) {
 }
 
 /// Pairs, plates and walls nearer than this, in sigma0, are a failure of the time step unless a law
-/// says otherwise: the stiffness is 1800 times that at equilibrium there.
+/// says otherwise: the stiffness of half spaces there is 2800 times that at rest.
 inline constexpr Real least_gap = 0.3;
 /// The switch begins at this part of the cut-off.
 inline constexpr Real switch_begin = 0.75;

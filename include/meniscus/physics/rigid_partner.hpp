@@ -34,8 +34,8 @@ class RigidPartner {
 
   /// At a point x of its own frame (see rigid_motion.hpp). Exact where distance(x) is at least
   /// guard x sigma0. Nearer, and inside of the material, U goes on growing linearly with the
-  /// depth, so that a point that came through the surface is pushed back and not pulled in; S and
-  /// grad S go with it.
+  /// depth, so that a point that came through the surface is pushed back and not pulled in; S goes
+  /// with it, and grad S is its gradient (around corners of polygons: approximately).
   virtual RigidField<D> field(const Vec<D>& x) const = 0;
 
   /// Distance of x from the surface, negative inside of the material.

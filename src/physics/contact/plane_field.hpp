@@ -24,7 +24,9 @@ class PlaneField {
   /// normal. k = -1, 0, 1 or 2.
   Real derivative(int k, Real a) const {
     const Real z = a / sigma0_;
-    return unit_ * std::pow(sigma0_, -k) * (A_ * power(m_, k, z) - B_ * power(n_, k, z));
+    Real scale = k < 0 ? sigma0_ : 1;
+    for (int i = 0; i < k; ++i) scale /= sigma0_;
+    return unit_ * scale * (A_ * power(m_, k, z) - B_ * power(n_, k, z));
   }
   Real S(Real a) const { return derivative(-1, a); }
   Real U(Real a) const { return derivative(0, a); }
@@ -38,10 +40,10 @@ class PlaneField {
  private:
   /// d^k/dz^k z^-p.
   static Real power(int p, int k, Real z) {
-    if (k < 0) return std::pow(z, 1 - p) / (1 - p);
-    Real value = std::pow(z, -p - k);
-    for (int i = 0; i < k; ++i) value *= -(p + i);
-    return value;
+    Real factor = k < 0 ? Real(1) / (1 - p) : 1, value = 1;
+    for (int i = 0; i < k; ++i) factor *= -(p + i);
+    for (int i = 0; i < p + k; ++i) value *= 1 / z;
+    return factor * value;
   }
 
   Real sigma0_, unit_, A_, B_;

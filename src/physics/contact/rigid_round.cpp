@@ -22,10 +22,8 @@ class RoundPartner final : public RigidPartner<D> {
         cavity_(cavity),
         beta_(cavity ? -beta : beta),  // all space less the ball
         core_(cavity ? radius - law.guard * law.sigma0 : radius + law.guard * law.sigma0) {
-    if (core_ > 0) {
-      at_core_ = exact_.at(core_);
-      slope_ = exact_.slope(core_);
-    }
+    at_core_ = exact_.at(core_);
+    slope_ = exact_.slope(core_);
   }
 
   RigidField<D> field(const Vec<D>& x) const override {
@@ -67,11 +65,14 @@ class RoundPartner final : public RigidPartner<D> {
 };
 
 template <int D>
-std::unique_ptr<RigidPartner<D>> round(const ContactLaw& law, Real beta, const Vec<D>& centre,
-                                       Real radius, bool cavity) {
+std::unique_ptr<RigidPartner<D>> round_partner(const ContactLaw& law, Real beta,
+                                               const Vec<D>& centre, Real radius, bool cavity) {
   const std::string name = cavity ? "cavity" : "ball";
   require_kernel<D>(law, name);
   require_positive(radius, "the radius of a rigid " + name);
+  if (cavity && !(radius > law.guard * law.sigma0))
+    throw InputError("the radius of a rigid cavity must be greater than " +
+                     std::to_string(law.guard) + " sigma0");
   using Field = std::conditional_t<D == 3, SphereField, CylinderField>;
   return std::make_unique<RoundPartner<D, Field>>(law, beta, centre, radius, cavity);
 }
@@ -81,12 +82,12 @@ std::unique_ptr<RigidPartner<D>> round(const ContactLaw& law, Real beta, const V
 template <int D>
 std::unique_ptr<RigidPartner<D>> rigid_ball(const ContactLaw& law, Real beta, const Vec<D>& centre,
                                             Real radius) {
-  return round<D>(law, beta, centre, radius, false);
+  return round_partner<D>(law, beta, centre, radius, false);
 }
 template <int D>
 std::unique_ptr<RigidPartner<D>> rigid_cavity(const ContactLaw& law, Real beta,
                                               const Vec<D>& centre, Real radius) {
-  return round<D>(law, beta, centre, radius, true);
+  return round_partner<D>(law, beta, centre, radius, true);
 }
 template std::unique_ptr<RigidPartner<2>> rigid_ball(const ContactLaw&, Real, const Vec<2>&, Real);
 template std::unique_ptr<RigidPartner<3>> rigid_ball(const ContactLaw&, Real, const Vec<3>&, Real);

@@ -7,8 +7,10 @@
 #include "meniscus/physics/segment_field.hpp"
 
 #include "meniscus/body/gauss.hpp"
+#include "meniscus/core/simd.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meniscus {
@@ -32,6 +34,18 @@ const GaussRule& rule() {
   return points;
 }
 
+/// The same on [0, 1], four points at once.
+struct LaneRule {
+  std::array<Lanes, 5> s, w;
+
+  LaneRule() {
+    for (int k = 0; k < 20; ++k) {
+      at(s, k / 4).set(k % 4, (1 + at(rule().x, k)) / 2);
+      at(w, k / 4).set(k % 4, at(rule().w, k) / 2);
+    }
+  }
+};
+
 /// r^-p at one point, p = 9, 3, 11, 5 if odd, else 10, 4, 12, 6.
 Powers at_point(bool odd, Real X, Real h) {
   const Real q = 1 / (X * X + h * h), q2 = q * q, q5 = q2 * q2 * q;
@@ -53,14 +67,18 @@ Powers odd_tail(Real X, Real h) {
 /// With v = 1/(r + X) and n = p - 2, by the tangent of half the angle,
 /// G_p = (2 v)^(n+1) INT_0^1 s^n/(1 + h^2 v^2 s^2)^(n+1) ds.
 Powers even_tail(Real X, Real h) {
+  static const LaneRule points;
   const Real v = 1 / (std::hypot(X, h) + X), h2v2 = (h * v) * (h * v);
-  Powers f{};
-  for (std::size_t k = 0; k < rule().x.size(); ++k) {
-    const Real s = (1 + rule().x[k]) / 2, below = 1 / (1 + h2v2 * s * s);
-    const Real y = 2 * v * s * below, y2 = y * y, y4 = y2 * y2;
-    f.add(rule().w[k] * v * below, {y4 * y4, y2, y4 * y4 * y2, y4});
+  Lanes f10 = Lanes::zero(), f4 = f10, f12 = f10, f6 = f10;
+  for (std::size_t k = 0; k < points.s.size(); ++k) {
+    const Lanes s = points.s[k], below = 1.0 / (1.0 + h2v2 * (s * s));
+    const Lanes y = 2 * v * (s * below), y2 = y * y, y4 = y2 * y2, weight = points.w[k] * below;
+    f10 += weight * (y4 * y4);
+    f4 += weight * y2;
+    f12 += weight * (y4 * y4 * y2);
+    f6 += weight * y4;
   }
-  return f;
+  return {2 * v * sum(f10), 2 * v * sum(f4), 2 * v * sum(f12), 2 * v * sum(f6)};
 }
 
 Powers tail(bool odd, Real X, Real h) {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Time of the pair functions per pair and of rigid partners per point.
+#include "meniscus/physics/rigid_partner.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "measure.hpp"
+
+namespace meniscus::bench {
+namespace {
+
+constexpr int pairs = 4096;
+
+template <class Scalar, class Law>
+double shortest_of_pairs(benchmark::State& state, const Law& law, bool volume) {
+  std::vector<Real> squares;
+  for (int i = 0; i < pairs; ++i) squares.push_back(0.2 + 15 * ((i * 193) % pairs) / Real(pairs));
+  constexpr int width = sizeof(Scalar) / sizeof(Real);
+  return shortest(state, [&] {
+    Scalar first(0.0), second(0.0);
+    for (std::size_t i = 0; i < squares.size(); i += width) {
+      Scalar square(0.0);
+      __builtin_memcpy(&square, &squares[i], sizeof(Scalar));
+      if (volume) {
+        const auto f = law.volume(square);
+        first += f.phi;
+        second += f.dphi_by_r;
+      } else {
+        const auto f = law.surface(square);
+        first += f.u;
+        second += f.psi;
+      }
+    }
+    benchmark::DoNotOptimize(first);
+    benchmark::DoNotOptimize(second);
+  });
+}
+
+void add_pair_case(PairKernel kernel, bool volume) {
+  const std::string name =
+      std::string(name_of(kernel)) + (volume ? ", phi and phi'/r" : ", u and psi");
+  add_case("pair functions", name, 1, [kernel, volume](benchmark::State& state) {
+    with_kernel(kernel, [&](auto K) {
+      const PairLaw<K()> law(ContactLaw{kernel, 1, 1, 4});
+      const double lanes = shortest_of_pairs<Lanes>(state, law, volume);
+      set_columns(state, {{"ns/pair", 1e9 * lanes / pairs}});
+    });
+  });
+}
+
+template <int D>
+void add_partner_case(const std::string& name, std::shared_ptr<const RigidPartner<D>> partner,
+                      Vec<D> from, Vec<D> to) {
+  add_case("rigid partners", name, 1, [=](benchmark::State& state) {
+    const double time = shortest(state, [&] {
+      for (int i = 0; i < 256; ++i) {
+        const auto f = partner->field(Vec<D>(from + (to - from) * (i / 256.0)));
+        benchmark::DoNotOptimize(f);
+      }
+    });
+    set_columns(state, {{"ns/point", 1e9 * time / 256}});
+  });
+}
+
+}  // namespace
+
+void add_contact_cases() {
+  for (const PairKernel kernel : {PairKernel::space, PairKernel::integrated, PairKernel::planar})
+    for (const bool volume : {false, true}) add_pair_case(kernel, volume);
+  const ContactLaw space;
+  const Vec<3> o = Vec<3>::Zero(), x = Vec<3>::UnitX();
+  add_partner_case<3>("half space", rigid_half_space<3>(space, 1, o, x), 0.4 * x, 4.0 * x);
+  add_partner_case<3>("ball", rigid_ball<3>(space, 1, o, 5), 5.4 * x, 9.0 * x);
+  for (const PairKernel kernel : {PairKernel::integrated, PairKernel::planar}) {
+    const ContactLaw law{kernel};
+    const std::string tail = ", " + std::string(name_of(kernel));
+    const Vec<2> c = Vec<2>::Zero(), e = Vec<2>::UnitX();
+    add_partner_case<2>("cylinder" + tail, rigid_ball<2>(law, 1, c, 5), 5.4 * e, 9.0 * e);
+    add_partner_case<2>("frame" + tail, rigid_frame(law, 1, {0, 0}, {20, 20}), {0.4, 0.6}, {9, 8});
+  }
+}
+
+}  // namespace meniscus::bench
