@@ -42,8 +42,7 @@ Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> ac
     for (int i = 0; i < D; ++i) square += (v[i] - from[i]) * (v[i] - from[i]);
     largest = max(square, largest);
   }
-  return std::sqrt(
-      std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3])));
+  return std::sqrt(std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3])));
 }
 
 }  // namespace
@@ -71,7 +70,8 @@ StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_
   StepDemand demand;
   if (!(gap > 0)) return demand;
   if (closing_speed > 0) demand.longest = closed_in_a_step * gap / closing_speed;
-  const Real reached = std::max((1 - closed_in_a_step) * gap, contact.law.guard * contact.law.sigma0);
+  const Real reached =
+      std::max((1 - closed_in_a_step) * gap, contact.law.guard * contact.law.sigma0);
   const Real K = plane_state(contact.law, contact.beta_product, reached).stiffness;
   const Real single = 1 + 2 * std::pow(contact.spacing / reached, contact.dimension - 1);
   demand.stiffness = std::max(0.0, K) * single * contact.inverse_inertia;

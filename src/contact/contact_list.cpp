@@ -156,8 +156,7 @@ void ContactList<D>::transpose(Index second_clusters) {
   for (Index c = 0; c < second_clusters; ++c) at(second_.start, c + 1) += at(second_.start, c);
   second_.partner.resize(first_.partner.size());
   for (Index c = 0; c + 1 < static_cast<Index>(first_.start.size()); ++c)
-    for (const Index other : first_.of(c))
-      at(second_.partner, at(second_.start, other)++) = c;
+    for (const Index other : first_.of(c)) at(second_.partner, at(second_.start, other)++) = c;
   for (Index c = second_clusters; c > 0; --c) at(second_.start, c) = at(second_.start, c - 1);
   second_.start[0] = 0;
 }

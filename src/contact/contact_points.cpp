@@ -106,8 +106,7 @@ ContactPoints<D> ContactPoints<D>::on_surface(const Body<D>& body, Real beta, Si
       at(contact.reference_, q / Lanes::width * D + i)
           .set(q % Lanes::width,
                beta * at(surface.area, at(order, q)) * at(surface.N, at(order, q))[i]);
-  contact.inverse_.assign(static_cast<std::size_t>(contact.clusters()),
-                          Tensor<Lanes>::identity());
+  contact.inverse_.assign(static_cast<std::size_t>(contact.clusters()), Tensor<Lanes>::identity());
   return contact;
 }
 
@@ -132,8 +131,7 @@ void ContactPoints<D>::move(const Motion& motion) {
       for (Index lane = 0; lane < Lanes::width; ++lane) {
         const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
         const Lanes moved = value_at(rule_.rows, q, u);
-        for (int i = 0; i < D; ++i)
-          at(x_, c * D + i).set(lane, at(X_, c * D + i)[lane] + moved[i]);
+        for (int i = 0; i < D; ++i) at(x_, c * D + i).set(lane, at(X_, c * D + i)[lane] + moved[i]);
       }
   });
 }
@@ -191,8 +189,7 @@ Tensor<Lanes> ContactPoints<D>::stress(Index cluster, const Lanes* S) const {
     area[i] = V[i];
     for (int K = 0; K < D; ++K) pulled[K] += inverse(K, i) * S[i];
   }
-  return Tensor<Lanes>::map(
-      [&](int i, int K) { return SV * inverse(K, i) - area[i] * pulled[K]; });
+  return Tensor<Lanes>::map([&](int i, int K) { return SV * inverse(K, i) - area[i] * pulled[K]; });
 }
 
 template <int D>
@@ -204,8 +201,7 @@ void ContactPoints<D>::add_force(std::span<const Index> clusters, std::span<cons
     for (Index c = begin; c < end; ++c) {
       if (!at(pushed_, c)) continue;
       const Lanes* pull = T.data() + offset(c, D);
-      const auto by_point =
-          detail::by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
+      const auto by_point = detail::by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
       for (Index lane = 0; lane < points_in(c); ++lane)
         scatter_value(rule_.rows, c * Lanes::width + lane, -at(by_point, lane), f);
       if (!S.empty()) rule_.scatter(c, -1.0 * stress(c, S.data() + offset(c, D)), f);

@@ -44,10 +44,10 @@ class PairContact final : public ForceTerm {
         law_(law),
         pair_law_(law),
         beta_product_(first.beta * second.beta),
-        now_(std::make_unique<Configuration>(Configuration{
-            Side<D>(points_of(first, choice), Form::moment),
-            Side<D>(points_of(second, choice), Form::moment),
-            ContactList<D>(law.reach(), choice.skin * law.sigma0)})) {}
+        now_(std::make_unique<Configuration>(
+            Configuration{Side<D>(points_of(first, choice), Form::moment),
+                          Side<D>(points_of(second, choice), Form::moment),
+                          ContactList<D>(law.reach(), choice.skin * law.sigma0)})) {}
 
   std::string name() const override { return "contact '" + name_ + "'"; }
   std::string_view energy_kind() const override { return "contact"; }
@@ -144,8 +144,7 @@ class PairContact final : public ForceTerm {
   Real least_square() const {
     const Rows& rows = now_->list.of_first();
     Real least = 1e300;
-    for (const Index c : rows.active)
-      least = std::min(least, squares(c, rows.of(c)).minCoeff());
+    for (const Index c : rows.active) least = std::min(least, squares(c, rows.of(c)).minCoeff());
     return least;
   }
   /// Squared distances of the four points of a cluster to the nearest points of the partners.
@@ -156,9 +155,9 @@ class PairContact final : public ForceTerm {
       for (int lane = 0; lane < Lanes::width; ++lane) {
         const Vec<D> y = others.place(std::min(partner * Lanes::width + lane, others.size() - 1));
         for (int own = 0; own < now_->first.points.points_in(cluster); ++own)
-          nearest[own] = std::min(
-              nearest[own],
-              (now_->first.points.place(cluster * Lanes::width + own) - y).squaredNorm());
+          nearest[own] =
+              std::min(nearest[own],
+                       (now_->first.points.place(cluster * Lanes::width + own) - y).squaredNorm());
       }
     return nearest;
   }
@@ -235,8 +234,7 @@ std::vector<MeasureSource> PairContact<D, Form, K>::measures() const {
       {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
        [this, gap](const Motion& motion) { return gap(motion) / spacing(); }}};
   for (int i = 0; i < D; ++i)
-    all.push_back({std::string("force_") + "xyz"[i], dimension::force,
-                   "force on the first body",
+    all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the first body",
                    [this, i](const Motion& motion) { return force_on_first(motion)[i]; }});
   return all;
 }

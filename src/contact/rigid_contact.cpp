@@ -4,9 +4,9 @@
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_demand.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace meniscus {
@@ -31,8 +31,8 @@ class RigidContact final : public ForceTerm {
         form_(choice.form),
         beta_product_(body.beta * partner.beta),
         partner_(std::move(partner)),
-        now_(std::make_unique<Configuration>(ContactPoints<D>::on_surface(
-            body.body, body.beta, choice.density, choice.points))) {
+        now_(std::make_unique<Configuration>(
+            ContactPoints<D>::on_surface(body.body, body.beta, choice.density, choice.points))) {
     near_.reserve(now_->all.size());
   }
 
@@ -132,7 +132,8 @@ void RigidContact<D>::bring_up(const Motion& motion) const {
   now.points.move(motion);
   now.points.weigh(now.all, motion);
   const Vec<D> shift = partner_.motion.displacement(motion.time);
-  parallel_for(now.points.clusters(), [&](Index c) { feel(c, shift); }, 16);
+  parallel_for(
+      now.points.clusters(), [&](Index c) { feel(c, shift); }, 16);
 }
 
 /// T and S of the four points of a cluster: T = grad S V, with S forming the energy S.V, or T = U V

@@ -36,8 +36,7 @@ ContactChoice choice_of(const ContactSettings& s) {
   choice.name = s.name;
   for (std::size_t k = 0; k < contact_form_names.size(); ++k)
     if (contact_form_names[k] == s.form) choice.form = static_cast<ContactForm>(k);
-  choice.density =
-      s.density == "constant" ? SiteDensity::constant : SiteDensity::referential;
+  choice.density = s.density == "constant" ? SiteDensity::constant : SiteDensity::referential;
   choice.points = s.points;
   choice.skin = s.skin;
   return choice;
@@ -49,23 +48,21 @@ void report(const Plan<D>& plan, const ContactSettings& s, const ContactLaw& law
             const ForceTerm& term, Scene<D>& scene) {
   const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
   const PlaneContact flat = plane_contact(law, s.beta * s.beta_other);
-  std::string note = fmt::format(
-      "contact '{}', form {}: adhesion W = {:.6g} {}", s.name, s.form, flat.adhesion,
-      unit(dimension::tension));
+  std::string note = fmt::format("contact '{}', form {}: adhesion W = {:.6g} {}", s.name, s.form,
+                                 flat.adhesion, unit(dimension::tension));
   if (law.cut())
     note += fmt::format(" ({:.1f} % lost by the cut-off at {:.3g} sigma0)",
                         100 * flat.lost_adhesion(), law.cutoff);
-  note += fmt::format(
-      ", equilibrium gap {:.4g} {}, peak traction {:.4g} {}, stiffness {:.4g} {}",
-      flat.equilibrium_gap, unit(dimension::length), flat.peak_traction,
-      unit(dimension::pressure), flat.stiffness, unit({-2, -2, 1}));
+  note += fmt::format(", equilibrium gap {:.4g} {}, peak traction {:.4g} {}, stiffness {:.4g} {}",
+                      flat.equilibrium_gap, unit(dimension::length), flat.peak_traction,
+                      unit(dimension::pressure), flat.stiffness, unit({-2, -2, 1}));
   for (const TensionSettings& tension : plan.tensions)
     if (std::find(s.bodies.begin(), s.bodies.end(), tension.body) != s.bodies.end())
       note += fmt::format(", contact angle of '{}': {}", tension.body,
                           contact_angle_text(flat.adhesion, tension.gamma));
   scene.notes.push_back(note);
-  scene.notes.push_back(fmt::format("contact '{}': {:.1f} MB", s.name,
-                                    1e-6 * static_cast<Real>(term.bytes())));
+  scene.notes.push_back(
+      fmt::format("contact '{}': {:.1f} MB", s.name, 1e-6 * static_cast<Real>(term.bytes())));
   if (s.form == "dissertation")
     scene.warnings.push_back(fmt::format(
         "contact '{}': form = \"dissertation\" is not the gradient of an energy: energy drifts at "
@@ -108,11 +105,13 @@ void plan_contacts(const Block& root, Plan<D>& plan) {
       block.problem("bodies", fmt::format("'{}' cannot be in contact with itself", s.bodies[0]));
     if (s.form == "volume") {
       if (block.has("density") && s.density == "constant")
-        block.problem("density", "form = \"volume\" has beta per reference volume; allowed is "
-                                 "referential");
+        block.problem("density",
+                      "form = \"volume\" has beta per reference volume; allowed is "
+                      "referential");
       if (partner)
-        block.problem("form", "volume is for two bodies; allowed with a rigid partner are energy, "
-                              "pressure, dissertation");
+        block.problem("form",
+                      "volume is for two bodies; allowed with a rigid partner are energy, "
+                      "pressure, dissertation");
     }
     if (s.name.empty() && !s.bodies.empty())
       s.name = s.bodies[0] + "-" + (s.bodies.size() > 1 ? s.bodies[1] : "partner");

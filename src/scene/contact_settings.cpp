@@ -112,13 +112,14 @@ void require_components(const Block& block, int D) {
       const auto count =
           std::string_view(key) == "displacement"
               ? block.expressions(key, 0, dimension::length, std::nullopt).size()
-              : block.reals(key, 0, std::string_view(key) == "normal" ? dimension::none
-                                                                      : dimension::length,
-                            range::any, std::nullopt)
+              : block
+                    .reals(key, 0,
+                           std::string_view(key) == "normal" ? dimension::none : dimension::length,
+                           range::any, std::nullopt)
                     .size();
       if (count != static_cast<std::size_t>(D))
-        block.problem(key, fmt::format("has {} components; allowed are {}, one per dimension",
-                                       count, D));
+        block.problem(
+            key, fmt::format("has {} components; allowed are {}, one per dimension", count, D));
     }
 }
 
@@ -205,12 +206,11 @@ PartnerPlan<D> read_partner(const Block& block) {
 
 void describe_contact_keys(std::ostream& out) {
   describe<ContactSettings>(out, "[[contact]]");
-  rows::print_table(
-      out, "[contact.partner] of any type",
-      {{{"type", "text", "", "half_space | ball | cavity | frame (2D)", "required",
-         "kind of the rigid partner; ball and cavity are cylindrical in 2D"}},
-       {{"displacement", "numbers or formulas", "m", "", "0",
-         "prescribed motion, a formula of t for each component"}}});
+  rows::print_table(out, "[contact.partner] of any type",
+                    {{{"type", "text", "", "half_space | ball | cavity | frame (2D)", "required",
+                       "kind of the rigid partner; ball and cavity are cylindrical in 2D"}},
+                     {{"displacement", "numbers or formulas", "m", "", "0",
+                       "prescribed motion, a formula of t for each component"}}});
   describe<HalfSpace>(out, "[contact.partner] type = \"half_space\"");
   describe<Round>(out, "[contact.partner] type = \"ball\" or \"cavity\"");
   describe<Frame>(out, "[contact.partner] type = \"frame\" (2D)");

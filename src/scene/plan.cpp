@@ -17,8 +17,7 @@
 namespace meniscus {
 
 template <int D>
-const typename Plan<D>::PlannedBody* Plan<D>::require(const Block& block,
-                                                      const std::string& name,
+const typename Plan<D>::PlannedBody* Plan<D>::require(const Block& block, const std::string& name,
                                                       const char* key) const {
   std::vector<std::string> known;
   for (const PlannedBody& body : bodies) {

@@ -98,11 +98,9 @@ Snapshot Simulation<D>::snapshot() const {
   s.add_reals("displacement", packed<D>(state_.u), scene_.units.symbol(dimension::length));
   s.add_reals("velocity", packed<D>(state_.v), scene_.units.symbol(dimension::velocity));
   s.add_reals("force", packed<D>(state_.force), scene_.units.symbol(dimension::force));
-  const Real numbers[] = {state_.time,           state_.dissipated,
-                          state_.external_work,  state_.dissipation_power,
-                          state_.external_power, last_step_,
-                          state_.demand.stiffness,
-                          state_.demand.longest};
+  const Real numbers[] = {
+      state_.time,           state_.dissipated, state_.external_work,    state_.dissipation_power,
+      state_.external_power, last_step_,        state_.demand.stiffness, state_.demand.longest};
   s.add_reals("numbers", numbers);
   const std::int64_t step[] = {state_.step};
   s.add_integers("step", step);

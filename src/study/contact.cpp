@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Total force between two balls of radius 3 sigma0 in the forms of contact, against the exact value:
-// error over time and pairs at gaps of 0.5, 0.64 and 1 sigma0 (CGCM note 7). The law is cut off at
-// 4 sigma0; its switch keeps the forms equivalent, so that one exact value holds for all.
-#include "meniscus/body/gauss.hpp"
+// Total force between two balls of radius 3 sigma0 in the forms of contact, against the exact
+// value: error over time and pairs at gaps of 0.5, 0.64 and 1 sigma0 (CGCM note 7). The law is cut
+// off at 4 sigma0; its switch keeps the forms equivalent, so that one exact value holds for all.
 #include "meniscus/physics/contact.hpp"
+
+#include "meniscus/body/gauss.hpp"
 #include "meniscus/physics/contact_list.hpp"
 #include "meniscus/study/study.hpp"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+
+#include <Eigen/Geometry>
 
 #include "support/bodies.hpp"
 
@@ -163,9 +165,8 @@ Measurement measure(const Balls& balls, const Method& method, Real gap, int leve
   const auto [pairs, spacing] = count_pairs(balls, method, balls.displacement(gap, rotation(0)));
   result.h = spacing;
   result.errors = {{"force", std::sqrt(squares / turns) / std::max(std::abs(exact), pull_off)}};
-  result.values = {{"pairs", pairs},
-                   {"h / gap", spacing / gap},
-                   {"ns per pair", 1e9 * result.time / pairs}};
+  result.values = {
+      {"pairs", pairs}, {"h / gap", spacing / gap}, {"ns per pair", 1e9 * result.time / pairs}};
   return result;
 }
 
@@ -193,8 +194,8 @@ void compare_at_equal_accuracy(StudyRun& study, Real gap) {
   for (const Method& method : methods(study.brief())) {
     const std::string name = fmt::format("{}, gap {} sigma0", method.name, gap);
     if (const auto cost = cost_of_one_per_cent(study, name))
-      study.note(fmt::format("{}: 1 % with {:.2g} pairs in {:.2g} s", name, cost->first,
-                             cost->second));
+      study.note(
+          fmt::format("{}: 1 % with {:.2g} pairs in {:.2g} s", name, cost->first, cost->second));
     else
       study.note(fmt::format("{}: 1 % not reached", name));
   }

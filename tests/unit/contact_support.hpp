@@ -76,8 +76,7 @@ ContactLaw law(PairKernel kernel = D == 3 ? PairKernel::space : PairKernel::inte
 }
 
 template <int D>
-std::unique_ptr<ForceTerm> contact_of(const Pair<D>& pair, const ContactLaw& law,
-                                      ContactForm form,
+std::unique_ptr<ForceTerm> contact_of(const Pair<D>& pair, const ContactLaw& law, ContactForm form,
                                       SiteDensity density = SiteDensity::constant) {
   ContactChoice choice;
   choice.name = "pair";

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of deformable bodies with each other and with rigid partners: gradients of energies,
 // momenta, overlaps, and what a step may do.
+#include "meniscus/core/error.hpp"
+
 #include <gtest/gtest.h>
 
 #include "contact_support.hpp"
-#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -32,8 +33,8 @@ void expect_pair_gradients() {
   for (const PairKernel kernel : kernels<D>()) {
     const ContactLaw law = test::law<D>(kernel);
     for (const SiteDensity density : {SiteDensity::constant, SiteDensity::referential})
-      expect_gradient<D>(*test::contact_of<D>(pair, law, ContactForm::energy, density),
-                         pair.size(), 1e-8);
+      expect_gradient<D>(*test::contact_of<D>(pair, law, ContactForm::energy, density), pair.size(),
+                         1e-8);
     // The force of the cut-off law jumps where the switch begins and ends; here it begins far away.
     ContactLaw far = law;
     far.cutoff = 20;
@@ -93,9 +94,8 @@ TEST(Contact, DissertationFormConservesNothing) {
   const auto term = test::contact_of<3>(pair, test::law<3>(), ContactForm::dissertation);
   // Along a spreading of the surfaces; a translation would be right.
   const NodalVectors u = test::zeros(pair.random(1, 1));
-  const NodalVectors spread = pair.field([](const Vec<3>& X) {
-    return Vec<3>(-X[0], 0.5 * X[1], 0.5 * X[2]);
-  });
+  const NodalVectors spread =
+      pair.field([](const Vec<3>& X) { return Vec<3>(-X[0], 0.5 * X[1], 0.5 * X[2]); });
   EXPECT_GT(test::gradient_error(*term, u, spread, 4e-4), 0.1);
 }
 

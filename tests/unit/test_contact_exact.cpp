@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact between ellipsoids and spheres against the reference values of the CGCM note: total force,
-// energy, and the work of all linear motions, which tells the forms apart.
-#include <Eigen/LU>
+// Contact between ellipsoids and spheres against the reference values of the CGCM note: total
+// force, energy, and the work of all linear motions, which tells the forms apart.
 #include <gtest/gtest.h>
+
+#include <Eigen/LU>
 
 #include "contact_reference.hpp"
 #include "contact_support.hpp"
@@ -29,14 +30,15 @@ struct Ellipsoids {
   NodalVectors u;
   Mat<3> M1, M2;
 
-  explicit Ellipsoids(const nlohmann::json& inputs) : M1(matrix(inputs.at("M1"))), M2(matrix(inputs.at("M2"))) {
+  explicit Ellipsoids(const nlohmann::json& inputs)
+      : M1(matrix(inputs.at("M1"))), M2(matrix(inputs.at("M2"))) {
     pair.first = test::with_mass<3>(test::ball(4, 2));
     pair.second = test::with_mass<3>(test::ball(4, 2), pair.first->size());
     Vec<3> c2;
     for (int i = 0; i < 3; ++i) c2[i] = inputs.at("c2").at(i).get<Real>();
     u = test::field_on<3>(*pair.first, [&](const Vec<3>& X) { return Vec<3>(M1 * X - X); });
-    const NodalVectors other = test::field_on<3>(
-        *pair.second, [&](const Vec<3>& X) { return Vec<3>(c2 + M2 * X - X); });
+    const NodalVectors other =
+        test::field_on<3>(*pair.second, [&](const Vec<3>& X) { return Vec<3>(c2 + M2 * X - X); });
     u.insert(u.end(), other.begin(), other.end());
   }
 
@@ -56,8 +58,7 @@ struct Ellipsoids {
     const bool referential = form == ContactForm::volume || density == SiteDensity::referential;
     const Real beta1 = referential ? M1.determinant() : 1;
     const Real beta2 = referential ? M2.determinant() : 1;
-    const auto term =
-        contact_pair<3>({*pair.first, beta1}, {*pair.second, beta2}, law, choice);
+    const auto term = contact_pair<3>({*pair.first, beta1}, {*pair.second, beta2}, law, choice);
     const NodalVectors force = test::force_of(*term, u);
     Result r{Vec<3>::Zero(), Mat<3>::Zero(), test::energy_of(*term, u)};
     for (Index A = 0; A < pair.first->size(); ++A) {

@@ -77,7 +77,8 @@ template <int D>
 void expect_complete_on_moving_clouds(unsigned seed) {
   std::mt19937_64 generator(seed);
   const Real reach = 0.5, skin = 0.15, size = D == 3 ? 3 : 5;
-  Cloud a = random_cloud<D>(60, size, 0.1, generator), b = random_cloud<D>(45, size, 0.2, generator);
+  Cloud a = random_cloud<D>(60, size, 0.1, generator),
+        b = random_cloud<D>(45, size, 0.2, generator);
   ContactList<D> list(reach, skin);
   std::normal_distribution<Real> step(0, 0.01);
   Index found = 0;
@@ -89,9 +90,9 @@ void expect_complete_on_moving_clouds(unsigned seed) {
       for (Lanes& x : *cloud)
         for (int lane = 0; lane < 4; ++lane) x.set(lane, x[lane] + step(generator));
   }
-  EXPECT_GT(found, 1000);                     // it was about something
-  EXPECT_GT(list.builds(), 3);                // rebuilt,
-  EXPECT_LT(list.builds(), 55);               // but not always
+  EXPECT_GT(found, 1000);        // it was about something
+  EXPECT_GT(list.builds(), 3);   // rebuilt,
+  EXPECT_LT(list.builds(), 55);  // but not always
 }
 
 TEST(ContactList, HasAllPairsOfMovingClouds) {

@@ -11,9 +11,8 @@ namespace meniscus {
 namespace {
 
 std::string disk(const std::string& name, const std::string& more) {
-  return "[[body]]\nname = \"" + name +
-         "\"\nshape = \"disk\"\nradius = 1\ncore = 6\nrings = 3\n" + more +
-         "\nmaterial = { type = \"neo_hookean\", density = 1, mu = 40, lambda = 30 }\n";
+  return "[[body]]\nname = \"" + name + "\"\nshape = \"disk\"\nradius = 1\ncore = 6\nrings = 3\n" +
+         more + "\nmaterial = { type = \"neo_hookean\", density = 1, mu = 40, lambda = 30 }\n";
 }
 std::string contact(const std::string& bodies, const std::string& more) {
   return "[[contact]]\nbodies = " + bodies + "\nepsilon = 1.5\nsigma0 = 0.4\nbeta = 1\n" + more +
@@ -43,8 +42,7 @@ struct SceneRun {
   Scene<2> scene;
   Simulation<2> simulation;
 
-  explicit SceneRun(const std::string& text)
-      : scene(scene_of(text)), simulation(scene) {}
+  explicit SceneRun(const std::string& text) : scene(scene_of(text)), simulation(scene) {}
   void steps(int count) {
     for (int k = 0; k < count; ++k) simulation.advance();
   }
@@ -72,7 +70,7 @@ TEST(ContactRun, CollisionConservesEnergyAndMomenta) {
     EXPECT_LT(audit.angular_momentum_error(ledger), 1e-13);
     EXPECT_TRUE(ledger.stored.contains("contact"));
   }
-  EXPECT_LT(least, 0.25);  // they met,
+  EXPECT_LT(least, 0.25);                                  // they met,
   EXPECT_GT(run.measure("left-right.gap"), least + 0.05);  // and parted
   EXPECT_LT(worst_energy, 5e-4);
 }
@@ -182,7 +180,8 @@ TEST(ContactRun, WrongTablesAreNoted) {
   expect(both, "cutoff = 1", "out of range");
   expect("[\"left\"]", "partner = { type = \"ball\", centre = [9, 9, 9], radius = 1 }",
          "3 components");
-  expect("[\"left\"]", "form = \"volume\"\npartner = { type = \"ball\", centre = [9, 9], radius = 1 }",
+  expect("[\"left\"]",
+         "form = \"volume\"\npartner = { type = \"ball\", centre = [9, 9], radius = 1 }",
          "volume is for two bodies");
 }
 

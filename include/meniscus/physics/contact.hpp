@@ -21,7 +21,7 @@ enum class ContactForm {
   dissertation  ///< - V2 (r.V1) psi, (3.30) of Fan 2014: not the gradient of any energy
 };
 inline constexpr std::array<std::string_view, 4> contact_form_names{"energy", "pressure", "volume",
-                                                                   "dissertation"};
+                                                                    "dissertation"};
 
 struct ContactChoice {
   std::string name;  ///< of the pair, in messages and measures
@@ -38,8 +38,8 @@ struct ContactBody {
   Real beta;
 };
 
-/// Contact of two bodies; the law has a cut-off. Steps into a gap below the guard of the law are failures that
-/// a shorter step may avoid.
+/// Contact of two bodies; the law has a cut-off. Steps into a gap below the guard of the law are
+/// failures that a shorter step may avoid.
 template <int D>
 std::unique_ptr<ForceTerm> contact_pair(const ContactBody<D>& first, const ContactBody<D>& second,
                                         const ContactLaw& law, const ContactChoice& choice);

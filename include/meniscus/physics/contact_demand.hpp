@@ -32,8 +32,9 @@ struct ContactInertia {
 
 /// A step closes at most 1/20 of the gap, and the stiffness is that of two planes at the gap it can
 /// reach, K ~ gap^-10 (CGCM notes 3.1 and 8); (1 + 2 (spacing/gap)^(D-1)) K where the points of the
-/// other side are so far apart that single ones are felt. The step is at most half the stable one of
-/// that stiffness: so stiff a spring whose stiffness changes by multiples heats up at longer steps.
+/// other side are so far apart that single ones are felt. The step is at most half the stable one
+/// of that stiffness: so stiff a spring whose stiffness changes by multiples heats up at longer
+/// steps.
 StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed);
 
 /// A sentence if the points are more than half a gap apart, within reach of the forces.

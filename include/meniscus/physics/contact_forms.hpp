@@ -83,8 +83,8 @@ template <int D, int Components>
 struct Potential {
   static constexpr int components = Components;
   template <class Law>
-  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes*,
-                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes*) {
+  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes*, const Lanes* V,
+                                         const Lanes* W, Lanes* T, Lanes*) {
     if constexpr (Components == D)
       T[0] += law.surface(square).u * dot<D>(V, W);
     else

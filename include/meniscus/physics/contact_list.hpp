@@ -7,9 +7,9 @@
 
 namespace meniscus {
 
-/// All pairs of clusters of two clouds of which a point of one lies within `reach` of a point of the
-/// other, and some more, as rows in both directions. Partners ascend, so that a sum over them in
-/// which points out of reach add exactly zero has the same bits whenever the list was built.
+/// All pairs of clusters of two clouds of which a point of one lies within `reach` of a point of
+/// the other, and some more, as rows in both directions. Partners ascend, so that a sum over them
+/// in which points out of reach add exactly zero has the same bits whenever the list was built.
 ///
 /// It is built for reach + skin and stays valid as long as no point of the first cloud and none of
 /// the second have moved by more than `skin` together.

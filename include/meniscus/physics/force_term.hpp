@@ -23,8 +23,8 @@ struct Motion {
 
 /// Why a term could not compute a force that makes sense.
 struct Failure {
-  Index particle;     ///< global number of the particle nearest to the failure
-  std::string cause;  ///< e.g. "J = -0.3 at a stress point; F = [...]"
+  Index particle;        ///< global number of the particle nearest to the failure
+  std::string cause;     ///< e.g. "J = -0.3 at a stress point; F = [...]"
   bool of_step = false;  ///< a shorter step may avoid it
 };
 
@@ -77,8 +77,8 @@ class ForceTerm {
   virtual Real external_power(const Motion&) const { return 0; }
 
   virtual std::optional<Failure> failure() const { return std::nullopt; }
-  /// About the last add_force(). Only terms whose stiffness grows by multiples within few steps have
-  /// a demand.
+  /// About the last add_force(). Only terms whose stiffness grows by multiples within few steps
+  /// have a demand.
   virtual StepDemand step_demand() const { return {}; }
   /// Doubtful but possible states, looked for at output times; one sentence.
   virtual std::optional<std::string> warning(const Motion&) const { return std::nullopt; }
