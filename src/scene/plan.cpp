@@ -17,16 +17,15 @@
 namespace meniscus {
 
 template <int D>
-const typename Plan<D>::PlannedBody* Plan<D>::require(const Block& block,
-                                                      const std::string& name) const {
+const typename Plan<D>::PlannedBody* Plan<D>::require(const Block& block, const std::string& name,
+                                                      const char* key) const {
   std::vector<std::string> known;
   for (const PlannedBody& body : bodies) {
     if (body.settings.name == name) return &body;
     known.push_back(body.settings.name);
   }
-  if (block.has("body") && !known.empty())
-    block.problem("body",
-                  fmt::format("there is no body '{}'; {}", name, allowed_names(name, known)));
+  if (block.has(key) && !known.empty())
+    block.problem(key, fmt::format("there is no body '{}'; {}", name, allowed_names(name, known)));
   return nullptr;
 }
 
@@ -170,6 +169,7 @@ Plan<D> read_plan(const SceneInput& input, Scene<D>& scene) {
   read_settings(input, scene);
   plan_bodies(input.root(), plan);
   plan_loads(input.root(), plan);
+  plan_contacts(input.root(), plan);
   input.root().done();
   input.check();
   return plan;

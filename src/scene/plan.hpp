@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/physics/material.hpp"
+#include "meniscus/scene/contact_settings.hpp"
 #include "meniscus/scene/scene.hpp"
 
 #include <memory>
@@ -10,6 +11,13 @@
 #include <vector>
 
 namespace meniscus {
+
+template <int D>
+struct PlannedContact {
+  ContactSettings settings;
+  std::optional<PartnerPlan<D>> partner;  ///< none: between two bodies
+  std::string place;                      ///< of its table, to begin messages with
+};
 
 template <int D>
 struct Plan {
@@ -22,14 +30,25 @@ struct Plan {
   std::vector<TensionSettings> tensions;
   std::vector<BodyForceSettings> body_forces;
   std::vector<ExactSettings> exact;
+  std::vector<PlannedContact<D>> contacts;
 
-  /// Notes a problem if there is no body of that name.
-  const PlannedBody* require(const Block& block, const std::string& name) const;
+  /// Notes a problem at `key` if there is no body of that name.
+  const PlannedBody* require(const Block& block, const std::string& name,
+                             const char* key = "body") const;
 };
 
 /// Reads title, units, [time], [output] and [expect] into `scene`, and bodies and loads into the
 /// plan. Throws InputError with all problems at once.
 template <int D>
 Plan<D> read_plan(const SceneInput& input, Scene<D>& scene);
+
+/// Reads all [[contact]]; the bodies are planned already.
+template <int D>
+void plan_contacts(const Block& root, Plan<D>& plan);
+
+/// Adds the contacts to a scene that has its bodies and initial state. Throws InputError if two
+/// surfaces start closer than least_gap.
+template <int D>
+void build_contacts(const Plan<D>& plan, Scene<D>& scene);
 
 }  // namespace meniscus

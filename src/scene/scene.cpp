@@ -195,6 +195,7 @@ Scene<D> build_scene(const SceneInput& input) {
   for (auto& body : plan.bodies) build_body<D>(body, scene);
   build_loads(plan, scene);
   set_initial_state(plan, scene);
+  build_contacts(plan, scene);
   warn_of_overlaps(scene);
   return scene;
 }

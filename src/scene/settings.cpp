@@ -5,6 +5,7 @@
 #include "meniscus/approx/window.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/physics/law_registry.hpp"
+#include "meniscus/scene/contact_settings.hpp"
 
 namespace meniscus {
 namespace {
@@ -227,6 +228,7 @@ void describe_keys(std::ostream& out) {
     describe_list(out, "[body.material] type = \"" + std::string(name) + "\"", law.keys);
   describe<TensionSettings>(out, "[[surface_tension]]");
   describe<BodyForceSettings>(out, "[[body_force]]");
+  describe_contact_keys(out);
   describe<ExactSettings>(out, "[[exact]]");
   describe<ExpectSettings>(out, "[expect.NAME]");
 }

@@ -66,11 +66,34 @@ bool Simulation<D>::finished() const {
   return state_.time >= scene_.time.end || (relaxation_ && relaxation_->at_rest());
 }
 
+/// A step of dt or, if that is rejected, of a half of it, and so on.
+template <int D>
+void Simulation<D>::step(Real dt) {
+  constexpr int most_halvings = 6;
+  before_ = state_;
+  for (int halvings = 0;; ++halvings) {
+    last_step_ = dt;
+    try {
+      meniscus::advance(scene_.system, state_, dt);
+      if (halvings > 0) controller_.shorten(dt);
+      return;
+    } catch (const StepRejected& e) {
+      if (halvings == most_halvings)
+        throw SolveError(fmt::format("{}; the step was halved {} times", e.what(), halvings));
+      state_ = before_;
+      dt /= 2;
+    }
+  }
+}
+
 template <int D>
 void Simulation<D>::advance() {
   try {
     last_step_ = controller_.next(state_, scene_.time.end);
-    meniscus::advance(scene_.system, state_, last_step_);
+    if (scene_.steps_may_be_rejected)
+      step(last_step_);
+    else
+      meniscus::advance(scene_.system, state_, last_step_);
     if (relaxation_) relaxation_->damp(state_, last_step_);
   } catch (const SolveError& e) {
     // The step left its broken forces; those of the places it was taken back to can be shown.
@@ -93,9 +116,9 @@ Snapshot Simulation<D>::snapshot() const {
   s.add_reals("displacement", packed<D>(state_.u), scene_.units.symbol(dimension::length));
   s.add_reals("velocity", packed<D>(state_.v), scene_.units.symbol(dimension::velocity));
   s.add_reals("force", packed<D>(state_.force), scene_.symbol_of_sum(dimension::force));
-  const Real numbers[] = {state_.time,           state_.dissipated,
-                          state_.external_work,  state_.dissipation_power,
-                          state_.external_power, last_step_};
+  const Real numbers[] = {
+      state_.time,           state_.dissipated, state_.external_work,    state_.dissipation_power,
+      state_.external_power, last_step_,        state_.demand.stiffness, state_.demand.longest};
   s.add_reals("numbers", numbers);
   const std::int64_t step[] = {state_.step};
   s.add_integers("step", step);
@@ -117,7 +140,7 @@ void Simulation<D>::restore(const Snapshot& s) {
   unpack<D>(s, "displacement", state_.u);
   unpack<D>(s, "velocity", state_.v);
   unpack<D>(s, "force", state_.force);
-  Real numbers[6];
+  Real numbers[8];
   s.copy_to("numbers", numbers);
   state_.time = numbers[0];
   state_.dissipated = numbers[1];
@@ -125,6 +148,7 @@ void Simulation<D>::restore(const Snapshot& s) {
   state_.dissipation_power = numbers[3];
   state_.external_power = numbers[4];
   last_step_ = numbers[5];
+  state_.demand = {numbers[6], numbers[7]};
   state_.step = s.integer("step");
   controller_.restore(s);
   if (relaxation_) relaxation_->restore(s, state_);

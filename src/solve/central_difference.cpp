@@ -2,7 +2,6 @@
 // The time step.
 #include "meniscus/solve/central_difference.hpp"
 
-#include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
 
 namespace meniscus {
@@ -24,12 +23,17 @@ void drift(State& state, Real dt) {
   });
 }
 
+/// What the terms say about the state besides their forces.
 template <int D>
-void note_power(const System<D>& system, State& state) {
+void note_terms(const System<D>& system, State& state) {
   state.dissipation_power = state.external_power = 0;
+  state.demand = {};
   for (const auto& term : system.terms) {
     state.dissipation_power += term->dissipation();
     state.external_power += term->external_power(state.motion());
+    const StepDemand demand = term->step_demand();
+    state.demand.stiffness += demand.stiffness;
+    state.demand.longest = std::min(state.demand.longest, demand.longest);
   }
 }
 
@@ -40,7 +44,7 @@ template <int D>
 void book_energy(const System<D>& system, State& state, Real dt) {
   state.dissipated += dt / 4 * state.dissipation_power;
   state.external_work += dt / 2 * state.external_power;
-  note_power(system, state);
+  note_terms(system, state);
   state.dissipated += 3 * dt / 4 * state.dissipation_power;
   state.external_work += dt / 2 * state.external_power;
 }
@@ -51,7 +55,7 @@ template <int D>
 void start(System<D>& system, State& state) {
   state.force.resize(state.u.size());
   system.compute_forces(state.motion(), state.force);
-  note_power(system, state);
+  note_terms(system, state);
 }
 
 template <int D>

@@ -31,7 +31,9 @@ template <int D>
 void StepController<D>::plan_next_check(const State& state) {
   interval_ =
       std::min(std::max(interval_, shortest_interval), static_cast<Real>(choice_.check_every));
+  last_check_ = state.step;
   next_check_ = state.step + static_cast<std::int64_t>(interval_);
+  known_stiffness_ = state.demand.stiffness;
 }
 
 template <int D>
@@ -65,13 +67,35 @@ void StepController<D>::reconsider(const State& state) {
     return;
   }
   // Small changes are left alone: every change of step disturbs the energy balance a little.
-  const Real wanted = choice_.safety * stable_.dt;
+  const Real wanted = std::min(choice_.safety * stable_.dt, state.demand.longest);
   if (step_ > std::min(1.02 * wanted, stable_.dt) || step_ < 0.9 * wanted) step_ = wanted;
+}
+
+/// The longest step now: safety x the stable step with the stiffness that came since the estimate,
+/// and what the terms allow.
+template <int D>
+Real StepController<D>::allowed_step(const State& state) const {
+  const Real come = std::max(0.0, state.demand.stiffness - known_stiffness_);
+  const Real k = stable_.stiffness * stable_.stiffness + come, c = stable_.viscosity;
+  const Real stable = come > 0 ? 4 / (c + std::sqrt(c * c + 4 * k)) : stable_.dt;
+  return std::min(choice_.safety * stable, state.demand.longest);
+}
+
+/// Shortens the step where a term demands it. The demand bounds the stiffness from above, so before
+/// a considerable change the operator itself is asked.
+template <int D>
+void StepController<D>::respect_demand(const State& state) {
+  constexpr Real tolerated = 1.05, margin = 0.9;
+  if (choice_.fixed || step_ <= tolerated * allowed_step(state)) return;
+  if (state.step >= last_check_ + static_cast<std::int64_t>(shortest_interval)) reconsider(state);
+  const Real allowed = allowed_step(state);
+  if (step_ > tolerated * allowed) step_ = margin * allowed;
 }
 
 template <int D>
 Real StepController<D>::next(const State& state, Real end) {
   if (state.step >= next_check_) reconsider(state);
+  respect_demand(state);
   const Real left = end - state.time;
   if (left <= step_ * (1 + 1e-9)) return left;
   if (left < 2 * step_) return left / 2;
@@ -90,10 +114,12 @@ void StepController<D>::save(Snapshot& snapshot) const {
                           stable_.viscosity,
                           choice_.fixed.value_or(0),
                           choice_.safety,
-                          interval_};
+                          interval_,
+                          known_stiffness_};
   snapshot.add_reals("step_control/numbers", numbers);
   const std::int64_t warned = warned_;
   snapshot.add_integers("step_control/next_check", {&next_check_, 1});
+  snapshot.add_integers("step_control/last_check", {&last_check_, 1});
   snapshot.add_integers("step_control/warned", {&warned, 1});
 }
 
@@ -102,13 +128,15 @@ void StepController<D>::restore(const Snapshot& snapshot) {
   NodalVectors mode(estimator_.mode().size());
   snapshot.copy_to("step_control/mode", {reinterpret_cast<Real*>(mode.data()), 4 * mode.size()});
   estimator_.set_mode(std::move(mode));
-  Real numbers[8];
+  Real numbers[9];
   snapshot.copy_to("step_control/numbers", numbers);
   step_ = numbers[0];
   first_limit_ = numbers[1];
   stable_ = {numbers[2], numbers[3], numbers[4], 0};
   interval_ = numbers[7];
+  known_stiffness_ = numbers[8];
   next_check_ = snapshot.integer("step_control/next_check");
+  last_check_ = snapshot.integer("step_control/last_check");
   warned_ = snapshot.integer("step_control/warned") != 0;
   if (choice_.fixed.value_or(0) != numbers[5] || choice_.safety != numbers[6]) choose_step();
 }

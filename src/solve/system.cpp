@@ -3,7 +3,6 @@
 #include "meniscus/solve/system.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/error.hpp"
 
 #include <fmt/format.h>
 
@@ -53,9 +52,12 @@ template <int D>
 void System<D>::compute_forces(const Motion& motion, std::span<Lanes> force) {
   add_up(motion, force);
   for (const auto& term : terms)
-    if (const auto failure = term->failure())
-      throw SolveError(fmt::format("{}: {} ({})", place_of(*this, motion, failure->particle),
-                                   failure->cause, term->name()));
+    if (const auto failure = term->failure()) {
+      const std::string message = fmt::format(
+          "{}: {} ({})", place_of(*this, motion, failure->particle), failure->cause, term->name());
+      if (failure->of_step) throw StepRejected(message);
+      throw SolveError(message);
+    }
   const Lanes total =
       parallel_sum(size(), Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
   if (std::isfinite(sum(total))) return;

@@ -95,5 +95,36 @@ TEST(Allocations, NoneInAStep) {
             0);
 }
 
+/// Lists are rebuilt as the bodies vibrate against each other.
+template <int D>
+void expect_none_in_contact() {
+  const std::string far = D == 3 ? "[2.2, 0, 0]" : "[2.2, 0]", up = D == 3 ? "[0, 0, 1]" : "[0, 1]",
+                    below = D == 3 ? "[0, 0, -1.3]" : "[0, -1.3]";
+  std::string other = drop(D,
+                           "centre = " + far + "\ninitial_velocity = " +
+                               (D == 3 ? "[\"-0.3\", 0, 0]" : "[\"-0.3\", 0]") + "\n",
+                           "");
+  other = other.substr(other.find("[[body]]"));
+  other.replace(other.find("drop"), 4, "other");
+  const std::string numbers = "epsilon = 1\nsigma0 = 0.3\nbeta = 1\nskin = 0.02\n";
+  for (const std::string form : {"energy", "pressure", "dissertation", "volume"})
+    EXPECT_EQ(
+        allocations_of<D>(drop(D, "",
+                               other + "[[contact]]\nbodies = [\"drop\", \"other\"]\nform = \"" +
+                                   form + "\"\n" + numbers)),
+        0)
+        << form;
+  EXPECT_EQ(allocations_of<D>(drop(D, "",
+                                   "[[contact]]\nbodies = [\"drop\"]\n" + numbers +
+                                       "partner = { type = \"half_space\", point = " + below +
+                                       ", normal = " + up + " }\n")),
+            0);
+}
+
+TEST(Allocations, NoneInAStepOfContact) {
+  expect_none_in_contact<2>();
+  expect_none_in_contact<3>();
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -35,8 +35,8 @@ constexpr int dimension_of(PairKernel kernel) {
   return kernel == PairKernel::space ? 3 : 2;
 }
 
-/// Pairs, plates and walls nearer than this, in sigma0, are a failure of the time step: the
-/// stiffness of half spaces there is 2800 times that at rest. Rigid partners are exact outside.
+/// Pairs, plates and walls nearer than this, in sigma0, are a failure of the time step unless a law
+/// says otherwise: the stiffness of half spaces there is 2800 times that at rest.
 inline constexpr Real least_gap = 0.3;
 /// The switch begins at this part of the cut-off.
 inline constexpr Real switch_begin = 0.75;
@@ -49,6 +49,8 @@ struct ContactLaw {
   Real epsilon = 1, sigma0 = 1;
   /// r_c in sigma0, at least `least_cutoff`; infinity for none.
   Real cutoff = std::numeric_limits<Real>::infinity();
+  /// Gaps below this, in sigma0, are failures; rigid partners are exact outside of it.
+  Real guard = least_gap;
 
   bool cut() const { return cutoff < std::numeric_limits<Real>::infinity(); }
   /// r_c as a length.

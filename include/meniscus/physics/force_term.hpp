@@ -6,6 +6,7 @@
 #include "meniscus/core/units.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,8 +23,15 @@ struct Motion {
 
 /// Why a term could not compute a force that makes sense.
 struct Failure {
-  Index particle;     ///< global number of the particle nearest to the failure
-  std::string cause;  ///< e.g. "J = -0.3 at a stress point; F = [...]"
+  Index particle;        ///< global number of the particle nearest to the failure
+  std::string cause;     ///< e.g. "J = -0.3 at a stress point; F = [...]"
+  bool of_step = false;  ///< a shorter step may avoid it
+};
+
+/// What the next step has to respect before the stable step is estimated again.
+struct StepDemand {
+  Real stiffness = 0;  ///< squared frequencies that the term adds at most within the step, 1/time^2
+  Real longest = std::numeric_limits<Real>::max();  ///< longest step
 };
 
 /// A result per particle that a term can compute for output.
@@ -76,6 +84,9 @@ class ForceTerm {
   virtual Real uncancelled_force(const Motion&) const { return 0; }
 
   virtual std::optional<Failure> failure() const { return std::nullopt; }
+  /// About the last add_force(). Only terms whose stiffness grows by multiples within few steps
+  /// have a demand.
+  virtual StepDemand step_demand() const { return {}; }
   /// Doubtful but possible states, looked for at output times; one sentence.
   virtual std::optional<std::string> warning(const Motion&) const { return std::nullopt; }
 

@@ -33,7 +33,7 @@ class RigidPartner {
   virtual ~RigidPartner() = default;
 
   /// At a point x of its own frame (see rigid_motion.hpp). Exact where distance(x) is at least
-  /// least_gap sigma0. Nearer, and inside of the material, U goes on growing linearly with the
+  /// guard x sigma0. Nearer, and inside of the material, U goes on growing linearly with the
   /// depth, so that a point that came through the surface is pushed back and not pulled in; S goes
   /// with it, and grad S is its gradient (around corners of polygons: approximately).
   virtual RigidField<D> field(const Vec<D>& x) const = 0;

@@ -18,6 +18,7 @@ struct Scene {
   OutputSettings output;
   System<D> system;
   State initial;
+  bool steps_may_be_rejected = false;  ///< by a force term
   /// Measures by full name, e.g. "drop.aspect".
   std::vector<MeasureSource> measures;
   /// Fields of each body by name, in the order of the bodies.

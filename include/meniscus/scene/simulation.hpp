@@ -22,8 +22,9 @@ class Simulation {
 
   /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
   void begin();
-  /// One step towards the end of the scene. Throws SolveError naming step, time and dt; the state
-  /// is then back at the places before the step, but not complete.
+  /// One step towards the end of the scene; one that is rejected is taken back and halved, a few
+  /// times. Throws SolveError naming step, time and dt; the state is then back at the places before
+  /// the step, but not complete.
   void advance();
 
   /// Whether the end of the scene, or the rest that it asks for, is reached.
@@ -45,8 +46,11 @@ class Simulation {
   void restore(const Snapshot& snapshot);
 
  private:
+  void step(Real dt);
+
   Scene<D>& scene_;
   State state_;
+  State before_;  // the step, where steps may be rejected
   StepController<D> controller_;
   std::optional<Relaxation<D>> relaxation_;
   Audit audit_;

@@ -8,6 +8,8 @@
 
 namespace meniscus {
 
+/// Between estimates of the stable step it follows what terms demand: stiffness beyond the one they
+/// had at the last estimate shortens the step at once (frequencies squared add up at most).
 template <int D>
 class StepController {
  public:
@@ -27,6 +29,9 @@ class StepController {
   /// the stable step has collapsed to a millionth of the first.
   Real next(const State& state, Real end);
 
+  /// A step was rejected: the next ones are not longer than `dt`, until the next estimate.
+  void shorten(Real dt) { step_ = std::min(step_, dt); }
+
   const StableStep& stable() const { return stable_; }
   /// Said once when a fixed step has come close to the stable one, or above it.
   std::optional<std::string> take_warning() { return std::exchange(warning_, std::nullopt); }
@@ -40,13 +45,16 @@ class StepController {
   void choose_step();
   void reconsider(const State& state);
   void plan_next_check(const State& state);
+  Real allowed_step(const State& state) const;
+  void respect_demand(const State& state);
 
   StableStepEstimator<D> estimator_;
   Choice choice_;
   StableStep stable_;
   Real step_ = 0, first_limit_ = 0;
   Real interval_ = 0;  ///< steps from one estimate to the next
-  std::int64_t next_check_ = 0;
+  std::int64_t next_check_ = 0, last_check_ = 0;
+  Real known_stiffness_ = 0;  ///< demanded when the stable step was estimated, so part of it
   bool warned_ = false;
   std::optional<std::string> warning_;
 };

@@ -2,12 +2,18 @@
 // All that moves and all that acts: bodies, force terms, and the state that changes in time.
 #pragma once
 #include "meniscus/body/body.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/physics/force_term.hpp"
 
 #include <deque>
 #include <memory>
 
 namespace meniscus {
+
+/// A step ended where forces make no sense but those of a shorter step may.
+struct StepRejected : SolveError {
+  using SolveError::SolveError;
+};
 
 /// What changes from step to step. A run continues bit for bit from a copy of it.
 struct State {
@@ -18,6 +24,7 @@ struct State {
   Real dissipated = 0;     ///< heat so far
   Real external_work = 0;  ///< work of the outside world so far
   Real dissipation_power = 0, external_power = 0;  ///< at `time`
+  StepDemand demand;                               ///< of all terms on the next step
 
   Motion motion() const { return {time, u, v}; }
 };
@@ -32,7 +39,8 @@ struct System {
   bool viscous() const;
 
   /// Forces of all terms. Throws SolveError naming body, particle, place and cause where a term
-  /// cannot compute one (J <= 0) or a force is not a number; `force` is then not to be used.
+  /// cannot compute one (J <= 0) or a force is not a number, StepRejected if a shorter step may
+  /// help; `force` is then not to be used.
   void compute_forces(const Motion& motion, std::span<Lanes> force);
 
   /// Same, without the checks: for trial motions of the time-step estimate.

@@ -56,7 +56,7 @@ class GuardedPlane {
  public:
   explicit GuardedPlane(const ContactLaw& law)
       : exact_(law),
-        core_(least_gap * law.sigma0),
+        core_(law.guard * law.sigma0),
         S_(exact_.S(core_)),
         U_(exact_.U(core_)),
         dU_(exact_.dU(core_)) {}

@@ -53,7 +53,7 @@ struct Foot {
 class Polygons final : public RigidPartner<2> {
  public:
   Polygons(const ContactLaw& law, Real beta, const std::vector<std::vector<Point>>& polygons)
-      : law_(law), beta_(beta), wall_(law), core_(least_gap * law.sigma0) {
+      : law_(law), beta_(beta), wall_(law), core_(law.guard * law.sigma0) {
     for (const std::vector<Point>& polygon : polygons) {
       const std::vector<Edge> edges = edges_of(polygon);
       edges_.insert(edges_.end(), edges.begin(), edges.end());

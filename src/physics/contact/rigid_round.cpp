@@ -21,7 +21,7 @@ class RoundPartner final : public RigidPartner<D> {
         radius_(radius),
         cavity_(cavity),
         beta_(cavity ? -beta : beta),  // all space less the ball
-        core_(cavity ? radius - least_gap * law.sigma0 : radius + least_gap * law.sigma0) {
+        core_(cavity ? radius - law.guard * law.sigma0 : radius + law.guard * law.sigma0) {
     at_core_ = exact_.at(core_);
     slope_ = exact_.slope(core_);
   }
@@ -70,9 +70,9 @@ std::unique_ptr<RigidPartner<D>> round_partner(const ContactLaw& law, Real beta,
   const std::string name = cavity ? "cavity" : "ball";
   require_kernel<D>(law, name);
   require_positive(radius, "the radius of a rigid " + name);
-  if (cavity && !(radius > least_gap * law.sigma0))
+  if (cavity && !(radius > law.guard * law.sigma0))
     throw InputError("the radius of a rigid cavity must be greater than " +
-                     std::to_string(least_gap) + " sigma0");
+                     std::to_string(law.guard) + " sigma0");
   using Field = std::conditional_t<D == 3, SphereField, CylinderField>;
   return std::make_unique<RoundPartner<D, Field>>(law, beta, centre, radius, cavity);
 }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Adhesive contact of two bodies, or of a body with a rigid partner (CGCM note).
+#pragma once
+#include "meniscus/physics/contact_law.hpp"
+#include "meniscus/physics/contact_points.hpp"
+#include "meniscus/physics/rigid_motion.hpp"
+#include "meniscus/physics/rigid_partner.hpp"
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+namespace meniscus {
+
+/// How the forces follow from the interaction of the points (CGCM notes 2 and 4). With G = b1 b2 in
+/// the weights V (area vectors) and r = x1 - x2, point 1 feels
+enum class ContactForm {
+  energy,       ///< the gradient of sum u(r) V1.V2: conserves energy and momenta exactly
+  pressure,     ///< - V1 (r.V2) psi: disjoining pressure; conservative where the gap is resolved
+  volume,       ///< - phi'(r) r/|r| of volume points: conserves exactly, needs very fine points
+  dissertation  ///< - V2 (r.V1) psi, (3.30) of Fan 2014: not the gradient of any energy
+};
+inline constexpr std::array<std::string_view, 4> contact_form_names{"energy", "pressure", "volume",
+                                                                    "dissertation"};
+
+struct ContactChoice {
+  std::string name;  ///< of the pair, in messages and measures
+  ContactForm form = ContactForm::energy;
+  SiteDensity density = SiteDensity::constant;
+  int points = 2;   ///< Gauss points per direction of a facet, or of a cell
+  Real skin = 0.4;  ///< of the list, / sigma0
+};
+
+/// A body with `beta` particles of the interaction per volume.
+template <int D>
+struct ContactBody {
+  const Body<D>& body;
+  Real beta;
+};
+
+/// Contact of two bodies; the law has a cut-off. Steps into a gap below the guard of the law are
+/// failures that a shorter step may avoid.
+template <int D>
+std::unique_ptr<ForceTerm> contact_pair(const ContactBody<D>& first, const ContactBody<D>& second,
+                                        const ContactLaw& law, const ContactChoice& choice);
+
+/// A rigid partner in motion.
+template <int D>
+struct MovingPartner {
+  std::unique_ptr<RigidPartner<D>> shape;
+  RigidMotion<D> motion = {};
+  Real beta = 1;
+  Real velocity_step = 0;  ///< of the difference that gives its velocity, a time
+};
+
+/// Contact of a body with a rigid partner; any form but `volume`, for which InputError is thrown.
+template <int D>
+std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>& body, MovingPartner<D> partner,
+                                         const ContactLaw& law, const ContactChoice& choice);
+
+}  // namespace meniscus

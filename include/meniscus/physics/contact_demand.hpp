@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What contact asks of the time step, and how well its gap is resolved.
+#pragma once
+#include "meniscus/physics/contact_law.hpp"
+#include "meniscus/physics/contact_points.hpp"
+
+#include <optional>
+#include <string>
+
+namespace meniscus {
+
+/// Smallest distance between the points of two bodies at their present places.
+template <int D>
+Real gap_between(const ContactPoints<D>& first, const ContactPoints<D>& second);
+
+/// A bound of the speed at which active points of a body and of `other` approach: largest
+/// deviations from the mean velocity of the other's. Without another body its points move with
+/// `rigid_velocity`.
+template <int D>
+Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active,
+                   const ContactPoints<D>* other, std::span<const Index> other_active,
+                   const Vec<D>& rigid_velocity, const Motion& motion);
+
+/// The numbers of a contact that decide its stiffness.
+struct ContactInertia {
+  ContactLaw law;
+  Real beta_product;
+  Real inverse_inertia;  ///< sum of 1 / inertia of the points of both sides
+  Real spacing;          ///< of the points; 0: no quadrature on the other side
+  int dimension;
+};
+
+/// A step closes at most 1/20 of the gap, and the stiffness is that of two planes at the gap it can
+/// reach, K ~ gap^-10 (CGCM notes 3.1 and 8); (1 + 2 (spacing/gap)^(D-1)) K where the points of the
+/// other side are so far apart that single ones are felt. The step is at most half the stable one
+/// of that stiffness: so stiff a spring whose stiffness changes by multiples heats up at longer
+/// steps.
+StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed);
+
+/// A sentence if the points are more than half a gap apart, within reach of the forces.
+std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, Real spacing,
+                                          Real sigma0);
+
+}  // namespace meniscus

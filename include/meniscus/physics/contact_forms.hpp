@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a contact point feels from another one in the different forms, and the sum over partners:
+// four points at a time, a lane each (CGCM notes 2 and 4).
+//
+// With r = x - y from the other point to the own one, V and W the weights of the own and the other
+// point, a form adds to
+//   T   minus the force on the point,
+//   S   (only the energy form) dE/dV, what changes of V = b cof(F) N dA cost.
+#pragma once
+#include "meniscus/physics/contact_law.hpp"
+#include "meniscus/physics/contact_points.hpp"
+
+namespace meniscus {
+
+namespace contact {
+
+template <int D>
+[[gnu::always_inline]] inline Lanes dot(const Lanes* a, const Lanes* b) {
+  Lanes sum = a[0] * b[0];
+  for (int i = 1; i < D; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// E = sum u V.W, T = psi (V.W) r, S = u W. Its total over closed surfaces is the energy of the
+/// volumes.
+template <int D>
+struct Energy {
+  static constexpr int components = D;  ///< of a weight
+  static constexpr bool moment = true;  ///< has S
+  template <class Law>
+  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes* r,
+                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes* S) {
+    const auto [u, psi] = law.surface(square);
+    const Lanes w = psi * dot<D>(V, W);
+    for (int i = 0; i < D; ++i) {
+      T[i] += w * r[i];
+      S[i] += u * W[i];
+    }
+  }
+};
+
+/// T = V psi (r.W)
+template <int D>
+struct Pressure {
+  static constexpr int components = D;
+  static constexpr bool moment = false;
+  template <class Law>
+  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes* r,
+                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes*) {
+    const Lanes w = law.surface(square).psi * dot<D>(r, W);
+    for (int i = 0; i < D; ++i) T[i] += w * V[i];
+  }
+};
+
+/// T = W psi (r.V)
+template <int D>
+struct Dissertation {
+  static constexpr int components = D;
+  static constexpr bool moment = false;
+  template <class Law>
+  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes* r,
+                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes*) {
+    const Lanes w = law.surface(square).psi * dot<D>(r, V);
+    for (int i = 0; i < D; ++i) T[i] += w * W[i];
+  }
+};
+
+/// T = (dphi/dr / r) V W r between points of the volume
+template <int D>
+struct Volume {
+  static constexpr int components = 1;
+  static constexpr bool moment = false;
+  template <class Law>
+  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes* r,
+                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes*) {
+    const Lanes w = law.volume(square).dphi_by_r * (V[0] * W[0]);
+    for (int i = 0; i < D; ++i) T[i] += w * r[i];
+  }
+};
+
+/// Potential energy of a point: sum u V.W, or sum phi V W between points of the volume.
+template <int D, int Components>
+struct Potential {
+  static constexpr int components = Components;
+  template <class Law>
+  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes*, const Lanes* V,
+                                         const Lanes* W, Lanes* T, Lanes*) {
+    if constexpr (Components == D)
+      T[0] += law.surface(square).u * dot<D>(V, W);
+    else
+      T[0] += law.volume(square).phi * (V[0] * W[0]);
+  }
+};
+
+/// Adds up Form over the partner clusters of the four points x with weights V; returns the least
+/// squared distance of each. Points beyond `reach`, where the law is cut off, add exactly zero.
+template <class Form, int D, class Law>
+Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes* V,
+                        std::span<const Index> partners, const ContactPoints<D>& others, Lanes* T,
+                        Lanes* S) {
+  Lanes nearest = 1e300;
+  for (const Index partner : partners) {
+    const Lanes *y = others.x(partner), *weight = others.weight(partner);
+    for (int lane = 0; lane < Lanes::width; ++lane) {
+      Lanes r[D], W[Form::components];
+      for (int i = 0; i < D; ++i) r[i] = x[i] - detail::components(y[i])[lane];
+      for (int i = 0; i < Form::components; ++i) W[i] = detail::components(weight[i])[lane];
+      const Lanes square = dot<D>(r, r);
+      nearest = min(square, nearest);
+      const Lanes::Mask within = square.v < reach * reach;
+      if (_mm256_movemask_pd(std::bit_cast<__m256d>(within)) != 0)
+        Form::add(law, square, r, V, W, T, S);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace contact
+
+}  // namespace meniscus

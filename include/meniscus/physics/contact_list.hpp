@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which contact points may interact: a Verlet list of clusters of four points.
+#pragma once
+#include "meniscus/approx/neighbor_search.hpp"
+#include "meniscus/core/aligned.hpp"
+#include "meniscus/core/parallel.hpp"
+
+namespace meniscus {
+
+/// All pairs of clusters of two clouds of which a point of one lies within `reach` of a point of
+/// the other, and some more, as rows in both directions. Partners ascend, so that a sum over them
+/// in which points out of reach add exactly zero has the same bits whenever the list was built.
+///
+/// It is built for reach + skin and stays valid as long as no point of the first cloud and none of
+/// the second have moved by more than `skin` together.
+template <int D>
+class ContactList {
+ public:
+  ContactList(Real reach, Real skin) : reach_(reach), skin_(skin) {}
+
+  /// Brings the list up to date for the places [cluster][i] of two clouds; the counts must not
+  /// change. Returns whether it had to be built anew. Takes no memory once the rows have grown to
+  /// what they need.
+  bool update(std::span<const Lanes> first, std::span<const Lanes> second);
+
+  /// Rows of one cloud: partners of cluster c are partner[start[c]] ... partner[start[c + 1] - 1].
+  struct Rows {
+    std::vector<Offset> start;
+    std::vector<Index> partner;
+    std::vector<Index> active;  ///< clusters with partners, ascending
+
+    std::span<const Index> of(Index cluster) const {
+      return {partner.data() + at(start, cluster), partner.data() + at(start, cluster + 1)};
+    }
+  };
+  const Rows& of_first() const { return first_; }
+  const Rows& of_second() const { return second_; }
+  /// Pairs of clusters.
+  Offset pairs() const { return first_.start.empty() ? 0 : first_.start.back(); }
+  Real reach() const { return reach_; }
+  std::int64_t builds() const { return builds_; }
+  std::size_t bytes() const;
+
+ private:
+  bool valid(std::span<const Lanes> first, std::span<const Lanes> second) const;
+  void build(std::span<const Lanes> first, std::span<const Lanes> second);
+  void find_partners(std::span<const Lanes> first, std::span<const Lanes> second);
+  void transpose(Index second_clusters);
+
+  Real reach_, skin_;
+  std::int64_t builds_ = 0;
+  AlignedVector<Lanes> built_first_, built_second_;  // places of the last build
+  std::vector<Vec<D>> centre_;                       // of the clusters of the second cloud
+  std::unique_ptr<NeighborSearch<D>> search_;        // over them
+  struct Found {                                     // of a fixed chunk of the first cloud
+    std::vector<Index> candidates, partner, count;
+  };
+  std::array<Found, chunk_count> found_;
+  Rows first_, second_;
+};
+
+}  // namespace meniscus

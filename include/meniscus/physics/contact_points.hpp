@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The points of a body between which contact forces act: its closed surface, or its volume.
+#pragma once
+#include "meniscus/body/body.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+namespace meniscus {
+
+/// Whether the density of interaction sites stays b per current volume, or b per reference volume
+/// (b/J per current volume) (CGCM note 2).
+enum class SiteDensity { constant, referential };
+
+/// Material points in clusters of four that are neighbours in space, a lane per point. What a point
+/// weighs is
+/// - on the surface the area vector V = b cof(F) N dA (constant density) or b F^-T N dA
+///   (referential), outward, D numbers;
+/// - in the volume b dV, one number.
+/// Lanes without a point lie on the last point and weigh nothing.
+template <int D>
+class ContactPoints {
+ public:
+  /// `points` Gauss points per direction of every facet of the surface, all sides included.
+  static ContactPoints on_surface(const Body<D>& body, Real beta, SiteDensity density, int points);
+  /// `points` Gauss points per direction of every cell.
+  static ContactPoints in_volume(const Body<D>& body, Real beta, int points);
+
+  const Body<D>& body() const { return *body_; }
+  Index size() const { return rule_.rows.size(); }
+  Index clusters() const { return rule_.groups(); }
+  Index points_in(Index cluster) const {
+    return std::min<Index>(Lanes::width, size() - cluster * Lanes::width);
+  }
+  /// Root mean square distance of neighbouring points: (area or volume per point)^(1/dimension).
+  Real spacing() const { return spacing_; }
+  /// Smallest mass per area (volume) that moves with a point: a stiffness k per area between the
+  /// points and something at rest has frequencies up to sqrt(k / inertia).
+  Real inertia() const { return inertia_; }
+
+  /// Moves all points along with the body.
+  void move(const Motion& motion);
+  /// Brings the weights of these clusters up to date.
+  void weigh(std::span<const Index> clusters, const Motion& motion);
+
+  /// Places after move(), [cluster][i], and weights after weigh(), [cluster][component].
+  std::span<const Lanes> x() const { return x_; }
+  std::span<const Lanes> weights() const { return weight_; }
+  const Lanes* x(Index cluster) const { return x_.data() + offset(cluster, D); }
+  const Lanes* weight(Index cluster) const { return weight_.data() + offset(cluster, components_); }
+  Vec<D> place(Index point) const;
+  /// The particle nearest to a point, counted over all bodies.
+  Index particle_at(Index point) const { return body_->first + at(rule_.point_owner, point); }
+
+  /// Velocities of the points of a cluster.
+  void velocity(Index cluster, const Motion& motion, Lanes* v) const;
+
+  /// Adds the forces -dE/du of these clusters, given dE/dx = T ([cluster][i]) and, on the surface,
+  /// dE/dV = S: f_A = - sum_s { N_A T + (S.V) g_A [constant density only] - (S.g_A) V } with
+  /// g_A = F^-T grad N_A (CGCM note 4). Without S only the first.
+  void add_force(std::span<const Index> clusters, std::span<const Lanes> T,
+                 std::span<const Lanes> S, std::span<Lanes> force);
+
+  std::size_t bytes() const;
+  Offset pairs() const { return rule_.rows.entries(); }
+
+ private:
+  ContactPoints(const Body<D>& body, int components) : body_(&body), components_(components) {}
+  void place_points(const std::vector<Vec<D>>& X, const std::vector<Index>& order,
+                    const std::vector<Real>& measure, RowContent content);
+  static std::size_t offset(Index cluster, int count) {
+    return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);
+  }
+  std::span<Lanes> own(std::span<Lanes> force) const {
+    return force.subspan(static_cast<std::size_t>(body_->first),
+                         static_cast<std::size_t>(body_->size()));
+  }
+  Tensor<Lanes> stress(Index cluster, const Lanes* S) const;
+
+  const Body<D>* body_;
+  int components_;  // of a weight: D on the surface, 1 in the volume
+  SiteDensity density_ = SiteDensity::referential;
+  PointRule<D> rule_;  // a group is a cluster
+  ForceWindows windows_;
+  Real spacing_ = 0, inertia_ = 0;
+  AlignedVector<Lanes> X_, reference_;  // [cluster][i]: places, weights in the reference state
+  AlignedVector<Lanes> x_, weight_;
+  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> inverse_;  // [cluster] F^-1
+  std::vector<std::uint8_t> pushed_;  // [cluster] 1 while its force is added
+};
+
+}  // namespace meniscus

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact points carried along with their body, and the way of forces back to its particles.
+#include "meniscus/physics/contact_points.hpp"
+
+#include "meniscus/body/surface_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace meniscus {
+namespace {
+
+/// An order in which four consecutive points are neighbours: halves along the longest edge of the
+/// box around them, cut at multiples of four.
+template <int D>
+void order_in_clusters(const std::vector<Vec<D>>& X, std::span<Index> order) {
+  if (order.size() <= Lanes::width) return;
+  Vec<D> low = at(X, order[0]), high = low;
+  for (const Index q : order) {
+    low = low.cwiseMin(at(X, q));
+    high = high.cwiseMax(at(X, q));
+  }
+  Eigen::Index axis = 0;
+  (high - low).maxCoeff(&axis);
+  const auto less = [&](Index a, Index b) {
+    return at(X, a)[axis] != at(X, b)[axis] ? at(X, a)[axis] < at(X, b)[axis] : a < b;
+  };
+  const std::size_t clusters = (order.size() + Lanes::width - 1) / Lanes::width;
+  const std::size_t half = clusters / 2 * Lanes::width;
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
+                   less);
+  order_in_clusters(X, order.first(half));
+  order_in_clusters(X, order.subspan(half));
+}
+
+template <int D>
+std::vector<Index> clustered_order(const std::vector<Vec<D>>& X) {
+  std::vector<Index> order(X.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  order_in_clusters<D>(X, order);
+  return order;
+}
+
+/// Smallest m_A / (sum_s w_s |N_A| sum_B |N_B|): what a row of the contact stiffness pulls at.
+template <int D>
+Real least_inertia(const PointRows<D>& rows, const std::vector<Real>& weight,
+                   const std::vector<Real>& mass) {
+  std::vector<Real> carried(mass.size(), 0);
+  for (Index q = 0; q < rows.size(); ++q) {
+    Real row = 0;
+    for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
+      row += std::abs(at(rows.value, e));
+    for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
+      at(carried, at(rows.particle, e)) += at(weight, q) * std::abs(at(rows.value, e)) * row;
+  }
+  Real least = std::numeric_limits<Real>::infinity();
+  for (std::size_t A = 0; A < mass.size(); ++A)
+    if (carried[A] > 0) least = std::min(least, mass[A] / carried[A]);
+  return least;
+}
+
+}  // namespace
+
+template <int D>
+void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vector<Index>& order,
+                                    const std::vector<Real>& measure, RowContent content) {
+  std::vector<Vec<D>> places;
+  for (const Index q : order) {
+    places.push_back(at(X, q));
+    rule_.point_weight.push_back(at(measure, q));
+  }
+  rule_.rows = build_point_rows<D>(body_->particles, places, content, body_->name);
+  std::vector<Index> nearest;
+  for (const Vec<D>& x : places) {
+    body_->particles.search().within(
+        x, body_->particles.search().distance_of_nearest(x, 1) * (1 + 1e-12), nearest);
+    rule_.point_owner.push_back(nearest.front());
+  }
+  windows_ = rule_.windows(body_->size());
+  inertia_ = least_inertia(rule_.rows, rule_.point_weight, body_->mass);
+  const Real total = std::accumulate(measure.begin(), measure.end(), Real{0});
+  spacing_ = std::pow(total / size(), 1.0 / (components_ == 1 ? D : D - 1));
+  X_.assign(offset(clusters(), D), Lanes::zero());
+  for (Index c = 0; c < clusters(); ++c)
+    for (int lane = 0; lane < Lanes::width; ++lane)
+      for (int i = 0; i < D; ++i)
+        at(X_, c * D + i)
+            .set(lane, at(places, c * Lanes::width + std::min(lane, points_in(c) - 1))[i]);
+  x_ = X_;
+  reference_.assign(offset(clusters(), components_), Lanes::zero());
+  weight_ = reference_;
+  pushed_.assign(static_cast<std::size_t>(clusters()), 0);
+}
+
+template <int D>
+ContactPoints<D> ContactPoints<D>::on_surface(const Body<D>& body, Real beta, SiteDensity density,
+                                              int points) {
+  const SurfacePoints<D> surface = surface_points(body.geometry, points);
+  const std::vector<Index> order = clustered_order<D>(surface.X);
+  ContactPoints contact(body, D);
+  contact.density_ = density;
+  contact.place_points(surface.X, order, surface.area, {.value = true, .gradient = true});
+  for (Index q = 0; q < contact.size(); ++q)
+    for (int i = 0; i < D; ++i)
+      at(contact.reference_, q / Lanes::width * D + i)
+          .set(q % Lanes::width,
+               beta * at(surface.area, at(order, q)) * at(surface.N, at(order, q))[i]);
+  contact.inverse_.assign(static_cast<std::size_t>(contact.clusters()), Tensor<Lanes>::identity());
+  return contact;
+}
+
+template <int D>
+ContactPoints<D> ContactPoints<D>::in_volume(const Body<D>& body, Real beta, int points) {
+  const CellPoints<D> cells = cell_gauss_points(body.geometry.grid, points);
+  const std::vector<Index> order = clustered_order<D>(cells.X);
+  ContactPoints contact(body, 1);
+  contact.place_points(cells.X, order, cells.weight, {.value = true});
+  for (Index q = 0; q < contact.size(); ++q)
+    at(contact.reference_, q / Lanes::width)
+        .set(q % Lanes::width, beta * at(cells.weight, at(order, q)));
+  contact.weight_ = contact.reference_;
+  return contact;
+}
+
+template <int D>
+void ContactPoints<D>::move(const Motion& motion) {
+  const Lanes* u = motion.u.data() + body_->first;
+  for_chunks(clusters(), [&](Index, Index begin, Index end) {
+    for (Index c = begin; c < end; ++c)
+      for (Index lane = 0; lane < Lanes::width; ++lane) {
+        const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
+        const Lanes moved = value_at(rule_.rows, q, u);
+        for (int i = 0; i < D; ++i) at(x_, c * D + i).set(lane, at(X_, c * D + i)[lane] + moved[i]);
+      }
+  });
+}
+
+template <int D>
+void ContactPoints<D>::weigh(std::span<const Index> clusters, const Motion& motion) {
+  if (components_ == 1) return;
+  const Lanes* u = motion.u.data() + body_->first;
+  parallel_for(
+      static_cast<Index>(clusters.size()),
+      [&](Index k) {
+        const Index c = at(clusters, k);
+        Tensor<Lanes> H;
+        rule_.gather(c, u, H);
+        Tensor<Lanes> cof = cofactor_of_deformation(H);
+        const Lanes one_over_J = 1.0 / (1.0 + volume_change(H));
+        at(inverse_, c) = one_over_J * transpose(cof);
+        if (density_ == SiteDensity::referential) cof = one_over_J * cof;
+        const Lanes* N = reference_.data() + offset(c, D);
+        for (int i = 0; i < D; ++i) {
+          Lanes V = cof(i, 0) * N[0];
+          for (int K = 1; K < D; ++K) V += cof(i, K) * N[K];
+          at(weight_, c * D + i) = V;
+        }
+      },
+      16);
+}
+
+template <int D>
+Vec<D> ContactPoints<D>::place(Index point) const {
+  Vec<D> x_point;
+  for (int i = 0; i < D; ++i) x_point[i] = x(point / Lanes::width)[i][point % Lanes::width];
+  return x_point;
+}
+
+template <int D>
+void ContactPoints<D>::velocity(Index cluster, const Motion& motion, Lanes* v) const {
+  const Lanes* field = motion.v.data() + body_->first;
+  for (Index lane = 0; lane < Lanes::width; ++lane) {
+    const Index q = cluster * Lanes::width + std::min(lane, points_in(cluster) - 1);
+    const Lanes rate = value_at(rule_.rows, q, field);
+    for (int i = 0; i < D; ++i) v[i].set(lane, rate[i]);
+  }
+}
+
+/// The first Piola stress (S.V) F^-T [constant density only] - V (F^-1 S)^T of a cluster.
+template <int D>
+Tensor<Lanes> ContactPoints<D>::stress(Index cluster, const Lanes* S) const {
+  const Tensor<Lanes>& inverse = at(inverse_, cluster);
+  const Lanes* V = weight(cluster);
+  Lanes SV = Lanes::zero(), pulled[3], area[3];
+  for (int K = 0; K < 3; ++K) pulled[K] = area[K] = Lanes::zero();
+  for (int i = 0; i < D; ++i) {
+    if (density_ == SiteDensity::constant) SV += S[i] * V[i];
+    area[i] = V[i];
+    for (int K = 0; K < D; ++K) pulled[K] += inverse(K, i) * S[i];
+  }
+  return Tensor<Lanes>::map([&](int i, int K) { return SV * inverse(K, i) - area[i] * pulled[K]; });
+}
+
+template <int D>
+void ContactPoints<D>::add_force(std::span<const Index> clusters, std::span<const Lanes> T,
+                                 std::span<const Lanes> S, std::span<Lanes> force) {
+  if (clusters.empty()) return;
+  for (const Index c : clusters) at(pushed_, c) = 1;
+  windows_.accumulate(own(force), [&](int, Index begin, Index end, Lanes* f) {
+    for (Index c = begin; c < end; ++c) {
+      if (!at(pushed_, c)) continue;
+      const Lanes* pull = T.data() + offset(c, D);
+      const auto by_point = detail::by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
+      for (Index lane = 0; lane < points_in(c); ++lane)
+        scatter_value(rule_.rows, c * Lanes::width + lane, -at(by_point, lane), f);
+      if (!S.empty()) rule_.scatter(c, -1.0 * stress(c, S.data() + offset(c, D)), f);
+    }
+  });
+  for (const Index c : clusters) at(pushed_, c) = 0;
+}
+
+template <int D>
+std::size_t ContactPoints<D>::bytes() const {
+  return rule_.bytes() + windows_.bytes() + inverse_.size() * sizeof(Tensor<Lanes>) +
+         (X_.size() + reference_.size() + x_.size() + weight_.size()) * sizeof(Lanes);
+}
+
+template class ContactPoints<2>;
+template class ContactPoints<3>;
+
+}  // namespace meniscus
