@@ -64,8 +64,7 @@ struct Order {
   Real L2, H1;
 };
 Order asked(int D, Real jitter) {
-  if (D == 2 || jitter == 0) return {2.8, 1.9};
-  return jitter < 0.3 ? Order{2.8, 1.8} : Order{2.5, 1.5};
+  return {2.8, D == 2 || jitter == 0 ? 1.9 : 1.8};
 }
 
 template <int D>
