@@ -141,7 +141,7 @@ void run(StudyRun& study) {
           "displacement = [0, \"-0.3*(1 - cos(pi*t))\"] }\n" +
           contact("[\"disk\"]",
                   "partner = { type = \"half_space\", point = [0, -1.25], normal = [0, 1] }"),
-      5e-3);
+      2e-2);
   study.require("compression: least gap / equilibrium gap",
                 pressed.least_gap / (0.4 * std::pow(15, -1.0 / 6)), {0.47, 0.62});
   const Outcome overlap =
