@@ -21,6 +21,8 @@ struct Plan {
   std::vector<PlannedBody> bodies;
   std::vector<TensionSettings> tensions;
   std::vector<BodyForceSettings> body_forces;
+  std::vector<CavitySettings> cavities;
+  std::vector<ProfileSettings> profiles;
   std::vector<ExactSettings> exact;
 
   /// Notes a problem if there is no body of that name.

@@ -126,6 +126,33 @@ Rows<BodyForceSettings> BodyForceSettings::rows() {
                           "each component")};
 }
 
+Rows<CavitySettings> CavitySettings::rows() {
+  using S = CavitySettings;
+  return {
+      text_row("body", &S::body, "name of the body around the cavity"),
+      choice_row("surface", &S::surface, {"inner", "outer"},
+                 "the closed surface that is filled; a drop has an outer one only", "inner"),
+      optional_row("pressure", &S::pressure, dimension::pressure, range::any, "none",
+                   "pressure inside above that outside; either this or volume_target, or neither: "
+                   "vented"),
+      optional_row("volume_target", &S::volume_target, dimension::none, range::positive, "none",
+                   "volume of the content / enclosed volume at the start"),
+      optional_row("penalty", &S::penalty, dimension::pressure, range::positive, "none",
+                   "pressure per deviation from volume_target, which needs it"),
+      ramp_row("ramp", &S::ramp, "pressure from 0 or volume_target from 1"),
+      integer_row("points", &S::points, {1, 8}, "Gauss points per direction and surface facet", 2),
+  };
+}
+
+Rows<ProfileSettings> ProfileSettings::rows() {
+  using S = ProfileSettings;
+  return {text_row("body", &S::body, "name of the shell whose mean meridian is compared"),
+          reals_row("r", &S::r, 0, dimension::length, range::non_negative,
+                    "distances from the axis of places of a known outer profile"),
+          reals_row("z", &S::z, 0, dimension::length, range::any,
+                    "their heights above the middle plane; the profile is symmetric")};
+}
+
 Rows<ExactSettings> ExactSettings::rows() {
   using S = ExactSettings;
   return {text_row("body", &S::body, "name of the body whose exact motion is known"),
@@ -214,6 +241,8 @@ void describe_keys(std::ostream& out) {
     describe_list(out, "[body.material] type = \"" + std::string(name) + "\"", law.keys);
   describe<TensionSettings>(out, "[[surface_tension]]");
   describe<BodyForceSettings>(out, "[[body_force]]");
+  describe<CavitySettings>(out, "[[cavity]]");
+  describe<ProfileSettings>(out, "[[profile]]");
   describe<ExactSettings>(out, "[[exact]]");
   describe<ExpectSettings>(out, "[expect.NAME]");
 }
