@@ -229,12 +229,15 @@ void describe_keys(std::ostream& out) {
   describe<TimeSettings>(out, "[time]");
   describe<OutputSettings>(out, "[output]");
   describe<BodySettings>(out, "[[body]]");
-  describe_list(
-      out, "[[body]] of any shape",
-      std::vector<ShapeKey>{{"shape", "text", "", "", "required", "one of the shapes below"},
-                            {"jitter", "number", "", ">= 0 and <= 0.5", "0",
-                             "random shift of interior particles / shortest cell edge"},
-                            {"jitter_seed", "integer", "", ">= 0", "1", "seed of the shifts"}});
+  describe_list(out, "[[body]] of any shape",
+                std::vector<ShapeKey>{
+                    {"shape", "text", "", "", "required", "one of the shapes below"},
+                    {"imperfection", "number", "m", ">= 0", "0",
+                     "rms of a smooth random displacement of the reference"},
+                    {"imperfection_seed", "integer", "", ">= 0", "1", "seed of the displacement"},
+                    {"jitter", "number", "", ">= 0 and <= 0.5", "0",
+                     "random shift of interior particles / shortest cell edge"},
+                    {"jitter_seed", "integer", "", ">= 0", "1", "seed of the shifts"}});
   describe_shapes<3>(out);
   describe_shapes<2>(out);
   for (const auto& [name, law] : laws())

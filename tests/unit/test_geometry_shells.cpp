@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shells: exact volumes, areas, normals and curvatures of both surfaces, and the walls in between.
+#include "meniscus/body/imperfection.hpp"
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/body/surface_points.hpp"
@@ -170,6 +171,23 @@ TEST(Shells, MapHasExactDerivatives) {
             << X.transpose();
     }
   }
+}
+
+TEST(Shells, ImperfectOnesKeepTheirNormals) {
+  const Geometry<3> perfect = cell_disk().geometry(),
+                    g = with_imperfection(cell_disk().geometry(), 0.1, 7);
+  Real square = 0;
+  for (Index A = 0; A < g.grid.node_count(); ++A)
+    square += (at(g.grid.X, A) - at(perfect.grid.X, A)).squaredNorm();
+  EXPECT_NEAR(std::sqrt(square / g.grid.node_count()), 0.1, 1e-12);
+  for (const SurfacePart part : {SurfacePart::outer, SurfacePart::inner}) {
+    const auto points = surface_points(g, 2, part);
+    const Real sign = part == SurfacePart::outer ? 1 : -1;
+    for (Index q = 0; q < points.size(); ++q)
+      EXPECT_LT((g.director(at(points.X, q)) - sign * at(points.N, q)).norm(), 1e-9);
+  }
+  EXPECT_EQ(with_imperfection(cell_disk().geometry(), 0.1, 7).grid.X, g.grid.X);
+  EXPECT_NE(with_imperfection(cell_disk().geometry(), 0.1, 8).grid.X, g.grid.X);
 }
 
 TEST(Shells, WithoutAParallelSurfaceAreRefused) {
