@@ -150,7 +150,8 @@ Rows<ProfileSettings> ProfileSettings::rows() {
           reals_row("r", &S::r, 0, dimension::length, range::non_negative,
                     "distances from the axis of places of a known outer profile"),
           reals_row("z", &S::z, 0, dimension::length, range::any,
-                    "their heights above the middle plane; the profile is symmetric")};
+                    "their heights above the middle plane; the profile is symmetric"),
+          text_row("label", &S::label, "what pictures call it", "given profile")};
 }
 
 Rows<ExactSettings> ExactSettings::rows() {

@@ -66,7 +66,7 @@ def picture(run, body):
     axis.margins(0.04)
     axis.set_xlabel(style.label("$r$", unit))
     axis.set_ylabel(style.label("$z$", unit))
-    figure.legend(loc="outside upper center", ncols=2)
+    axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=2)
     return figure
 
 
@@ -76,4 +76,4 @@ def draw_profiles(run, body, axis, factor):
             continue
         r, z = (factor * np.array(profile[key]) for key in ("r", "z"))
         axis.plot(np.concatenate([r, r, -r, -r]), np.concatenate([z, -z, z, -z]), ".", ms=4,
-                  color=style.COLORS[1], zorder=4, label="finite elements")  # fmt: skip
+                  color=style.COLORS[1], zorder=4, label=profile["label"])  # fmt: skip

@@ -66,7 +66,7 @@ struct CavitySettings {
 
 /// [[profile]]
 struct ProfileSettings {
-  std::string body;
+  std::string body, label;
   std::vector<Real> r, z;
   static Rows<ProfileSettings> rows();
 };
