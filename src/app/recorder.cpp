@@ -128,7 +128,7 @@ template <int D>
 std::optional<Ledger> Recorder<D>::record(Real before) {
   const OutputSettings& output = simulation_.scene().output;
   const Real now = simulation_.state().time, end = simulation_.scene().time.end;
-  const bool last = now >= end;
+  const bool last = simulation_.finished();
   std::optional<Ledger> ledger;
   if (last || due(before, now, output.history_every > 0 ? output.history_every : end / 200)) {
     ledger = simulation_.audit_now();
@@ -150,6 +150,10 @@ void Recorder<D>::write_row(const Ledger& ledger) {
        {ledger.dissipated, ledger.external_work, ledger.balance(), audit.balance_error(ledger),
         audit.momentum_error(ledger), audit.angular_momentum_error(ledger)})
     row.push_back(x);
+  if (const auto& relaxation = simulation_.relaxation()) {
+    row.push_back(relaxation->force_residual(state));
+    row.push_back(relaxation->shape_change());
+  }
   for (const MeasureSource& m : measures_) row.push_back(m.compute(state.motion()));
   history_.write(row);
 }

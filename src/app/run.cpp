@@ -39,13 +39,22 @@ Real time_to_stop(const RunRequest& request, const UnitSystem& units) {
 }
 
 template <int D>
-int report_expectations(const Scene<D>& scene, const RunDirectory& directory, RunLog& log) {
-  if (scene.expectations.empty()) return exit_ok;
+int report_expectations(const Simulation<D>& simulation, const RunDirectory& directory,
+                        RunLog& log) {
+  auto expectations = simulation.scene().expectations;
+  if (expectations.empty()) return exit_ok;
+  Real end = simulation.scene().time.end;
+  if (simulation.finished()) {  // what has come to rest stays as it is
+    end = simulation.state().time;
+    for (auto& [name, e] : expectations)
+      for (std::optional<Real>* time : {&e.at, &e.to})
+        if (*time) *time = std::min(**time, end);
+  }
   const History history = History::read(directory.history_file());
   const auto results = evaluate_expectations(
-      scene.expectations,
+      expectations,
       [&](const std::string& name) -> const std::vector<Real>& { return history.column(name); },
-      scene.time.end);
+      end);
   const std::string table = expectation_table(results);
   fmt::print("{}", table);
   std::istringstream lines(table);
@@ -64,7 +73,7 @@ std::optional<int> run_steps(Simulation<D>& simulation, Recorder<D>& recorder, R
   const double checkpoint_seconds = 60 * simulation.scene().output.checkpoint_minutes;
   double next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
   Warnings<D> warnings(simulation, log);
-  while (simulation.state().time < stop) {
+  while (simulation.state().time < stop && !simulation.finished()) {
     if (const auto signal = interruption.requested()) return signal;
     const Real before = simulation.state().time;
     simulation.advance();
@@ -105,6 +114,29 @@ std::string summarise(const Simulation<D>& simulation, std::int64_t first_step,
   return fmt::format(
       "{} steps in {:.2f} s ({:.0f} ns per particle-step), set-up {:.2f} s, state {:016x}", steps,
       seconds, 1e9 * seconds / particle_steps, set_up_seconds, simulation.snapshot().hash());
+}
+
+/// Says whether the bodies are at rest; false if they should be, but are not.
+template <int D>
+bool report_rest(const Simulation<D>& simulation, RunLog& log) {
+  const auto& relaxation = simulation.relaxation();
+  if (!relaxation || !simulation.finished()) return true;
+  const Scene<D>& scene = simulation.scene();
+  const std::string measures = fmt::format(
+      "force residual {:.3g} (allowed {:.3g}), change of shape in a quarter period {:.3g} (allowed "
+      "{:.3g})",
+      relaxation->force_residual(simulation.state()), scene.time.force_tolerance,
+      relaxation->shape_change(), scene.time.shape_tolerance);
+  const std::string time =
+      fmt::format("t = {:.6g} {}", simulation.state().time, scene.units.symbol(dimension::time));
+  if (relaxation->at_rest())
+    log.info(fmt::format("at rest at {}: {}", time, measures));
+  else
+    log.error(
+        fmt::format("not at rest at {}: {}; a later time.end gives more time, if there is an "
+                    "equilibrium",
+                    time, measures));
+  return relaxation->at_rest();
 }
 
 template <int D>
@@ -166,7 +198,11 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
   const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
   log.info(summary);
   if (!request.quiet) fmt::print("{}\nresults in {}\n", summary, directory.path().string());
-  if (!signal) return report_expectations(scene, directory, log);
+  if (!signal) {
+    const bool rest = report_rest(simulation, log);
+    const int expected = report_expectations(simulation, directory, log);
+    return rest ? expected : exit_numerical;
+  }
   say_how_to_continue(simulation, *signal, directory, log);
   return exit_signal + *signal;
 }

@@ -9,6 +9,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -150,6 +151,11 @@ Real volume(const Grid<D>& grid) {
 }
 
 template <int D>
+Real mean_spacing(const Grid<D>& grid) {
+  return std::pow(volume(grid) / grid.cell_count(), 1.0 / D);
+}
+
+template <int D>
 std::vector<Index> boundary_nodes(const Grid<D>& grid) {
   std::vector<Index> nodes;
   for (const auto& facet : grid.facets)
@@ -201,6 +207,7 @@ CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
   template std::optional<CellPoint<D, D>> find_fold<D>(const Grid<D>&, Index);        \
   template NodeCells cells_of_nodes<D>(const Grid<D>&);                               \
   template Real volume(const Grid<D>&);                                               \
+  template Real mean_spacing(const Grid<D>&);                                         \
   template std::vector<Index> boundary_nodes(const Grid<D>&);                         \
   template std::vector<std::array<Index, D>> triangulate_boundary<D>(const Grid<D>&); \
   template CellPoints<D> cell_gauss_points(const Grid<D>&, int);

@@ -2,6 +2,8 @@
 // Loads per mass from formulas.
 #include "meniscus/physics/body_force.hpp"
 
+#include <limits>
+
 namespace meniscus {
 namespace {
 
@@ -19,6 +21,7 @@ class BodyForce final : public ForceTerm {
     evaluate(motion.time);
     for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += at(load_, A);
   }
+  Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
   Real external_power(const Motion& motion) const override {
     return parallel_sum(body_.size(), 0.0,
                         [&](Index A) { return sum(at(load_, A) * at(motion.v, body_.first + A)); });

@@ -24,7 +24,7 @@ namespace {
 /// Mean edge of a cell.
 template <int D>
 Real spacing_of(const Geometry<D>& geometry) {
-  return std::pow(volume(geometry.grid) / geometry.grid.cell_count(), 1.0 / D);
+  return mean_spacing(geometry.grid);
 }
 
 template <int D>
@@ -96,6 +96,7 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
         fmt::format("body '{}': the masses of {} particles were raised to 0.3 of their cells, the "
                     "total by {:.2g}",
                     name, built.mass.raised, built.mass.added));
+  if (built.note) scene.notes.push_back(fmt::format("body '{}': {}", name, *built.note));
   if (planned.settings.integration == "nodal")
     scene.warnings.push_back(
         fmt::format("body '{}': integration = \"nodal\" has modes without energy and is unstable; "

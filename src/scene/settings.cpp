@@ -51,6 +51,14 @@ Rows<TimeSettings> TimeSettings::rows() {
       integer_row("check_every", &S::check_every, {1, 1e9},
                   "most steps between two estimates of the stable step; fewer while it changes",
                   250),
+      choice_row("solver", &S::solver, {"dynamics", "relax"},
+                 "motion as it is, or damped to the equilibrium: relax stops by itself, at the "
+                 "latest at end, where a body that still moves is an error",
+                 "dynamics"),
+      real_row("force_tolerance", &S::force_tolerance, dimension::none, range::positive,
+               "relax: forces left on the particles / forces before they cancel", 1e-5),
+      real_row("shape_tolerance", &S::shape_tolerance, dimension::none, range::positive,
+               "relax: largest change of place in a period of the slowest mode / extent", 1e-4),
   };
 }
 

@@ -40,13 +40,30 @@ Simulation<D>::Simulation(Scene<D>& scene)
     : scene_(scene),
       state_(scene.initial),
       controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every,
-                                 scene.time.step_place}) {}
+                                 scene.time.step_place}) {
+  if (scene.time.solver != "relax") return;
+  relaxation_.emplace(scene.system, typename Relaxation<D>::Tolerances{scene.time.force_tolerance,
+                                                                       scene.time.shape_tolerance});
+  for (const auto& term : scene.system.terms)
+    if (term->steady_after() >= scene.time.end)
+      throw InputError(
+          fmt::format("[time] solver = \"relax\": {} changes until t = {:.6g}, not before the end "
+                      "{:.6g} of the "
+                      "scene; there is no rest to be reached",
+                      term->name(), term->steady_after(), scene.time.end));
+}
 
 template <int D>
 void Simulation<D>::begin() {
   start(scene_.system, state_);
   controller_.begin(state_);
   audit_.begin(take_ledger(scene_.system, state_));
+  if (relaxation_) relaxation_->begin(state_);
+}
+
+template <int D>
+bool Simulation<D>::finished() const {
+  return state_.time >= scene_.time.end || (relaxation_ && relaxation_->at_rest());
 }
 
 template <int D>
@@ -54,6 +71,7 @@ void Simulation<D>::advance() {
   try {
     last_step_ = controller_.next(state_, scene_.time.end);
     meniscus::advance(scene_.system, state_, last_step_);
+    if (relaxation_) relaxation_->lead(state_, last_step_);
   } catch (const SolveError& e) {
     // The step left its broken forces; those of the places it was taken back to can be shown.
     scene_.system.add_up(state_.motion(), state_.force);
@@ -82,6 +100,7 @@ Snapshot Simulation<D>::snapshot() const {
   const std::int64_t step[] = {state_.step};
   s.add_integers("step", step);
   controller_.save(s);
+  if (relaxation_) relaxation_->save(s);
 
   const Real scales[] = {audit_.initial_balance, audit_.energy_scale, audit_.momentum_scale,
                          audit_.angular_momentum_scale};
@@ -108,6 +127,7 @@ void Simulation<D>::restore(const Snapshot& s) {
   last_step_ = numbers[5];
   state_.step = s.integer("step");
   controller_.restore(s);
+  if (relaxation_) relaxation_->restore(s, state_);
 
   Real scales[4];
   s.copy_to("audit/scales", scales);

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 import program
-from program import BLOCK, DROP, SHEET, ProgramTest
+from program import BLOCK, DROP, RELAXING_SHEET, SHEET, ProgramTest
 
 
 class Usage(ProgramTest):
@@ -197,6 +197,22 @@ class Failures(ProgramTest):
     def test_unstable_initial_state(self):
         text = BLOCK.replace("[[body]]", '[[body]]\ninitial_displacement = ["-2*x", 0, 0]')
         self.refused(["run", self.scene(text)], 4, "body 'block'", "J = det F")
+
+
+    def test_not_at_rest(self):
+        text = RELAXING_SHEET.replace("end = 20", "end = 0.1")
+        self.assert_fails(text, "not at rest at t = 0.1 s", "force residual", "allowed 1e-05",
+                          "later time.end")
+        self.assertEqual(self.frames("out")[-1]["time"], 0.1)
+
+    def test_never_at_rest(self):
+        text = RELAXING_SHEET + """
+        [[body_force]]
+        body = "sheet"
+        acceleration = ["sin(t)", 0]
+        """
+        for command in ("check", "run"):
+            self.refused([command, self.scene(text)], 3, "body force on 'sheet'", "no rest")
 
 
 class Expectations(ProgramTest):

@@ -8,7 +8,7 @@ import signal
 import numpy as np
 
 import program
-from program import BLOCK, DROP, ProgramTest, state_of
+from program import BLOCK, DROP, RELAXING_SHEET, ProgramTest, state_of
 
 
 class Restart(ProgramTest):
@@ -134,6 +134,30 @@ class Block(EveryWay, Restart):
     def test_step_changes(self):
         self.reference(self.SCENE)
         self.assertGreater(len(set(self.history("whole")["dt"][1:-2])), 2)
+
+
+class RelaxingSheet(EveryWay, Restart):
+    SCENE, TIME, LATER = RELAXING_SHEET, "0.2", "0.35"
+    test_longer = None  # its end is not that of the scene
+
+    def test_ends_by_itself(self):
+        self.reference(self.SCENE)
+        last = self.whole_frames[-1]["time"]
+        self.assertLess(last, 10)
+        history = self.history("whole")
+        self.assertEqual(history["time"][-1], last)
+        self.assertLess(history["force_residual"][-1], 1e-5)
+        self.assertLess(history["shape_change"][-1], 1e-4)
+        self.assertIn("at rest at t = ", (self.directory / "whole/run.log").read_text())
+        # Continued, it is still at rest.
+        self.assert_same(self.call("run", self.file, "--restart", "whole"), "whole")
+
+    def test_relaxing_what_moved(self):
+        """The end of dynamics is the beginning of relaxation."""
+        moving = self.SCENE.replace('"relax"', '"dynamics"').replace("end = 20", "end = 0.2")
+        self.call("run", self.scene(moving, "moving"), "--output", "moving")
+        self.call("run", self.scene(self.SCENE), "--restart", "moving", "--output", "rest")
+        self.assertLess(self.history("rest")["force_residual"][-1], 1e-5)
 
 
 class OtherScene(ProgramTest):

@@ -84,16 +84,22 @@ inline const std::map<std::string, std::string>& law_texts() {
       {"newtonian", "density = 1.25\nbulk_modulus = 2.5\nviscosity = 0.5\nbulk_viscosity = 0.25\n"},
       {"neo_hookean", "density = 1.25\nmu = 0.75\nlambda = 1.5\n"},
       {"st_venant_kirchhoff", "density = 1.25\nmu = 0.75\nlambda = 1.5\n"},
-      {"mooney_rivlin", "density = 1.25\nc1 = 0.625\nc2 = 0.125\nlambda = 2.5\n"}};
+      {"mooney_rivlin", "density = 1.25\nc1 = 0.625\nc2 = 0.125\nlambda = 2.5\n"},
+      {"liquid_crystal_elastomer",
+       "density = 1.25\nmu = 0.75\nbulk_modulus = 1.5\nstep_length = 2.5\n"}};
   return texts;
 }
 
-/// Sets the masses of `body` and returns its internal force. `text`: the numbers of the law.
+/// Sets the masses of `body` and returns its internal force. `text`: the numbers of the law; a
+/// direction, if the law needs one and `text` has none.
 template <int D>
 std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
                                           const std::string& text,
                                           const Integration& integration = {}) {
-  const SceneInput scene = SceneInput::from_text(text);
+  const std::string direction = text.find("reference_director") != std::string::npos ? ""
+                                : D == 2 ? "reference_director = [0.6, 0.8]\n"
+                                         : "reference_director = [0.6, 0, -0.8]\n";
+  const SceneInput scene = SceneInput::from_text(text + "\n" + direction);
   const auto material = law_named(law).template material<D>(scene.root());
   scene.check();
   return material->build(body, integration).force;

@@ -94,6 +94,13 @@ std::vector<Subject> subjects() {
     all.push_back({std::string(name), std::string(name), ""});
   for (const std::string equation : {"linear", "log", "tait"})
     all.push_back({"newtonian", "newtonian_" + equation, fluid_text(equation)});
+  const std::string elastomer = "density = 1.25\nmu = 0.75\nbulk_modulus = 1.5\n";
+  all.push_back({"liquid_crystal_elastomer", "liquid_crystal_elastomer_convected",
+                 elastomer + "step_length = 2.5\ndirector = \"convected\"\n"
+                             "reference_director = [0, 1, 0]\n"});
+  all.push_back({"liquid_crystal_elastomer", "liquid_crystal_elastomer_oblate",
+                 elastomer + "step_length = 0.4\nvolume_energy = \"logarithmic\"\n"
+                             "reference_director = [1, 0, 0]\n"});
   return all;
 }
 
@@ -339,7 +346,8 @@ TEST(LawRegistry, RefusesNumbersThatContradictEachOther) {
 }
 
 TEST(LawRegistry, KnowsItsLaws) {
-  for (const char* name : {"newtonian", "st_venant_kirchhoff", "neo_hookean", "mooney_rivlin"})
+  for (const char* name : {"newtonian", "st_venant_kirchhoff", "neo_hookean", "mooney_rivlin",
+                           "liquid_crystal_elastomer"})
     EXPECT_EQ(law_named(name).name, name);
   EXPECT_EQ(law_named("newtonian").keys.size(), 6U);
   EXPECT_THROW(add_law(law_named("newtonian")), std::logic_error);

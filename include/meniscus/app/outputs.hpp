@@ -14,7 +14,8 @@ std::vector<std::string> stored_kinds(const Scene<D>& scene);
 template <int D>
 std::vector<MeasureSource> chosen_measures(const Scene<D>& scene);
 
-/// The columns of history.csv: time, step, dt, energies, errors, and the chosen measures.
+/// The columns of history.csv: time, step, dt, energies, errors, how far from
+/// rest a relaxation is, and the chosen measures.
 template <int D>
 std::vector<HistoryColumn> history_columns(const Scene<D>& scene);
 

@@ -146,6 +146,10 @@ NodeCells cells_of_nodes(const Grid<D>& grid);
 template <int D>
 Real volume(const Grid<D>& grid);
 
+/// Edge of a cube (2D: square) of the mean volume of the cells.
+template <int D>
+Real mean_spacing(const Grid<D>& grid);
+
 /// Nodes that lie on a boundary facet, ascending.
 template <int D>
 std::vector<Index> boundary_nodes(const Grid<D>& grid);

@@ -68,6 +68,13 @@ class ForceTerm {
   /// Power that the outside world puts in.
   virtual Real external_power(const Motion&) const { return 0; }
 
+  /// From when on the force depends on time through the motion only: the end of the last ramp;
+  /// infinite for a load that never ceases to change.
+  virtual Real steady_after() const { return 0; }
+  /// Sum over the particles of the size of the forces on each before they cancel, to measure a
+  /// residual by: integral of |P| / spacing for an internal force. Asked now and then only.
+  virtual Real uncancelled_force(const Motion&) const { return 0; }
+
   virtual std::optional<Failure> failure() const { return std::nullopt; }
   /// Doubtful but possible states, looked for at output times; one sentence.
   virtual std::optional<std::string> warning(const Motion&) const { return std::nullopt; }

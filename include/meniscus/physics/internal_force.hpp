@@ -22,50 +22,65 @@ class InternalForce final : public ForceTerm {
         rule_(std::move(rule)),
         laws_(std::move(laws)),
         law_stride_(laws_.size() > 1 ? 1 : 0),
+        spacing_(mean_spacing(body.geometry.grid)),
         windows_(rule_.windows(body.size())) {}
 
   std::string name() const override { return "internal force of '" + body_.name + "'"; }
   bool viscous() const override { return L::viscous; }
   std::string_view energy_kind() const override { return "strain"; }
+  Real steady_after() const override {
+    Real last = 0;
+    if constexpr (RampedLaw<L>)
+      for (const L& law : laws_) last = std::max(last, law.steady_after());
+    return last;
+  }
 
   void add_force(const Motion& motion, std::span<Lanes> force) override {
     const Lanes* u = motion.u.data() + body_.first;
     [[maybe_unused]] const Lanes* v = motion.v.data() + body_.first;
     failed_group_ = no_group;
-    std::array<Real, chunk_count> power{};
+    std::array<Real, chunk_count> power{}, ramp_power{};
     windows_.accumulate(body_span(force), [&](int chunk, Index begin, Index end, Lanes* f) {
       Lanes::Mask folded{};
       Lanes heat = Lanes::zero();
+      [[maybe_unused]] Lanes work = Lanes::zero();
       for (Index g = begin; g < end; ++g) {
         const Lanes w = rule_.weight(g);
         Tensor<Lanes> H;
         rule_.gather(g, u, H);
         folded |= ~((1.0 + volume_change(H)).v > 0.0);  // also true for not a number
-        Tensor<Lanes> P = law(g).stress(H);
+        const auto& now = law(g, motion.time);
+        Tensor<Lanes> P = now.stress(H);
+        if constexpr (RampedLaw<L>) work += w * now.energy_rate(H);
         if constexpr (L::viscous) {
           Tensor<Lanes> F_rate;
           rule_.gather(g, v, F_rate);
-          const Tensor<Lanes> viscous = law(g).viscous_stress(H, F_rate);
+          const Tensor<Lanes> viscous = now.viscous_stress(H, F_rate);
           heat += w * contract(viscous, F_rate);
           P = P + viscous;
         }
         rule_.scatter(g, -w * P, f);
       }
       at(power, chunk) = sum(heat);
+      at(ramp_power, chunk) = sum(work);
       if (folded[0] | folded[1] | folded[2] | folded[3]) note_failure(begin, end, u);
     });
-    dissipation_ = 0;
+    dissipation_ = ramp_power_ = 0;
     for (const Real p : power) dissipation_ += p;
+    for (const Real p : ramp_power) ramp_power_ += p;
     if (failed_group_ != no_group) describe_failure(u);
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
     const Lanes* u = motion.u.data() + body_.first;
     return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
-      return sum(rule_.weight(g) * law(g).energy_density(gradients(g, u)));
+      return sum(rule_.weight(g) * law(g, motion.time).energy_density(gradients(g, u)));
     });
   }
+  Real uncancelled_force(const Motion& motion) const override;
   Real dissipation() const override { return dissipation_; }
+  /// What it takes to change the numbers of the law, as of the last add_force().
+  Real external_power(const Motion&) const override { return ramp_power_; }
 
   std::optional<Failure> failure() const override {
     if (failed_group_ == no_group) return std::nullopt;
@@ -86,7 +101,16 @@ class InternalForce final : public ForceTerm {
  private:
   static constexpr Index no_group = std::numeric_limits<Index>::max();
 
-  const L& law(Index group) const { return laws_[static_cast<std::size_t>(group) * law_stride_]; }
+  /// The law of a group of stress points, at a time if it changes.
+  decltype(auto) law(Index group, [[maybe_unused]] Real time) const {
+    if constexpr (RampedLaw<L>)
+      return reference_law(group).at_time(time);
+    else
+      return reference_law(group);
+  }
+  const L& reference_law(Index group) const {
+    return laws_[static_cast<std::size_t>(group) * law_stride_];
+  }
   std::span<Lanes> body_span(std::span<Lanes> all) const {
     return all.subspan(static_cast<std::size_t>(body_.first),
                        static_cast<std::size_t>(body_.size()));
@@ -117,8 +141,9 @@ class InternalForce final : public ForceTerm {
   Rule rule_;
   std::vector<L> laws_;
   std::size_t law_stride_;
+  Real spacing_;
   ForceWindows windows_;
-  Real dissipation_ = 0;
+  Real dissipation_ = 0, ramp_power_ = 0;
   Index failed_group_ = no_group;
   Failure failure_;
 };
@@ -158,11 +183,24 @@ void InternalForce<D, L, Rule>::visit(const Motion& motion,
                                       const std::function<void(const StressPoint&)>& f) const {
   const Lanes* u = motion.u.data() + body_.first;
   for (Index g = 0; g < rule_.groups(); ++g) {
-    const Tensor<Lanes> H = gradients(g, u), P = law(g).stress(H);
+    const Tensor<Lanes> H = gradients(g, u), P = law(g, motion.time).stress(H);
     const Lanes w = rule_.weight(g);
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
       if (w[lane] > 0) f({rule_.owner(g, lane), w[lane], lane_of(H, lane), lane_of(P, lane)});
   }
+}
+
+template <int D, Law L, class Rule>
+Real InternalForce<D, L, Rule>::uncancelled_force(const Motion& motion) const {
+  // Without what ramps add: an active body is free of stress where that cancels. Stresses of
+  // round-off are no scale: those of a strain of 1e-9 count at least.
+  const Lanes* u = motion.u.data() + body_.first;
+  const Real force = parallel_sum(rule_.groups(), 0.0, [&](Index g) {
+    const L& passive = reference_law(g);
+    const Tensor<Lanes> P = passive.stress(gradients(g, u));
+    return sum(rule_.weight(g) * max(sqrt(contract(P, P)), Lanes(1e-9 * passive.p_wave_modulus())));
+  });
+  return force / spacing_;
 }
 
 template <int D, Law L, class Rule>
@@ -174,7 +212,7 @@ std::optional<std::string> InternalForce<D, L, Rule>::warning(const Motion& moti
       const Lanes w = rule_.weight(g);
       for (int lane = 0; lane < rule_.points_per_group(); ++lane)
         if (w[lane] > 0)
-          if (const auto cause = law(g).warning(lane_of(H, lane)))
+          if (const auto cause = law(g, motion.time).warning(lane_of(H, lane)))
             return fmt::format("body '{}', particle {}: {}", body_.name,
                                body_.first + rule_.owner(g, lane), *cause);
     }

@@ -20,6 +20,7 @@
 #include "meniscus/core/input.hpp"
 #include "meniscus/core/tensor.hpp"
 
+#include <array>
 #include <concepts>
 #include <optional>
 #include <string>
@@ -77,6 +78,32 @@ std::optional<std::string> check(const L& law) {
 template <class L>
 concept WarningLaw = requires(const L law, const Tensor<Real> H) {
   { law.warning(H) } -> std::same_as<std::optional<std::string>>;
+};
+
+/// A law with a direction of its own. `director` is a unit vector of the reference, filled in by
+/// whoever puts the law on a body (reference_director.hpp); a law without a body has the one it was
+/// made with.
+template <class L>
+concept DirectedLaw = requires(L law) {
+  { law.director } -> std::same_as<std::array<Real, 3>&>;
+};
+
+/// A law whose numbers change with time. As read from a scene it is that of the reference state.
+template <class L>
+concept RampedLaw = requires(const L law, const Tensor<Lanes> H) {
+  /// The law at a time.
+  { law.at_time(Real{}) } -> std::same_as<L>;
+  /// dW/dt of at_time(t) at fixed deformation: what changing the numbers costs.
+  { law.energy_rate(H) } -> std::same_as<Lanes>;
+  /// From when on nothing changes any more.
+  { law.steady_after() } -> std::same_as<Real>;
+};
+
+/// A law with a member note(spacing): what a reader of the log should know of its numbers on a body
+/// of this mean spacing; one sentence.
+template <class L>
+concept NotingLaw = requires(const L law) {
+  { law.note(Real{}) } -> std::same_as<std::optional<std::string>>;
 };
 
 /// The law with the typical numbers of its rows.

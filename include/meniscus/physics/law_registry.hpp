@@ -32,6 +32,10 @@ class AnyLaw {
   virtual Tensor<Real> viscous_stress(const Tensor<Real>& H, const Tensor<Real>& F_rate) const = 0;
   virtual Tensor<Lanes> viscous_stress(const Tensor<Lanes>& H,
                                        const Tensor<Lanes>& F_rate) const = 0;
+  /// dW/dt at fixed deformation; zero for laws that do not change with time.
+  virtual Lanes energy_rate(const Tensor<Lanes>& H) const = 0;
+  /// The law at a time.
+  virtual std::unique_ptr<AnyLaw> at_time(Real time) const = 0;
   virtual std::optional<std::string> check() const = 0;
   virtual std::optional<std::string> warning(const Tensor<Real>& H) const = 0;
 };
@@ -88,6 +92,18 @@ class AnyLawOf final : public AnyLaw {
   Tensor<Lanes> viscous_stress(const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const override {
     return viscous(H, F_rate);
   }
+  Lanes energy_rate([[maybe_unused]] const Tensor<Lanes>& H) const override {
+    if constexpr (RampedLaw<L>)
+      return law_.energy_rate(H);
+    else
+      return Lanes::zero();
+  }
+  std::unique_ptr<AnyLaw> at_time([[maybe_unused]] Real time) const override {
+    if constexpr (RampedLaw<L>)
+      return std::make_unique<AnyLawOf>(law_.at_time(time));
+    else
+      return std::make_unique<AnyLawOf>(law_);
+  }
   std::optional<std::string> check() const override { return meniscus::check(law_); }
   std::optional<std::string> warning(const Tensor<Real>& H) const override {
     if constexpr (WarningLaw<L>)
@@ -114,11 +130,21 @@ LawEntry make_entry() {
                  read_material<2, L>, read_material<3, L>};
   for (const Row<L>& row : L::rows())
     entry.keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
+  if constexpr (DirectedLaw<L>)
+    entry.keys.push_back({ReferenceDirector::key, "numbers or formulas", "1", "",
+                          "normal of the walls",
+                          "reference director h0, one number or formula per dimension, of any "
+                          "length; required for shapes without walls"});
   entry.typical = []() -> std::unique_ptr<AnyLaw> {
     return std::make_unique<AnyLawOf<L>>(typical_law<L>());
   };
   entry.read = [](const Block& block) -> std::unique_ptr<AnyLaw> {
-    const L law = meniscus::read<L>(block);
+    L law = meniscus::read<L>(block);
+    if constexpr (DirectedLaw<L>)
+      if (block.has(ReferenceDirector::key)) {
+        const auto h = ReferenceDirector(block, 3).template at<3>(Vec<3>::Zero(), {});
+        law.director = {h[0], h[1], h[2]};
+      }
     if (const auto wrong = check(law)) block.problem("", *wrong);
     return std::make_unique<AnyLawOf<L>>(law);
   };

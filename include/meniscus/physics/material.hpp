@@ -5,6 +5,7 @@
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/internal_force.hpp"
+#include "meniscus/physics/reference_director.hpp"
 
 #include <memory>
 #include <string>
@@ -25,6 +26,7 @@ class Material {
   struct Built {
     std::unique_ptr<ForceTerm> force;
     MassReport mass;
+    std::optional<std::string> note;  ///< for the log
   };
   /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
   /// InputError (a formula leaves its range somewhere in the body).
@@ -34,7 +36,9 @@ class Material {
 template <int D, Law L>
 class MaterialOf final : public Material<D> {
  public:
-  explicit MaterialOf(Varying<L> law) : law_(std::move(law)) {}
+  /// `director` for a DirectedLaw.
+  MaterialOf(Varying<L> law, std::optional<ReferenceDirector> director)
+      : law_(std::move(law)), director_(std::move(director)) {}
 
   typename Material<D>::Built build(Body<D>& body, const Integration& integration) const override {
     if (integration.rule == "q_scni") {
@@ -50,17 +54,23 @@ class MaterialOf final : public Material<D> {
               : std::vector<Vec<D>>(X.begin(), X.end());
     PointRule<D> rule =
         gauss ? build_gauss_rule(body, integration.gauss_points) : build_nodal_rule(body);
-    if (!law_.uniform()) rule.per_group = 1;
+    if (!uniform()) rule.per_group = 1;
     return put(body, std::move(rule), places, shape_integrals(body));
   }
 
  private:
-  L law_at(const Vec<D>& X) const {
+  bool uniform() const { return law_.uniform() && (!director_ || director_->uniform()); }
+
+  L law_at(const Vec<D>& X, const Geometry<D>& geometry) const {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     place.template head<D>() = X;
-    const L law = law_.at(place);
-    if (const auto wrong = check(law))
+    L law = law_.at(place);
+    if (const auto wrong = check(law); wrong && !law_.uniform())
       throw InputError(law_.formulas.front().place + ": " + *wrong);
+    if constexpr (DirectedLaw<L>) {
+      const Eigen::Vector3d h = director_->at(X, geometry);
+      law.director = {h[0], h[1], h[2]};
+    }
     return law;
   }
 
@@ -68,20 +78,24 @@ class MaterialOf final : public Material<D> {
   template <class Rule>
   typename Material<D>::Built put(Body<D>& body, Rule rule, const std::vector<Vec<D>>& places,
                                   const std::vector<Real>& shape_integral) const {
-    std::vector<L> laws{law_.base};
-    std::vector<Real> density(static_cast<std::size_t>(body.size()), law_.base.density);
-    if (!law_.uniform()) {
-      laws.clear();
-      for (const Vec<D>& X : places) laws.push_back(law_at(X));
-      for (Index A = 0; A < body.size(); ++A)
-        at(density, A) = law_at(at(body.particles.X(), A)).density;
+    std::vector<L> laws;
+    for (const Vec<D>& X : places) {
+      laws.push_back(law_at(X, body.geometry));
+      if (uniform()) break;
     }
+    std::vector<Real> density(static_cast<std::size_t>(body.size()), law_.base.density);
+    if (!law_.uniform())
+      for (Index A = 0; A < body.size(); ++A)
+        at(density, A) = law_at(at(body.particles.X(), A), body.geometry).density;
     const MassReport mass = lump_mass(body, density, shape_integral);
+    std::optional<std::string> note;
+    if constexpr (NotingLaw<L>) note = laws.front().note(mean_spacing(body.geometry.grid));
     return {std::make_unique<InternalForce<D, L, Rule>>(body, std::move(rule), std::move(laws)),
-            mass};
+            mass, std::move(note)};
   }
 
   Varying<L> law_;
+  std::optional<ReferenceDirector> director_;
 };
 
 /// Reads the numbers of the law L from a scene; problems are noted in the block.
@@ -89,7 +103,9 @@ template <int D, Law L>
 std::unique_ptr<Material<D>> read_material(const Block& block) {
   Varying<L> law = read_varying<L>(block);
   if (const auto wrong = check(law.base); wrong && law.uniform()) block.problem("", *wrong);
-  return std::make_unique<MaterialOf<D, L>>(std::move(law));
+  std::optional<ReferenceDirector> director;
+  if constexpr (DirectedLaw<L>) director.emplace(block, D);
+  return std::make_unique<MaterialOf<D, L>>(std::move(law), std::move(director));
 }
 
 }  // namespace meniscus

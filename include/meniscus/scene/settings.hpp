@@ -15,6 +15,8 @@ struct TimeSettings {
   std::string step_place;    ///< where the scene gives it, to begin messages with
   Real safety = 0.9;
   int check_every = 0;  ///< most steps between estimates of the stable step
+  std::string solver;   ///< "dynamics" or "relax"
+  Real force_tolerance = 0, shape_tolerance = 0;  ///< of relax (solve/relaxation.hpp)
   static Rows<TimeSettings> rows();
 };
 

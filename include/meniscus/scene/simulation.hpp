@@ -4,6 +4,7 @@
 #include "meniscus/core/snapshot.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/solve/audit.hpp"
+#include "meniscus/solve/relaxation.hpp"
 #include "meniscus/solve/step_controller.hpp"
 
 namespace meniscus {
@@ -15,7 +16,8 @@ std::vector<Real> packed(const NodalVectors& field);
 template <int D>
 class Simulation {
  public:
-  /// `scene` must outlive the simulation.
+  /// `scene` must outlive the simulation. Throws InputError if it is to be relaxed, but its loads
+  /// change until its end.
   explicit Simulation(Scene<D>& scene);
 
   /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
@@ -24,11 +26,16 @@ class Simulation {
   /// is then back at the places before the step, but not complete.
   void advance();
 
+  /// Whether the end of the scene, or the rest that it asks for, is reached.
+  bool finished() const;
+
   const Scene<D>& scene() const { return scene_; }
   const State& state() const { return state_; }
   Real last_step() const { return last_step_; }
   StepController<D>& controller() { return controller_; }
   const Audit& audit() const { return audit_; }
+  /// Nothing if the scene is not relaxed.
+  const std::optional<Relaxation<D>>& relaxation() const { return relaxation_; }
   /// The ledger of now; widens the scales of the audit.
   Ledger audit_now();
 
@@ -41,6 +48,7 @@ class Simulation {
   Scene<D>& scene_;
   State state_;
   StepController<D> controller_;
+  std::optional<Relaxation<D>> relaxation_;
   Audit audit_;
   Real last_step_ = 0;
 };

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The direction in which a material is different, at each point of its reference.
+#pragma once
+#include "meniscus/body/geometry.hpp"
+#include "meniscus/core/input.hpp"
+
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// `reference_director`: formulas of the reference position, one per dimension, of any length; left
+/// out, the normal of the walls of a shape that has walls.
+class ReferenceDirector {
+ public:
+  static constexpr const char* key = "reference_director";
+
+  /// Notes problems in the block. `dimension` components are required.
+  ReferenceDirector(const Block& block, int dimension);
+
+  /// Whether all points have the same director.
+  bool uniform() const;
+  /// The unit vector at X. Throws InputError if the shape has no walls, or the formulas have no
+  /// direction at X.
+  template <int D>
+  Eigen::Vector3d at(const Vec<D>& X, const Geometry<D>& geometry) const;
+
+ private:
+  std::vector<Expression> formulas_;  ///< empty: by the geometry
+  std::string place_;                 ///< in the scene, to begin messages with
+};
+
+}  // namespace meniscus

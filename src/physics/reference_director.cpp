@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Directors from formulas or from the walls of a shape.
+#include "meniscus/physics/reference_director.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+
+ReferenceDirector::ReferenceDirector(const Block& block, int dimension) : place_(block.place(key)) {
+  if (!block.has(key)) return;
+  formulas_ = block.expressions(key, static_cast<std::size_t>(dimension), dimension::none,
+                                std::vector<Expression>(static_cast<std::size_t>(dimension), 1.0));
+  for (const Expression& formula : formulas_)
+    if (formula.depends_on_time())
+      block.problem(key, "a reference cannot change with time; allowed are x, y, z");
+}
+
+bool ReferenceDirector::uniform() const {
+  return !formulas_.empty() &&
+         std::all_of(formulas_.begin(), formulas_.end(),
+                     [](const Expression& formula) { return formula.constant(); });
+}
+
+template <int D>
+Eigen::Vector3d ReferenceDirector::at(const Vec<D>& X, const Geometry<D>& geometry) const {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero(), h = place;
+  place.head<D>() = X;
+  if (!formulas_.empty()) {
+    for (int i = 0; i < D; ++i) h[i] = meniscus::at(formulas_, i)(place);
+  } else if (geometry.director) {
+    h.head<D>() = geometry.director(X);
+  } else {
+    throw InputError(fmt::format(
+        "{}: {} is missing: the shape has no walls whose normal it could be; give {} numbers or "
+        "formulas",
+        place_, key, D));
+  }
+  const Real length = h.norm();
+  if (!(length > 0) || !std::isfinite(length))
+    throw InputError(
+        fmt::format("{}: ({:.6g}, {:.6g}, {:.6g}) has no direction at X = ({:.6g}, "
+                    "{:.6g}, {:.6g})",
+                    place_, h[0], h[1], h[2], place[0], place[1], place[2]));
+  return h / length;
+}
+
+template Eigen::Vector3d ReferenceDirector::at(const Vec<2>&, const Geometry<2>&) const;
+template Eigen::Vector3d ReferenceDirector::at(const Vec<3>&, const Geometry<3>&) const;
+
+}  // namespace meniscus

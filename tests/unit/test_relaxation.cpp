@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Relaxation finds equilibria that are known, stops there by itself, keeps the books of energy, and
+// goes on from a snapshot with the same bits.
+#include "meniscus/core/error.hpp"
+#include "meniscus/scene/simulation.hpp"
+#include "meniscus/solve/central_difference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "one_body.hpp"
+
+namespace meniscus {
+namespace {
+
+/// A scene in motion.
+template <int D>
+struct Relaxed {
+  Scene<D> scene;
+  Simulation<D> simulation;
+
+  explicit Relaxed(const std::string& text) : scene(read(text)), simulation(scene) {}
+  static Scene<D> read(const std::string& text) {
+    const SceneInput input = SceneInput::from_text(text);
+    scene_dimension(input);
+    return build_scene<D>(input);
+  }
+
+  const Relaxation<D>& relaxation() const { return *simulation.relaxation(); }
+  Real measure(const std::string& name) const {
+    for (const MeasureSource& m : scene.measures)
+      if (m.name == name) return m.compute(simulation.state().motion());
+    throw std::logic_error(name);
+  }
+  void expect_rest(Real force_tolerance, Real shape_tolerance) const {
+    EXPECT_TRUE(relaxation().at_rest());
+    EXPECT_LT(simulation.state().time, scene.time.end);
+    EXPECT_LE(relaxation().force_residual(simulation.state()), force_tolerance);
+    EXPECT_LE(relaxation().shape_change(), shape_tolerance);
+  }
+};
+
+/// Constant forces on the coefficients of a body.
+class DeadLoad final : public ForceTerm {
+ public:
+  explicit DeadLoad(NodalVectors load) : load_(std::move(load)) {}
+  std::string name() const override { return "dead load"; }
+  void add_force(const Motion&, std::span<Lanes> force) override {
+    for (std::size_t A = 0; A < load_.size(); ++A) force[A] += load_[A];
+  }
+  Real external_power(const Motion& motion) const override {
+    Real power = 0;
+    for (std::size_t A = 0; A < load_.size(); ++A) power += sum(load_[A] * motion.v[A]);
+    return power;
+  }
+  std::size_t bytes() const override { return 0; }
+  Offset pairs() const override { return 0; }
+
+ private:
+  NodalVectors load_;
+};
+
+/// The load that holds a body at given displacements brings it there from rest. The displacements
+/// are symmetric about the planes of the brick, so that nothing turns it, and pull in all
+/// directions: bodies that dead loads push together turn over.
+template <int D>
+void expect_loaded_brick(const std::string& law) {
+  test::OneBody<D> one(D == 3 ? test::brick<D>({4, 2, 3}) : test::brick<D>({6, 4}), law);
+  const NodalVectors target = test::field_on<D>(one.body(), [](const Vec<D>& X) {
+    Vec<D> u = 0.05 * X;
+    u[0] = 0.1 * X[0] + 0.01 * X[0] * X[1] * X[1];
+    return u;
+  });
+  NodalVectors load = test::force_of(*one.system.terms.front(), target);
+  for (Lanes& f : load) f = -f;
+  one.system.terms.push_back(std::make_unique<DeadLoad>(load));
+
+  start(one.system, one.state);
+  StepController<D> controller(one.system, {.fixed = {}, .safety = 0.4});
+  controller.begin(one.state);
+  Relaxation<D> relaxation(one.system, {1e-10, 1e-9});
+  relaxation.begin(one.state);
+  const Ledger first = take_ledger(one.system, one.state);
+  Audit audit;
+  audit.begin(first);
+  for (int n = 0; n < 20000 && !relaxation.at_rest(); ++n) {
+    const Real dt = controller.next(one.state, 1e300);
+    advance(one.system, one.state, dt);
+    relaxation.lead(one.state, dt);
+    audit.follow(one.system, one.state, take_ledger(one.system, one.state));
+  }
+  EXPECT_TRUE(relaxation.at_rest());
+  EXPECT_LE(relaxation.force_residual(one.state), 1e-10);
+  for (Index A = 0; A < one.body().size(); ++A) {
+    const Lanes off = value_at(one.body().at_particles, A, one.state.u.data()) -
+                      value_at(one.body().at_particles, A, target.data());
+    EXPECT_LT(std::sqrt(sum(off * off)), 1e-8) << A;
+  }
+  const Ledger last = take_ledger(one.system, one.state);
+  EXPECT_GT(last.dissipated, 0.3 * last.external_work);
+  // The load comes at once, which costs the balance dt^2/8 |f|^2/m.
+  EXPECT_LT(std::abs(audit.balance_error(last)), 0.03);
+}
+
+TEST(Relaxation, FindsTheStateThatALoadHolds) {
+  for (const std::string law : {"neo_hookean", "st_venant_kirchhoff"}) {
+    expect_loaded_brick<2>(law);
+    expect_loaded_brick<3>(law);
+  }
+}
+
+const std::string sheet =
+    "dimension = 2\n[time]\nsolver = \"relax\"\nend = 1000\n"
+    "[[body]]\nname = \"it\"\nshape = \"rectangle\"\nsize = [2, 1]\ncells = [6, 3]\n"
+    "[body.material]\ntype = \"neo_hookean\"\ndensity = 1.25\nmu = 0.75\nlambda = 1.5\n";
+
+TEST(Relaxation, BodiesWithoutLoadAreAtRestAtOnce) {
+  Relaxed<2> run(sheet);
+  run.simulation.begin();
+  while (!run.simulation.finished()) run.simulation.advance();
+  run.expect_rest(0, 0);
+  EXPECT_LT(run.simulation.state().step, 100);
+}
+
+const std::string active_bar =
+    "dimension = 3\n[time]\nsolver = \"relax\"\nend = 500\nforce_tolerance = 1e-8\n"
+    "shape_tolerance = 1e-6\n"
+    "[[body]]\nname = \"bar\"\nshape = \"box\"\nsize = [1, 1, 2]\ncells = [3, 3, 6]\n"
+    "[body.material]\ntype = \"liquid_crystal_elastomer\"\ndensity = 1\nmu = 1.25\n"
+    "bulk_modulus = 8\nstep_length = 2.5\nreference_director = [0, 0, 1]\n"
+    "activity = 0.4439517925290134\nactivity_ramp = [0, 5]\n";
+
+TEST(Relaxation, ActiveBarReachesItsStretches) {
+  Relaxed<3> run(active_bar);
+  EXPECT_EQ(run.relaxation().steady_after(), 5);
+  run.simulation.begin();
+  while (!run.simulation.finished()) {
+    run.simulation.advance();
+    run.simulation.audit_now();
+  }
+  run.expect_rest(1e-8, 1e-6);
+  EXPECT_GT(run.simulation.state().time, 5);
+  EXPECT_NEAR(run.measure("bar.extent_z") / 2, 1.1222250670561522, 1e-6);
+  EXPECT_NEAR(run.measure("bar.extent_x"), 0.9509088637224783, 1e-6);
+  const Ledger ledger = run.simulation.audit_now();
+  EXPECT_LT(ledger.external_work, -0.01);  // the active stress shortens what it works on
+  EXPECT_LT(std::abs(run.simulation.audit().balance_error(ledger)), 1e-4);
+  EXPECT_LT(run.simulation.audit().angular_momentum_error(ledger), 1e-12);
+}
+
+TEST(Relaxation, GoesOnFromASnapshotWithTheSameBits) {
+  Relaxed<3> straight(active_bar), broken(active_bar);
+  straight.simulation.begin();
+  for (int n = 0; n < 130; ++n) straight.simulation.advance();
+  const Snapshot snapshot = straight.simulation.snapshot();
+  broken.simulation.restore(snapshot);
+  EXPECT_EQ(broken.simulation.snapshot().hash(), snapshot.hash());
+  for (int n = 0; n < 130; ++n) {
+    straight.simulation.advance();
+    broken.simulation.advance();
+  }
+  EXPECT_EQ(broken.simulation.snapshot().hash(), straight.simulation.snapshot().hash());
+}
+
+TEST(Relaxation, LoadsMustCeaseToChange) {
+  const std::string force = "[[body_force]]\nbody = \"it\"\nacceleration = [\"sin(t)\", \"0\"]\n";
+  EXPECT_THROW(Relaxed<2>(sheet + force), InputError);
+  std::string late = active_bar;
+  late.replace(late.find("[0, 5]"), 6, "[0, 500]");
+  EXPECT_THROW((Relaxed<3>(late)), InputError);
+}
+
+}  // namespace
+}  // namespace meniscus
