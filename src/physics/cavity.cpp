@@ -52,13 +52,29 @@ class Cavity final : public ForceTerm {
            (1 - *filling_.volume_target) * rate;
   }
 
+  Real steady_after() const override { return vented() ? 0 : filling_.ramp.end; }
+  /// Pressure times area.
+  Real uncancelled_force(const Motion& motion) const override {
+    const auto size = surface_.follow(motion);
+    return std::abs(pressure(motion.time, size.volume)) * size.area;
+  }
+
   std::optional<Failure> failure() const override { return failure_; }
 
   std::vector<MeasureSource> measures() const override {
-    return {{"cavity_fraction", dimension::none, "enclosed volume / that at the start",
-             [this](const Motion& motion) { return volume(motion) / reference_volume_; }},
-            {"cavity_pressure", dimension::pressure, "pressure inside above that outside",
-             [this](const Motion& motion) { return pressure(motion.time, volume(motion)); }}};
+    std::vector<MeasureSource> measures{
+        {"cavity_fraction", dimension::none, "enclosed volume / that of the reference",
+         [this](const Motion& motion) { return volume(motion) / reference_volume_; }},
+        {"cavity_pressure", dimension::pressure, "pressure inside above that outside",
+         [this](const Motion& motion) { return pressure(motion.time, volume(motion)); }}};
+    if (gap_)
+      measures.push_back({"cavity_gap", dimension::length,
+                          "smallest distance of opposite inner faces",
+                          [this](const Motion& motion) {
+                            surface_.follow(motion);
+                            return gap_->smallest(surface_).width;
+                          }});
+    return measures;
   }
   std::size_t bytes() const override { return surface_.bytes(); }
   Offset pairs() const override { return surface_.pairs(); }

@@ -144,7 +144,7 @@ Rows<CavitySettings> CavitySettings::rows() {
                    "pressure inside above that outside; either this or volume_target, or neither: "
                    "vented"),
       optional_row("volume_target", &S::volume_target, dimension::none, range::positive, "none",
-                   "volume of the content / enclosed volume at the start"),
+                   "volume of the content / enclosed volume of the reference"),
       optional_row("penalty", &S::penalty, dimension::pressure, range::positive, "none",
                    "pressure per deviation from volume_target, which needs it"),
       ramp_row("ramp", &S::ramp, "pressure from 0 or volume_target from 1"),

@@ -3,7 +3,7 @@
 #include "meniscus/solve/cell_measures.hpp"
 
 #include "meniscus/body/wall_supports.hpp"
-#include "meniscus/physics/cavity_gap.hpp"
+#include "meniscus/physics/closed_surface.hpp"
 #include "meniscus/solve/meridian_shape.hpp"
 
 #include <cmath>
@@ -28,16 +28,11 @@ class CellShape {
 
   MeanMeridian meridian(const Motion& m) { return built(meridians_, body_).mean(m); }
   ClosedSurface<3>::Size outer(const Motion& m) {
-    return built(outer_, body_, SurfacePart::outer, 3).follow(m);
+    return built(outer_, body_, SurfacePart::outer, 2).follow(m);
   }
   ClosedSurface<3>::Size inner(const Motion& m) {
-    return built(inner_, body_, SurfacePart::inner, 3).follow(m);
+    return built(inner_, body_, SurfacePart::inner, 2).follow(m);
   }
-  Real gap(const Motion& m) {
-    inner(m);
-    return built(gap_, inner_->reference()).smallest(*inner_).width;
-  }
-
   struct Thickest {
     Real thickness, x;
   };
@@ -83,7 +78,6 @@ class CellShape {
   Real micrometre_;
   std::optional<Meridians> meridians_;
   std::optional<ClosedSurface<3>> outer_, inner_;
-  std::optional<CavityGap<3>> gap_;
 };
 
 }  // namespace
@@ -137,8 +131,6 @@ std::vector<MeasureSource> cell_measures(const Body<3>& body, Real micrometre) {
       [](CellShape& s, const Motion& m) { return s.inner(m).volume; });
   add("cavity_area", dimension::area, "area of the inner surface",
       [](CellShape& s, const Motion& m) { return s.inner(m).area; });
-  add("cavity_gap", dimension::length, "smallest distance of opposite inner faces",
-      [](CellShape& s, const Motion& m) { return s.gap(m); });
   return measures;
 }
 

@@ -135,6 +135,20 @@ TEST(Cavity, FacesThatTouchAreAFailure) {
   EXPECT_LT(X.head<2>().norm(), 0.7);
 }
 
+TEST(Cavity, GapIsTheDistanceOfTheFaces) {
+  SphereShell s;
+  s.radius = 1;
+  s.thickness = 0.25;
+  s.spacing = 0.4;
+  const auto body = test::body_of<3>(s.geometry());
+  const auto term = cavity<3>(*body, SurfacePart::inner, {}, 3);
+  const auto flattened = [&](Real share) {
+    return test::field_on<3>(*body, [&](const Vec<3>& X) { return Vec<3>(0, 0, -share * X[2]); });
+  };
+  EXPECT_NEAR(measure(*term, "cavity_gap", flattened(0)), 1.5, 0.01);
+  EXPECT_NEAR(measure(*term, "cavity_gap", flattened(0.4)), 0.9, 0.03);  // facets are coarse
+}
+
 TEST(Cavity, SolidBodyHasNoInnerSurface) {
   const auto body = test::body_of<3>(test::ball(3, 2));
   EXPECT_THROW(cavity<3>(*body, SurfacePart::inner, {}, 3), InputError);

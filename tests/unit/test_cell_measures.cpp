@@ -55,7 +55,6 @@ TEST_F(CellMeasures, OfTheReferenceShape) {
   EXPECT_NEAR(measure("outer_volume", rest), 207.31380, 0.1);
   EXPECT_NEAR(measure("reduced_volume", rest), 0.7303436, 5e-4);
   EXPECT_NEAR(measure("evans_fung_rms", rest), 0.79155, 0.005);
-  EXPECT_NEAR(measure("cavity_gap", rest), 2, 1e-4);  // facets across the begin of the rim
 }
 
 /// A stretch of the reference into a shape with a dimple, turned and shifted as a whole.

@@ -12,7 +12,7 @@ namespace meniscus {
 /// At most one of `pressure` and `volume_target`; with neither the cavity is vented.
 struct CavityFilling {
   std::optional<Real> pressure;       ///< inside above outside
-  std::optional<Real> volume_target;  ///< of the volume V0 enclosed at the start
+  std::optional<Real> volume_target;  ///< of the volume V0 enclosed in the reference
   Real penalty = 0;                   ///< pressure per relative deviation from the target
   Ramp ramp;                          ///< from pressure 0 or target 1
 };

@@ -10,7 +10,7 @@ namespace meniscus {
 
 /// Shape of a hollow body of revolution from its mean meridian (meridian_shape.hpp) and from its
 /// two surfaces: diameter, pole_thickness, largest_thickness and its place, thickness_ratio,
-/// asymmetry, rim_spread, volumes and areas of both surfaces, reduced_volume, cavity_gap, and
+/// asymmetry, rim_spread, volumes and areas of both surfaces, reduced_volume, and
 /// evans_fung_rms. None for other bodies. `micrometre` in units of the scene. Nothing is built
 /// before the first of them is asked for; `body` must be complete then.
 template <int D>
