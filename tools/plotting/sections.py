@@ -50,7 +50,9 @@ class Cut:
             values = np.linalg.norm(values.reshape(len(values), -1), axis=1)
         near = np.ones(len(x), bool)
         if plane.normal is not None:
-            near = np.abs(body.X[:, plane.normal] - plane.place) < 0.5 * body.spacing
+            beside = np.abs(body.X[:, plane.normal] - plane.place)
+            # Flat cells of a wall are wider than its spacing: at least the nearest particles.
+            near = beside < max(0.5 * body.spacing, 1.01 * beside.min())
         self.x = x[near][:, plane.axes]
         self.values = values[near]
         self.size = 0.85 * body.volume[near] ** (1 / body.dimension)
