@@ -52,6 +52,18 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, Window window)
       search_(X_) {}
 
 template <int D>
+Index ParticleSet<D>::limit_supports(std::vector<Real> limit) {
+  limit_ = std::move(limit);
+  Index shortened = 0;
+  for (Index A = 0; A < size(); ++A) {
+    shortened += at(limit_, A) < at(support_, A);
+    at(support_, A) = std::min(at(support_, A), at(limit_, A));
+  }
+  largest_support_ = *std::max_element(support_.begin(), support_.end());
+  return shortened;
+}
+
+template <int D>
 template <class Keep>
 void ParticleSet<D>::find(const Vec<D>& centre, Real radius, Keep&& keep,
                           std::vector<Candidate<D>>& found) const {
@@ -126,7 +138,8 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
     for (const Index q : poor) {
       search_.within(at(points, q), growth * largest_asked_for, near);
       for (const Index A : near) {
-        const Real enlarged = growth * at(asked_for, A);
+        Real enlarged = growth * at(asked_for, A);
+        if (!limit_.empty()) enlarged = std::min(enlarged, at(limit_, A));
         if ((at(X_, A) - at(points, q)).norm() < enlarged)
           at(support_, A) = std::max(at(support_, A), enlarged);
       }
@@ -148,9 +161,11 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
   throw SolveError(fmt::format(
       "body '{}': the shape functions are not determined at point ({}): {} neighbours, quality of "
       "the "
-      "moment matrix {:.2g}, at least {:.0e} is needed. Use a larger support or a less distorted "
-      "cloud.",
-      body, place, near.size(), quality, unusable_quality));
+      "moment matrix {:.2g}, at least {:.0e} is needed. Use {}.",
+      body, place, near.size(), quality, unusable_quality,
+      limit_.empty() ? "a larger support or a less distorted cloud"
+                     : "more particles through the wall and along it: supports must end before the "
+                       "other side of the cavity"));
 }
 
 template void select_near(const std::array<Vec<2>, 4>&, std::span<const Candidate<2>>,

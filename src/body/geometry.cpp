@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace meniscus {
@@ -22,6 +23,11 @@ SurfacePatch<D> SurfacePatch<D>::sphere(const Vec<D>& centre, Real radius) {
 }
 
 template <int D>
+SurfacePatch<D> SurfacePatch<D>::cavity(const Vec<D>& centre, Real radius) {
+  return sphere(centre, -radius);
+}
+
+template <int D>
 SurfacePatch<D> SurfacePatch<D>::cylinder(const Vec<D>& point, const Vec<D>& axis, Real radius) {
   return {point, Mat<D>::Identity() - axis * axis.transpose(), Vec<D>::Zero(), radius};
 }
@@ -32,7 +38,7 @@ typename SurfacePatch<D>::Foot SurfacePatch<D>::project(const Vec<D>& X) const {
     return {X - normal * normal.dot(X - origin), normal, Mat<D>::Zero(),
             Mat<D>::Identity() - normal * normal.transpose()};
   const Vec<D> arm = round * (X - origin);
-  const Real r = arm.norm();
+  const Real r = std::copysign(arm.norm(), radius);
   const Vec<D> N = arm / r;
   const Mat<D> tangential = round - N * N.transpose();
   return {X - arm + radius * N, N, tangential / radius,

@@ -2,6 +2,7 @@
 // The registry of shapes and the reading of a body's geometry.
 #include "meniscus/body/shapes.hpp"
 
+#include "meniscus/body/imperfection.hpp"
 #include "meniscus/core/error.hpp"
 
 namespace meniscus {
@@ -31,8 +32,13 @@ Geometry<D> read_geometry(const Block& block) {
   const std::string name = block.choice("shape", names, {});
   const Real jitter = block.real("jitter", dimension::none, {0, 0.5}, 0.0);
   const auto seed = block.integer("jitter_seed", range::non_negative, 1);
+  const Real imperfection = block.real("imperfection", dimension::length, range::non_negative, 0.0);
+  const auto imperfection_seed = block.integer("imperfection_seed", range::non_negative, 1);
   try {
     Geometry<D> geometry = shapes<D>().at(name).make(block);
+    if (imperfection > 0)
+      geometry = with_imperfection(std::move(geometry), imperfection,
+                                   static_cast<std::uint64_t>(imperfection_seed));
     if (jitter > 0) jitter_interior(geometry.grid, jitter, static_cast<std::uint64_t>(seed));
     return geometry;
   } catch (const InputError& error) {

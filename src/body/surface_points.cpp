@@ -40,12 +40,14 @@ FacetCorners<D> facet_corners(const Facet<D>& facet, const std::vector<Vec<D>>& 
   return corners;
 }
 
-/// Calls f(facet number, xi, weight) for the Gauss points of every facet; returns points per facet.
-template <int D, class F>
-int for_facet_points(const Grid<D>& grid, int k, F&& f) {
+/// Calls f(facet number, xi, weight) for the Gauss points of every facet that is wanted; returns
+/// points per facet.
+template <int D, class Wanted, class F>
+int for_facet_points(const Grid<D>& grid, int k, Wanted&& wanted, F&& f) {
   const TensorRule<D - 1> rule = tensor_rule<D - 1>(k);
   for (std::size_t i = 0; i < grid.facets.size(); ++i)
-    for (std::size_t q = 0; q < rule.x.size(); ++q) f(static_cast<Index>(i), rule.x[q], rule.w[q]);
+    for (std::size_t q = 0; wanted(grid.facets[i]) && q < rule.x.size(); ++q)
+      f(static_cast<Index>(i), rule.x[q], rule.w[q]);
   return static_cast<int>(rule.x.size());
 }
 
@@ -79,7 +81,8 @@ CellPoint<D, D - 1> blended(const Geometry<D>& geometry, const Facet<D>& facet,
 template <int D>
 SurfacePoints<D> facet_points(const Grid<D>& grid, int k) {
   SurfacePoints<D> points;
-  points.per_facet = for_facet_points(grid, k, [&](Index i, const Vec<D - 1>& xi, Real w) {
+  const auto every = [](const Facet<D>&) { return true; };
+  points.per_facet = for_facet_points(grid, k, every, [&](Index i, const Vec<D - 1>& xi, Real w) {
     const auto p = multilinear<D, D - 1>(facet_corners(at(grid.facets, i), grid.X), xi);
     const Vec<D> normal = area_normal<D>(p.J);
     append<D>(points, p.X, normal.normalized(), Mat<D>::Zero(), w * normal.norm(), i);
@@ -88,16 +91,21 @@ SurfacePoints<D> facet_points(const Grid<D>& grid, int k) {
 }
 
 template <int D>
-SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k) {
+SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k, SurfacePart part) {
   SurfacePoints<D> points;
   points.exact = true;
-  points.per_facet = for_facet_points(geometry.grid, k, [&](Index i, const auto& xi, Real w) {
-    const Facet<D>& facet = at(geometry.grid.facets, i);
-    const CellPoint<D, D - 1> p = blended(geometry, facet, xi);
-    const auto foot = at(geometry.patches, facet.patch).project(p.X);
-    const Real area = area_normal<D>(foot.derivative * p.J).norm();
-    append<D>(points, foot.X, foot.N, foot.grad_N, w * area, i);
-  });
+  const auto wanted = [&](const Facet<D>& facet) {
+    return part == SurfacePart::whole ||
+           at(geometry.patches, facet.patch).inner() == (part == SurfacePart::inner);
+  };
+  points.per_facet =
+      for_facet_points(geometry.grid, k, wanted, [&](Index i, const auto& xi, Real w) {
+        const Facet<D>& facet = at(geometry.grid.facets, i);
+        const CellPoint<D, D - 1> p = blended(geometry, facet, xi);
+        const auto foot = at(geometry.patches, facet.patch).project(p.X);
+        const Real area = area_normal<D>(foot.derivative * p.J).norm();
+        append<D>(points, foot.X, foot.N, foot.grad_N, w * area, i);
+      });
   carry(points, geometry.map);
   return points;
 }
@@ -127,7 +135,7 @@ void carry(SurfacePoints<D>& points, const SmoothMap<D>& map) {
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                          \
-  template SurfacePoints<D> surface_points(const Geometry<D>&, int);                     \
+  template SurfacePoints<D> surface_points(const Geometry<D>&, int, SurfacePart);        \
   template Vec<D> surface_point(const Geometry<D>&, const Facet<D>&, const Vec<D - 1>&); \
   template SurfacePoints<D> facet_points(const Grid<D>&, int);                           \
   template void carry(SurfacePoints<D>&, const SmoothMap<D>&);

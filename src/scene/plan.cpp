@@ -4,6 +4,7 @@
 #include "plan.hpp"
 
 #include "meniscus/body/shapes.hpp"
+#include "meniscus/body/wall_supports.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
 #include "meniscus/physics/law_registry.hpp"
@@ -92,6 +93,37 @@ void require_first(const Block& block, const std::vector<Settings>& all) {
 }
 
 template <int D>
+void plan_cavities(const Block& root, Plan<D>& plan) {
+  for (const Block& block : root.tables("cavity")) {
+    plan.cavities.push_back(read<CavitySettings>(block));
+    const CavitySettings& cavity = plan.cavities.back();
+    const auto* body = plan.require(block, cavity.body);
+    require_first(block, plan.cavities);
+    if (body && cavity.surface == "inner" && !is_hollow(body->geometry))
+      block.problem("surface", fmt::format("'{}' has no inner surface; allowed is outer",
+                                           body->settings.name));
+    if (cavity.pressure && cavity.volume_target)
+      block.problem("pressure", "the volume is given, too; allowed is one of them");
+    if (cavity.volume_target.has_value() != cavity.penalty.has_value())
+      block.problem("penalty", "goes with volume_target; allowed are both or neither");
+    block.done();
+  }
+  for (const Block& block : root.tables("profile")) {
+    plan.profiles.push_back(read<ProfileSettings>(block));
+    const ProfileSettings& profile = plan.profiles.back();
+    const auto* body = plan.require(block, profile.body);
+    require_first(block, plan.profiles);
+    if (body && !is_hollow(body->geometry))
+      block.problem("body", fmt::format("'{}' is not a shell", body->settings.name));
+    if (profile.r.size() != profile.z.size() || profile.r.empty())
+      block.problem("z",
+                    fmt::format("has {} numbers, but r has {}; allowed are as many, at least 1",
+                                profile.z.size(), profile.r.size()));
+    block.done();
+  }
+}
+
+template <int D>
 void plan_loads(const Block& root, Plan<D>& plan) {
   for (const Block& block : root.tables("surface_tension")) {
     plan.tensions.push_back(read<TensionSettings>(block));
@@ -109,6 +141,7 @@ void plan_loads(const Block& root, Plan<D>& plan) {
     require_components(block, "acceleration", plan.body_forces.back().acceleration.size(), D);
     block.done();
   }
+  plan_cavities(root, plan);
   for (const Block& block : root.tables("exact")) {
     plan.exact.push_back(read<ExactSettings>(block));
     plan.require(block, plan.exact.back().body);

@@ -29,6 +29,8 @@ struct Plan {
   std::vector<PlannedBody> bodies;
   std::vector<TensionSettings> tensions;
   std::vector<BodyForceSettings> body_forces;
+  std::vector<CavitySettings> cavities;
+  std::vector<ProfileSettings> profiles;
   std::vector<ExactSettings> exact;
   std::vector<PlannedContact<D>> contacts;
 

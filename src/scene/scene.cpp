@@ -4,9 +4,12 @@
 
 #include "meniscus/body/ordering.hpp"
 #include "meniscus/body/surface_points.hpp"
+#include "meniscus/body/wall_supports.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/body_force.hpp"
+#include "meniscus/physics/cavity.hpp"
 #include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/solve/cell_measures.hpp"
 #include "meniscus/solve/shape_measures.hpp"
 
 #include <fmt/format.h>
@@ -53,6 +56,18 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
   const std::string& name = planned.settings.name;
   order_spatially(planned.geometry);
   ParticleSet<D> particles = make_particles(planned.settings, planned.geometry);
+  const WallReport wall = keep_supports_in_wall(particles, planned.geometry);
+  if (wall.shortened > 0)
+    scene.notes.push_back(
+        fmt::format("body '{}': the supports of {} of {} particles were shortened, to {:.0f} % at "
+                    "least, to end "
+                    "before the other side of the cavity",
+                    name, wall.shortened, particles.size(), 100 * wall.least_share));
+  if (wall.least_share < 0.6)
+    scene.warnings.push_back(fmt::format(
+        "body '{}': the cavity is narrow for the distance of the particles, {:.0f} % of a support "
+        "are left; use a finer spacing",
+        name, 100 * wall.least_share));
   const Index enlarged = particles.ensure_quality(probe_points(planned.geometry), name);
   if (enlarged > 0)
     scene.warnings.push_back(fmt::format(
@@ -104,6 +119,10 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
     m.name = name + "." + m.name;
     scene.measures.push_back(std::move(m));
   }
+  for (MeasureSource& m : cell_measures(body, 1e-6 / scene.units.in_si(dimension::length))) {
+    m.name = name + "." + m.name;
+    scene.measures.push_back(std::move(m));
+  }
   scene.fields.push_back(std::move(fields));
   scene.system.terms.push_back(std::move(built.force));
 }
@@ -113,6 +132,29 @@ const Body<D>& body_named(const System<D>& system, const std::string& name) {
   for (const Body<D>& body : system.bodies)
     if (body.name == name) return body;
   throw InputError("there is no body '" + name + "'");
+}
+
+template <int D>
+void build_cavities(const Plan<D>& plan, Scene<D>& scene) {
+  for (const CavitySettings& settings : plan.cavities) {
+    const Body<D>& body = body_named(scene.system, settings.body);
+    auto term = cavity(
+        body, settings.surface == "inner" ? SurfacePart::inner : SurfacePart::outer,
+        {settings.pressure, settings.volume_target, settings.penalty.value_or(0), settings.ramp},
+        settings.points);
+    for (MeasureSource& m : term->measures()) {
+      m.name = body.name + "." + m.name;
+      scene.measures.push_back(std::move(m));
+    }
+    scene.system.terms.push_back(std::move(term));
+  }
+  if constexpr (D == 3)
+    for (const ProfileSettings& settings : plan.profiles) {
+      const Body<D>& body = body_named(scene.system, settings.body);
+      MeasureSource m = profile_rms(body, settings.r, settings.z);
+      m.name = body.name + "." + m.name;
+      scene.measures.push_back(std::move(m));
+    }
 }
 
 template <int D>
@@ -129,6 +171,7 @@ void build_loads(const Plan<D>& plan, Scene<D>& scene) {
     }
     scene.system.terms.push_back(std::move(term));
   }
+  build_cavities(plan, scene);
   for (const BodyForceSettings& load : plan.body_forces)
     scene.system.terms.push_back(
         body_force(body_named(scene.system, load.body), load.acceleration));

@@ -140,6 +140,34 @@ Rows<BodyForceSettings> BodyForceSettings::rows() {
                           "each component")};
 }
 
+Rows<CavitySettings> CavitySettings::rows() {
+  using S = CavitySettings;
+  return {
+      text_row("body", &S::body, "name of the body around the cavity"),
+      choice_row("surface", &S::surface, {"inner", "outer"},
+                 "the closed surface that is filled; a drop has an outer one only", "inner"),
+      optional_row("pressure", &S::pressure, dimension::pressure, range::any, "none",
+                   "pressure inside above that outside; either this or volume_target, or neither: "
+                   "vented"),
+      optional_row("volume_target", &S::volume_target, dimension::none, range::positive, "none",
+                   "volume of the content / enclosed volume of the reference"),
+      optional_row("penalty", &S::penalty, dimension::pressure, range::positive, "none",
+                   "pressure per deviation from volume_target, which needs it"),
+      ramp_row("ramp", &S::ramp, "pressure from 0 or volume_target from 1"),
+      integer_row("points", &S::points, {1, 8}, "Gauss points per direction and surface facet", 2),
+  };
+}
+
+Rows<ProfileSettings> ProfileSettings::rows() {
+  using S = ProfileSettings;
+  return {text_row("body", &S::body, "name of the shell whose mean meridian is compared"),
+          reals_row("r", &S::r, 0, dimension::length, range::non_negative,
+                    "distances from the axis of places of a known outer profile"),
+          reals_row("z", &S::z, 0, dimension::length, range::any,
+                    "their heights above the middle plane; the profile is symmetric"),
+          text_row("label", &S::label, "what pictures call it", "given profile")};
+}
+
 Rows<ExactSettings> ExactSettings::rows() {
   using S = ExactSettings;
   return {text_row("body", &S::body, "name of the body whose exact motion is known"),
@@ -216,12 +244,15 @@ void describe_keys(std::ostream& out) {
   describe<TimeSettings>(out, "[time]");
   describe<OutputSettings>(out, "[output]");
   describe<BodySettings>(out, "[[body]]");
-  describe_list(
-      out, "[[body]] of any shape",
-      std::vector<ShapeKey>{{"shape", "text", "", "", "required", "one of the shapes below"},
-                            {"jitter", "number", "", ">= 0 and <= 0.5", "0",
-                             "random shift of interior particles / shortest cell edge"},
-                            {"jitter_seed", "integer", "", ">= 0", "1", "seed of the shifts"}});
+  describe_list(out, "[[body]] of any shape",
+                std::vector<ShapeKey>{
+                    {"shape", "text", "", "", "required", "one of the shapes below"},
+                    {"imperfection", "number", "m", ">= 0", "0",
+                     "rms of a smooth random displacement of the reference"},
+                    {"imperfection_seed", "integer", "", ">= 0", "1", "seed of the displacement"},
+                    {"jitter", "number", "", ">= 0 and <= 0.5", "0",
+                     "random shift of interior particles / shortest cell edge"},
+                    {"jitter_seed", "integer", "", ">= 0", "1", "seed of the shifts"}});
   describe_shapes<3>(out);
   describe_shapes<2>(out);
   for (const auto& [name, law] : laws())
@@ -229,6 +260,8 @@ void describe_keys(std::ostream& out) {
   describe<TensionSettings>(out, "[[surface_tension]]");
   describe<BodyForceSettings>(out, "[[body_force]]");
   describe_contact_keys(out);
+  describe<CavitySettings>(out, "[[cavity]]");
+  describe<ProfileSettings>(out, "[[profile]]");
   describe<ExactSettings>(out, "[[exact]]");
   describe<ExpectSettings>(out, "[expect.NAME]");
 }

@@ -66,11 +66,11 @@ class Theory(unittest.TestCase):
 
 
 class Pictures(unittest.TestCase):
-    def draw(self, dimension, shape, *options):
+    def draw(self, dimension, shape, *options, tables=""):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             scene = folder / "scene.toml"
-            scene.write_text(SCENE.format(dimension=dimension, shape=shape))
+            scene.write_text(SCENE.format(dimension=dimension, shape=shape) + tables)
             run = folder / "run"
             subprocess.run([PROGRAM, "run", "-q", scene, "--output", run], check=True)
             script = ROOT / "tools/plotting/plot.py"
@@ -89,6 +89,14 @@ class Pictures(unittest.TestCase):
         }  # fmt: skip
         self.assertEqual(set(pictures), names)
         self.assertGreater(min(pictures.values()), 10000)  # an empty picture has less
+
+    def test_shell(self):
+        shape = "shape = 'disk_shell'\nradius = 1\nheight = 1\nthickness = 0.3\nspacing = 0.3"
+        profile = "\n[[profile]]\nbody = 'drop'\nr = [0, 1]\nz = [0.5, 0]"
+        done, pictures = self.draw(3, shape, tables=profile)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("cell_drop", pictures)
+        self.assertGreater(min(pictures.values()), 10000)
 
     def test_two_dimensions(self):
         shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2"

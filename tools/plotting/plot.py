@@ -9,6 +9,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 
+import cells
 import drop_decay
 import histories
 import sections
@@ -41,6 +42,7 @@ def pictures_of(args):
     return {
         **histories.draw(run),
         **drop_decay.draw(run),
+        **cells.draw(run),
         **sections.draw(run, args.field, args.frames),
         **surfaces.draw(run),
     }

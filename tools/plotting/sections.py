@@ -22,7 +22,8 @@ def draw(run, name, count):
 
 class Plane:
     """The reference plane of the section: through the centre, across the shortest extent (z if
-    there is a choice), so that it contains the longest axis. In 2D everything is in the plane."""
+    there is a choice), so that it contains the longest axis; for shells across y, so that it
+    contains their axis. In 2D everything is in the plane."""
 
     def __init__(self, run):
         X = np.concatenate([body.X for body in run.bodies])
@@ -32,6 +33,8 @@ class Plane:
         if X.shape[1] == 3:
             extent = high - low
             self.normal = max(k for k in range(3) if extent[k] <= 1.001 * extent.min())
+            if all(body.settings["shape"].endswith("_shell") for body in run.bodies):
+                self.normal = 1
             self.place = (low + high)[self.normal] / 2
             self.axes = [k for k in range(3) if k != self.normal]
 
@@ -47,7 +50,9 @@ class Cut:
             values = np.linalg.norm(values.reshape(len(values), -1), axis=1)
         near = np.ones(len(x), bool)
         if plane.normal is not None:
-            near = np.abs(body.X[:, plane.normal] - plane.place) < 0.5 * body.spacing
+            beside = np.abs(body.X[:, plane.normal] - plane.place)
+            # Flat cells of a wall are wider than its spacing: at least the nearest particles.
+            near = beside < max(0.5 * body.spacing, 1.01 * beside.min())
         self.x = x[near][:, plane.axes]
         self.values = values[near]
         self.size = 0.85 * body.volume[near] ** (1 / body.dimension)

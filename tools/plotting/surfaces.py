@@ -9,6 +9,7 @@ import style
 
 # The eye looks along -EYE; up in the picture is z. Light comes from the upper left of the eye.
 EYE = np.array([0.80, -0.48, 0.36])
+EYE_OF_SHELLS = np.array([0.80, -0.48, 0.72])  # from higher up, into the dimple
 KEY, KEY_STRENGTH = np.array([-0.45, 0.60, 0.66]), 0.60  # right, up, towards the eye
 FILL, FILL_STRENGTH = np.array([0.80, 0.05, 0.60]), 0.16
 AMBIENT, GLOSS, SHININESS = 0.40, 0.30, 40
@@ -21,16 +22,18 @@ def draw(run):
     return {"surface": picture(run, bodies, run.spread_frames(3))}
 
 
-def view():
+def view(bodies):
     """Rows: right, up, towards the eye."""
-    eye = EYE / np.linalg.norm(EYE)
+    shells = all(body.settings["shape"].endswith("_shell") for body in bodies)
+    eye = EYE_OF_SHELLS if shells else EYE
+    eye = eye / np.linalg.norm(eye)
     right = np.cross([0, 0, 1], eye)
     right /= np.linalg.norm(right)
     return np.array([right, np.cross(eye, right), eye])
 
 
 def picture(run, bodies, frames):
-    axes_of_view = view()
+    axes_of_view = view(bodies)
     scenes = [[run.places(k, body) @ axes_of_view.T for body in bodies] for k in frames]
     points = np.concatenate([x for scene in scenes for x in scene])
     low, high = points.min(axis=0), points.max(axis=0)

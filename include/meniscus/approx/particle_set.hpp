@@ -30,6 +30,10 @@ class ParticleSet {
   Window window() const { return window_; }
   const NeighborSearch<D>& search() const { return search_; }
 
+  /// From now on no support exceeds `limit`, one number per particle, e.g. the distance to the
+  /// other side of a cavity. Returns how many supports were shortened.
+  Index limit_supports(std::vector<Real> limit);
+
   /// All particles whose support reaches into the ball around `centre`, by ascending number.
   void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
   /// All particles whose support reaches one of the points, by ascending number.
@@ -37,8 +41,8 @@ class ParticleSet {
 
   /// Deficiency monitor (RKPM note 2.4) at `points`: where the moment matrix is poor, the supports
   /// of the particles around are enlarged in steps of 10 % until it is not, at most to 2.6 times
-  /// the support asked for. Returns how many particles were enlarged. Throws SolveError naming
-  /// `body`, the point and its neighbour count when a point stays unusable.
+  /// the support asked for and to the limit. Returns how many particles were enlarged. Throws
+  /// SolveError naming `body`, the point and its neighbour count when a point stays unusable.
   Index ensure_quality(std::span<const Vec<D>> points, const std::string& body);
 
   /// Throws SolveError naming `body`, the point x and its neighbour count if `quality` (of the
@@ -58,6 +62,7 @@ class ParticleSet {
 
   std::vector<Vec<D>> X_;
   std::vector<Real> support_;
+  std::vector<Real> limit_;  // empty: none
   Real largest_support_ = 0;
   Window window_;
   NeighborSearch<D> search_;

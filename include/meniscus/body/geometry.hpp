@@ -21,17 +21,19 @@ struct SurfacePatch {
 
   static SurfacePatch plane(const Vec<D>& point, const Vec<D>& normal);
   static SurfacePatch sphere(const Vec<D>& centre, Real radius);  ///< in 2D a circle
+  static SurfacePatch cavity(const Vec<D>& centre, Real radius);  ///< the normal points inwards
   /// About the line through `point` along the unit vector `axis`.
   static SurfacePatch cylinder(const Vec<D>& point, const Vec<D>& axis, Real radius);
 
   Foot project(const Vec<D>& X) const;
   Real distance(const Vec<D>& X) const { return (project(X).X - X).norm(); }
+  bool inner() const { return radius < 0; }
 
   Vec<D> origin = Vec<D>::Zero();
   /// Orthogonal projection onto the directions in which the patch is round; zero for a plane.
   Mat<D> round = Mat<D>::Zero();
   Vec<D> normal = Vec<D>::Zero();  ///< of a plane
-  Real radius = 0;                 ///< of a round patch
+  Real radius = 0;                 ///< of a round patch; negative: the body is around it
 };
 
 /// A body in its reference state: grid, and surface = map(patches of a unit shape).

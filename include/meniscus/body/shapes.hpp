@@ -49,6 +49,52 @@ struct Cylinder {
   Geometry<3> geometry() const;
 };
 
+/// What shells have in common: a wall of even thickness about z with (6 n^2 + 2) layers nodes,
+/// n = quarter of a meridian / spacing.
+struct Wall {
+  Real thickness = 0.1;
+  int layers = 4;  ///< particles through the wall
+  Real spacing = 0.1;
+  std::vector<Real> centre{0, 0, 0};
+};
+
+/// Flat faces and a semicircular rim: all that lies within height / 2 of a flat circular plate.
+struct DiskShell : Wall {
+  static constexpr const char* name = "disk_shell";
+  static constexpr const char* meaning = "hollow disk with round rim";
+  Real radius = 1, height = 0.5;
+
+  static Rows<DiskShell> rows();
+  Geometry<3> geometry() const;
+};
+
+struct CylinderShell : Wall {
+  static constexpr const char* name = "cylinder_shell";
+  static constexpr const char* meaning = "hollow cylinder with rounded edges";
+  Real radius = 1, height = 1, edge_radius = 0.5;
+
+  static Rows<CylinderShell> rows();
+  Geometry<3> geometry() const;
+};
+
+struct SpheroidShell : Wall {
+  static constexpr const char* name = "spheroid_shell";
+  static constexpr const char* meaning = "hollow spheroid with a wall of even thickness";
+  Real radius = 1, height = 1;
+
+  static Rows<SpheroidShell> rows();
+  Geometry<3> geometry() const;
+};
+
+struct SphereShell : Wall {
+  static constexpr const char* name = "sphere_shell";
+  static constexpr const char* meaning = "hollow sphere";
+  Real radius = 1;
+
+  static Rows<SphereShell> rows();
+  Geometry<3> geometry() const;
+};
+
 /// Core of core^2 cells inside `rings` rings of 4 core cells.
 struct Disk {
   static constexpr const char* name = "disk";
@@ -122,9 +168,10 @@ bool register_shape() {
 }
 
 /// The body that a table of the scene describes: `shape` names a registered shape, its own keys
-/// follow in the same table, and `jitter` (fraction of the shortest edge, default 0) with
-/// `jitter_seed` moves the interior nodes. Numbers that make no body are noted in the block as a
-/// problem and a coarse stand-in is returned. The caller calls block.done().
+/// follow in the same table, `imperfection` (rms length, default 0) with `imperfection_seed`
+/// displaces the body smoothly (imperfection.hpp), and `jitter` (fraction of the shortest edge,
+/// default 0) with `jitter_seed` moves the interior nodes. Numbers that make no body are noted in
+/// the block as a problem and a coarse stand-in is returned. The caller calls block.done().
 template <int D>
 Geometry<D> read_geometry(const Block& block);
 

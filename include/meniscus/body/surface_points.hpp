@@ -7,8 +7,11 @@
 
 namespace meniscus {
 
-/// Structure of arrays over the points; those of facet f stand at [f * per_facet, (f+1) *
-/// per_facet).
+/// Which part of the surface of a hollow body; a solid one is outer altogether.
+enum class SurfacePart { whole, outer, inner };
+
+/// Structure of arrays over the points, facet after facet; those of the i-th of the facets asked
+/// for stand at [i * per_facet, (i + 1) * per_facet).
 template <int D>
 struct SurfacePoints {
   std::vector<Vec<D>> X;       ///< position
@@ -26,7 +29,8 @@ struct SurfacePoints {
 /// k Gauss points per direction of every boundary facet, 1 <= k <= 20, on the exact surface: facet
 /// points projected onto their patch of the unit shape with exact tangents, then mapped.
 template <int D>
-SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k);
+SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k,
+                                SurfacePart part = SurfacePart::whole);
 
 /// The point of the exact surface at xi in [-1, 1]^(D-1) of a facet: where surface_points() puts a
 /// Gauss point xi. On an edge between two patches it lies on both.

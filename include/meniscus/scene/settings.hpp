@@ -2,6 +2,7 @@
 // What a scene says, as structs whose rows are the reference of the input keys.
 #pragma once
 #include "meniscus/core/input.hpp"
+#include "meniscus/core/ramp.hpp"
 
 #include <optional>
 
@@ -54,6 +55,22 @@ struct BodyForceSettings {
   std::string body;
   std::vector<Expression> acceleration;
   static Rows<BodyForceSettings> rows();
+};
+
+/// [[cavity]]
+struct CavitySettings {
+  std::string body, surface;
+  std::optional<Real> pressure, volume_target, penalty;
+  Ramp ramp;
+  int points = 2;
+  static Rows<CavitySettings> rows();
+};
+
+/// [[profile]]
+struct ProfileSettings {
+  std::string body, label;
+  std::vector<Real> r, z;
+  static Rows<ProfileSettings> rows();
 };
 
 /// [[exact]]

@@ -55,19 +55,24 @@ class NodeNumbers {
 
   Index core_count() const { return static_cast<Index>(on_surface_.size()); }
   const std::vector<Index>& surface() const { return surface_; }
+  /// Number among the lattice points of the surface.
+  Index on_surface(const Lattice& p) const { return at(on_surface_, index(p)); }
   Lattice lattice(Index i) const {
     Lattice p;
     for (int k = D - 1; k >= 0; --k, i /= n_ + 1) at(p, k) = i % (n_ + 1);
     return p;
   }
   Index operator()(const Lattice& p, int shell) const {
-    Index i = 0;
-    for (const int c : p) i = i * (n_ + 1) + c;
-    if (shell == 0) return i;
-    return core_count() + (shell - 1) * static_cast<Index>(surface_.size()) + at(on_surface_, i);
+    if (shell == 0) return index(p);
+    return core_count() + (shell - 1) * static_cast<Index>(surface_.size()) + on_surface(p);
   }
 
  private:
+  Index index(const Lattice& p) const {
+    Index i = 0;
+    for (const int c : p) i = i * (n_ + 1) + c;
+    return i;
+  }
   bool is_surface(const Lattice& p) const {
     return std::any_of(p.begin(), p.end(), [&](int c) { return c == 0 || c == n_; });
   }
@@ -109,10 +114,10 @@ void add_core_cells(Grid<D>& grid, const NodeNumbers<D>& number, int core) {
   }
 }
 
-/// Cells outside one side of the core. Directions 0 .. D-2 run along the side so that the last one,
-/// from shell to shell, points outwards.
-template <int D>
-void add_shell_cells(Grid<D>& grid, const NodeNumbers<D>& number, int core, int shells, int side) {
+/// Cells outside one side of the core, with the nodes number(lattice point, shell). Directions 0 ..
+/// D-2 run along the side so that the last one, from shell to shell, points outwards.
+template <int D, class Number>
+void add_shell_cells(Grid<D>& grid, const Number& number, int core, int shells, int side) {
   const int k = side / 2, upper = side % 2;
   // The local system (tangents, outwards) is right-handed if the tangents are e_(k+1), e_(k+2) at
   // an upper side; at a lower one the first tangent is reversed. In 2D, tangents turn the other
@@ -146,7 +151,26 @@ Grid<D> cubed_ball(int core, int shells) {
   Grid<D> grid;
   add_nodes(grid, number, core, shells);
   add_core_cells(grid, number, core);
-  for (int side = 0; side < 2 * D; ++side) add_shell_cells(grid, number, core, shells, side);
+  for (int side = 0; side < 2 * D; ++side) add_shell_cells<D>(grid, number, core, shells, side);
+  return grid;
+}
+
+Grid<3> cubed_shell(int n, int layers, Real inner_radius) {
+  const NodeNumbers<3> lattice(n);
+  Grid<3> grid;
+  for (int layer = 0; layer <= layers; ++layer)
+    for (const Index i : lattice.surface()) {
+      Vec<3> q;
+      const auto p = lattice.lattice(i);
+      for (int k = 0; k < 3; ++k) q[k] = (2.0 * at(p, k) - n) / n;
+      const Real radius = inner_radius + (1 - inner_radius) * layer / layers;
+      grid.X.push_back(radius * direction<3>(q));
+    }
+  const auto per_layer = static_cast<Index>(lattice.surface().size());
+  const auto number = [&](const NodeNumbers<3>::Lattice& p, int layer) {
+    return layer * per_layer + lattice.on_surface(p);
+  };
+  for (int side = 0; side < 6; ++side) add_shell_cells<3>(grid, number, n, layers, side);
   return grid;
 }
 

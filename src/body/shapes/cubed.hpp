@@ -18,4 +18,8 @@ struct CubedCore {
 template <int D>
 Grid<D> cubed_ball(int core, int shells);
 
+/// Nodes and cells between the spheres of radius `inner_radius` and 1: `layers` shells of 6 n^2
+/// cells. n >= 1 and layers >= 1.
+Grid<3> cubed_shell(int n, int layers, Real inner_radius);
+
 }  // namespace meniscus

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far opposite places of an inner surface are from each other.
+#pragma once
+#include "meniscus/physics/closed_surface.hpp"
+
+#include <vector>
+
+namespace meniscus {
+
+/// Pairs each facet of an inner surface with the place that its reference normal meets beyond the
+/// cavity. Material pairs stay opposite while faces approach each other and slide little.
+template <int D>
+class CavityGap {
+ public:
+  explicit CavityGap(const SurfacePoints<D>& reference);
+
+  struct Gap {
+    Real width;   ///< distance of the opposite place along the normal; negative once faces crossed
+    Index point;  ///< where it is smallest
+  };
+  /// The narrowest place at the motion that `surface` follows; infinite without any pair.
+  Gap smallest(const ClosedSurface<D>& surface) const;
+
+ private:
+  struct Pair {
+    Index point, opposite;
+  };
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace meniscus

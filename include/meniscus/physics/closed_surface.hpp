@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the outer or inner surface of a body encloses, and how that changes with the particles.
+#pragma once
+#include "meniscus/body/body.hpp"
+#include "meniscus/body/surface_points.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+namespace meniscus {
+
+/// A closed part of the surface with quadrature points q that follow the particles: places
+/// x_q = sum N_A d_A and area vectors m_q = cof(F_q) N_q, da = w_q |m_q|.
+///
+/// Enclosed volume (2D: area): V = +-1/D sum w_q (x_q - xm) . m_q with xm = sum w_q x_q / sum w_q,
+/// minus for an inner surface, whose normals point into the cavity. Taking places from their mean
+/// makes V, as it should be, the same after any translation also where the quadrature leaves
+/// sum w_q m_q unequal to zero: the gradient of V has no net force and no net torque.
+template <int D>
+class ClosedSurface {
+ public:
+  /// `points` Gauss points per direction and facet. Throws InputError if the body has no such part.
+  ClosedSurface(const Body<D>& body, SurfacePart part, int points);
+
+  struct Size {
+    Real volume = 0, area = 0;  ///< enclosed volume, area of the surface; 2D: area, length
+  };
+  /// The sizes at a motion, which is remembered for what follows.
+  Size follow(const Motion& motion);
+
+  /// force_A += factor dV/dd_A at the remembered motion, over the particles of the body.
+  void add_volume_gradient(Real factor, std::span<Lanes> force);
+  /// Place and area vector m of a point at the remembered motion.
+  Vec<D> place(Index point) const;
+  Vec<D> area_vector(Index point) const;
+
+  const Body<D>& body() const { return body_; }
+  const SurfacePoints<D>& reference() const { return reference_; }
+  /// The particle with the largest shape function at a point; number in the body.
+  Index owner(Index point) const;
+  std::size_t bytes() const;
+  Offset pairs() const { return rule_.pairs(); }
+
+ private:
+  using Vector = std::array<Lanes, 3>;
+  /// Four quadrature points.
+  struct Group {
+    Tensor<Lanes> F;
+    Vector x, m;  // x from origin_
+  };
+  Group evaluate(Index group, const Lanes* u) const;
+
+  const Body<D>& body_;
+  SurfacePoints<D> reference_;
+  Real share_;  // +-1/D
+  Vec<D> origin_;
+  PointRule<D> rule_;
+  ForceWindows windows_;
+  AlignedVector<Lanes> X_, N_;  // [group][k], X from origin_
+  AlignedVector<Group> now_;
+  Vector mean_x_, mean_m_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meridians of closed surfaces of revolution about z that are symmetric in z, by arc length.
+#pragma once
+#include "meniscus/core/types.hpp"
+
+#include <functional>
+
+namespace meniscus {
+
+/// A point of the upper half of a meridian: its place (r, z), its outward normal (sin psi, cos
+/// psi), and derivatives with respect to the arc length.
+struct MeridianPoint {
+  Real r, z;
+  Real sin_psi, cos_psi;
+  Real curvature;        ///< psi'
+  Real curvature_slope;  ///< psi'', 0 where the curvature jumps
+};
+
+struct Meridian {
+  Real length = 0;           ///< from the pole (s = 0) to the equator
+  Real smallest_radius = 0;  ///< of curvature: a parallel surface inside lies nearer than this
+  std::function<MeridianPoint(Real s)> point;
+  /// Outward unit normal (r, z) of the parallel surface through a place with r, z >= 0 that lies
+  /// less than smallest_radius inside.
+  std::function<Vec<2>(const Vec<2>& place)> normal;
+};
+
+/// A cylinder with edges rounded by a quarter circle. An edge radius of height / 2 gives a disk
+/// with semicircular rim, one of height / 2 = radius a sphere. Needs 0 < edge_radius <= height / 2
+/// and edge_radius <= radius.
+Meridian rounded_cylinder_meridian(Real radius, Real height, Real edge_radius);
+
+/// An ellipse with the semi-axes `radius` and height / 2.
+Meridian spheroid_meridian(Real radius, Real height);
+
+}  // namespace meniscus

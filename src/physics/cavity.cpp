@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Force of a filling on the surface around it.
+#include "meniscus/physics/cavity.hpp"
+
+#include "meniscus/physics/cavity_gap.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace meniscus {
+
+namespace {
+
+template <int D>
+class Cavity final : public ForceTerm {
+ public:
+  Cavity(const Body<D>& body, SurfacePart part, const CavityFilling& filling, int points)
+      : surface_(body, part, points), filling_(filling) {
+    const NodalVectors rest(static_cast<std::size_t>(body.first + body.size()), Lanes::zero());
+    reference_volume_ = surface_.follow({0, rest, rest}).volume;
+    if (part == SurfacePart::inner) gap_.emplace(surface_.reference());
+  }
+
+  std::string name() const override { return "cavity of '" + surface_.body().name + "'"; }
+  std::string_view energy_kind() const override { return vented() ? "" : "cavity"; }
+
+  void add_force(const Motion& motion, std::span<Lanes> force) override {
+    const auto size = surface_.follow(motion);
+    note_crossing();
+    if (vented()) return;
+    const Body<D>& body = surface_.body();
+    surface_.add_volume_gradient(
+        pressure(motion.time, size.volume),
+        force.subspan(static_cast<std::size_t>(body.first), static_cast<std::size_t>(body.size())));
+  }
+
+  std::optional<Real> stored_energy(const Motion& motion) const override {
+    if (vented()) return std::nullopt;
+    const Real V = volume(motion);
+    if (filling_.pressure)
+      return -*filling_.pressure * filling_.ramp.fraction(motion.time) * (V - reference_volume_);
+    return 0.5 * filling_.penalty * reference_volume_ * std::pow(excess(motion.time, V), 2);
+  }
+  /// dE/dt at constant volume.
+  Real external_power(const Motion& motion) const override {
+    const Real rate = filling_.ramp.rate(motion.time);
+    if (vented() || rate == 0) return 0;
+    const Real V = volume(motion);
+    if (filling_.pressure) return -*filling_.pressure * rate * (V - reference_volume_);
+    return filling_.penalty * reference_volume_ * excess(motion.time, V) *
+           (1 - *filling_.volume_target) * rate;
+  }
+
+  Real steady_after() const override { return vented() ? 0 : filling_.ramp.end; }
+  /// Pressure times area.
+  Real uncancelled_force(const Motion& motion) const override {
+    const auto size = surface_.follow(motion);
+    return std::abs(pressure(motion.time, size.volume)) * size.area;
+  }
+
+  std::optional<Failure> failure() const override { return failure_; }
+
+  std::vector<MeasureSource> measures() const override {
+    std::vector<MeasureSource> measures{
+        {"cavity_fraction", dimension::none, "enclosed volume / that of the reference",
+         [this](const Motion& motion) { return volume(motion) / reference_volume_; }},
+        {"cavity_pressure", dimension::pressure, "pressure inside above that outside",
+         [this](const Motion& motion) { return pressure(motion.time, volume(motion)); }}};
+    if (gap_)
+      measures.push_back({"cavity_gap", dimension::length,
+                          "smallest distance of opposite inner faces",
+                          [this](const Motion& motion) {
+                            surface_.follow(motion);
+                            return gap_->smallest(surface_).width;
+                          }});
+    return measures;
+  }
+  std::size_t bytes() const override { return surface_.bytes(); }
+  Offset pairs() const override { return surface_.pairs(); }
+
+ private:
+  bool vented() const { return !filling_.pressure && !filling_.volume_target; }
+  Real volume(const Motion& motion) const { return surface_.follow(motion).volume; }
+  /// V/V0 - target.
+  Real excess(Real time, Real volume) const {
+    const Real target = 1 + (*filling_.volume_target - 1) * filling_.ramp.fraction(time);
+    return volume / reference_volume_ - target;
+  }
+  Real pressure(Real time, Real volume) const {
+    if (filling_.pressure) return *filling_.pressure * filling_.ramp.fraction(time);
+    return filling_.volume_target ? -filling_.penalty * excess(time, volume) : 0;
+  }
+
+  void note_crossing() {
+    failure_.reset();
+    if (!gap_) return;
+    const auto gap = gap_->smallest(surface_);
+    if (gap.width > 0) return;
+    failure_ = {surface_.body().first + surface_.owner(gap.point),
+                fmt::format("opposite inner faces of the cavity touch: their distance is {:.4g}. "
+                            "Deflate the cavity less, or make it higher",
+                            gap.width)};
+  }
+
+  mutable ClosedSurface<D> surface_;  // remembers the motion followed last
+  CavityFilling filling_;
+  Real reference_volume_ = 0;
+  std::optional<CavityGap<D>> gap_;
+  std::optional<Failure> failure_;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ForceTerm> cavity(const Body<D>& body, SurfacePart part,
+                                  const CavityFilling& filling, int points) {
+  return std::make_unique<Cavity<D>>(body, part, filling, points);
+}
+template std::unique_ptr<ForceTerm> cavity(const Body<2>&, SurfacePart, const CavityFilling&, int);
+template std::unique_ptr<ForceTerm> cavity(const Body<3>&, SurfacePart, const CavityFilling&, int);
+
+}  // namespace meniscus

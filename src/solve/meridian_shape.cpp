@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meridians of a body of revolution after its deformation.
+#include "meniscus/solve/meridian_shape.hpp"
+
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/parallel.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meniscus {
+
+namespace {
+
+constexpr int meridians = 24;
+constexpr int points = 193;  // of a meridian, both poles among them
+
+/// Linear interpolation of z at r on the piece [begin, end] of a curve, at its first crossing.
+Real height_at(std::span<const Real> r, std::span<const Real> z, Real where) {
+  for (std::size_t k = 0; k + 1 < r.size(); ++k) {
+    if ((r[k] - where) * (r[k + 1] - where) > 0 || r[k] == r[k + 1]) continue;
+    const Real s = (where - r[k]) / (r[k + 1] - r[k]);
+    return (1 - s) * z[k] + s * z[k + 1];
+  }
+  return z[where < r.front() ? 0 : r.size() - 1];
+}
+
+/// The rotation Q that brings Q A closest to B, from sum w B A^T (Kabsch).
+Mat<3> best_rotation(const Mat<3>& moment) {
+  const Eigen::JacobiSVD<Mat<3>> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Mat<3> sign = Mat<3>::Identity();
+  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  return svd.matrixU() * sign * svd.matrixV().transpose();
+}
+
+/// Largest value of a sampled function: the vertex of the parabola through the largest sample and
+/// its neighbours.
+Real vertex(Real left, Real largest, Real right) {
+  const Real bend = 2 * largest - left - right;
+  return bend > 0 ? largest + (right - left) * (right - left) / (8 * bend) : largest;
+}
+
+}  // namespace
+
+Real MeanMeridian::upper(Real x) const {
+  return height_at({r.data(), rim + 1}, {z.data(), rim + 1}, x * r[rim]);
+}
+Real MeanMeridian::lower(Real x) const {
+  const std::vector<Real> from_pole_r(r.rbegin(), r.rend() - static_cast<std::ptrdiff_t>(rim));
+  const std::vector<Real> from_pole_z(z.rbegin(), z.rend() - static_cast<std::ptrdiff_t>(rim));
+  return height_at(from_pole_r, from_pole_z, x * r[rim]);
+}
+
+Real MeanMeridian::distance(Real at_r, Real at_z) const {
+  const Vec<2> place(at_r, at_z);
+  Real nearest = 1e300;
+  for (std::size_t k = 0; k + 1 < r.size(); ++k) {
+    const Vec<2> a(r[k], z[k]), edge = Vec<2>(r[k + 1], z[k + 1]) - a;
+    const Real s = std::clamp((place - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (place - a - s * edge).norm());
+  }
+  return nearest;
+}
+
+Real evans_fung_thickness(Real x) {
+  const Real x2 = x * x;
+  return std::sqrt(std::max(0.0, 1 - x2)) * (0.81 + 7.83 * x2 - 4.39 * x2 * x2);
+}
+
+Meridians::Meridians(const Body<3>& body) : body_(body), centre_(Vec<3>::Zero()) {
+  Real total = 0;
+  for (int m = 0; m < meridians; ++m)
+    for (int k = 0; k < points; ++k) {
+      const Real phi = 2 * std::numbers::pi * (m + 0.5) / meridians;
+      const Real theta = std::numbers::pi * k / (points - 1);
+      const Vec<3> direction(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                             std::cos(theta));
+      X_.push_back(body.geometry.map(direction).x);
+      weight_.push_back(std::sin(theta));
+      total += weight_.back();
+      centre_ += weight_.back() * X_.back();
+    }
+  centre_ /= total;
+  for (Real& w : weight_) w /= total;
+  rows_ = build_point_rows<3>(body.particles, X_, {.value = true}, body.name);
+}
+
+MeanMeridian Meridians::mean(const Motion& motion) const {
+  const Lanes* u = motion.u.data() + body_.first;
+  std::vector<Vec<3>> x(X_.size());
+  parallel_for(static_cast<Index>(x.size()), [&](Index q) {
+    const Lanes displacement = value_at(rows_, q, u);
+    for (int i = 0; i < 3; ++i) at(x, q)[i] = at(X_, q)[i] + displacement[i];
+  });
+  Vec<3> centre = Vec<3>::Zero();
+  for (std::size_t q = 0; q < x.size(); ++q) centre += weight_[q] * x[q];
+  Mat<3> moment = Mat<3>::Zero();
+  for (std::size_t q = 0; q < x.size(); ++q)
+    moment += weight_[q] * (x[q] - centre) * (X_[q] - centre_).transpose();
+  const Mat<3> back = best_rotation(moment).transpose();
+
+  MeanMeridian mean;
+  mean.r.assign(points, 0);
+  mean.z.assign(points, 0);
+  for (std::size_t m = 0; m < meridians; ++m) {
+    std::vector<Real> r;
+    for (std::size_t k = 0; k < points; ++k) {
+      const Vec<3> y = back * (x[m * points + k] - centre);
+      r.push_back(std::hypot(y[0], y[1]));
+      mean.r[k] += r.back() / meridians;
+      mean.z[k] += y[2] / meridians;
+    }
+    const auto top = static_cast<std::size_t>(std::max_element(r.begin(), r.end()) - r.begin());
+    mean.rim_radius.push_back(vertex(r[top - 1], r[top], r[top + 1]));
+  }
+  mean.r.front() = mean.r.back() = 0;  // all meridians meet there
+  mean.rim =
+      static_cast<std::size_t>(std::max_element(mean.r.begin(), mean.r.end()) - mean.r.begin());
+  mean.radius_at_rim = vertex(mean.r[mean.rim - 1], mean.r[mean.rim], mean.r[mean.rim + 1]);
+  return mean;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cross-sections of shells over the shape of a red blood cell and over a profile of the scene."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import sections
+import style
+
+
+def draw(run):
+    """A picture for each shell, in its own axes: the motion as a whole is taken out."""
+    return {
+        f"cell_{body.name}": picture(run, body)
+        for body in run.bodies
+        if body.settings["shape"].endswith("_shell")
+    }
+
+
+def evans_fung(x):
+    """Full thickness at r = 3.91 um x of a cell of 7.82 um (Evans and Fung 1972), in um."""
+    return np.sqrt(np.maximum(0, 1 - x**2)) * (0.81 + 7.83 * x**2 - 4.39 * x**4)
+
+
+class Meridian:
+    """The reference plane y = centre, which contains the axis."""
+
+    normal, axes = 1, [0, 2]
+
+    def __init__(self, body):
+        self.place = body.X[:, self.normal].mean()
+
+
+def in_own_axes(body, x):
+    """Places after the rotation and shift that bring them closest to the reference (Kabsch)."""
+    weight = body.volume / body.volume.sum()
+    centre, reference = weight @ x, weight @ body.X
+    moment = (weight[:, None] * (x - centre)).T @ (body.X - reference)
+    u, _, v = np.linalg.svd(moment)
+    rotation = u @ np.diag([1, 1, np.linalg.det(u @ v)]) @ v
+    return (x - centre) @ rotation
+
+
+def picture(run, body):
+    factor, unit = style.scale(run.length_unit, body.X)
+    plane = Meridian(body)
+    figure, axis = plt.subplots(figsize=(6.4, 2.9), layout="constrained")
+    frames = [0, len(run.frames) - 1]
+    for frame, color, text in zip(frames, ("0.75", style.COLORS[0]), ("start", "end")):
+        x = in_own_axes(body, run.places(frame, body))
+        lines = sections.outline(body, x, plane) * factor
+        axis.add_collection(
+            plt.matplotlib.collections.LineCollection(lines, colors=color, lw=1.6, zorder=2)
+        )
+        time_factor, time_unit = style.scale(run.time_unit, run.times)
+        time = style.time_text(run.times[frame], time_unit, time_factor)
+        axis.plot([], [], color=color, label=f"{text}, {time}")
+    radius = factor * np.abs(x[:, plane.axes[0]]).max()  # of the last frame
+    r = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))  # dense where the curve is steep
+    half = evans_fung(np.abs(r)) / 7.82 * radius
+    for side in (1, -1):
+        axis.plot(radius * r, side * half, color="black", lw=1, ls=(0, (5, 3)), zorder=3,
+                  label="Evans and Fung 1972, scaled" if side > 0 else None)  # fmt: skip
+    draw_profiles(run, body, axis, factor)
+    axis.set_aspect("equal")
+    axis.margins(0.04)
+    axis.set_xlabel(style.label("$r$", unit))
+    axis.set_ylabel(style.label("$z$", unit))
+    axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=2)
+    return figure
+
+
+def draw_profiles(run, body, axis, factor):
+    for profile in run.input.get("profile", []):
+        if profile["body"] != body.name:
+            continue
+        r, z = (factor * np.array(profile[key]) for key in ("r", "z"))
+        axis.plot(np.concatenate([r, r, -r, -r]), np.concatenate([z, -z, z, -z]), ".", ms=4,
+                  color=style.COLORS[1], zorder=4, label=profile["label"])  # fmt: skip
