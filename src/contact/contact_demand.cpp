@@ -72,7 +72,9 @@ StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_
   if (closing_speed > 0) demand.longest = closed_in_a_step * gap / closing_speed;
   const Real reached =
       std::max((1 - closed_in_a_step) * gap, contact.law.guard * contact.law.sigma0);
-  const Real K = plane_state(contact.law, contact.beta_product, reached).stiffness;
+  ContactLaw uncut = contact.law;  // in closed form; the cut-off adds little where K matters
+  uncut.cutoff = std::numeric_limits<Real>::infinity();
+  const Real K = plane_state(uncut, contact.beta_product, reached).stiffness;
   const Real single = 1 + 2 * std::pow(contact.spacing / reached, contact.dimension - 1);
   demand.stiffness = std::max(0.0, K) * single * contact.inverse_inertia;
   if (demand.stiffness > 0)

@@ -64,9 +64,9 @@ bool near(const Lanes* x, const Lanes* y, Real distance) {
   return false;
 }
 
-/// Room for so many and half as many more, so that a slowly growing contact seldom takes memory.
+/// Room for half as many more at least, so that a growing contact seldom takes memory.
 void make_room(std::vector<Index>& rows, std::size_t count) {
-  if (rows.capacity() < count) rows.reserve(count + count / 2);
+  if (2 * rows.capacity() < 3 * count) rows.reserve(2 * count);
 }
 
 void find_active(const std::vector<Offset>& start, std::vector<Index>& active) {
@@ -138,7 +138,7 @@ void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const
   std::size_t pairs = 0;
   for (Found& found : found_) {
     pairs += found.partner.size();
-    make_room(found.partner, found.partner.size() + 1);
+    make_room(found.partner, found.partner.size());
   }
   make_room(first_.partner, pairs);
   make_room(second_.partner, pairs);
