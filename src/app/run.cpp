@@ -72,7 +72,11 @@ std::optional<int> run_steps(Simulation<D>& simulation, Recorder<D>& recorder, R
                              const Interruption& interruption, Progress& progress, Real stop) {
   const double checkpoint_seconds = 60 * simulation.scene().output.checkpoint_minutes;
   double next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
-  Warnings<D> warnings(simulation, log);
+  const auto warn = [&](const std::string& sentence) {
+    progress.finish();  // the line is not to be written on
+    log.warning(sentence);
+  };
+  Warnings<D> warnings(simulation, warn);
   while (simulation.state().time < stop && !simulation.finished()) {
     if (const auto signal = interruption.requested()) return signal;
     const Real before = simulation.state().time;
@@ -80,7 +84,7 @@ std::optional<int> run_steps(Simulation<D>& simulation, Recorder<D>& recorder, R
     const auto ledger = recorder.record(before);
     progress.show(simulation.state(), simulation.last_step(), ledger);
     if (ledger) warnings.look(*ledger);
-    if (const auto warning = simulation.controller().take_warning()) log.warning(*warning);
+    if (const auto warning = simulation.controller().take_warning()) warn(*warning);
     if (interruption.elapsed_seconds() > next_checkpoint) {
       recorder.checkpoint();
       next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;

@@ -21,8 +21,8 @@ const MeasureSource* find_measure(const std::vector<MeasureSource>& measures,
 }  // namespace
 
 template <int D>
-Warnings<D>::Warnings(const Simulation<D>& simulation, RunLog& log)
-    : simulation_(simulation), log_(log) {
+Warnings<D>::Warnings(const Simulation<D>& simulation, std::function<void(const std::string&)> say)
+    : simulation_(simulation), say_(std::move(say)) {
   const Scene<D>& scene = simulation.scene();
   for (const Body<D>& body : scene.system.bodies) {
     const MeasureSource* area = find_measure(scene.measures, body.name + ".area");
@@ -43,7 +43,7 @@ void Warnings<D>::doubtful_laws() {
   for (const auto& term : simulation_.scene().system.terms) {
     if (said_.contains(term->name())) continue;
     if (const auto warning = term->warning(simulation_.state().motion())) {
-      log_.warning(fmt::format("t = {:.6g}: {}", simulation_.state().time, *warning));
+      say_(fmt::format("t = {:.6g}: {}", simulation_.state().time, *warning));
       said_.insert(term->name());
     }
   }
@@ -54,7 +54,7 @@ void Warnings<D>::imbalance(const Ledger& ledger) {
   constexpr Real bearable = 0.2;
   const Real error = simulation_.audit().balance_error(ledger);
   if (std::abs(error) < bearable || !said_.insert("energy balance").second) return;
-  log_.warning(fmt::format(
+  say_(fmt::format(
       "t = {:.6g}: the energy balance is off by {:.0f} % of the energy exchanged so far; the step "
       "is too long (lower time.safety) or the motion is not resolved by the particles",
       simulation_.state().time, 100 * error));
@@ -72,7 +72,7 @@ void Warnings<D>::impossible_areas() {
                               : std::sqrt(4 * std::numbers::pi * volume);
     if (area > (1 - bearable) * least) continue;
     said_.insert(kind);
-    log_.warning(fmt::format(
+    say_(fmt::format(
         "t = {:.6g}: body '{}' has the {} {:.4g}, below the least possible {:.4g} for its {}: the "
         "surface is no longer resolved (finer particles, a larger support_factor, or a reference "
         "shape nearer to the present one)",

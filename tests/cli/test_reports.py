@@ -187,7 +187,7 @@ class Reports(ProgramTest):
         tables = dict(re.findall(r"^(\S.*)\n((?:  .*\n)+)", text, re.M))
         for heading, keys in {
                 "top level": "title dimension", "[units]": "system",
-                "[time]": "end step safety check_every",
+                "[time]": "end step safety check_every solver force_tolerance shape_tolerance",
                 "[output]": "frames_every history_every fields measures precision compression "
                             "restartable checkpoint_minutes",
                 "[[body]]": "name integration gauss_points volumetric window support_factor support_rank "
@@ -223,7 +223,8 @@ class Reports(ProgramTest):
         for word in ("\r\033[Kstep ", " t ", " dt ", " % ", " ETA ", " steps/s ", "kinetic", "surface"):
             self.assertIn(word, text)
         # The line is gone before anything else is said.
-        self.assertRegex(text, r"steps/s [^\n]*\r\033\[K\d+ steps in [^\n]*\n(.*\n)*warning: stopped")
+        self.assertRegex(text, r"steps/s [^\n]*\r\033\[K(warning: [^\n]*\n\r\033\[K)?"
+                               r"\d+ steps in [^\n]*\n(.*\n)*warning: stopped")
         self.assertNotIn("\r\033", self.on_terminal("run", file, "--output", "c", "--quiet", *more))
 
     def on_terminal(self, *arguments):

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run should be doubted for, looked at whenever a row of the history is written.
 #pragma once
-#include "meniscus/io/run_log.hpp"
 #include "meniscus/scene/simulation.hpp"
 
+#include <functional>
 #include <set>
 #include <string>
 
@@ -13,7 +13,8 @@ namespace meniscus {
 template <int D>
 class Warnings {
  public:
-  Warnings(const Simulation<D>& simulation, RunLog& log);
+  /// `say` is called with a sentence.
+  Warnings(const Simulation<D>& simulation, std::function<void(const std::string&)> say);
 
   /// `ledger` of now.
   void look(const Ledger& ledger);
@@ -33,7 +34,7 @@ class Warnings {
   };
 
   const Simulation<D>& simulation_;
-  RunLog& log_;
+  std::function<void(const std::string&)> say_;
   std::vector<Enclosure> enclosures_;  ///< bodies under surface tension
   std::set<std::string> said_;
 };
