@@ -104,7 +104,7 @@ const bool registered = register_study(
      "irregular clouds",
      "cells per edge of a cube, half of those of a square",
      {4, 6, 9, 12},
-     {4, 10},
+     {4, 8},
      run});
 
 }  // namespace
