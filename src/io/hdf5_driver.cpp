@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
+#include <map>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -80,22 +82,57 @@ bool overlap(std::vector<const Change*> changes) {
          }) != changes.end();
 }
 
+/// A set of addresses, as intervals [begin, end) that neither overlap nor touch.
+class Extents {
+ public:
+  void add(haddr_t begin, haddr_t end) {
+    auto next = end_of_.upper_bound(begin);
+    if (next != end_of_.begin() && std::prev(next)->second >= begin) --next;
+    while (next != end_of_.end() && next->first <= end) {
+      begin = std::min(begin, next->first);
+      end = std::max(end, next->second);
+      next = end_of_.erase(next);
+    }
+    end_of_.emplace(begin, end);
+  }
+  void add(const Extents& others) {
+    for (const auto& [begin, end] : others.end_of_) add(begin, end);
+  }
+  bool meet(haddr_t begin, haddr_t end) const {
+    const auto next = end_of_.lower_bound(end);
+    return next != end_of_.begin() && std::prev(next)->second > begin;
+  }
+
+ private:
+  std::map<haddr_t, haddr_t> end_of_;  ///< by begin
+};
+
 struct OrderedFile : H5FD_t {
   int descriptor = -1;
   struct stat identity {};
   haddr_t end_of_addresses = 0;  ///< what HDF5 has given out
   haddr_t end_of_file = 0;       ///< on the disk
-  haddr_t flushed_end = 0;       ///< end of what the file on the disk refers to
+  Extents flushed;               ///< what the file on the disk may refer to
+  Extents fresh;                 ///< what was written beside it since the last flush
   std::vector<Change> changes;   ///< in the order in which they came
   int error = 0;                 ///< errno of the first write that failed
 
   void write(H5FD_mem_t kind, haddr_t address, std::string_view bytes) {
-    if (!error && address >= flushed_end) {
-      end_of_file = std::max(end_of_file, address + bytes.size());
-      error = write_all(descriptor, address, bytes);
-      if (!error) return;
-    }
     Change change{kind, address, std::string(bytes)};
+    // Nothing on the disk refers to this place: HDF5 gives out addresses in blocks, so that such
+    // places are also between those in use, not only at the end.
+    const bool unused = !flushed.meet(address, change.end()) &&
+                        std::none_of(changes.begin(), changes.end(), [&](const Change& earlier) {
+                          return earlier.address < change.end() && address < earlier.end();
+                        });
+    if (!error && unused) {
+      end_of_file = std::max(end_of_file, change.end());
+      error = write_all(descriptor, address, bytes);
+      if (!error) {
+        fresh.add(address, change.end());
+        return;
+      }
+    }
     std::erase_if(changes, [&](const Change& earlier) { return change.covers(earlier); });
     changes.push_back(std::move(change));
   }
@@ -131,8 +168,10 @@ struct OrderedFile : H5FD_t {
     for (const Change* change : order)
       if (!error) error = write_all(descriptor, change->address, change->bytes);
     if (error) return;
+    for (const Change& change : changes) flushed.add(change.address, change.end());
     changes.clear();
-    flushed_end = end_of_addresses;
+    flushed.add(fresh);
+    fresh = {};
     resize();
   }
 
@@ -166,7 +205,8 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
   auto* file = new OrderedFile{};
   file->descriptor = descriptor;
   fstat(descriptor, &file->identity);
-  file->end_of_file = file->flushed_end = static_cast<haddr_t>(file->identity.st_size);
+  file->end_of_file = static_cast<haddr_t>(file->identity.st_size);
+  file->flushed.add(0, file->end_of_file);
   return file;
 }
 

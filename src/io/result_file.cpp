@@ -128,6 +128,8 @@ class ResultFile::Writer {
     if (!root.has("VTKHDF")) vtkhdf::create(root, *layout_, body_of_particle(), options_.time_unit);
     vtkhdf::append(root, *layout_, frames_, time);
     file_.flush();
+    vtkhdf::announce(root, frames_ + 1);
+    file_.flush();
 
     xdmf_.add_frame(frames_, time, *layout_);
     xdmf_.write();
@@ -237,6 +239,8 @@ class ResultFile::Writer {
     hdf5::Group root = file_.root(), steps = root.group("steps");
     if (root.has("VTKHDF")) {
       layout_ = vtkhdf::layout(root);
+      vtkhdf::announce(root, 0);
+      file_.flush();
       vtkhdf::clear(root, *layout_);
     }
     std::int64_t stored = 0;
@@ -250,6 +254,8 @@ class ResultFile::Writer {
     }
     dropped_frames_ = stored - frames_;
     for (std::int64_t k = frames_; k < stored; ++k) steps.remove(fmt::format("{}", k));
+    file_.flush();
+    if (layout_) vtkhdf::announce(root, frames_);
     file_.flush();
     xdmf_.write();
   }

@@ -66,7 +66,6 @@ void set_length(hdf5::Group& view, const FrameLayout& layout, std::int64_t lengt
                            "ConnectivityIdOffsets", "PointDataOffsets/body"})
     steps.resize_series(name, length);
   for (const std::string& name : point_offset_series(layout)) steps.resize_series(name, length);
-  steps.set("NSteps", length);
 }
 
 }  // namespace
@@ -100,6 +99,10 @@ void append(hdf5::Group& root, const FrameLayout& layout, std::int64_t k, Real t
   steps.set_series("PartOffsets", k, static_cast<Real>(k));
   for (const std::string& name : point_offset_series(layout))
     steps.set_series(name, k, static_cast<Real>(k * layout.particles));
+}
+
+void announce(hdf5::Group& root, std::int64_t frames) {
+  root.group("VTKHDF").group("Steps").set("NSteps", frames);
 }
 
 void clear(hdf5::Group& root, const FrameLayout& layout) {

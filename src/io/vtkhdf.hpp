@@ -19,7 +19,11 @@ void create(hdf5::Group& root, const FrameLayout& layout,
 /// Makes frame `k` the last one: all index arrays get k + 1 rows.
 void append(hdf5::Group& root, const FrameLayout& layout, std::int64_t k, Real time);
 
-/// No frame is left.
+/// Tells readers that there are so many frames. To be flushed apart: the arrays must be longer
+/// before, and shorter after, and within one flush HDF5 has an order of its own.
+void announce(hdf5::Group& root, std::int64_t frames);
+
+/// The index arrays have no rows any more.
 void clear(hdf5::Group& root, const FrameLayout& layout);
 
 /// The layout with which create() was called.

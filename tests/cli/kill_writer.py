@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Kills result_writer with SIGKILL at 30 random times. Each time run.h5 must open with every frame
-that was announced, the views must agree with the frames, and the checkpoints must be complete.
+"""Kills result_writer with SIGKILL at 100 random times, most of them early. Each time run.h5 must
+open with every frame that was announced, the views must agree with the frames, and the checkpoints
+must be complete.
 Usage: kill_writer.py RESULT_WRITER"""
 import random
 import subprocess
@@ -14,7 +15,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-PARTICLES, TRIALS = 300, 30
+PARTICLES, TRIALS = 300, 100
 
 
 def run_and_kill(writer, directory, delay):
@@ -65,7 +66,7 @@ def main():
     random.seed(1)
     total = 0
     for trial in range(TRIALS):
-        delay = random.uniform(0, 0.4)
+        delay = 0.4 * random.random() ** 3
         with tempfile.TemporaryDirectory() as temporary:
             directory = Path(temporary) / "results"
             announced = run_and_kill(writer, directory, delay)
