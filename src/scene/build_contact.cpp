@@ -14,13 +14,6 @@ namespace meniscus {
 namespace {
 
 template <int D>
-const Body<D>& body_named(const System<D>& system, const std::string& name) {
-  for (const Body<D>& body : system.bodies)
-    if (body.name == name) return body;
-  throw InputError("there is no body '" + name + "'");
-}
-
-template <int D>
 ContactLaw law_of(const ContactSettings& s) {
   ContactLaw law;
   law.kernel = D == 3 ? PairKernel::space : pair_kernel_named(s.kernel);

@@ -2,6 +2,7 @@
 // What a scene says, read and checked before anything large is built.
 #pragma once
 #include "meniscus/body/geometry.hpp"
+#include "meniscus/core/error.hpp"
 #include "meniscus/physics/material.hpp"
 #include "meniscus/scene/contact_settings.hpp"
 #include "meniscus/scene/scene.hpp"
@@ -38,6 +39,14 @@ struct Plan {
   const PlannedBody* require(const Block& block, const std::string& name,
                              const char* key = "body") const;
 };
+
+/// A body of a system. Throws InputError if there is none of that name.
+template <int D>
+const Body<D>& body_named(const System<D>& system, const std::string& name) {
+  for (const Body<D>& body : system.bodies)
+    if (body.name == name) return body;
+  throw InputError("there is no body '" + name + "'");
+}
 
 /// Reads title, units, [time], [output] and [expect] into `scene`, and bodies and loads into the
 /// plan. Throws InputError with all problems at once.

@@ -5,7 +5,6 @@
 #include "meniscus/body/ordering.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/body/wall_supports.hpp"
-#include "meniscus/core/error.hpp"
 #include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/cavity.hpp"
 #include "meniscus/physics/surface_tension.hpp"
@@ -125,13 +124,6 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
   }
   scene.fields.push_back(std::move(fields));
   scene.system.terms.push_back(std::move(built.force));
-}
-
-template <int D>
-const Body<D>& body_named(const System<D>& system, const std::string& name) {
-  for (const Body<D>& body : system.bodies)
-    if (body.name == name) return body;
-  throw InputError("there is no body '" + name + "'");
 }
 
 template <int D>
