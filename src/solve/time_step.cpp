@@ -67,6 +67,10 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
   constexpr int settled_for = 4;
   constexpr Real tolerance = 2e-3;
 
+  // Every iteration lengthens the mode a little: in a long run it would overflow.
+  const Real length = std::sqrt(dot(mode_, mode_));
+  for (Lanes& w : mode_) w /= length;
+
   base_.resize(mode_.size());
   system_.add_up(state.motion(), base_);
   const bool viscous = system_.viscous();
