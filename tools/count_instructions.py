@@ -17,7 +17,7 @@ EFFECTS = {
     "surface tension": r"SurfaceTension<|_surface_tension<",
     "curvature": r"CurvatureSurfaceTension<|hessian_along|\(meniscus::Derivatives\)2",
     # Its stress is inlined into the loop over stress points of a viscous law.
-    "viscosity": r"InternalForce<[23], .*Newtonian|viscous_stress",
+    "viscosity": r"InternalForce<[23], (?!meniscus::WithoutViscosity).*Newtonian|viscous_stress",
     "cell average": r"InternalForce<[23], meniscus::CellAverage<",
     "internal force": r"InternalForce<",
 }
@@ -44,6 +44,7 @@ SCENES = {
         CUBE + 'volumetric = "cell_average"\n' + SPIN + SOLID,
         {"internal force", "cell average"},
     ),
+    "drop without viscosity": (DROP.replace("viscosity = 0.3", "viscosity = 0"), {"internal force"}),
     "viscous drop": (DROP, {"internal force", "viscosity"}),
     "elastic cube, tension": (CUBE + SOLID + TENSION, {"internal force", "surface tension"}),
     "viscous drop, tension by curvature": (

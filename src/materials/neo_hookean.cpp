@@ -1,33 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compressible neo-Hookean solid, W = mu/2 (I1 - 3 - 2 ln J) + lambda/2 (J - 1)^2 (Fan 2014,
 // (4.12)). No loss of ellipticity is known (constitutive note 3.3).
+#include "meniscus/physics/lame_solid.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 namespace meniscus {
 namespace {
 
-struct NeoHookean {
+struct NeoHookean : LameSolid {
   static constexpr std::string_view type_name = "neo_hookean";
-  static constexpr bool viscous = false;
-  Real density, mu, lambda;
-
-  static Rows<NeoHookean> rows() {
-    using L = NeoHookean;
-    return {
-        parameter_row<L>("density", &L::density, dimension::density, range::positive,
-                         "mass per reference volume", 1.25),
-        parameter_row<L>("mu", &L::mu, dimension::pressure, range::positive, "shear modulus", 0.75),
-        parameter_row<L>("lambda", &L::lambda, dimension::pressure, range::any,
-                         "first Lame parameter", 1.5)};
-  }
-
-  std::optional<std::string> check() const {
-    if (lambda + 2.0 / 3.0 * mu > 0) return {};
-    return "the bulk modulus lambda + 2/3 mu must be positive";
-  }
-
-  Real p_wave_modulus() const { return lambda + 2 * mu; }
-  Real bulk_over_shear() const { return lambda / mu + 2.0 / 3.0; }
+  static Rows<NeoHookean> rows() { return rows_of<NeoHookean>(); }
 
   /// With (I1 - 3)/2 = tr H + H:H/2 the first-order parts of (I1 - 3)/2 and ln J cancel by hand.
   template <class T>

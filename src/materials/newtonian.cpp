@@ -38,6 +38,7 @@ struct Newtonian {
   }
 
   Real p_wave_modulus() const { return bulk_modulus; }
+  bool inviscid() const { return viscosity == 0 && bulk_viscosity == 0; }
 
   template <class T>
   T energy_density(const Tensor<T>& H) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // St.Venant-Kirchhoff solid: linear in the Green strain. For small strains; it loses ellipticity
 // already at moderate compression (constitutive note 3.1).
+#include "meniscus/physics/lame_solid.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <fmt/format.h>
@@ -10,28 +11,9 @@
 namespace meniscus {
 namespace {
 
-struct StVenantKirchhoff {
+struct StVenantKirchhoff : LameSolid {
   static constexpr std::string_view type_name = "st_venant_kirchhoff";
-  static constexpr bool viscous = false;
-  Real density, mu, lambda;
-
-  static Rows<StVenantKirchhoff> rows() {
-    using L = StVenantKirchhoff;
-    return {
-        parameter_row<L>("density", &L::density, dimension::density, range::positive,
-                         "mass per reference volume", 1.25),
-        parameter_row<L>("mu", &L::mu, dimension::pressure, range::positive, "shear modulus", 0.75),
-        parameter_row<L>("lambda", &L::lambda, dimension::pressure, range::any,
-                         "first Lame parameter", 1.5)};
-  }
-
-  std::optional<std::string> check() const {
-    if (lambda + 2.0 / 3.0 * mu > 0) return {};
-    return "the bulk modulus lambda + 2/3 mu must be positive";
-  }
-
-  Real p_wave_modulus() const { return lambda + 2 * mu; }
-  Real bulk_over_shear() const { return lambda / mu + 2.0 / 3.0; }
+  static Rows<StVenantKirchhoff> rows() { return rows_of<StVenantKirchhoff>(); }
 
   /// W = lambda/2 tr^2 E + mu E:E.
   template <class T>

@@ -5,6 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/surface_geometry.hpp"
 #include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/physics/tension_form.hpp"
 
 #include <fmt/format.h>
 
@@ -12,10 +13,10 @@ namespace meniscus {
 namespace {
 
 template <int D>
-class CurvatureSurfaceTension final : public ForceTerm {
+class CurvatureSurfaceTension final : public TensionForm<D> {
  public:
   CurvatureSurfaceTension(const Body<D>& body, Real gamma, int points)
-      : body_(body), gamma_(gamma), surface_(surface_points(body.geometry, points)) {
+      : TensionForm<D>(body, gamma), surface_(surface_points(body.geometry, points)) {
     if (!body.geometry.smooth || !surface_.exact)
       throw InputError(
           fmt::format("body '{}': the curvature form of surface tension needs a smooth analytic "
@@ -27,14 +28,9 @@ class CurvatureSurfaceTension final : public ForceTerm {
     windows_ = {rows_.start, rows_.particle, body.size()};
   }
 
-  std::string name() const override { return "surface tension of '" + body_.name + "'"; }
-  std::string_view energy_kind() const override { return "surface"; }
-
   void add_force(const Motion& motion, std::span<Lanes> force) override {
-    const Lanes* u = motion.u.data() + body_.first;
-    auto own = force.subspan(static_cast<std::size_t>(body_.first),
-                             static_cast<std::size_t>(body_.size()));
-    windows_.accumulate(own, [&](int, Index begin, Index end, Lanes* f) {
+    const Lanes* u = this->displacements(motion);
+    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, Lanes* f) {
       for (Index q = begin; q < end; ++q) {
         const auto frame = frame_at(q, u);
         const Real da = at(surface_.area, q) * frame.area_ratio;
@@ -44,16 +40,12 @@ class CurvatureSurfaceTension final : public ForceTerm {
     });
   }
 
-  std::optional<Real> stored_energy(const Motion& motion) const override {
-    return gamma_ * area(motion);
-  }
   std::vector<MeasureSource> measures() const override {
-    return {{"area", D == 3 ? dimension::area : dimension::length,
-             "current area of the surface (2D: length)",
-             [this](const Motion& motion) { return area(motion); }},
-            {"mean_curvature", Dimension{-1, 0, 0},
-             "area mean of 2 kappa = -div n (-2/R on a sphere, -1/R on a circle)",
-             [this](const Motion& motion) { return mean_curvature(motion); }}};
+    auto sources = TensionForm<D>::measures();
+    sources.push_back({"mean_curvature", Dimension{-1, 0, 0},
+                       "area mean of 2 kappa = -div n (-2/R on a sphere, -1/R on a circle)",
+                       [this](const Motion& motion) { return mean_curvature(motion); }});
+    return sources;
   }
   std::size_t bytes() const override {
     return rows_.bytes() + windows_.bytes() +
@@ -62,6 +54,9 @@ class CurvatureSurfaceTension final : public ForceTerm {
   Offset pairs() const override { return rows_.entries(); }
 
  private:
+  using TensionForm<D>::body_;
+  using TensionForm<D>::gamma_;
+
   SurfaceFrame<Real> frame_at(Index q, const Lanes* u) const {
     const auto column = gradient_at(rows_, q, u);
     Tensor<Real> F = Tensor<Real>::identity();
@@ -78,13 +73,13 @@ class CurvatureSurfaceTension final : public ForceTerm {
       for (int L = 0; L < D; ++L) nG(K, L) = at(packed, hessian_index(D, K, L));
     return twice_mean_curvature(frame, embed<D>(nG, 0), embed<D>(at(surface_.grad_N, q), 0));
   }
-  Real area(const Motion& motion) const {
-    const Lanes* u = motion.u.data() + body_.first;
+  Real area(const Motion& motion) const override {
+    const Lanes* u = this->displacements(motion);
     return parallel_sum(rows_.size(), 0.0,
                         [&](Index q) { return at(surface_.area, q) * frame_at(q, u).area_ratio; });
   }
   Real mean_curvature(const Motion& motion) const {
-    const Lanes* u = motion.u.data() + body_.first;
+    const Lanes* u = this->displacements(motion);
     const Real integral = parallel_sum(rows_.size(), 0.0, [&](Index q) {
       const auto frame = frame_at(q, u);
       return at(surface_.area, q) * frame.area_ratio * curvature_at(q, u, frame);
@@ -92,8 +87,6 @@ class CurvatureSurfaceTension final : public ForceTerm {
     return integral / area(motion);
   }
 
-  const Body<D>& body_;
-  Real gamma_;
   SurfacePoints<D> surface_;
   PointRows<D> rows_;
   ForceWindows windows_;

@@ -2,6 +2,7 @@
 // Surface tension of the polyhedron (2D: polygon) through the places of the boundary particles.
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/physics/tension_form.hpp"
 
 #include <Eigen/Geometry>
 
@@ -28,10 +29,10 @@ template FlatPull<3> flat_pull<3>(const std::array<Vec<3>, 3>&);
 namespace {
 
 template <int D>
-class TriangleSurfaceTension final : public ForceTerm {
+class TriangleSurfaceTension final : public TensionForm<D> {
  public:
   TriangleSurfaceTension(const Body<D>& body, Real gamma)
-      : body_(body), gamma_(gamma), nodes_(boundary_nodes(body.geometry.grid)) {
+      : TensionForm<D>(body, gamma), nodes_(boundary_nodes(body.geometry.grid)) {
     std::vector<Index> number(static_cast<std::size_t>(body.size()), -1);
     for (const Index A : nodes_) {
       at(number, A) = static_cast<Index>(X_.size());
@@ -46,9 +47,6 @@ class TriangleSurfaceTension final : public ForceTerm {
     load_.resize(X_.size());
   }
 
-  std::string name() const override { return "surface tension of '" + body_.name + "'"; }
-  std::string_view energy_kind() const override { return "surface"; }
-
   void add_force(const Motion& motion, std::span<Lanes> force) override {
     find_places(motion, x_);
     std::fill(pull_.begin(), pull_.end(), Vec<D>::Zero());
@@ -57,21 +55,11 @@ class TriangleSurfaceTension final : public ForceTerm {
       for (std::size_t k = 0; k < D; ++k) at(pull_, simplex[k]) += gamma_ * pull.force[k];
     }
     for (Index B = 0; B < rows_.size(); ++B) set_vector<D>(load_, B, at(pull_, B));
-    auto own = force.subspan(static_cast<std::size_t>(body_.first),
-                             static_cast<std::size_t>(body_.size()));
-    windows_.accumulate(own, [&](int, Index begin, Index end, Lanes* f) {
+    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, Lanes* f) {
       for (Index B = begin; B < end; ++B) scatter_value(rows_, B, at(load_, B), f);
     });
   }
 
-  std::optional<Real> stored_energy(const Motion& motion) const override {
-    return gamma_ * area(motion);
-  }
-  std::vector<MeasureSource> measures() const override {
-    return {{"area", D == 3 ? dimension::area : dimension::length,
-             "current area of the surface (2D: length)",
-             [this](const Motion& motion) { return area(motion); }}};
-  }
   std::size_t bytes() const override {
     return rows_.bytes() + windows_.bytes() + X_.size() * (3 * sizeof(Vec<D>) + sizeof(Lanes)) +
            simplices_.size() * sizeof(simplices_[0]);
@@ -79,9 +67,12 @@ class TriangleSurfaceTension final : public ForceTerm {
   Offset pairs() const override { return rows_.entries(); }
 
  private:
+  using TensionForm<D>::body_;
+  using TensionForm<D>::gamma_;
+
   /// x = places x(X_B) of the boundary particles.
   void find_places(const Motion& motion, std::vector<Vec<D>>& x) const {
-    const Lanes* u = motion.u.data() + body_.first;
+    const Lanes* u = this->displacements(motion);
     x.resize(X_.size());
     parallel_for(rows_.size(), [&](Index B) {
       const Lanes displacement = value_at(rows_, B, u);
@@ -94,7 +85,7 @@ class TriangleSurfaceTension final : public ForceTerm {
     for (std::size_t k = 0; k < D; ++k) places[k] = at(x, simplex[k]);
     return places;
   }
-  Real area(const Motion& motion) const {
+  Real area(const Motion& motion) const override {
     std::vector<Vec<D>> x;
     find_places(motion, x);
     Real sum = 0;
@@ -102,8 +93,6 @@ class TriangleSurfaceTension final : public ForceTerm {
     return sum;
   }
 
-  const Body<D>& body_;
-  Real gamma_;
   std::vector<Index> nodes_;
   std::vector<Vec<D>> X_;
   std::vector<std::array<Index, D>> simplices_;  // numbers in nodes_

@@ -3,14 +3,15 @@
 // area.
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/physics/tension_form.hpp"
 
 namespace meniscus {
 namespace {
 
 template <int D>
-class WeakSurfaceTension final : public ForceTerm {
+class WeakSurfaceTension final : public TensionForm<D> {
  public:
-  WeakSurfaceTension(const Body<D>& body, Real gamma, int points) : body_(body), gamma_(gamma) {
+  WeakSurfaceTension(const Body<D>& body, Real gamma, int points) : TensionForm<D>(body, gamma) {
     const SurfacePoints<D> surface = surface_points(body.geometry, points);
     rule_.rows = build_point_rows<D>(body.particles, surface.X, {.gradient = true}, body.name);
     rule_.point_weight = surface.area;
@@ -20,14 +21,9 @@ class WeakSurfaceTension final : public ForceTerm {
     windows_ = rule_.windows(body.size());
   }
 
-  std::string name() const override { return "surface tension of '" + body_.name + "'"; }
-  std::string_view energy_kind() const override { return "surface"; }
-
   void add_force(const Motion& motion, std::span<Lanes> force) override {
-    const Lanes* u = motion.u.data() + body_.first;
-    auto own = force.subspan(static_cast<std::size_t>(body_.first),
-                             static_cast<std::size_t>(body_.size()));
-    windows_.accumulate(own, [&](int, Index begin, Index end, Lanes* f) {
+    const Lanes* u = this->displacements(motion);
+    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, Lanes* f) {
       for (Index g = begin; g < end; ++g) {
         // P = gamma (Js/J) (I - n n) cof F, with m = cof(F) N = Js n.
         Tensor<Lanes> H;
@@ -48,20 +44,15 @@ class WeakSurfaceTension final : public ForceTerm {
     });
   }
 
-  std::optional<Real> stored_energy(const Motion& motion) const override {
-    return gamma_ * area(motion);
-  }
-  std::vector<MeasureSource> measures() const override {
-    return {{"area", D == 3 ? dimension::area : dimension::length,
-             "current area of the surface (2D: length)",
-             [this](const Motion& motion) { return area(motion); }}};
-  }
   std::size_t bytes() const override {
     return rule_.bytes() + windows_.bytes() + normal_.size() * sizeof(Lanes);
   }
   Offset pairs() const override { return rule_.pairs(); }
 
  private:
+  using TensionForm<D>::body_;
+  using TensionForm<D>::gamma_;
+
   /// m = cof(F) N; returns |m|, the area ratio da/dA. Lanes without a point get n = e_1 and 1.
   Lanes current_normal(Index group, const Tensor<Lanes>& cof, std::array<Lanes, 3>& m) const {
     const Lanes* N = normal_.data() + static_cast<std::size_t>(group) * D;
@@ -72,8 +63,8 @@ class WeakSurfaceTension final : public ForceTerm {
     const Lanes square = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
     return sqrt(select(square.v > 0.0, square, 1.0));
   }
-  Real area(const Motion& motion) const {
-    const Lanes* u = motion.u.data() + body_.first;
+  Real area(const Motion& motion) const override {
+    const Lanes* u = this->displacements(motion);
     return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
       Tensor<Lanes> H;
       rule_.gather(g, u, H);
@@ -82,8 +73,6 @@ class WeakSurfaceTension final : public ForceTerm {
     });
   }
 
-  const Body<D>& body_;
-  Real gamma_;
   PointRule<D> rule_;
   AlignedVector<Lanes> normal_;  // [group][K]
   ForceWindows windows_;

@@ -126,6 +126,27 @@ TEST(InternalForce, HeatIsTheViscousPower) {
   for_all<3>(expect_dissipation<3>);
 }
 
+TEST(InternalForce, IsElasticWhereTheViscosityIsZero) {
+  const auto body = test::body_of<3>(small_body<3>());
+  const NodalVectors u = test::random_field<3>(body->size(), 0.06, 19);
+  const NodalVectors v = test::random_field<3>(body->size(), 1, 20);
+  const std::string fluid = "density = 1.25\nbulk_modulus = 2.5\nviscosity = ";
+  for (const Integration& integration : test::integrations()) {
+    SCOPED_TRACE(integration.rule + ", " + integration.volumetric);
+    const auto viscous = test::internal_force<3>(*body, "newtonian", fluid + "0.5", integration);
+    const auto inviscid = test::internal_force<3>(*body, "newtonian", fluid + "0", integration);
+    EXPECT_TRUE(viscous->viscous());
+    EXPECT_FALSE(inviscid->viscous());
+    const NodalVectors at_rest = test::force_of(*viscous, u);
+    const NodalVectors moving = test::force_of(*inviscid, u, v);
+    EXPECT_LT(test::norm(test::sum_of(moving, -1, at_rest)), 1e-14 * test::norm(at_rest));
+    EXPECT_EQ(test::energy_of(*inviscid, u), test::energy_of(*viscous, u));
+    const auto bulk =
+        test::internal_force<3>(*body, "newtonian", fluid + "0\nbulk_viscosity = 1", integration);
+    EXPECT_TRUE(bulk->viscous());
+  }
+}
+
 template <int D>
 void expect_formulas() {
   const auto body = test::body_of<D>(small_body<D>());

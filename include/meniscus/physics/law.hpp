@@ -45,9 +45,21 @@ concept ViscousIn = requires(const L law, const Tensor<T> H, const Tensor<T> F_r
   { law.viscous_stress(H, F_rate) } -> std::same_as<Tensor<T>>;
 };
 
-/// A law with viscous stress; it says `static constexpr bool viscous = true`.
+/// A law with viscous stress; it says `static constexpr bool viscous = true`, and inviscid() if its
+/// numbers are such that this stress is always zero.
 template <class L>
-concept ViscousLaw = L::viscous && ViscousIn<L, Real> && ViscousIn<L, Lanes>;
+concept ViscousLaw = L::viscous && ViscousIn<L, Real> && ViscousIn<L, Lanes> &&
+    requires(const L law) {
+  { law.inviscid() } -> std::same_as<bool>;
+};
+
+/// A viscous law, or what is made of one, where its viscosity is zero: without viscous stress.
+template <class L>
+struct WithoutViscosity : L {
+  static constexpr bool viscous = false;
+  template <class Argument>
+  explicit WithoutViscosity(const Argument& law) : L(law) {}
+};
 
 /// A material law. `density` is the mass per reference volume; p_wave_modulus() is rho c^2 of a
 /// plane compression wave at the reference state; rows() are its numbers in the scene.

@@ -110,9 +110,18 @@ class MaterialOf final : public Material<D> {
     const MassReport mass = lump_mass(body, density, shape_integral);
     std::optional<std::string> note;
     if constexpr (NotingLaw<L>) note = laws.front().note(mean_spacing(body.geometry.grid));
-    return {std::make_unique<InternalForce<D, Points, Rule>>(
-                body, std::move(rule), std::vector<Points>(laws.begin(), laws.end())),
-            mass, !std::is_same_v<Points, L>, std::move(note)};
+    return {force<Points>(body, std::move(rule), laws), mass, !std::is_same_v<Points, L>,
+            std::move(note)};
+  }
+
+  template <class Points, class Rule>
+  static std::unique_ptr<ForceTerm> force(const Body<D>& body, Rule rule,
+                                          const std::vector<L>& laws) {
+    if constexpr (Points::viscous)
+      if (std::all_of(laws.begin(), laws.end(), [](const L& law) { return law.inviscid(); }))
+        return force<WithoutViscosity<Points>>(body, std::move(rule), laws);
+    return std::make_unique<InternalForce<D, Points, Rule>>(
+        body, std::move(rule), std::vector<Points>(laws.begin(), laws.end()));
   }
 
   Varying<L> law_;
