@@ -136,7 +136,7 @@ void registry(HardCases& cases) {
                         pinning(0.4), {0, 2e-3});
   cases.study().require("lattices in registry: the same at h/gap = 0.5", pinning(0.5), {0, 0.02});
   cases.study().require("lattices in registry: the same at h/gap = 1 (pinned)", pinning(1),
-                        {0.5, 5});
+                        {0.3, 1});
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(ContactSpheres, ForcesConvergeToTheExactValues) {
     const Balls balls(R1, R2, D, 8);
     // Relative to the force, and where attraction and repulsion nearly cancel to the attraction.
     const Real scale = std::max(std::abs(exact), 10 * R1 * R2 / (R1 + R2));
-    const auto errors_of = [&](ContactForm form, std::initializer_list<int> all_points) {
+    const auto errors_of = [&](ContactForm form, const std::vector<int>& all_points) {
       std::vector<Real> errors;
       for (const int points : all_points)
         errors.push_back(std::abs(balls.force(form, points) - exact) / scale);
@@ -78,11 +78,14 @@ TEST(ContactSpheres, ForcesConvergeToTheExactValues) {
       EXPECT_LT(errors.back(), 2e-3);
       finest = std::max(finest, errors.back());
     }
-    const std::vector<Real> errors = errors_of(ContactForm::volume, {1, 2});
-    EXPECT_GT(errors.back(), finest);
-    if (R1 > 1) continue;  // its points would have to be still closer
-    EXPECT_LT(errors[1], 0.4 * errors[0]);
-    EXPECT_LT(errors[1], 0.03);
+    // One-point cells are too coarse at all these gaps; finer points only fit into small balls.
+    const bool small = R1 + R2 <= 2;
+    const std::vector<Real> errors =
+        errors_of(ContactForm::volume, small ? std::vector{1, 2} : std::vector{1});
+    EXPECT_GT(errors.front(), 10 * finest);
+    if (small) {
+      EXPECT_LT(errors.back(), 0.1 * errors.front());
+    }
   }
 }
 
