@@ -1,7 +1,9 @@
 # Every scene of inputs/ is a test (label scene). It is checked, and run if its first line says so:
 #   # test: full                run as it is
 #   # test: short OPTION...     run with options of `meniscus run`, e.g. --until 0.02ns
-# tools/verify runs the others in full (label verify, configuration full).
+# tools/verify runs the others in full (label verify, configuration full), and variants of a scene
+# into verification/SCENE-NAME for each of its lines
+#   # verify NAME: OPTION...
 # The program's exit code decides: 7 means that an expectation of the scene was missed.
 
 file(GLOB scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/inputs/*.toml)
@@ -32,4 +34,15 @@ foreach(scene ${scenes})
     set_tests_properties(scene.${name}.full PROPERTIES LABELS verify
       ENVIRONMENT OMP_WAIT_POLICY=passive)
   endif()
+
+  file(STRINGS ${scene} variants REGEX "^# verify [a-z]+: ")
+  foreach(variant ${variants})
+    string(REGEX REPLACE "^# verify ([a-z]+): .*" "\\1" variant_name "${variant}")
+    string(REGEX REPLACE "^# verify [a-z]+: " "" options "${variant}")
+    separate_arguments(options UNIX_COMMAND "${options}")
+    add_test(NAME scene.${name}.${variant_name} CONFIGURATIONS full
+      COMMAND ${run} ${PROJECT_SOURCE_DIR}/verification/${name}-${variant_name} ${options})
+    set_tests_properties(scene.${name}.${variant_name} PROPERTIES LABELS verify
+      ENVIRONMENT OMP_WAIT_POLICY=passive)
+  endforeach()
 endforeach()

@@ -20,6 +20,7 @@ EFFECTS = {
     "viscosity": r"InternalForce<[23], (?!meniscus::WithoutViscosity).*Newtonian|viscous_stress",
     "cell average": r"InternalForce<[23], meniscus::CellAverage<",
     "internal force": r"InternalForce<",
+    "contact": r"(Pair|Rigid)Contact<|Contact(Points|List)<|sum_over_partners|contact_demand",
 }
 
 BODY = """
@@ -37,6 +38,11 @@ DROP = (
 SPIN = 'initial_velocity = ["0.01*y", "-0.01*x", "0"]\n'
 TENSION = '[[surface_tension]]\nbody = "body"\ngamma = 0.01\n'
 
+PLATE = (
+    '[[contact]]\nbodies = ["body"]\nepsilon = 1\nsigma0 = 0.2\nbeta = 1\n'
+    'partner = { type = "half_space", point = [0, 0, -0.65], normal = [0, 0, 1] }\n'
+)
+
 # name of the scene: text, the effects it has
 SCENES = {
     "elastic cube": (CUBE + SPIN + SOLID, {"internal force"}),
@@ -46,6 +52,7 @@ SCENES = {
     ),
     "drop without viscosity": (DROP.replace("viscosity = 0.3", "viscosity = 0"), {"internal force"}),
     "viscous drop": (DROP, {"internal force", "viscosity"}),
+    "elastic cube on a plate": (CUBE + SOLID + PLATE, {"internal force", "contact"}),
     "elastic cube, tension": (CUBE + SOLID + TENSION, {"internal force", "surface tension"}),
     "viscous drop, tension by curvature": (
         DROP + TENSION + 'form = "curvature"\n',

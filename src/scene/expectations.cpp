@@ -34,7 +34,15 @@ Real decay_rate(std::span<const Real> t, std::span<const Real> y) {
   return -(n * sty - st * sy) / (n * stt - st * st);
 }
 
-Real reduce(const std::string& how, std::span<const Real> t, std::span<const Real> y) {
+/// How often y falls from `level` or above to below it.
+Real falls(std::span<const Real> y, Real level) {
+  int count = 0;
+  for (std::size_t k = 1; k < y.size(); ++k) count += y[k - 1] >= level && y[k] < level;
+  return count;
+}
+
+Real reduce(const ExpectSettings& e, std::span<const Real> t, std::span<const Real> y) {
+  const std::string& how = e.reduce;
   if (how == "decay_rate") return decay_rate(t, y);
   Real total = 0, largest_size = 0;
   for (const Real x : y) {
@@ -42,6 +50,7 @@ Real reduce(const std::string& how, std::span<const Real> t, std::span<const Rea
     largest_size = std::max(largest_size, std::abs(x));
   }
   if (std::isnan(total)) return total;  // comparisons would pass over it
+  if (how == "falls") return falls(y, *e.level);
   if (how == "max") return *std::max_element(y.begin(), y.end());
   if (how == "min") return *std::min_element(y.begin(), y.end());
   return how == "max_abs" ? largest_size : total / static_cast<Real>(y.size());
@@ -83,7 +92,7 @@ ExpectationResult evaluate(const std::string& name, const ExpectSettings& e,
   } else {
     const Span span = span_between(time, y, from, to * (1 + 1e-12));
     const std::size_t needed = e.reduce == "decay_rate" ? 3 : 1;
-    result.obtained = span.y.size() < needed ? std::nan("") : reduce(e.reduce, span.time, span.y);
+    result.obtained = span.y.size() < needed ? std::nan("") : reduce(e, span.time, span.y);
   }
   result.met = std::abs(result.obtained - e.value) <= result.tolerance;
   return result;

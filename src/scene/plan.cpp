@@ -169,6 +169,9 @@ void require_reachable(const Block& block, const ExpectSettings& e, Real end) {
   if (e.reduce != "at" && e.at)
     block.problem(
         "at", fmt::format("has no meaning for reduce = \"{}\"; allowed are from, to", e.reduce));
+  if ((e.reduce == "falls") != e.level.has_value())
+    block.problem("level", e.level ? "has a meaning for reduce = \"falls\" only"
+                                   : "is missing; reduce = \"falls\" counts falls below it");
 }
 
 template <int D>

@@ -185,9 +185,9 @@ Rows<ExpectSettings> ExpectSettings::rows() {
   return {
       text_row("of", &S::of, "column of the history; empty: the name of this table", ""),
       choice_row(
-          "reduce", &S::reduce, {"at", "max", "min", "mean", "max_abs", "decay_rate"},
+          "reduce", &S::reduce, {"at", "max", "min", "mean", "max_abs", "decay_rate", "falls"},
           "value at a time, or a number taken over from ... to; decay_rate is minus the slope "
-          "of ln |column|",
+          "of ln |column|, falls how often the column falls below level",
           "at"),
       optional_row("at", &S::at, dimension::time, range::non_negative, "time.end",
                    "time of the value, for reduce = \"at\""),
@@ -195,6 +195,8 @@ Rows<ExpectSettings> ExpectSettings::rows() {
                "begin of the span, for the others", 0.0),
       optional_row("to", &S::to, dimension::time, range::positive, "time.end",
                    "end of the span, for the others"),
+      optional_row("level", &S::level, dimension::none, range::any, "none",
+                   "for reduce = \"falls\", in the unit of the column"),
       real_row("value", &S::value, dimension::none, range::any,
                "expected number, in the unit of the column", 0.0),
       optional_row("within", &S::within, dimension::none, range::non_negative, "none",

@@ -88,15 +88,27 @@ Measurement measure(const std::string& form, int points, int level) {
 
 void run(StudyRun& study) {
   study.finish_settings();
-  const std::vector<int> fineness = study.brief() ? std::vector{2} : std::vector{1, 2, 4};
+  const std::vector<int> fineness = study.brief() ? std::vector{2, 4} : std::vector{2, 3, 4};
   for (const std::string form : {"energy", "pressure", "dissertation"})
     for (const int points : fineness)
       for (const int level : study.levels()) study.record(measure(form, points, level));
   if (study.levels().size() < 2) return;
+  const auto name_of = [](const char* form, int points) {
+    return fmt::format("{}, {} points per facet", form, points);
+  };
+  // Errors of the energy form are those of the step, whatever the points; what is left of the error
+  // of the dissertation's form at the smallest step is its own.
+  const auto last_error = [&](const char* form, int points) {
+    return study.find(name_of(form, points), study.levels().back())->error("energy");
+  };
+  study.require(
+      fmt::format("energy: error with {} / with {} points", fineness.front(), fineness.back()),
+      last_error("energy", fineness.front()) / last_error("energy", fineness.back()), {0.5, 2});
+  study.require("dissertation: error / that of energy, at the smallest step",
+                last_error("dissertation", fineness.back()) / last_error("energy", fineness.back()),
+                {30, 1e6});
   for (const int points : fineness) {
-    const auto name = [&](const char* form) {
-      return fmt::format("{}, {} points per facet", form, points);
-    };
+    const auto name = [&](const char* form) { return name_of(form, points); };
     study.require("order in the step, " + name("energy"),
                   study.overall_order(name("energy"), "energy"), {1.7, 2.4});
     study.require("order in the step, " + name("dissertation"),

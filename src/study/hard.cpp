@@ -1,71 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases. Each says what should happen: the run stays stable, or it stops and names the cause.
 #include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "meniscus/scene/scene.hpp"
+#include "meniscus/solve/audit.hpp"
 #include "meniscus/solve/central_difference.hpp"
-#include "meniscus/study/study.hpp"
+#include "meniscus/solve/time_step.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
+
+#include "support/hard_cases.hpp"
 
 namespace meniscus {
 namespace {
 
-/// What became of a run.
-struct Outcome {
-  Index particles = 0;
-  Real steps = 0;
-  Real energy_error = 0;  ///< largest error of the energy balance
-  Real final_energy_error = 0;
-  Real angular_momentum_error = 0;  ///< largest
-  std::string stopped;              ///< message of the failure; empty if it ran to its end
-  std::string remarks;              ///< notes and warnings of the set-up
-  std::map<std::string, Real> measures;
-
-  /// At the end; not a number if the run did not get there.
-  Real measure(const std::string& name) const {
-    const auto found = measures.find(name);
-    return found == measures.end() ? std::numeric_limits<Real>::quiet_NaN() : found->second;
-  }
-};
-
-void follow(Simulation<3>& simulation, Real largest_step_number, Outcome& outcome) {
-  simulation.begin();
-  while (simulation.state().time < simulation.scene().time.end &&
-         outcome.steps < largest_step_number) {
-    simulation.advance();
-    ++outcome.steps;
-    if (static_cast<std::int64_t>(outcome.steps) % 50) continue;
-    const Ledger ledger = simulation.audit_now();
-    outcome.final_energy_error = std::abs(simulation.audit().balance_error(ledger));
-    outcome.energy_error = std::max(outcome.energy_error, outcome.final_energy_error);
-    outcome.angular_momentum_error =
-        std::max(outcome.angular_momentum_error, simulation.audit().angular_momentum_error(ledger));
-  }
-}
-
-Outcome attempt(const std::string& scene_text, Real largest_step_number = 1e300) {
-  Outcome outcome;
-  try {
-    const SceneInput input = SceneInput::from_text(scene_text);
-    scene_dimension(input);
-    Scene<3> scene = build_scene<3>(input);
-    outcome.particles = scene.system.size();
-    for (const auto& text : scene.notes) outcome.remarks += text + "\n";
-    for (const auto& text : scene.warnings) outcome.remarks += text + "\n";
-    Simulation<3> simulation(scene);
-    follow(simulation, largest_step_number, outcome);
-    for (const MeasureSource& m : scene.measures)
-      outcome.measures[m.name] = m.compute(simulation.state().motion());
-  } catch (const SolveError& e) {
-    outcome.stopped = e.what();
-  }
-  return outcome;
-}
+using study::HardCases, study::HardOutcome;
 
 // rho = E = 1, nu = 0.3: speed of compression waves 1.16.
 const std::string solid =
@@ -96,57 +47,10 @@ std::string drop(const std::string& axes, int core, Real Oh, Real end,
       end, axes, core, core / 2, keys, Oh);
 }
 
-class Suite {
- public:
-  explicit Suite(StudyRun& study) : study_(study) {}
-
-  /// Runs `scene` and states that it ends, with an energy balance within `bound`.
-  Outcome stays_stable(const std::string& name, const std::string& scene, Real bound,
-                       Real largest_step_number = 1e300) {
-    const Stopwatch clock;
-    const Outcome outcome = attempt(scene, largest_step_number);
-    record(name, outcome, clock.seconds());
-    study_.require(name + ": runs to its end", outcome.stopped.empty(), yes);
-    study_.require(name + ": largest error of the energy balance", outcome.energy_error,
-                   {0, bound});
-    return outcome;
-  }
-
-  /// States that `scene` stops with a message that contains `cause`.
-  void stops(const std::string& name, const std::string& scene, const std::string& cause) {
-    const Stopwatch clock;
-    const Outcome outcome = attempt(scene);
-    record(name, outcome, clock.seconds());
-    study_.require(fmt::format("{}: stops and names '{}'", name, cause),
-                   outcome.stopped.find(cause) != std::string::npos, yes);
-  }
-
-  void says(const std::string& name, const Outcome& outcome, const std::string& text) {
-    study_.require(fmt::format("{}: the log says '{}'", name, text),
-                   outcome.remarks.find(text) != std::string::npos, yes);
-  }
-
-  void record(const std::string& name, const Outcome& outcome, Real seconds) {
-    Measurement m;
-    m.method = name;
-    m.particles = outcome.particles;
-    m.values = {{"steps", outcome.steps},
-                {"energy error", outcome.energy_error},
-                {"at the end", outcome.final_energy_error}};
-    m.time = seconds;
-    m.remark = outcome.stopped;
-    study_.record(m);
-  }
-
- private:
-  static constexpr Range yes{1, 1};
-  StudyRun& study_;
-};
-
 /// Central differences at `part` of the estimated limit, as nobody could ask for in a scene (steps
 /// above the limit are refused there).
-Outcome run_at(Real part, int steps) {
-  Outcome outcome;
+HardOutcome run_at(Real part, int steps) {
+  HardOutcome outcome;
   const SceneInput input =
       SceneInput::from_text(box("[5, 5, 5]", "jitter = 0.2\n" + solid + swirl, 1));
   scene_dimension(input);
@@ -171,46 +75,46 @@ Outcome run_at(Real part, int steps) {
   return outcome;
 }
 
-void step_limit(StudyRun& study, Suite& suite) {
+void step_limit(HardCases& cases) {
   for (const Real part : {0.9, 1.0, 1.1}) {
     const Stopwatch clock;
     const std::string name = fmt::format("step at {} of the estimated limit", part);
-    const Outcome outcome = run_at(part, 3000);
-    suite.record(name, outcome, clock.seconds());
+    const HardOutcome outcome = run_at(part, 3000);
+    cases.record(name, outcome, clock.seconds());
     if (part < 1)
-      study.require(name + ": runs 3000 steps", outcome.stopped.empty(), {1, 1});
+      cases.study().require(name + ": runs 3000 steps", outcome.stopped.empty(), {1, 1});
     else if (part > 1)
-      study.require(name + ": blows up and says where",
-                    outcome.stopped.find("particle") != std::string::npos, {1, 1});
+      cases.study().require(name + ": blows up and says where",
+                            outcome.stopped.find("particle") != std::string::npos, {1, 1});
   }
 }
 
 void run(StudyRun& study) {
   study.finish_settings();
   const bool full = !study.brief();
-  Suite suite(study);
+  HardCases cases(study);
 
-  suite.stays_stable("jitter 40 %", box("[6, 6, 6]", "jitter = 0.4\n" + solid + swirl, 4), 1e-2);
-  suite.stays_stable("layers 10 : 1",
+  cases.stays_stable("jitter 40 %", box("[6, 6, 6]", "jitter = 0.4\n" + solid + swirl, 4), 1e-2);
+  cases.stays_stable("layers 10 : 1",
                      box("[5, 5, 5]", "jitter = 0.2\n" + solid + swirl, 1, "[1, 1, 0.1]"), 1e-2);
-  suite.stays_stable("support at its limit, 2.2 spacings",
+  cases.stays_stable("support at its limit, 2.2 spacings",
                      box("[6, 6, 6]", "support_spacings = 2.2\n" + solid + swirl, 4), 1e-2);
   const std::string small = "support 1.6 spacings, enlarged";
-  suite.says(small,
-             suite.stays_stable(
+  cases.says(small,
+             cases.stays_stable(
                  small, box("[6, 6, 6]", "support_spacings = 1.6\n" + solid + swirl, 4), 1e-2),
              "were enlarged");
   const std::string masses = "tiny and negative row-sum masses";
-  suite.says(
+  cases.says(
       masses,
-      suite.stays_stable(
+      cases.stays_stable(
           masses,
           box("[6, 6, 6]",
               "jitter = 0.4\nintegration = \"gauss\"\ngauss_points = 2\n" + solid + swirl, 4),
           1e-2),
       "were raised");
   for (const std::string volumetric : {"full", "cell_average"})
-    suite.stays_stable(
+    cases.stays_stable(
         "lambda/mu = 1e4, " + volumetric,
         box("[5, 5, 5]",
             "jitter = 0.2\nvolumetric = \"" + volumetric +
@@ -218,33 +122,34 @@ void run(StudyRun& study) {
                 swirl,
             0.5),
         1e-2);
-  step_limit(study, suite);
-  const auto spinning = suite.stays_stable(
+  step_limit(cases);
+  const auto spinning = cases.stays_stable(
       "spinning ball",
       "dimension = 3\ntime = { end = 1e9 }\n[[body]]\nname = \"body\"\nshape = \"ball\"\nradius = "
       "1\ncore = 2\nlayers = 1\nsupport_spacings = 2.2\ninitial_velocity = [\"-0.2*y\", \"0.2*x\", "
       "\"0\"]\n" +
           solid,
-      1e-2, full ? 1e6 : 1e4);
+      1e-2, {full ? 1e6 : 1e4});
   study.require("spinning ball: largest error of the angular momentum",
                 spinning.angular_momentum_error, {0, 1e-10});
   // Its particles stay where the long reference has them: later the surface of the drop is no
   // longer resolved, falls below that of the sphere, and a run says so.
   const std::string long_drop = "drop 1 : 4 : 1";
-  const Outcome relaxed = suite.stays_stable(
+  const HardOutcome relaxed = cases.stays_stable(
       long_drop, drop("[0.63, 2.52, 0.63]", 6, 0.93, full ? 0.75 : 0.3, "support_factor = 2.3\n"),
       1e-2);
   study.require(long_drop + ": area / area of the sphere", relaxed.measure("body.area") / 12.566,
                 {1, 1.28});
-  suite.stays_stable("drop at Oh = 0.01", drop("[1, 1.1, 1]", full ? 6 : 4, 0.01, full ? 20 : 4),
+  cases.stays_stable("drop at Oh = 0.01", drop("[1, 1.1, 1]", full ? 6 : 4, 0.01, full ? 20 : 4),
                      1e-2);
-  suite.stays_stable(
+  cases.stays_stable(
       "impact at 0.3 c",
       box("[6, 6, 6]", "initial_velocity = [\"-0.348*tanh(20*x)\", \"0\", \"0\"]\n" + solid, 3),
       5e-2);
-  suite.stops("inverted from the start",
+  cases.stops("inverted from the start",
               box("[4, 4, 4]", "initial_displacement = [\"-1.5*x\", \"0\", \"0\"]\n" + solid, 1),
               "particle");
+  study::hard_contact(cases);
 }
 
 const bool registered =

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of the pair functions per pair and of rigid partners per point.
+// Time of the pair functions and of the forms of contact per pair, and of rigid partners per point.
+#include "meniscus/physics/contact_list.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
+#include "meniscus/scene/scene.hpp"
+
+#include <fmt/format.h>
 
 #include <memory>
 #include <string>
@@ -50,6 +54,49 @@ void add_pair_case(PairKernel kernel, bool volume) {
   });
 }
 
+/// Two balls of radius 3 sigma0 at the equilibrium gap of planes.
+Scene<3> two_balls(const std::string& form) {
+  const auto ball = [](const char* name, Real z) {
+    return fmt::format(
+        "[[body]]\nname = '{}'\nshape = 'ball'\nradius = 3\ncore = 8\nlayers = 4\n"
+        "centre = [0, 0, {}]\nmaterial = {{ type = 'neo_hookean', density = 1, mu = 1, lambda = 1 "
+        "}}\n",
+        name, z);
+  };
+  const SceneInput input = SceneInput::from_text(
+      "dimension = 3\ntime.end = 1\n" + ball("one", 0) + ball("two", 6.64) +
+      fmt::format("[[contact]]\nbodies = ['one', 'two']\nepsilon = 1\nsigma0 = 1\nbeta = "
+                  "1\npoints = 2\nform = '{}'\n",
+                  form));
+  scene_dimension(input);
+  return build_scene<3>(input);
+}
+
+/// Pairs of points in the list; a pair acts on both.
+Real pairs_of(const Scene<3>& scene, bool volume) {
+  const auto points = [&](std::size_t k) {
+    const Body<3>& body = scene.system.bodies.at(k);
+    return volume ? ContactPoints<3>::in_volume(body, 1, 2)
+                  : ContactPoints<3>::on_surface(body, 1, SiteDensity::constant, 2);
+  };
+  ContactList<3> list(4, 0.4);
+  list.update(points(0).x(), points(1).x());
+  return Lanes::width * Lanes::width * static_cast<Real>(list.pairs());
+}
+
+void add_form_case(const std::string& form) {
+  add_case("forms of contact, both bodies, list and scatter included", form, 1,
+           [form](benchmark::State& state) {
+             const Scene<3> scene = two_balls(form);
+             const Real count = pairs_of(scene, form == "volume");
+             ForceTerm& term = *scene.system.terms.back();
+             NodalVectors sum(scene.initial.u.size(), Lanes::zero());
+             const double time =
+                 shortest(state, [&] { term.add_force(scene.initial.motion(), sum); });
+             set_columns(state, {{"ns/pair", 1e9 * time / count}, {"pairs", count}});
+           });
+}
+
 template <int D>
 void add_partner_case(const std::string& name, std::shared_ptr<const RigidPartner<D>> partner,
                       Vec<D> from, Vec<D> to) {
@@ -69,6 +116,7 @@ void add_partner_case(const std::string& name, std::shared_ptr<const RigidPartne
 void add_contact_cases() {
   for (const PairKernel kernel : {PairKernel::space, PairKernel::integrated, PairKernel::planar})
     for (const bool volume : {false, true}) add_pair_case(kernel, volume);
+  for (const char* form : {"energy", "pressure", "dissertation", "volume"}) add_form_case(form);
   const ContactLaw space;
   const Vec<3> o = Vec<3>::Zero(), x = Vec<3>::UnitX();
   add_partner_case<3>("half space", rigid_half_space<3>(space, 1, o, x), 0.4 * x, 4.0 * x);

@@ -53,6 +53,27 @@ class Scenes(ProgramTest):
                                      "did you mean 'viscosity'?", "body[0].layers")
         self.assertEqual(len(report.splitlines()), 5, report)  # viscosity is also missing
 
+    def test_overlap_of_bodies_in_contact(self):
+        disk = """
+        [[body]]
+        name = "{}"
+        shape = "disk"
+        radius = 1
+        core = 4
+        rings = 2
+        centre = [{}, 0]
+        material = {{ type = "neo_hookean", density = 1, mu = 1, lambda = 1 }}
+        """
+        text = "dimension = 2\ntime.end = 1\n" + disk.format("one", 0) + disk.format("two", 2.05)
+        text += '[[contact]]\nbodies = ["one", "two"]\nepsilon = 1\nsigma0 = 0.4\nbeta = 1\n'
+        self.assert_refused(text, "contact[0]", "surfaces overlap", "'one' and 'two'",
+                            "move the bodies apart")
+
+    def test_counted_falls_need_a_level(self):
+        expect = "[expect]\nkinetic_energy = {{ reduce = \"{}\", value = 1, within = 0{} }}\n"
+        self.assert_refused(DROP + expect.format("falls", ""), "level", "is missing")
+        self.assert_refused(DROP + expect.format("max", ", level = 1"), "level", "falls")
+
     def test_names_of_outputs(self):
         text = self.change(DROP, ('"J"]', '"presure", "J", "J"]'), ('"drop.p2"', '"drop.aspct"'))
         text += """

@@ -105,6 +105,23 @@ TEST(ContactRun, WorkOfAMovingPlateIsBooked) {
   EXPECT_LT(std::abs(run.simulation.audit().balance_error(ledger)), 5e-4);
 }
 
+TEST(ContactRun, RelaxationNeedsPartnersThatComeToRest) {
+  const auto plate_after = [](const std::string& motion) {
+    return "dimension = 2\n[time]\nend = 2\nsolver = \"relax\"\n" + disk("left", "") +
+           contact("[\"left\"]",
+                   "partner = { type = \"half_space\", point = [0, -1.7], normal = [0, 1], "
+                   "displacement = [0, \"" +
+                       motion + "\"] }");
+  };
+  Scene<2> stops = scene_of(plate_after("0.05*min(t, 1.5)"));
+  EXPECT_NO_THROW(Simulation<2>{stops});
+  EXPECT_NEAR(stops.system.terms.back()->steady_after(), 1.5, 2e-4);
+  Scene<2> moves_on = scene_of(plate_after("0.05*t"));
+  EXPECT_THROW(Simulation<2>{moves_on}, InputError);
+  Scene<2> rests = scene_of(plate_after("0.05"));
+  EXPECT_EQ(rests.system.terms.back()->steady_after(), 0);
+}
+
 TEST(ContactRun, SameBitsForAnyThreadsAndAfterARestart) {
   const auto state_after = [](int threads, int restart_at) {
     const int before = omp_get_max_threads();

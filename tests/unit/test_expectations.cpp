@@ -70,6 +70,21 @@ TEST_F(Expectations, Reductions) {
   EXPECT_TRUE(evaluate(over("wave", "decay_rate", 0.3)).met);
 }
 
+TEST_F(Expectations, FallsBelowALevelAreCounted) {
+  ExpectSettings e = over("wave", "falls", 10);
+  e.level = 0;
+  EXPECT_TRUE(evaluate(e).met);
+  e.level = 0.5;  // exp(-0.3 t) at t = 0, 1, 2
+  e.value = 3;
+  EXPECT_TRUE(evaluate(e).met);
+  e.from = 0.5;
+  e.value = 2;
+  EXPECT_TRUE(evaluate(e).met);
+  e.of = "line";
+  e.value = 0;
+  EXPECT_TRUE(evaluate(e).met);
+}
+
 TEST_F(Expectations, SpansIncludeTheirEnds) {
   ExpectSettings e = over("line", "mean", -2.5);
   e.from = 1;

@@ -30,6 +30,35 @@ TEST(Shapes, BallCountsAndVolume) {
   EXPECT_TRUE(ball.smooth);
 }
 
+TEST(Shapes, HalfSphereIsHalfABall) {
+  HalfSphere shape;
+  shape.core = 6;
+  shape.layers = 3;
+  shape.radius = 2;
+  shape.centre = {1, 2, 3};
+  const Geometry<3> body = shape.geometry();
+  EXPECT_EQ(body.grid.cell_count(), (6 * 6 * 6 + 6 * 36 * 3) / 2);
+  // Nodes of the plane are in both halves: 7^2 of the core and 24 in each shell.
+  Ball whole;
+  whole.core = 6;
+  whole.layers = 3;
+  const Index in_plane = 49 + 3 * 24;
+  EXPECT_EQ(2 * body.grid.node_count() - in_plane, whole.geometry().grid.node_count());
+  EXPECT_NEAR(volume(body.grid), 4 * volume(whole.geometry().grid), 1e-12);
+  EXPECT_FALSE(body.smooth);
+  std::array<std::size_t, 2> facets{};
+  for (const auto& facet : body.grid.facets) {
+    ++at(facets, facet.patch);
+    for (const Index i : facet.nodes) {
+      const Vec<3> X = at(body.grid.X, i) - Vec<3>(1, 2, 3);
+      EXPECT_NEAR(facet.patch == 0 ? X.norm() - 2 : X[2], 0, 1e-14);
+    }
+  }
+  EXPECT_EQ(facets, (std::array<std::size_t, 2>{3 * 36, 36 + 3 * 24}));
+  shape.core = 5;
+  EXPECT_THROW(shape.geometry(), InputError);
+}
+
 TEST(Shapes, CylinderCountsAndVolume) {
   Cylinder cylinder;
   cylinder.radius = 2;
@@ -118,7 +147,7 @@ TEST(Shapes, BoxNeedsCellsOrSpacing) {
 }
 
 TEST(Shapes, AreRegisteredWithTheirKeys) {
-  for (const char* name : {"ball", "ellipsoid", "cylinder", "box"})
+  for (const char* name : {"ball", "ellipsoid", "half_sphere", "cylinder", "box"})
     EXPECT_TRUE(shapes<3>().count(name)) << name;
   for (const char* name : {"disk", "ellipse", "rectangle"})
     EXPECT_TRUE(shapes<2>().count(name)) << name;

@@ -10,6 +10,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 import cells
+import contacts
 import drop_decay
 import histories
 import sections
@@ -41,6 +42,7 @@ def pictures_of(args):
     run = Results(args.dir)
     return {
         **histories.draw(run),
+        **contacts.draw(run),
         **drop_decay.draw(run),
         **cells.draw(run),
         **sections.draw(run, args.field, args.frames),

@@ -5,6 +5,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
 
+import partners
 import style
 
 
@@ -78,7 +79,9 @@ def outline(body, x, plane):
 
 def picture(run, plane, frames, cuts, name):
     everything = [cut for cuts_of_frame in cuts for cut in cuts_of_frame]
-    points = np.concatenate([np.vstack([c.x, c.outline.reshape(-1, 2)]) for c in everything])
+    points = np.concatenate(
+        [np.vstack([c.x, c.outline.reshape(-1, 2)]) for c in everything] + partners.outlines(run)
+    )
     values = np.concatenate([c.values for c in everything])
     largest = max(cut.size.max(initial=0) for cut in everything)
     margin = 0.02 * np.ptp(points, axis=0).max() + largest / 2
@@ -104,6 +107,7 @@ def picture(run, plane, frames, cuts, name):
             dots.set_array(cut.values * factor)
             axis.add_collection(dots)
             axis.add_collection(LineCollection(cut.outline * length_factor, colors="0.2", lw=0.9))
+        partners.draw(axis, run, length_factor)
         axis.set_title(style.time_text(run.times[frame], time_unit, time_factor), fontsize=10)
         axis.set_xlim(low[0] * length_factor, high[0] * length_factor)
         axis.set_ylim(low[1] * length_factor, high[1] * length_factor)

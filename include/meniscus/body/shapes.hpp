@@ -37,6 +37,18 @@ struct Ellipsoid {
   Geometry<3> geometry() const;
 };
 
+/// The half of Ball with z >= 0, centred at its flat face.
+struct HalfSphere {
+  static constexpr const char* name = "half_sphere";
+  static constexpr const char* meaning = "half ball above its flat face z = 0";
+  Real radius = 1;
+  int core = 10, layers = 5;
+  std::vector<Real> centre{0, 0, 0};
+
+  static Rows<HalfSphere> rows();
+  Geometry<3> geometry() const;
+};
+
 /// Cylinder about z, a flat one being a disc: the cells of Disk in `layers` equal layers.
 struct Cylinder {
   static constexpr const char* name = "cylinder";

@@ -50,7 +50,7 @@ struct MovingPartner {
   std::unique_ptr<RigidPartner<D>> shape;
   RigidMotion<D> motion = {};
   Real beta = 1;
-  Real velocity_step = 0;  ///< of the difference that gives its velocity, a time
+  Real velocity_step = 0;  ///< of the difference that gives its velocity: 1e-4 of the run
 };
 
 /// Contact of a body with a rigid partner; any form but `volume`, for which InputError is thrown.

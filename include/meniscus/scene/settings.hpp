@@ -87,6 +87,7 @@ struct ExpectSettings {
   std::string reduce;          ///< how the record becomes one number
   std::optional<Real> at, to;  ///< times; absent: the end of the scene
   Real from = 0, value = 0;
+  std::optional<Real> level;                    ///< for the reduction "falls"
   std::optional<Real> within, within_relative;  ///< tolerances, at least one is given
   static Rows<ExpectSettings> rows();
 };

@@ -34,6 +34,7 @@ class RigidContact final : public ForceTerm {
         now_(std::make_unique<Configuration>(
             ContactPoints<D>::on_surface(body.body, body.beta, choice.density, choice.points))) {
     near_.reserve(now_->all.size());
+    if (partner_.motion.moves()) steady_after_ = end_of_motion();
   }
 
   std::string name() const override { return "contact '" + name_ + "'"; }
@@ -62,6 +63,7 @@ class RigidContact final : public ForceTerm {
     });
   }
   Real external_power(const Motion&) const override { return power_; }
+  Real steady_after() const override { return steady_after_; }
 
   std::optional<Failure> failure() const override { return failure_; }
   StepDemand step_demand() const override { return demand_; }
@@ -94,6 +96,7 @@ class RigidContact final : public ForceTerm {
     }
   };
 
+  Real end_of_motion() const;
   void bring_up(const Motion& motion) const;
   void feel(Index cluster, const Vec<D>& shift) const;
   void note_closeness(const Motion& motion);
@@ -121,10 +124,23 @@ class RigidContact final : public ForceTerm {
   MovingPartner<D> partner_;
   std::unique_ptr<Configuration> now_;
   std::vector<Index> near_;  // clusters that the step demand looks at
-  Real power_ = 0;
+  Real power_ = 0, steady_after_ = 0;
   std::optional<Failure> failure_;
   StepDemand demand_;
 };
+
+/// From when on the partner stays where it is, to 1e-4 of the run; infinite if it never does.
+template <int D>
+Real RigidContact<D>::end_of_motion() const {
+  constexpr int steps_of_run = 10000;
+  const auto place = [&](int k) {
+    return partner_.motion.displacement(k * partner_.velocity_step);
+  };
+  const Vec<D> last = place(steps_of_run);
+  int k = steps_of_run;
+  while (k > 0 && place(k - 1) == last) --k;
+  return k == steps_of_run ? std::numeric_limits<Real>::infinity() : k * partner_.velocity_step;
+}
 
 template <int D>
 void RigidContact<D>::bring_up(const Motion& motion) const {

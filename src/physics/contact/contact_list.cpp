@@ -2,6 +2,7 @@
 // Building a list of clusters, and the test whether it still holds.
 #include "meniscus/physics/contact_list.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meniscus {
@@ -135,10 +136,16 @@ void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const
   });
   first_.start.assign(1, 0);
   first_.partner.clear();
-  std::size_t pairs = 0;
-  for (Found& found : found_) {
+  // A contact that moves on over the surface needs in other chunks what it needs in these.
+  std::size_t pairs = 0, most_pairs = 0, most_candidates = 0;
+  for (const Found& found : found_) {
     pairs += found.partner.size();
-    make_room(found.partner, found.partner.size());
+    most_pairs = std::max(most_pairs, found.partner.size());
+    most_candidates = std::max(most_candidates, found.candidates.capacity());
+  }
+  for (Found& found : found_) {
+    make_room(found.partner, most_pairs);
+    found.candidates.reserve(most_candidates);
   }
   make_room(first_.partner, pairs);
   make_room(second_.partner, pairs);

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hard cases of contact: fast first contact, a tip smaller than sigma0, strong compression,
+// overlap, and how strongly flat surfaces with matching points hold each other (CGCM notes 7, 8 and
+// 10).
+#include "meniscus/physics/contact_numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "support/hard_cases.hpp"
+
+namespace meniscus::study {
+namespace {
+
+constexpr const char* solid = "neo_hookean\", density = 1, mu = 400, lambda = 300";
+
+std::string disk(const std::string& name, Real radius, const std::string& more) {
+  return fmt::format(
+      "[[body]]\nname = \"{}\"\nshape = \"disk\"\nradius = {}\ncore = 6\nrings = 3\n"
+      "support_spacings = 2.2\n{}\nmaterial = {{ type = \"{} }}\n",
+      name, radius, more, solid);
+}
+
+std::string contact(const std::string& bodies, const std::string& more) {
+  return "[[contact]]\nname = \"contact\"\nbodies = " + bodies +
+         "\nepsilon = 4\nsigma0 = 0.4\nbeta = 1\npoints = 3\n" + more + "\n";
+}
+
+std::string header(Real end) {
+  return fmt::format("dimension = 2\n[time]\nend = {}\n", end);
+}
+
+/// The least gap of a run in which bodies must have met.
+void met(HardCases& cases, const std::string& name, const HardOutcome& outcome, Range allowed) {
+  const auto gap = outcome.least.find("contact.gap");
+  cases.study().require(name + ": least gap / sigma0",
+                        gap == outcome.least.end() ? std::nan("") : gap->second / 0.4, allowed);
+}
+
+void first_contact(HardCases& cases) {
+  const Real c = std::sqrt(1100.0);  // of compression waves
+  const std::string name = "first contact at 0.1 c";
+  const HardOutcome outcome = cases.stays_stable(
+      name,
+      header(1) +
+          disk("left", 1, fmt::format("centre = [-1.5, 0]\ninitial_velocity = [{}, 0]", 0.05 * c)) +
+          disk("right", 1,
+               fmt::format("centre = [1.5, 0.2]\ninitial_velocity = [{}, 0]", -0.05 * c)) +
+          contact("[\"left\", \"right\"]", "least_gap = 0.2"),
+      5e-3, {.watched = {"contact.gap"}});
+  met(cases, name, outcome, {0.2, 0.4});
+}
+
+void small_tip(HardCases& cases) {
+  const std::string name = "tip of radius 0.6 sigma0";
+  const HardOutcome outcome = cases.stays_stable(
+      name,
+      header(1) + disk("tip", 0.24, "centre = [0, 0.9]\ninitial_velocity = [0, -1]\n") +
+          contact("[\"tip\"]",
+                  "partner = { type = \"half_space\", point = [0, 0], normal = [0, 1] }"),
+      1e-3, {.watched = {"contact.gap"}});
+  met(cases, name, outcome, {0.3, 0.637});
+}
+
+/// A block between two plates at the equilibrium gap g*, where the stiffness of contact governs the
+/// step: sigma0 is 1/50 of the spacing of particles. The pressure of the plates at 0.6 g* is 384
+/// epsilon sigma0^3 (CGCM note 3.1), which compresses the block by a sixth. K(0.6 g*) / K(g*) = 244
+/// (CGCM note 8), so that the step falls by up to sqrt(244) = 15.6.
+void compression(HardCases& cases) {
+  constexpr Real sigma0 = 0.01, modulus = 2000;  // epsilon sigma0^3 = 1
+  const Real gap = sigma0 * std::pow(15, -1.0 / 6);
+  const auto plate = [&](const std::string& name, int side, const std::string& motion) {
+    return fmt::format(
+        "[[contact]]\nname = \"{}\"\nbodies = [\"block\"]\nepsilon = {}\nsigma0 = {}\nbeta = 1\n"
+        "partner = {{ type = \"half_space\", point = [0, {}], normal = [0, {}]{} }}\n",
+        name, std::pow(sigma0, -3), sigma0, side * (0.5 + gap), -side, motion);
+  };
+  const std::string name = "compression to 0.6 of the equilibrium gap";
+  const HardOutcome outcome = cases.stays_stable(
+      name,
+      header(0.25) +
+          fmt::format("[[body]]\nname = \"block\"\nshape = \"rectangle\"\nsize = [1, 1]\n"
+                      "spacing = 0.5\nmaterial = {{ type = \"neo_hookean\", density = 1, mu = {}, "
+                      "lambda = 0 }}\n",
+                      modulus / 2) +
+          plate("upper", 1, ", displacement = [0, \"-0.0888*(1 - cos(4*pi*t))\"]") +
+          plate("lower", -1, ""),
+      1e-2, {.watched = {"lower.gap"}});
+  const auto least = outcome.least.find("lower.gap");
+  cases.study().require(name + ": least gap / equilibrium gap",
+                        least == outcome.least.end() ? std::nan("") : least->second / gap,
+                        {0.56, 0.62});
+  cases.study().require(name + ": step at the equilibrium gap / least step",
+                        outcome.first_step / outcome.least_step, {10, 20});
+}
+
+void overlap(HardCases& cases) {
+  cases.stops("start in overlap",
+              header(1) + disk("left", 1, "centre = [-1, 0]") +
+                  disk("right", 1, "centre = [1.05, 0]") + contact("[\"left\", \"right\"]", ""),
+              "surfaces overlap");
+}
+
+/// Largest lateral force between two flat surfaces with the same lattice of points that are shifted
+/// against each other, relative to their peak attraction: artificial friction.
+Real pinning(Real spacing_per_gap) {
+  ContactLaw law;
+  law.cutoff = 4;
+  const PairLaw<PairKernel::space> pair(law);
+  const Real gap = plane_contact(law, 1).equilibrium_gap, h = spacing_per_gap * gap;
+  const int reach = static_cast<int>(std::ceil(law.reach() / h)) + 1;
+  Real largest = 0;
+  for (int shift = 0; shift < 16; ++shift) {
+    Real force = 0;  // per area: V.W = -h^4, T = psi V.W r
+    for (int i = -reach; i <= reach; ++i)
+      for (int j = -reach; j <= reach; ++j) {
+        const Real x = (i + shift / 16.0) * h, y = j * h;
+        const Real square = x * x + y * y + gap * gap;
+        if (square < law.reach() * law.reach()) force += pair.surface(square).psi * x * h * h;
+      }
+    largest = std::max(largest, std::abs(force));
+  }
+  return largest / plane_contact(law, 1).peak_traction;
+}
+
+/// Conforming flat lattices in registry hold each other at coarse spacings, and hardly where the
+/// rule h <= gap / 2 is kept.
+void registry(HardCases& cases) {
+  for (const Real ratio : {0.4, 0.5, 0.75, 1.0})
+    cases.study().note(
+        fmt::format("flat lattices in registry at the equilibrium gap, h/gap = {}: lateral "
+                    "force up to {:.2g} of the peak traction",
+                    ratio, pinning(ratio)));
+  cases.study().require("lattices in registry: lateral force / peak traction at h/gap = 0.4",
+                        pinning(0.4), {0, 2e-3});
+  cases.study().require("lattices in registry: the same at h/gap = 0.5", pinning(0.5), {0, 0.02});
+  cases.study().require("lattices in registry: the same at h/gap = 1 (pinned)", pinning(1),
+                        {0.3, 1});
+}
+
+}  // namespace
+
+void hard_contact(HardCases& cases) {
+  first_contact(cases);
+  small_tip(cases);
+  compression(cases);
+  overlap(cases);
+  registry(cases);
+}
+
+}  // namespace meniscus::study

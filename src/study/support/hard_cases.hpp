@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the study of hard cases follows a run, and what it states about it.
+#pragma once
+#include "meniscus/study/study.hpp"
+
+#include <limits>
+#include <map>
+#include <string>
+
+namespace meniscus::study {
+
+/// What became of a run.
+struct HardOutcome {
+  Index particles = 0;
+  Real steps = 0;
+  Real energy_error = 0;  ///< largest error of the energy balance
+  Real final_energy_error = 0;
+  Real angular_momentum_error = 0;  ///< largest
+  Real first_step = 0,
+       least_step = 1e300;            ///< lengths; of the last two steps, which fit the end, not
+  std::map<std::string, Real> least;  ///< smallest so far of the measures that are watched
+  std::string stopped;                ///< message of the failure; empty if it ran to its end
+  std::string remarks;                ///< notes and warnings of the set-up
+  std::map<std::string, Real> measures;
+
+  /// At the end; not a number if the run did not get there.
+  Real measure(const std::string& name) const;
+};
+
+/// How to follow a run.
+struct HardRun {
+  Real largest_step_number = 1e300;
+  std::vector<std::string> watched = {};  ///< measures looked at after every step
+};
+
+/// Runs cases and states what should become of them.
+class HardCases {
+ public:
+  explicit HardCases(StudyRun& study) : study_(study) {}
+
+  /// Runs `scene` and states that it ends, with an energy balance within `bound`.
+  HardOutcome stays_stable(const std::string& name, const std::string& scene, Real bound,
+                           const HardRun& how = {});
+  /// States that `scene` stops, or is refused, with a message that contains `cause`.
+  void stops(const std::string& name, const std::string& scene, const std::string& cause);
+  void says(const std::string& name, const HardOutcome& outcome, const std::string& text);
+  void record(const std::string& name, const HardOutcome& outcome, Real seconds);
+
+  StudyRun& study() { return study_; }
+
+ private:
+  StudyRun& study_;
+};
+
+/// Cases of contact (CGCM notes 7 and 10).
+void hard_contact(HardCases& cases);
+
+}  // namespace meniscus::study

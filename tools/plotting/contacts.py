@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts of a run: gap and force over time, and force against gap."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import style
+from histories import time_axis
+
+
+def draw(run):
+    bodies = {body.name for body in run.bodies}
+    names = [name.removesuffix(".gap") for name in run.history if name.endswith(".gap")]
+    found = {name: picture(run, name) for name in names if name not in bodies}
+    return {f"{name}_contact": figure for name, figure in found.items() if figure}
+
+
+def normal_force(run, name):
+    """The component of the force that changes most; none if the history has no force."""
+    columns = [f"{name}.force_{i}" for i in "xyz" if f"{name}.force_{i}" in run.history]
+    return max(columns, key=lambda column: np.ptp(run.history[column]), default=None)
+
+
+def picture(run, name):
+    force = normal_force(run, name)
+    if force is None:
+        return None
+    gap_factor, gap_unit = style.scale(run.length_unit, run.history[f"{name}.gap"])
+    force_factor, force_unit = style.scale(run.units[force], run.history[force])
+    gap, push = run.history[f"{name}.gap"] * gap_factor, run.history[force] * force_factor
+    gap_label = style.label("gap", gap_unit)
+    force_label = style.label(f"force ${force[-1]}$", force_unit)
+
+    figure = plt.figure(figsize=(7.4, 3.3), layout="constrained")
+    grid = figure.add_gridspec(2, 2, width_ratios=(1, 1.1))
+    top = figure.add_subplot(grid[0, 0])
+    bottom = figure.add_subplot(grid[1, 0], sharex=top)
+    time, _ = time_axis(run, bottom)
+    for axis, values, label in ((top, gap, gap_label), (bottom, push, force_label)):
+        axis.plot(time, values, color=style.COLORS[0], lw=0.9)
+        axis.set_ylabel(label)
+    top.tick_params(labelbottom=False)
+    curve(figure.add_subplot(grid[:, 1]), gap, push, gap_label, force_label)
+    return figure
+
+
+def curve(axis, gap, push, gap_label, force_label):
+    """Force against gap, until the gap is least and after that."""
+    turn = int(np.argmin(gap))
+    axis.plot(gap[: turn + 1], push[: turn + 1], color=style.COLORS[0], lw=0.9, label="approach")
+    axis.plot(gap[turn:], push[turn:], color=style.COLORS[1], lw=0.9, label="after the least gap")
+    axis.axhline(0, color="0.7", lw=0.6, zorder=0)
+    axis.set(xlabel=gap_label, ylabel=force_label)
+    axis.legend()
