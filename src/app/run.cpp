@@ -127,7 +127,7 @@ bool report_rest(const Simulation<D>& simulation, RunLog& log) {
   if (!relaxation || !simulation.finished()) return true;
   const Scene<D>& scene = simulation.scene();
   const std::string measures = fmt::format(
-      "force residual {:.3g} (allowed {:.3g}), change of shape in a quarter period {:.3g} (allowed "
+      "force residual {:.3g} (allowed {:.3g}), change of shape that is left {:.3g} (allowed "
       "{:.3g})",
       relaxation->force_residual(simulation.state()), scene.time.force_tolerance,
       relaxation->shape_change(), scene.time.shape_tolerance);

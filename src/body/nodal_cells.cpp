@@ -115,10 +115,11 @@ class CellMap {
     return OctantTable<D>::instance(bulge_ ? bulge_->curved : 0);
   }
   CellPoint<D, D> operator()(const TabulatedPoint<D>& p) const {
-    CellPoint<D, D> point{corners_ * p.N, corners_ * p.dN};
+    // Not the products for large matrices, which take most of the time here.
+    CellPoint<D, D> point{corners_.lazyProduct(p.N), corners_.lazyProduct(p.dN)};
     if (bulge_) {
-      point.X += bulge_->deviation * p.bulge.N;
-      point.J += bulge_->deviation * p.bulge.dN;
+      point.X += bulge_->deviation.lazyProduct(p.bulge.N);
+      point.J += bulge_->deviation.lazyProduct(p.bulge.dN);
     }
     return point;
   }

@@ -59,7 +59,7 @@ Rows<TimeSettings> TimeSettings::rows() {
       real_row("force_tolerance", &S::force_tolerance, dimension::none, range::positive,
                "relax: forces left on the particles / forces before they cancel", 1e-5),
       real_row("shape_tolerance", &S::shape_tolerance, dimension::none, range::positive,
-               "relax: largest change of place in a period of the slowest mode / extent", 1e-4),
+               "relax: largest change of place that is left / extent", 1e-4),
   };
 }
 

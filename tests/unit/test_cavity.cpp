@@ -96,6 +96,7 @@ TEST(Cavity, PressureFollowsTheRamp) {
   filling.penalty = 10;
   filling.ramp = {1, 3};
   const auto term = cavity<3>(*body, SurfacePart::inner, filling, 3);
+  EXPECT_EQ(term->steady_after(), 3);
   EXPECT_NEAR(measure(*term, "cavity_fraction", u), 1, 1e-14);
   EXPECT_NEAR(measure(*term, "cavity_pressure", u, 0.5), 0, 1e-13);
   EXPECT_NEAR(measure(*term, "cavity_pressure", u, 2), -10 * 0.15, 1e-12);
@@ -114,6 +115,7 @@ TEST(Cavity, VentedDoesNothing) {
   const auto term = cavity<3>(*body, SurfacePart::inner, {}, 3);
   EXPECT_EQ(test::norm(test::force_of(*term, u)), 0);
   EXPECT_FALSE(term->stored_energy({0, u, u}).has_value());
+  EXPECT_EQ(term->steady_after(), 0);
 }
 
 TEST(Cavity, FacesThatTouchAreAFailure) {

@@ -2,6 +2,10 @@
 // Kernels of shells stay inside the wall, and what it costs when they do not.
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/body/wall_supports.hpp"
+#include "meniscus/physics/cavity.hpp"
+#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/solve/relaxation.hpp"
+#include "meniscus/solve/step_controller.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,6 +44,21 @@ Index couplings_across(const ParticleSet<3>& particles, const Geometry<3>& geome
   return count;
 }
 
+/// Share of the particles whose kernels reach the other side of the cavity.
+Real crossing_kernels(const ParticleSet<3>& particles, const Geometry<3>& geometry) {
+  const auto inner = surface_points(geometry, 3, SurfacePart::inner);
+  Index count = 0;
+  for (Index A = 0; A < particles.size(); ++A) {
+    const Vec<3>&X = at(particles.X(), A), normal = geometry.director(X);
+    bool crosses = false;
+    for (Index q = 0; q < inner.size() && !crosses; ++q)
+      crosses = (at(inner.X, q) - X).norm() < at(particles.support(), A) &&
+                normal.dot(at(inner.N, q)) > 0.77;
+    count += crosses;
+  }
+  return Real(count) / particles.size();
+}
+
 TEST(WallSupports, EndBeforeTheOtherSide) {
   for (const Real spacing : {1.0, 0.49}) {
     const Geometry<3> geometry = flat_cell(spacing);
@@ -67,27 +86,71 @@ TEST(WallSupports, SolidBodiesKeepTheirs) {
   EXPECT_EQ(keep_supports_in_wall(particles, ball).shortened, 0);
 }
 
-/// Strain energy of faces that approach each other with a smooth dent.
-Real dent_energy(Real spacing, Real thickness, bool in_wall) {
-  Geometry<3> geometry = flat_cell(spacing, thickness);
-  ParticleSet<3> particles = default_supports(geometry);
-  if (in_wall) keep_supports_in_wall(particles, geometry);
-  particles.ensure_quality(geometry.grid.X, "cell");
-  Body<3> body("cell", std::move(geometry), std::move(particles));
-  body.at_particles =
-      build_point_rows<3>(body.particles, body.particles.X(), {.value = true}, body.name);
-  const auto term = test::internal_force<3>(body, "neo_hookean");
-  const NodalVectors u = test::field_on<3>(body, [&](const Vec<3>& X) {
-    const Real x = X.head<2>().norm() / 3.5, dent = x < 1 ? 0.01 * std::pow(1 - x * x, 3) : 0;
-    return Vec<3>(0, 0, X[2] > 0 ? -dent : dent);
-  });
-  return test::energy_of(*term, u);
+/// The hollow disk of red blood cell note 9, deflated to about 0.72 of its cavity.
+struct Deflated {
+  Real crossing = 0;  ///< share of the kernels that reach across the cavity
+  Real energy = 0;    ///< of strain, over that of finite elements at the same enclosed volume
+};
+
+/// Red blood cell note 4: energies at 0.7, 0.72 and 0.74 of the cavity, and between them.
+Real finite_element_energy(Real fraction) {
+  const Real x = (fraction - 0.72) / 0.02;
+  return 429.39556 + x * (372.39071 - 490.54635) / 2 +
+         x * x * (372.39071 + 490.54635 - 2 * 429.39556) / 2;
 }
 
+Deflated deflated(bool in_wall) {
+  System<3> system;
+  Geometry<3> geometry = flat_cell(0.977);
+  ParticleSet<3> particles{geometry.grid.X, 2.4, Window::cubic_spline};
+  if (in_wall) keep_supports_in_wall(particles, geometry);
+  particles.ensure_quality(geometry.grid.X, "cell");
+  Body<3>& body = system.bodies.emplace_back("cell", std::move(geometry), std::move(particles));
+  body.at_particles =
+      build_point_rows<3>(body.particles, body.particles.X(), {.value = true}, body.name);
+  system.terms.push_back(test::internal_force<3>(
+      body, "liquid_crystal_elastomer",
+      "# reference_director: by default the normals of the wall\ndensity = 1000\nmu = 1e4\n"
+      "bulk_modulus = 1e5\nvolume_energy = \"logarithmic\"\nstep_length = 2\n"));
+  CavityFilling filling;
+  filling.volume_target = 0.7;
+  filling.penalty = 4000;
+  filling.ramp = {0, 6};
+  system.terms.push_back(cavity<3>(body, SurfacePart::inner, filling, 2));
+  system.mass = body.mass;
+
+  State state;
+  state.u.assign(system.mass.size(), Lanes::zero());
+  state.v = state.force = state.u;
+  start(system, state);
+  StepController<3> controller(system, {.fixed = {}, .safety = 0.9});
+  controller.begin(state);
+  Relaxation<3> relaxation(system, {1, 1});
+  relaxation.begin(state);
+  while (state.time < 9) {
+    const Real dt = controller.next(state, 9);
+    advance(system, state, dt);
+    relaxation.damp(state, dt);
+  }
+
+  ClosedSurface<3> inner(body, SurfacePart::inner, 2);
+  const NodalVectors still(state.u.size(), Lanes::zero());
+  const Real reference = inner.follow({0, still, still}).volume;
+  Deflated result;
+  result.energy = *system.terms.front()->stored_energy(state.motion()) /
+                  finite_element_energy(inner.follow(state.motion()).volume / reference);
+  result.crossing = crossing_kernels(body.particles, body.geometry);
+  return result;
+}
+
+// Red blood cell note 7 found 2.6 times the energy for 60 % of the kernels crossing, with 872
+// particles, too, but with nodal integration and supports it does not tell.
 TEST(WallSupports, KernelsAcrossTheCavityMakeItFarTooStiff) {
-  const Real exact = 2.819e-4;  // with spacings of 0.3 and 0.37
-  EXPECT_NEAR(dent_energy(0.9, 1.0, true), exact, 0.03 * exact);
-  EXPECT_GT(dent_energy(0.9, 1.0, false), 1.7 * exact);
+  const Deflated crossing = deflated(false), within = deflated(true);
+  EXPECT_NEAR(crossing.crossing, 0.6, 0.06);
+  EXPECT_GT(crossing.energy, 2.6);
+  EXPECT_EQ(within.crossing, 0);
+  EXPECT_NEAR(within.energy, 1.17, 0.1);
 }
 
 }  // namespace

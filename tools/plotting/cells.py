@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cross-sections of shells over the shape of a red blood cell and over a profile of the scene."""
+"""Cross-sections of shells over the shape of a red blood cell and over a profile of the scene, and
+what they look like in the end."""
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import sections
 import style
+import surfaces
 
 
 def draw(run):
@@ -44,7 +46,9 @@ def in_own_axes(body, x):
 def picture(run, body):
     factor, unit = style.scale(run.length_unit, body.X)
     plane = Meridian(body)
-    figure, axis = plt.subplots(figsize=(6.4, 2.9), layout="constrained")
+    figure, (axis, beside) = plt.subplots(
+        1, 2, figsize=(8.2, 2.9), width_ratios=[2, 1], layout="constrained"
+    )
     frames = [0, len(run.frames) - 1]
     for frame, color, text in zip(frames, ("0.75", style.COLORS[0]), ("start", "end")):
         x = in_own_axes(body, run.places(frame, body))
@@ -67,7 +71,16 @@ def picture(run, body):
     axis.set_xlabel(style.label("$r$", unit))
     axis.set_ylabel(style.label("$z$", unit))
     axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=2)
+    draw_solid(body, x, beside)
     return figure
+
+
+def draw_solid(body, x, axis):
+    seen = x @ surfaces.view([body]).T
+    axis.add_collection(surfaces.facets([body], [seen]))
+    axis.set_aspect("equal")
+    axis.autoscale_view()
+    axis.axis("off")
 
 
 def draw_profiles(run, body, axis, factor):
@@ -75,5 +88,5 @@ def draw_profiles(run, body, axis, factor):
         if profile["body"] != body.name:
             continue
         r, z = (factor * np.array(profile[key]) for key in ("r", "z"))
-        axis.plot(np.concatenate([r, r, -r, -r]), np.concatenate([z, -z, z, -z]), ".", ms=4,
+        axis.plot(np.concatenate([r, r, -r, -r]), np.concatenate([z, -z, z, -z]), ".", ms=3,
                   color=style.COLORS[1], zorder=4, label=profile["label"])  # fmt: skip

@@ -12,9 +12,10 @@ namespace meniscus {
 /// are braked hard, then omega falls to the slowest mode that moves. Forces are those of dynamics,
 /// and so is the stable step. Loads with ramps run over the same time.
 ///
-/// After the last ramp the bodies are observed over quarter periods of the slowest mode that moves:
-/// they are at rest when both measures below are small at the end of two in a row. Neither momentum
-/// nor angular momentum comes into bodies that have none, so that they do not drift.
+/// After the last ramp the bodies are observed over windows of an eighth of a period (a sixteenth
+/// at least) of the slowest mode that moves: they are at rest when both measures below are small at
+/// the end of two in a row. Neither momentum nor angular momentum comes into bodies that have none,
+/// so that they do not drift.
 template <int D>
 class Relaxation {
  public:
@@ -22,7 +23,8 @@ class Relaxation {
     /// Of sum |f_A| over the particles, relative to the forces before they cancel
     /// (ForceTerm::uncancelled_force).
     Real force;
-    /// Of the largest change of place within a quarter period, relative to the extent of its body.
+    /// Of the largest change of place that is left, relative to the extent of its body: what was
+    /// seen in a window, continued to where force and velocity of that motion take it.
     Real shape;
   };
 
@@ -32,13 +34,13 @@ class Relaxation {
   void begin(const State& state);
 
   /// To be called after every step: damps the velocities, books what that takes from the kinetic
-  /// energy as dissipated, and judges the state at the end of a quarter period.
+  /// energy as dissipated, and judges the state at the end of a window.
   void damp(State& state, Real dt);
 
-  bool at_rest() const { return settled_periods_ >= 2; }
+  bool at_rest() const { return settled_windows_ >= 2; }
   /// Of the present state.
   Real force_residual(const State& state) const;
-  /// Over the last quarter period; 1 before there was one.
+  /// Left to go, as extrapolated from the last window; 1 before there was one.
   Real shape_change() const { return shape_change_; }
   /// When the last ramp of the system ends.
   Real steady_after() const;
@@ -48,19 +50,23 @@ class Relaxation {
   void restore(const Snapshot& snapshot, const State& state);
 
  private:
-  void open_period(const State& state, Real length);
+  void open_window(const State& state, Real length);
   void judge(const State& state, Real dt);
-  /// sqrt(- du.df / du.M du) of the changes since displacements u and forces f; 0 if that is none.
-  Real frequency_since(const NodalVectors& u, const NodalVectors& f, const State& state) const;
+  struct Change {
+    Real omega;  ///< sqrt(- du.df / du.M du); 0 if there is no such frequency
+    Real left;   ///< amplitude of that motion from now on, in units of du
+  };
+  /// Since displacements u and forces f.
+  Change change_since(const NodalVectors& u, const NodalVectors& f, const State& state) const;
   Real largest_change(const State& state) const;
 
   System<D>& system_;
   Tolerances tolerances_;
   NodalVectors last_u_, last_force_;      ///< after the step before
-  NodalVectors period_u_, period_force_;  ///< at the beginning of the quarter period
-  Real period_begin_ = 0, period_length_ = 0;
+  NodalVectors window_u_, window_force_;  ///< at the beginning of the window
+  Real window_begin_ = 0, window_length_ = 0;
   Real shape_change_ = 1;
-  std::int64_t settled_periods_ = 0;
+  std::int64_t settled_windows_ = 0;
 };
 
 }  // namespace meniscus
