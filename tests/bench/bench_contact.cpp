@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time of the pair functions and of the forms of contact per pair, and of rigid partners per point.
 #include "meniscus/physics/contact_list.hpp"
+#include "meniscus/physics/contact_points.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
 #include "meniscus/scene/scene.hpp"
 
