@@ -196,7 +196,7 @@ class Reports(ProgramTest):
                 "[[surface_tension]]": "body gamma form points",
                 "[[body_force]]": "body acceleration",
                 "[[exact]]": "body displacement velocity rate",
-                "[expect.NAME]": "of reduce at from to value within within_relative"}.items():
+                "[expect.NAME]": "of reduce at from to level value within within_relative"}.items():
             self.assertEqual([line.split()[0] for line in tables[heading].splitlines()[1:]],
                              keys.split(), heading)
         for shape in ("ball", "box", "cylinder", "ellipsoid", "disk", "ellipse", "rectangle"):
