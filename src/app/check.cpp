@@ -35,12 +35,9 @@ void check_scene(const SceneInput& input) {
     fmt::print("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}\n", body.name, box,
                unit(dimension::length), least, largest, unit(dimension::length));
   }
-  std::size_t bytes = 0;
-  for (const auto& term : scene.system.terms) {
+  for (const auto& term : scene.system.terms)
     fmt::print("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),
                1e-6 * static_cast<Real>(term->bytes()));
-    bytes += term->bytes();
-  }
 
   Simulation<D> simulation(scene);
   simulation.begin();
@@ -62,7 +59,7 @@ void check_scene(const SceneInput& input) {
       "{:.0f} steps, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
       "forces\n",
       steps, steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
-      1e-6 * static_cast<Real>(bytes));
+      1e-6 * static_cast<Real>(scene.system.bytes()));
   for (const auto& warning : scene.warnings) fmt::print("warning: {}\n", warning);
   fmt::print("the scene is in order\n");
 }

@@ -95,11 +95,13 @@ std::string json_object(const Measurement::Numbers& numbers) {
 std::string json(const StudyEntry& entry, const StudyRun& run, const StudyRequest& request) {
   const Build b = build();
   std::string text = fmt::format(
-      "{{\n\"study\": {}, \"summary\": {}, \"level\": {},\n\"version\": {}, \"git\": {}, "
+      "{{\n\"study\": {}, \"summary\": {}, \"level\": {}, \"h\": {},\n\"version\": {}, \"git\": "
+      "{}, "
       "\"compiler\": {}, \"command\": {}, \"threads\": {}, \"short\": {},\n\"measurements\": [",
       json_text(entry.name), json_text(entry.summary), json_text(entry.level_meaning),
-      json_text(b.version), json_text(b.git_hash + (b.git_dirty ? " (modified)" : "")),
-      json_text(b.compiler), json_text(request.command_line), omp_get_max_threads(), run.brief());
+      json_text(entry.h_meaning), json_text(b.version),
+      json_text(b.git_hash + (b.git_dirty ? " (modified)" : "")), json_text(b.compiler),
+      json_text(request.command_line), omp_get_max_threads(), run.brief());
   const char* separator = "\n";
   for (const Measurement& m : run.measurements()) {
     Measurement::Numbers orders;

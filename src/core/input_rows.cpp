@@ -22,8 +22,8 @@ bool Range::contains(Real value) const {
 
 std::string Range::text() const {
   const bool above = low > -unbounded, below = high < unbounded;
-  const std::string lower = fmt::format("{} {}", low_open ? ">" : ">=", low);
-  const std::string upper = fmt::format("{} {}", high_open ? "<" : "<=", high);
+  const std::string lower = fmt::format("{} {:.10g}", low_open ? ">" : ">=", low);
+  const std::string upper = fmt::format("{} {:.10g}", high_open ? "<" : "<=", high);
   if (above && below) return lower + " and " + upper;
   return above ? lower : below ? upper : "any";
 }

@@ -36,6 +36,13 @@ bool System<D>::viscous() const {
 }
 
 template <int D>
+std::size_t System<D>::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& term : terms) sum += term->bytes();
+  return sum;
+}
+
+template <int D>
 const Body<D>& System<D>::body_of(Index particle) const {
   std::size_t b = bodies.size() - 1;
   while (b > 0 && bodies[b].first > particle) --b;

@@ -77,6 +77,7 @@ Measurement measure(const std::string& form, int points, int level) {
                      .level = level,
                      .particles = scene.system.size()};
   result.h = 0.02 / level;
+  result.bytes = scene.system.bytes();
   result.set_up = set_up.seconds();
   const Stopwatch run;
   const Outcome outcome = bounce(scene, result.h);
@@ -122,7 +123,8 @@ const bool registered = register_study({"contact_energy",
                                         "steps per 0.02 time units",
                                         {4, 8, 16, 32},
                                         {4, 8},
-                                        run});
+                                        run,
+                                        "time step"});
 
 }  // namespace
 }  // namespace meniscus

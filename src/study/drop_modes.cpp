@@ -137,7 +137,7 @@ Measurement measure(const Case& mode, int core, Real bulk_modulus) {
   result.level = core;
   result.particles = body.size();
   result.h = 1 / std::cbrt(Real(body.size()));
-  for (const auto& term : scene.system.terms) result.bytes += term->bytes();
+  result.bytes = scene.system.bytes();
   result.set_up = set_up.seconds();
 
   const Stopwatch run;

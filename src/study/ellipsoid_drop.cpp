@@ -77,7 +77,7 @@ Measurement measure(const Method& method, int core, Real end) {
   result.level = core;
   result.particles = scene.system.size();
   result.h = 1 / std::cbrt(Real(result.particles));
-  for (const auto& term : scene.system.terms) result.bytes += term->bytes();
+  result.bytes = scene.system.bytes();
   result.set_up = set_up.seconds();
 
   const Stopwatch run;

@@ -91,7 +91,7 @@ Measurement measure(const Method& method, int cells) {
   Measurement result{.method = method.name, .level = cells};
   result.particles = scene.system.size();
   result.h = 1.0 / cells;
-  for (const auto& term : scene.system.terms) result.bytes += term->bytes();
+  result.bytes = scene.system.bytes();
   result.set_up = set_up.seconds();
   const Stopwatch run;
   const Real before = processor_time();

@@ -108,7 +108,7 @@ Measurement relaxed(const Variation& variation, int cells) {
   Measurement result{.method = variation.name, .level = cells};
   result.particles = scene.system.size();
   result.h = quarter_meridian / cells;
-  for (const auto& term : scene.system.terms) result.bytes += term->bytes();
+  result.bytes = scene.system.bytes();
   result.set_up = set_up.seconds();
   const Stopwatch run;
   while (!simulation.finished()) simulation.advance();

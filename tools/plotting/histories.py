@@ -26,14 +26,15 @@ def time_axis(run, axis):
 
 
 def energies(run):
-    """Changes of the energies since the start, and below it the error of their balance."""
+    """Kinetic energy, changes of the others since the start, the sum of all less the external work,
+    and below it the error of the balance."""
     columns = {"kinetic": run.history["kinetic_energy"]}
     for name, values in run.history.items():
         if name.endswith("_energy") and name != "kinetic_energy":
             columns[f"{column(name)[:-7]}, change"] = values - values[0]
-    columns["dissipated"] = run.history["dissipated"]
-    if np.any(run.history["external_work"]):
-        columns["external work"] = run.history["external_work"]
+    for name in ("dissipated", "external_work"):
+        if np.any(run.history[name]):
+            columns[name.replace("_", " ")] = run.history[name]
     figure, (top, bottom) = plt.subplots(
         2, 1, figsize=(4.6, 4.6), sharex=True, height_ratios=(3, 1.2), layout="constrained"
     )
@@ -41,7 +42,8 @@ def energies(run):
     factor, unit = style.scale(run.units["kinetic_energy"], np.array(list(columns.values())))
     for name, values in columns.items():
         top.plot(time, values * factor, label=name)
-    sum_all = run.history["energy_balance"] - run.history["energy_balance"][0]
+    balance = run.history["energy_balance"]
+    sum_all = columns["kinetic"][0] + balance - balance[0]
     top.plot(time, sum_all * factor, color="black", lw=0.9, ls=(0, (4, 3)), label="sum")
     top.set_ylabel(style.label("energy", unit))
     top.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)

@@ -8,6 +8,8 @@ from matplotlib.collections import EllipseCollection, LineCollection
 import partners
 import style
 
+PANELS_IN_ROW = 6
+
 
 def draw(run, name, count):
     name = name or run.default_field()
@@ -93,11 +95,16 @@ def picture(run, plane, frames, cuts, name):
 
     panel = 1.75
     aspect = (high - low)[1] / (high - low)[0]
+    rows = -(-len(frames) // PANELS_IN_ROW)
+    columns = -(-len(frames) // rows)
+    height = max(panel * aspect, 1.3) + 0.3
     figure, axes = plt.subplots(
-        1, len(frames), figsize=(panel * len(frames) + 1.1, max(panel * aspect, 1.3) + 0.75),
-        sharey=True, squeeze=False, layout="constrained",
+        rows, columns, figsize=(panel * columns + 1.1, rows * height + 0.45),
+        sharex=True, sharey=True, squeeze=False, layout="constrained",
     )  # fmt: skip
-    for axis, frame, cuts_of_frame in zip(axes[0], frames, cuts):
+    for axis in axes.flat[len(frames) :]:
+        axis.set_visible(False)
+    for axis, frame, cuts_of_frame in zip(axes.flat, frames, cuts):
         for cut in cuts_of_frame:
             dots = EllipseCollection(
                 cut.size * length_factor, cut.size * length_factor, 0, units="xy",
@@ -112,8 +119,10 @@ def picture(run, plane, frames, cuts, name):
         axis.set_xlim(low[0] * length_factor, high[0] * length_factor)
         axis.set_ylim(low[1] * length_factor, high[1] * length_factor)
         axis.set_aspect("equal")
+    for axis in axes[-1]:
         axis.set_xlabel(style.label(f"${'xyz'[plane.axes[0]]}$", length_unit))
-    axes[0, 0].set_ylabel(style.label(f"${'xyz'[plane.axes[1]]}$", length_unit))
+    for axis in axes[:, 0]:
+        axis.set_ylabel(style.label(f"${'xyz'[plane.axes[1]]}$", length_unit))
     vector = run.field(frames[0], name, run.bodies[0]).ndim > 1
     bar = figure.colorbar(dots, ax=axes, shrink=0.9, pad=0.01, aspect=25)
     bar.set_label(style.label(f"|{name}|" if vector else name.replace("_", " "), unit))

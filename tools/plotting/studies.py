@@ -25,7 +25,7 @@ class Study:
     def __init__(self, folder):
         path = folder / "study.json"
         content = json.loads(path.read_text(encoding="utf-8"))
-        self.name, self.summary = content["study"], content["summary"]
+        self.h_meaning = content.get("h", "$h$")  # which older files do not say
         self.panels = {}  # panel -> line -> measurements, coarse to fine
         for m in content["measurements"]:
             panel, _, line = m["method"].rpartition(": ")
@@ -43,20 +43,20 @@ def draw(study, error=None):
     if len(study.panels) == 1:
         lines = next(iter(study.panels.values()))
         plots = [(name, lines, name) for name in ([error] if error else study.errors)]
-        return pair("error", plots, common_scale=False)
+        return pair(study, "error", plots, common_scale=False)
     pictures = {}
     for name in [error] if error else study.errors[:2]:
         for group, panels in groups(study.panels).items():
             plots = [(title, short_names(title, study.panels[title]), name) for title in panels]
             file = "_".join(part.replace(" ", "_") for part in (name, group) if part)
-            pictures |= pair(file, plots, common_scale=True)
+            pictures |= pair(study, file, plots, common_scale=True)
     return pictures
 
 
-def pair(name, plots, common_scale):
+def pair(study, name, plots, common_scale):
     return {
-        f"{name}_against_h": figure(plots, "h", common_scale),
-        f"{name}_against_time": figure(plots, "time", common_scale),
+        f"{name}_against_h": figure(plots, "h", study.h_meaning, common_scale),
+        f"{name}_against_time": figure(plots, "time", "time (s)", common_scale),
     }
 
 
@@ -76,7 +76,7 @@ def short_names(panel, lines):
     return short if len(short) == len(lines) else lines
 
 
-def figure(plots, abscissa, common_scale):
+def figure(plots, abscissa, label, common_scale):
     plots = [p for p in plots if any(points(m, p[2], abscissa) for m in p[1].values())]
     columns = min(COLUMNS, len(plots))
     rows = -(-len(plots) // columns)
@@ -95,7 +95,7 @@ def figure(plots, abscissa, common_scale):
         if abscissa == "h":
             slopes(axis, lines, error)
         axis.set_title(style.column_name(title), fontsize=9, loc="left")
-        axis.set_xlabel("$h$" if abscissa == "h" else "time (s)", labelpad=1)
+        axis.set_xlabel(label, labelpad=1)
         if common_scale and number % columns == 0:
             axis.set_ylabel(f"error, {error}")
         axis.legend(
@@ -118,9 +118,20 @@ def set_scales(axis, plots, abscissa):
     axis.grid(True, which="major", color="0.92", lw=0.6)
     axis.set_axisbelow(True)
     if x.max() / x.min() < 30:
-        axis.xaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+        axis.xaxis.set_major_locator(matplotlib.ticker.FixedLocator(ticks(*axis.get_xlim())))
+        axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
         axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:g}"))
-        axis.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+
+
+def ticks(low, high):
+    """At least three round numbers in a short range of a logarithmic axis."""
+    exponents = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)))
+    for factors in ((1, 2, 5), (1, 1.5, 2, 3, 4, 6), np.arange(1, 10, 0.5)):
+        found = np.outer(10.0**exponents, factors).ravel()
+        found = found[(low <= found) & (found <= high)]
+        if len(found) >= 3:
+            break
+    return found
 
 
 def points(measurements, error, abscissa):

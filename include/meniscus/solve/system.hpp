@@ -37,6 +37,7 @@ struct System {
 
   Index size() const { return static_cast<Index>(mass.size()); }
   bool viscous() const;
+  std::size_t bytes() const;  ///< held by the terms
 
   /// Forces of all terms. Throws SolveError naming body, particle, place and cause where a term
   /// cannot compute one (J <= 0) or a force is not a number, StepRejected if a shorter step may

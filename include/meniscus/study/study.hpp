@@ -97,7 +97,8 @@ struct StudyEntry {
   std::string_view level_meaning;  ///< e.g. "cells per edge of the core of the ball"
   std::vector<int> levels;         ///< in full
   std::vector<int> brief_levels;
-  void (*run)(StudyRun&);  ///< throws InputError for settings that make no sense
+  void (*run)(StudyRun&);              ///< throws InputError for settings that make no sense
+  std::string_view h_meaning = "$h$";  ///< name of Measurement::h in plots
 };
 
 /// All studies, sorted by name.
