@@ -4,6 +4,7 @@
 #include "meniscus/physics/contact_points.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
 #include "meniscus/scene/scene.hpp"
+#include "meniscus/solve/central_difference.hpp"
 
 #include <fmt/format.h>
 
@@ -112,12 +113,44 @@ void add_partner_case(const std::string& name, std::shared_ptr<const RigidPartne
   });
 }
 
+/// A step of the scene cylinder_impact, the left cylinder beside a wall at `gap` sigma0 and the
+/// right one as far from it: all contacts at work.
+void add_impact_case(const std::string& name, Real gap) {
+  add_case("step of the impact of two cylinders, 1 thread", name, 1,
+           [gap](benchmark::State& state) {
+             const Real centre = -3 + 0.2 * gap;
+             const SceneInput input = SceneInput::from_file(
+                 MENISCUS_SOURCE_DIR "/inputs/cylinder_impact.toml",
+                 {fmt::format("body.left.centre=[{}, 0]", centre),
+                  fmt::format("body.right.centre=[{}, 0]", centre + 2 + 0.2 * gap)});
+             scene_dimension(input);
+             Scene<2> scene = build_scene<2>(input);
+             State moving = scene.initial;
+             start(scene.system, moving);
+             NodalVectors sum = moving.force;
+             const Shares shares = shortest_step(
+                 state, scene.system.terms.size(), [&] { advance(scene.system, moving, 1e-9); },
+                 [&](std::size_t k) { scene.system.terms[k]->add_force(moving.motion(), sum); });
+             // The terms are the internal forces of both bodies, their contact, and those with the
+             // frame.
+             const Real internal = shares.part.at(0) + shares.part.at(1), pair = shares.part.at(2),
+                        frame = shares.part.at(3) + shares.part.at(4);
+             set_columns(state, {{"ns/particle-step", 1e9 * shares.step / scene.system.size()},
+                                 {"% internal", internal},
+                                 {"% contact of both", pair},
+                                 {"% frame", frame},
+                                 {"% rest", 100 - internal - pair - frame}});
+           });
+}
+
 }  // namespace
 
 void add_contact_cases() {
   for (const PairKernel kernel : {PairKernel::space, PairKernel::integrated, PairKernel::planar})
     for (const bool volume : {false, true}) add_pair_case(kernel, volume);
   for (const char* form : {"energy", "pressure", "dissertation", "volume"}) add_form_case(form);
+  add_impact_case("touching", 0.64);
+  add_impact_case("apart", 4.5);
   const ContactLaw space;
   const Vec<3> o = Vec<3>::Zero(), x = Vec<3>::UnitX();
   add_partner_case<3>("half space", rigid_half_space<3>(space, 1, o, x), 0.4 * x, 4.0 * x);

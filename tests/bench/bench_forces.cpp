@@ -88,21 +88,13 @@ void add_step_case(int threads) {
              Scene<3>& scene = scene_of(newtonian, "", tension("weak"));
              State moving = scene.initial;
              NodalVectors sum = moving.force;
-             std::vector<double> term(scene.system.terms.size(), 1e300);
-             double step = 1e300;
-             for (auto _ : state) {
-               const double time = seconds([&] { advance(scene.system, moving, 1e-9); });
-               state.SetIterationTime(time);
-               step = std::min(step, time);
-               for (std::size_t k = 0; k < term.size(); ++k)
-                 term[k] = std::min(term[k], seconds([&] {
-                                      scene.system.terms[k]->add_force(moving.motion(), sum);
-                                    }));
-             }
-             set_columns(state, {{"ns/particle-step", 1e9 * step / scene.system.size()},
-                                 {"% internal", 100 * term[0] / step},
-                                 {"% tension", 100 * term[1] / step},
-                                 {"% rest", 100 * (1 - (term[0] + term[1]) / step)}});
+             const Shares shares = shortest_step(
+                 state, scene.system.terms.size(), [&] { advance(scene.system, moving, 1e-9); },
+                 [&](std::size_t k) { scene.system.terms[k]->add_force(moving.motion(), sum); });
+             set_columns(state, {{"ns/particle-step", 1e9 * shares.step / scene.system.size()},
+                                 {"% internal", shares.part[0]},
+                                 {"% tension", shares.part[1]},
+                                 {"% rest", 100 - shares.part[0] - shares.part[1]}});
            });
 }
 

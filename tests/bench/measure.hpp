@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace meniscus::bench {
 
@@ -54,6 +55,26 @@ double shortest(benchmark::State& state, Work&& work) {
     least = std::min(least, time);
   }
   return least;
+}
+
+/// Runs `advance()` as the loop of a case, `part(k)` being the work of part k of it alone; returns
+/// the shortest time of a step and the shares of the parts in it.
+struct Shares {
+  double step = 1e300;
+  std::vector<double> part;  ///< in percent of the step
+};
+template <class Advance, class Part>
+Shares shortest_step(benchmark::State& state, std::size_t parts, Advance&& advance, Part&& part) {
+  Shares shares{.part = std::vector<double>(parts, 1e300)};
+  for (auto _ : state) {
+    const double time = seconds(advance);
+    state.SetIterationTime(time);
+    shares.step = std::min(shares.step, time);
+    for (std::size_t k = 0; k < parts; ++k)
+      shares.part[k] = std::min(shares.part[k], seconds([&] { part(k); }));
+  }
+  for (double& time : shares.part) time *= 100 / shares.step;
+  return shares;
 }
 
 void add_material_cases();

@@ -46,6 +46,12 @@ struct LaneRule {
   }
 };
 
+/// Of the point (0, h) from (X, 0). std::hypot, which knows no overflow, takes a fourth of the time
+/// of a frame.
+Real distance(Real X, Real h) {
+  return std::sqrt(X * X + h * h);
+}
+
 /// r^-p at one point, p = 9, 3, 11, 5 if odd, else 10, 4, 12, 6.
 Powers at_point(bool odd, Real X, Real h) {
   const Real q = 1 / (X * X + h * h), q2 = q * q, q5 = q2 * q2 * q;
@@ -57,7 +63,7 @@ Powers at_point(bool odd, Real X, Real h) {
 /// G_p = h^(1-p) INT_0^q (t (2 - t))^m dt = w^(m+1) sum_k binomial(m, k) 2^(m-k) (-q)^k/(m + k +
 /// 1).
 Powers odd_tail(Real X, Real h) {
-  const Real r = std::hypot(X, h), w = 1 / (r * (r + X)), q = h * h * w;
+  const Real r = distance(X, h), w = 1 / (r * (r + X)), q = h * h * w;
   const Real w2 = w * w, w4 = w2 * w2;
   const Real m3 = 2 - q * (12.0 / 5 - q * (1 - q / 7));
   const Real m4 = 16.0 / 5 - q * (16.0 / 3 - q * (24.0 / 7 - q * (1 - q / 9)));
@@ -68,7 +74,7 @@ Powers odd_tail(Real X, Real h) {
 /// G_p = (2 v)^(n+1) INT_0^1 s^n/(1 + h^2 v^2 s^2)^(n+1) ds.
 Powers even_tail(Real X, Real h) {
   static const LaneRule points;
-  const Real v = 1 / (std::hypot(X, h) + X), h2v2 = (h * v) * (h * v);
+  const Real v = 1 / (distance(X, h) + X), h2v2 = (h * v) * (h * v);
   Lanes f10 = Lanes::zero(), f4 = f10, f12 = f10, f6 = f10;
   for (std::size_t k = 0; k < points.s.size(); ++k) {
     const Lanes s = points.s[k], below = 1.0 / (1.0 + h2v2 * (s * s));
@@ -96,7 +102,7 @@ Powers short_segment(bool odd, Real begin, Real end, Real h) {
 
 Powers over_segment(bool odd, Real begin, Real end, Real h) {
   const Real beside = std::max({begin, -end, 0.0});
-  if (end - begin <= std::hypot(beside, h)) return short_segment(odd, begin, end, h);
+  if (end - begin <= distance(beside, h)) return short_segment(odd, begin, end, h);
   if (beside > 0) {
     const Real near = begin > 0 ? begin : -end, far = begin > 0 ? end : -begin;
     return tail(odd, near, h).add(-1, tail(odd, far, h));
