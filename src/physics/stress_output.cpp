@@ -2,10 +2,13 @@
 // Fields and measures from the state at the stress points.
 #include "meniscus/physics/stress_output.hpp"
 
+#include "meniscus/approx/neighbor_search.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <tuple>
 #include <type_traits>
 
@@ -33,11 +36,13 @@ Real von_mises(const Tensor<Real>& sigma) {
 
 /// A field whose value at a stress point is the array value(point).
 template <class Value>
-FieldSource averaged(const VisitStressPoints& visit, Index particles, std::string name,
+FieldSource averaged(const VisitStressPoints& visit, Index particles,
+                     std::shared_ptr<const std::vector<StandIn>> stand_ins, std::string name,
                      Dimension dimension, std::string meaning, Value value) {
   constexpr int components =
       static_cast<int>(std::tuple_size_v<std::invoke_result_t<Value, const StressPoint&>>);
-  const auto compute = [visit, particles, value](const Motion& motion, std::span<Real> out) {
+  const auto compute = [visit, particles, stand_ins, value](const Motion& motion,
+                                                            std::span<Real> out) {
     std::vector<Real> volume(static_cast<std::size_t>(particles), 0.0);
     std::fill(out.begin(), out.end(), 0.0);
     visit(motion, [&](const StressPoint& point) {
@@ -49,27 +54,56 @@ FieldSource averaged(const VisitStressPoints& visit, Index particles, std::strin
     for (Index A = 0; A < particles; ++A)
       for (int c = 0; c < components; ++c)
         if (at(volume, A) > 0) at(out, A * components + c) /= at(volume, A);
+    for (const StandIn& s : *stand_ins)
+      for (int c = 0; c < components; ++c)
+        at(out, s.particle * components + c) = at(out, s.owner * components + c);
   };
   return {std::move(name), components, dimension, std::move(meaning), compute};
 }
 
 }  // namespace
 
-std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index particles) {
+template <int D>
+std::vector<StandIn> stand_ins(std::span<const Vec<D>> X, const std::vector<bool>& owns) {
+  std::vector<Index> owners, found;
+  std::vector<Vec<D>> places;
+  for (std::size_t A = 0; A < X.size(); ++A)
+    if (owns[A]) {
+      owners.push_back(static_cast<Index>(A));
+      places.push_back(X[A]);
+    }
+  if (owners.empty() || owners.size() == X.size()) return {};
+  const NeighborSearch<D> search(places);
+  std::vector<StandIn> result;
+  for (std::size_t A = 0; A < X.size(); ++A) {
+    if (owns[A]) continue;
+    search.within(X[A], search.distance_of_nearest(X[A], 1) * (1 + 1e-12), found);
+    result.push_back({static_cast<Index>(A), at(owners, found.front())});
+  }
+  return result;
+}
+
+template std::vector<StandIn> stand_ins(std::span<const Vec<2>>, const std::vector<bool>&);
+template std::vector<StandIn> stand_ins(std::span<const Vec<3>>, const std::vector<bool>&);
+
+std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index particles,
+                                       std::vector<StandIn> stand_ins) {
+  const auto others = std::make_shared<const std::vector<StandIn>>(std::move(stand_ins));
   const auto scalar = [](Real x) { return std::array{x}; };
   return {
-      averaged(visit, particles, "J", dimension::none, "det F, mean over the particle's cell",
+      averaged(visit, particles, others, "J", dimension::none,
+               "det F, mean over the particle's cell",
                [=](const StressPoint& point) { return scalar(jacobian(point)); }),
-      averaged(visit, particles, "F", dimension::none,
+      averaged(visit, particles, others, "F", dimension::none,
                "deformation gradient, mean over the particle's cell, row-major",
                [](const StressPoint& point) { return row_major(deformation_gradient(point.H)); }),
-      averaged(visit, particles, "pressure", dimension::pressure,
+      averaged(visit, particles, others, "pressure", dimension::pressure,
                "- tr(sigma)/3 of the elastic Cauchy stress",
                [=](const StressPoint& point) { return scalar(-trace(cauchy_stress(point)) / 3); }),
-      averaged(visit, particles, "von_mises", dimension::pressure,
+      averaged(visit, particles, others, "von_mises", dimension::pressure,
                "von Mises stress of the elastic Cauchy stress",
                [=](const StressPoint& point) { return scalar(von_mises(cauchy_stress(point))); }),
-      averaged(visit, particles, "cauchy_stress", dimension::pressure,
+      averaged(visit, particles, others, "cauchy_stress", dimension::pressure,
                "elastic Cauchy stress, row-major",
                [](const StressPoint& point) { return row_major(cauchy_stress(point)); }),
   };

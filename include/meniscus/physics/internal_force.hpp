@@ -93,7 +93,11 @@ class InternalForce final : public ForceTerm {
   std::optional<std::string> warning(const Motion& motion) const override;
 
   std::vector<FieldSource> fields() const override {
-    return stress_fields(visitor(), body_.size());
+    std::vector<bool> owns(static_cast<std::size_t>(body_.size()), false);
+    for (Index g = 0; g < rule_.groups(); ++g)
+      for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+        owns[static_cast<std::size_t>(rule_.owner(g, lane))] = true;
+    return stress_fields(visitor(), body_.size(), stand_ins<D>(body_.particles.X(), owns));
   }
   std::vector<MeasureSource> measures() const override { return stress_measures(visitor(), D); }
 

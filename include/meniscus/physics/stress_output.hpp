@@ -19,9 +19,20 @@ struct StressPoint {
 using VisitStressPoints =
     std::function<void(const Motion&, const std::function<void(const StressPoint&)>&)>;
 
+/// A particle that owns no stress point, as most do with one Gauss point per grid cell, reports
+/// what the nearest one reports that does.
+struct StandIn {
+  Index particle, owner;
+};
+
+/// Those of the particles at X; `owns` says which own stress points. None if none does.
+template <int D>
+std::vector<StandIn> stand_ins(std::span<const Vec<D>> X, const std::vector<bool>& owns);
+
 /// J, F, pressure, von Mises and Cauchy stress: averages over the stress points of each particle's
 /// cell, weighted by volume. `particles` is the size of the body.
-std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index particles);
+std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index particles,
+                                       std::vector<StandIn> stand_ins);
 
 /// Current volume, smallest J and mean pressure of a body in `space_dimension` dimensions.
 std::vector<MeasureSource> stress_measures(const VisitStressPoints& visit, int space_dimension);
