@@ -24,7 +24,7 @@ def row(study, m):
         str(m["particles"]),
         f"{name} {error:.2g}" if error is not None else f"{name} -",
         f"{order:.1f}" if order is not None else "",
-        f"{m['set_up']:.2g} + {m['time']:.2g}",
+        f"{m['set_up']:.3g} + {m['time']:.3g}",
         f"{1e-6 * m['bytes']:.3g}",
     ]
     return "| " + " | ".join(cells) + " |"
