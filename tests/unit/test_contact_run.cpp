@@ -116,10 +116,19 @@ TEST(ContactRun, RelaxationNeedsPartnersThatComeToRest) {
   Scene<2> stops = scene_of(plate_after("0.05*min(t, 1.5)"));
   EXPECT_NO_THROW(Simulation<2>{stops});
   EXPECT_NEAR(stops.system.terms.back()->steady_after(), 1.5, 2e-4);
+  const auto displacement = [](const Scene<2>& scene, Real time) {
+    for (const MeasureSource& m : scene.measures)
+      if (m.name.ends_with(".displacement_y"))
+        return m.compute({time, scene.initial.u, scene.initial.v});
+    return std::nan("");
+  };
+  EXPECT_DOUBLE_EQ(displacement(stops, 1), 0.05);
+  EXPECT_DOUBLE_EQ(displacement(stops, 2), 0.075);
   Scene<2> moves_on = scene_of(plate_after("0.05*t"));
   EXPECT_THROW(Simulation<2>{moves_on}, InputError);
   Scene<2> rests = scene_of(plate_after("0.05"));
   EXPECT_EQ(rests.system.terms.back()->steady_after(), 0);
+  EXPECT_TRUE(std::isnan(displacement(rests, 1)));  // there is no such measure
 }
 
 TEST(ContactRun, SameBitsForAnyThreadsAndAfterARestart) {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contacts of a run: gap and force over time, and force against gap."""
+"""Contacts of a run: gap and force over time, and force against gap or, if the partner is moved,
+against its displacement."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,14 +16,14 @@ def draw(run):
     return {f"{name}_contact": figure for name, figure in found.items() if figure}
 
 
-def normal_force(run, name):
-    """The component of the force that changes most; none if the history has no force."""
-    columns = [f"{name}.force_{i}" for i in "xyz" if f"{name}.force_{i}" in run.history]
+def main_component(run, vector):
+    """The component that changes most; none if the history has none of this vector."""
+    columns = [f"{vector}_{i}" for i in "xyz" if f"{vector}_{i}" in run.history]
     return max(columns, key=lambda column: np.ptp(run.history[column]), default=None)
 
 
 def picture(run, name):
-    force = normal_force(run, name)
+    force = main_component(run, f"{name}.force")
     if force is None:
         return None
     gap_factor, gap_unit = style.scale(run.length_unit, run.history[f"{name}.gap"])
@@ -40,15 +41,23 @@ def picture(run, name):
         axis.plot(time, values, color=style.COLORS[0], lw=0.9)
         axis.set_ylabel(label)
     top.tick_params(labelbottom=False)
-    curve(figure.add_subplot(grid[:, 1]), gap, push, gap_label, force_label)
+    axis = figure.add_subplot(grid[:, 1])
+    if displacement := main_component(run, f"{name}.displacement"):
+        factor, unit = style.scale(run.length_unit, run.history[displacement])
+        moved = run.history[displacement] * factor
+        turn = int(np.argmax(np.abs(moved - moved[0])))
+        curve(axis, moved, push, turn, ("on the way out", "on the way back"))
+        axis.set_xlabel(style.label(f"displacement ${displacement[-1]}$", unit))
+    else:
+        curve(axis, gap, push, int(np.argmin(gap)), ("approach", "after the least gap"))
+        axis.set_xlabel(gap_label)
+    axis.set_ylabel(force_label)
     return figure
 
 
-def curve(axis, gap, push, gap_label, force_label):
-    """Force against gap, until the gap is least and after that."""
-    turn = int(np.argmin(gap))
-    axis.plot(gap[: turn + 1], push[: turn + 1], color=style.COLORS[0], lw=0.9, label="approach")
-    axis.plot(gap[turn:], push[turn:], color=style.COLORS[1], lw=0.9, label="after the least gap")
+def curve(axis, x, push, turn, labels):
+    """Force over x, until the record `turn` and after it."""
+    axis.plot(x[: turn + 1], push[: turn + 1], color=style.COLORS[0], lw=0.9, label=labels[0])
+    axis.plot(x[turn:], push[turn:], color=style.COLORS[1], lw=0.9, label=labels[1])
     axis.axhline(0, color="0.7", lw=0.6, zorder=0)
-    axis.set(xlabel=gap_label, ylabel=force_label)
     axis.legend()

@@ -245,6 +245,12 @@ std::vector<MeasureSource> RigidContact<D>::measures() const {
     all.push_back({std::string("torque_") + "xyz"[i], dimension::energy,
                    "torque on the body about the origin",
                    looked_at([this, i] { return net_torque()[i]; })});
+  if (partner_.motion.moves())
+    for (int i = 0; i < D; ++i)
+      all.push_back({std::string("displacement_") + "xyz"[i], dimension::length,
+                     "prescribed displacement of the partner", [this, i](const Motion& motion) {
+                       return partner_.motion.displacement(motion.time)[i];
+                     }});
   return all;
 }
 
