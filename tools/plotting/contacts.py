@@ -45,19 +45,21 @@ def picture(run, name):
     if displacement := main_component(run, f"{name}.displacement"):
         factor, unit = style.scale(run.length_unit, run.history[displacement])
         moved = run.history[displacement] * factor
-        turn = int(np.argmax(np.abs(moved - moved[0])))
-        curve(axis, moved, push, turn, ("on the way out", "on the way back"))
+        away = np.gradient(np.abs(moved - moved[0])) >= 0
+        curve(axis, moved, push, away, ("on the way out", "on the way back"))
         axis.set_xlabel(style.label(f"displacement ${displacement[-1]}$", unit))
     else:
-        curve(axis, gap, push, int(np.argmin(gap)), ("approach", "after the least gap"))
+        before = np.arange(len(gap)) < np.argmin(gap)
+        curve(axis, gap, push, before, ("approach", "after the least gap"))
         axis.set_xlabel(gap_label)
     axis.set_ylabel(force_label)
     return figure
 
 
-def curve(axis, x, push, turn, labels):
-    """Force over x, until the record `turn` and after it."""
-    axis.plot(x[: turn + 1], push[: turn + 1], color=style.COLORS[0], lw=0.9, label=labels[0])
-    axis.plot(x[turn:], push[turn:], color=style.COLORS[1], lw=0.9, label=labels[1])
+def curve(axis, x, push, first, labels):
+    """Force over x: one colour for the records that are `first`, another for the others."""
+    for number, (shown, label) in enumerate(zip((first, ~first), labels)):
+        joined = shown | np.append(False, shown[:-1])  # each piece up to where the next one begins
+        axis.plot(x, np.where(joined, push, np.nan), color=style.COLORS[number], lw=0.9, label=label)
     axis.axhline(0, color="0.7", lw=0.6, zorder=0)
     axis.legend()
