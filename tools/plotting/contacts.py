@@ -45,11 +45,11 @@ def picture(run, name):
     if displacement := main_component(run, f"{name}.displacement"):
         factor, unit = style.scale(run.length_unit, run.history[displacement])
         moved = run.history[displacement] * factor
-        away = np.gradient(np.abs(moved - moved[0])) >= 0
+        away = np.diff(np.abs(moved - moved[0]), prepend=0) >= 0
         curve(axis, moved, push, away, ("on the way out", "on the way back"))
         axis.set_xlabel(style.label(f"displacement ${displacement[-1]}$", unit))
     else:
-        before = np.arange(len(gap)) < np.argmin(gap)
+        before = np.arange(len(gap)) <= np.argmin(gap)
         curve(axis, gap, push, before, ("approach", "after the least gap"))
         axis.set_xlabel(gap_label)
     axis.set_ylabel(force_label)
@@ -57,9 +57,10 @@ def picture(run, name):
 
 
 def curve(axis, x, push, first, labels):
-    """Force over x: one colour for the records that are `first`, another for the others."""
+    """Force over x: one colour for the steps that end in a record that is `first`, another for the
+    others."""
     for number, (shown, label) in enumerate(zip((first, ~first), labels)):
-        joined = shown | np.append(False, shown[:-1])  # each piece up to where the next one begins
+        joined = shown | np.append(shown[1:], False)  # each piece from where the last one ended
         axis.plot(x, np.where(joined, push, np.nan), color=style.COLORS[number], lw=0.9, label=label)
     axis.axhline(0, color="0.7", lw=0.6, zorder=0)
     axis.legend()

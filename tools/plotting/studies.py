@@ -25,7 +25,7 @@ class Study:
     def __init__(self, folder):
         path = folder / "study.json"
         content = json.loads(path.read_text(encoding="utf-8"))
-        self.h_meaning = content.get("h", "$h$")  # which older files do not say
+        self.h_meaning = content["h"]
         self.panels = {}  # panel -> line -> measurements, coarse to fine
         for m in content["measurements"]:
             panel, _, line = m["method"].rpartition(": ")
