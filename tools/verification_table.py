@@ -1,8 +1,7 @@
 #!/usr/bin/python3
-"""verification_table.py DIR...: one Markdown table of the studies in these directories.
-
-Of each method the finest level: its first error, the observed order against the level before, wall
-time (set-up + method) and memory; below, how many checks of each study are met.
+"""verification_table.py DIR...: Markdown tables of the studies in these directories: how many of
+their checks are met, and of each method the finest level: its first error, the observed order
+against the level before, wall time (set-up + method) and memory.
 """
 
 import json
@@ -35,18 +34,20 @@ def main():
     for folder in map(pathlib.Path, sys.argv[1:]):
         if (folder / "study.json").is_file():
             studies.append(json.loads((folder / "study.json").read_text()))
+    print("| study | checks met |")
+    print("|---|---|")
+    for study in studies:
+        met = sum(check["met"] for check in study["checks"])
+        print(f"| {study['study']} | {met} of {len(study['checks'])} |")
+    print()
     print("| study | method | particles | error | order | time (s) | MB |")
     print("|---|---|---|---|---|---|---|")
     for study in studies:
         for m in finest(study["measurements"]):
             print(row(study["study"], m))
-    print()
-    for study in studies:
-        met = sum(check["met"] for check in study["checks"])
-        print(f"{study['study']}: {met} of {len(study['checks'])} checks met")
-        for check in study["checks"]:
-            if not check["met"]:
-                print(f"  MISSED: {check['what']}: {check['value']}, asked {check['allowed']}")
+    missed = [(s["study"], check) for s in studies for check in s["checks"] if not check["met"]]
+    for study, check in missed:
+        print(f"MISSED: {study}: {check['what']}: {check['value']}, asked {check['allowed']}")
 
 
 if __name__ == "__main__":
