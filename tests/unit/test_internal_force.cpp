@@ -284,7 +284,7 @@ TEST(InternalForce, FieldsOfAHomogeneousStateAreConstant) {
   const NodalVectors v = test::zeros(u);
   const Real J = (Mat<2>::Identity() + H).determinant();
   std::vector<Integration> all = test::integrations();
-  all.push_back({"gauss", 1});  // most particles own no stress point
+  all.push_back({"gauss", 1});  // many particles own no stress point
   for (const Integration& integration : all) {
     const auto term = test::internal_force<2>(*body, "newtonian", integration);
     for (const FieldSource& field : term->fields()) {

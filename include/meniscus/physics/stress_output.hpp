@@ -19,7 +19,7 @@ struct StressPoint {
 using VisitStressPoints =
     std::function<void(const Motion&, const std::function<void(const StressPoint&)>&)>;
 
-/// A particle that owns no stress point, as most do with one Gauss point per grid cell, reports
+/// A particle that owns no stress point, as many do with one Gauss point per grid cell, reports
 /// what the nearest one reports that does.
 struct StandIn {
   Index particle, owner;
