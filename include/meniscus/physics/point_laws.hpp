@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The laws at the stress points of a body, with their type forgotten: for energies, fields,
+// warnings and all else that is not done at every step. Compiled once per law, not for every rule.
+#pragma once
+#include "meniscus/physics/law.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace meniscus {
+
+/// What is asked of a law at a group of up to four stress points, a lane per point; H = F - I.
+template <class L>
+concept GroupLaw = ElasticIn<L, Lanes> &&(ViscousIn<L, Lanes> || !L::viscous);
+
+class PointLaws {
+ public:
+  virtual ~PointLaws() = default;
+
+  virtual Lanes energy_density(Index group, Real time, const Tensor<Lanes>& H) const = 0;
+  /// Elastic first Piola stress.
+  virtual Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H) const = 0;
+  /// Size of the stress of the reference law, without what ramps add: an active body is free of
+  /// stress where that cancels. Stresses of round-off are no scale: those of a strain of 1e-9 count
+  /// at least.
+  virtual Lanes stress_scale(Index group, const Tensor<Lanes>& H) const = 0;
+  /// Whether warning() can say anything.
+  virtual bool warns() const = 0;
+  virtual std::optional<std::string> warning(Index group, Real time,
+                                             const Tensor<Real>& H) const = 0;
+  /// From when on no law changes any more.
+  virtual Real steady_after() const = 0;
+  virtual std::size_t bytes() const = 0;
+};
+
+/// One law for the whole body, or one for each group of stress points.
+template <GroupLaw L>
+class PointLawsOf final : public PointLaws {
+ public:
+  explicit PointLawsOf(std::vector<L> laws)
+      : laws_(std::move(laws)), stride_(laws_.size() > 1 ? 1 : 0) {}
+
+  /// The law of a group, at a time if it changes.
+  decltype(auto) at(Index group, [[maybe_unused]] Real time) const {
+    if constexpr (RampedLaw<L>)
+      return reference(group).at_time(time);
+    else
+      return reference(group);
+  }
+
+  Lanes energy_density(Index group, Real time, const Tensor<Lanes>& H) const override {
+    return at(group, time).energy_density(H);
+  }
+  Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H) const override {
+    return at(group, time).stress(H);
+  }
+  Lanes stress_scale(Index group, const Tensor<Lanes>& H) const override {
+    const Tensor<Lanes> P = reference(group).stress(H);
+    return max(sqrt(contract(P, P)), Lanes(1e-9 * reference(group).p_wave_modulus()));
+  }
+  bool warns() const override { return WarningLaw<L>; }
+  std::optional<std::string> warning([[maybe_unused]] Index group, [[maybe_unused]] Real time,
+                                     [[maybe_unused]] const Tensor<Real>& H) const override {
+    if constexpr (WarningLaw<L>)
+      return at(group, time).warning(H);
+    else
+      return {};
+  }
+  Real steady_after() const override {
+    Real last = 0;
+    if constexpr (RampedLaw<L>)
+      for (const L& law : laws_) last = std::max(last, law.steady_after());
+    return last;
+  }
+  std::size_t bytes() const override { return laws_.size() * sizeof(L); }
+
+ private:
+  const L& reference(Index group) const { return laws_[static_cast<std::size_t>(group) * stride_]; }
+
+  std::vector<L> laws_;
+  std::size_t stride_;
+};
+
+}  // namespace meniscus

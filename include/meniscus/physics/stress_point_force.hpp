@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A force that comes from stresses at the points of an integration rule, whatever the law: energy,
+// failures, warnings, fields and measures of the internal force. Only the loop of the time step
+// itself, which has to know the law, is left to internal_force.hpp.
+#pragma once
+#include "meniscus/approx/stress_rules.hpp"
+#include "meniscus/body/body.hpp"
+#include "meniscus/physics/force_term.hpp"
+#include "meniscus/physics/point_laws.hpp"
+#include "meniscus/physics/stress_output.hpp"
+
+namespace meniscus {
+
+/// `Rule` is CellRule<D> or PointRule<D>.
+template <int D, class Rule>
+class StressPointForce : public ForceTerm {
+ public:
+  std::string name() const final { return "internal force of '" + body_.name + "'"; }
+  std::string_view energy_kind() const final { return "strain"; }
+  Real steady_after() const final { return laws_->steady_after(); }
+  std::optional<Real> stored_energy(const Motion& motion) const final;
+  Real uncancelled_force(const Motion& motion) const final;
+  std::optional<Failure> failure() const final;
+  std::optional<std::string> warning(const Motion& motion) const final;
+  std::vector<FieldSource> fields() const final;
+  std::vector<MeasureSource> measures() const final;
+  std::size_t bytes() const final { return rule_.bytes() + windows_.bytes() + laws_->bytes(); }
+  Offset pairs() const final { return rule_.pairs(); }
+
+ protected:
+  StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<const PointLaws> laws)
+      : body_(body),
+        rule_(std::move(rule)),
+        windows_(rule_.windows(body.size())),
+        laws_(std::move(laws)) {}
+
+  const Body<D>& body() const { return body_; }
+  const Rule& rule() const { return rule_; }
+  const PointLaws& laws() const { return *laws_; }
+  /// Sums of the forces of this body's particles out of `all`.
+  template <class F>
+  void accumulate(std::span<Lanes> all, F&& work) {
+    windows_.accumulate(
+        all.subspan(static_cast<std::size_t>(body_.first), static_cast<std::size_t>(body_.size())),
+        work);
+  }
+
+  /// Forgets the failure of the last force.
+  void clear_failure() { failed_group_ = no_group; }
+  /// Looks for a point with J <= 0 in these groups. Keeps the smallest group number, whatever the
+  /// order of the threads.
+  void note_failure(Index begin, Index end, const Lanes* u);
+  /// Puts what was noted into words. `u` is that of the body.
+  void describe_failure(const Lanes* u);
+
+ private:
+  static constexpr Index no_group = std::numeric_limits<Index>::max();
+
+  /// H at the stress points of a group.
+  [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const Lanes* u) const;
+  void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
+  VisitStressPoints visitor() const;
+
+  const Body<D>& body_;
+  Rule rule_;
+  ForceWindows windows_;
+  std::unique_ptr<const PointLaws> laws_;
+  Index failed_group_ = no_group;
+  Failure failure_;
+};
+
+extern template class StressPointForce<2, CellRule<2>>;
+extern template class StressPointForce<3, CellRule<3>>;
+extern template class StressPointForce<2, PointRule<2>>;
+extern template class StressPointForce<3, PointRule<3>>;
+
+}  // namespace meniscus

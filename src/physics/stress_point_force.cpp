@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Energy, failures, warnings and output of the internal force.
+#include "meniscus/physics/stress_point_force.hpp"
+
+#include <fmt/format.h>
+
+namespace meniscus {
+namespace {
+
+/// H at one stress point.
+Tensor<Real> lane_of(const Tensor<Lanes>& H, int lane) {
+  return Tensor<Real>::map([&](int i, int j) { return H(i, j)[lane]; });
+}
+
+}  // namespace
+
+template <int D, class Rule>
+Tensor<Lanes> StressPointForce<D, Rule>::gradients(Index group, const Lanes* u) const {
+  Tensor<Lanes> H;
+  rule_.gather(group, u, H);
+  return H;
+}
+
+template <int D, class Rule>
+std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motion) const {
+  const Lanes* u = motion.u.data() + body_.first;
+  return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
+    return sum(rule_.weight(g) * laws_->energy_density(g, motion.time, gradients(g, u)));
+  });
+}
+
+template <int D, class Rule>
+Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
+  const Lanes* u = motion.u.data() + body_.first;
+  const Real force = parallel_sum(rule_.groups(), 0.0, [&](Index g) {
+    return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
+  });
+  return force / mean_spacing(body_.geometry.grid);
+}
+
+template <int D, class Rule>
+void StressPointForce<D, Rule>::note_failure(Index begin, Index end, const Lanes* u) {
+  for (Index g = begin; g < end; ++g) {
+    const Tensor<Lanes> H = gradients(g, u);
+    for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+      if (!(1 + volume_change(lane_of(H, lane)) > 0)) {
+#pragma omp critical(meniscus_internal_force_failure)
+        failed_group_ = std::min(failed_group_, g);
+        return;
+      }
+  }
+}
+
+template <int D, class Rule>
+void StressPointForce<D, Rule>::describe_failure(const Lanes* u) {
+  if (failed_group_ == no_group) return;
+  const Tensor<Lanes> H = gradients(failed_group_, u);
+  for (int lane = 0; lane < rule_.points_per_group(); ++lane) {
+    const Tensor<Real> H_point = lane_of(H, lane), F = deformation_gradient(H_point);
+    const Real J = 1 + volume_change(H_point);
+    if (J > 0) continue;
+    failure_ = {
+        body_.first + rule_.owner(failed_group_, lane),
+        fmt::format("J = det F = {:.6g} at a stress point, F = [{:.4g} {:.4g} {:.4g}; {:.4g} "
+                    "{:.4g} {:.4g}; {:.4g} {:.4g} {:.4g}]",
+                    J, F(0, 0), F(0, 1), F(0, 2), F(1, 0), F(1, 1), F(1, 2), F(2, 0), F(2, 1),
+                    F(2, 2))};
+    return;
+  }
+}
+
+template <int D, class Rule>
+std::optional<Failure> StressPointForce<D, Rule>::failure() const {
+  if (failed_group_ == no_group) return std::nullopt;
+  return failure_;
+}
+
+template <int D, class Rule>
+std::optional<std::string> StressPointForce<D, Rule>::warning(const Motion& motion) const {
+  if (!laws_->warns()) return {};
+  const Lanes* u = motion.u.data() + body_.first;
+  for (Index g = 0; g < rule_.groups(); ++g) {
+    const Tensor<Lanes> H = gradients(g, u);
+    const Lanes w = rule_.weight(g);
+    for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+      if (w[lane] > 0)
+        if (const auto cause = laws_->warning(g, motion.time, lane_of(H, lane)))
+          return fmt::format("body '{}', particle {}: {}", body_.name,
+                             body_.first + rule_.owner(g, lane), *cause);
+  }
+  return {};
+}
+
+template <int D, class Rule>
+void StressPointForce<D, Rule>::visit(const Motion& motion,
+                                      const std::function<void(const StressPoint&)>& f) const {
+  const Lanes* u = motion.u.data() + body_.first;
+  for (Index g = 0; g < rule_.groups(); ++g) {
+    const Tensor<Lanes> H = gradients(g, u), P = laws_->stress(g, motion.time, H);
+    const Lanes w = rule_.weight(g);
+    for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+      if (w[lane] > 0) f({rule_.owner(g, lane), w[lane], lane_of(H, lane), lane_of(P, lane)});
+  }
+}
+
+template <int D, class Rule>
+VisitStressPoints StressPointForce<D, Rule>::visitor() const {
+  return [this](const Motion& motion, const std::function<void(const StressPoint&)>& f) {
+    visit(motion, f);
+  };
+}
+
+template <int D, class Rule>
+std::vector<FieldSource> StressPointForce<D, Rule>::fields() const {
+  std::vector<bool> owns(static_cast<std::size_t>(body_.size()), false);
+  for (Index g = 0; g < rule_.groups(); ++g)
+    for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+      owns[static_cast<std::size_t>(rule_.owner(g, lane))] = true;
+  return stress_fields(visitor(), body_.size(), stand_ins<D>(body_.particles.X(), owns));
+}
+
+template <int D, class Rule>
+std::vector<MeasureSource> StressPointForce<D, Rule>::measures() const {
+  return stress_measures(visitor(), D);
+}
+
+template class StressPointForce<2, CellRule<2>>;
+template class StressPointForce<3, CellRule<3>>;
+template class StressPointForce<2, PointRule<2>>;
+template class StressPointForce<3, PointRule<3>>;
+
+}  // namespace meniscus
