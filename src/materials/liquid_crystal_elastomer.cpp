@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Liquid crystal elastomer without stress in its reference: the neo-classical energy (Fan 2014,
-// (4.29), corrected in constitutive note 6.1) of a director h that follows the deformation, with an
+// (4.29), corrected in constitutive note 4.1) of a director h that follows the deformation, with an
 // active stress (4.28).
 //
 //   W = mu/2 [tr(l0 F^T l^-1 F) - 3] - mu ln J + U(J) + active part
@@ -257,7 +257,7 @@ Rows<LiquidCrystalElastomer> LiquidCrystalElastomer::rows() {
 }
 
 /// Frank energy density of a director that turns by a radian per spacing: K/(2 spacing^2), K =
-/// kappa (s - 1)^2/s (constitutive note 6.1).
+/// kappa (s - 1)^2/s (constitutive note 4.1).
 std::optional<std::string> LiquidCrystalElastomer::note(Real spacing) const {
   if (frank_constant == 0) return {};
   const Real length = std::sqrt(frank_constant / mu) / spacing;

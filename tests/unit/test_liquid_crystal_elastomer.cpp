@@ -33,7 +33,7 @@ Vector vector(const nlohmann::json& x) {
   return {x.at(0).get<Real>(), x.at(1).get<Real>(), x.at(2).get<Real>()};
 }
 
-/// The elastomer with a director h that is independent of F (constitutive note 6.1, 6.3).
+/// The elastomer with a director h that is independent of F (constitutive note 4.1, 4.3).
 struct FreeDirector {
   Real mu, s, lambda;
 
