@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The HDF5 file driver with ordered changes (virtual file layer of HDF5 1.10).
+// The HDF5 file driver with ordered changes (virtual file layer of HDF5 1.10 to 1.14).
 #include "hdf5_driver.hpp"
 
 #include <fcntl.h>
 #include <hdf5.h>
+#if H5_VERSION_GE(1, 14, 0)
+#include <H5FDdevelop.h>
+#endif
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -234,6 +237,10 @@ herr_t query(const H5FD_t*, unsigned long* flags) {
 
 H5FD_class_t driver_class() {
   H5FD_class_t c{};
+#if H5_VERSION_GE(1, 14, 0)
+  c.version = H5FD_CLASS_VERSION;
+  c.value = H5_VFD_RESERVED;  // the first number that HDF5 leaves to others
+#endif
   c.name = "meniscus_ordered";
   c.maxaddr = HADDR_MAX;
   c.fc_degree = H5F_CLOSE_STRONG;

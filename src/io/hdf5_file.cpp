@@ -84,10 +84,9 @@ bool Group::has(const std::string& name) const {
 }
 
 bool Group::has_group(const std::string& name) const {
-  H5O_info_t info;
-  return has(name) &&
-         H5Oget_info_by_name2(handle_, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
-         info.type == H5O_TYPE_GROUP;
+  if (!has(name)) return false;
+  const Handle object(H5Oopen(handle_, name.c_str(), H5P_DEFAULT), doing("open", name));
+  return H5Iget_type(object) == H5I_GROUP;
 }
 
 std::vector<std::string> Group::names() const {
