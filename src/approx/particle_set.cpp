@@ -23,8 +23,7 @@ class FourPoints {
   bool operator()(const Vec<D>& X, Real support) const {
     Lanes squared = Lanes::zero();
     for (int i = 0; i < D; ++i) squared += (X[i] - at(x_, i)) * (X[i] - at(x_, i));
-    const Lanes inside = support * support * (1 + 1e-12) - squared;
-    return _mm256_movemask_pd(inside.v) != 15;  // bits: the signs of the lanes
+    return any(squared.v <= support * support * (1 + 1e-12));
   }
 
  private:

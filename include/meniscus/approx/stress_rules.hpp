@@ -18,17 +18,6 @@ inline const Real* components(const Lanes& x) {
   return reinterpret_cast<const Real*>(&x);
 }
 
-/// (a_q, b_q, c_q, 0) of lane q.
-inline std::array<Lanes, 4> by_lane(Lanes a, Lanes b, Lanes c) {
-  const __m256d ab0 = _mm256_unpacklo_pd(a.v, b.v), ab1 = _mm256_unpackhi_pd(a.v, b.v);
-  const __m256d zero = _mm256_setzero_pd();
-  const __m256d c0 = _mm256_unpacklo_pd(c.v, zero), c1 = _mm256_unpackhi_pd(c.v, zero);
-  return {Lanes::Native(_mm256_permute2f128_pd(ab0, c0, 0x20)),
-          Lanes::Native(_mm256_permute2f128_pd(ab1, c1, 0x20)),
-          Lanes::Native(_mm256_permute2f128_pd(ab0, c0, 0x31)),
-          Lanes::Native(_mm256_permute2f128_pd(ab1, c1, 0x31))};
-}
-
 }  // namespace detail
 
 /// Nodal cells with linear moments, "q_scni" (RKPM note 5.3): in cell L the gradient of a field is
@@ -61,7 +50,7 @@ struct CellRule {
     const Index* const end = particle.data() + at(start, cell + 1);
     const char* ahead = prefetch_begin(cell);
     for (; A != end; ++A, g += D, ahead += cache_line) {
-      _mm_prefetch(ahead, _MM_HINT_T1);
+      prefetch_second_level(ahead);
       const Real* f = detail::components(field[*A]);
       for (int i = 0; i < D; ++i)
         for (int K = 0; K < D; ++K) moment[i][K] += f[i] * g[K];
@@ -81,7 +70,7 @@ struct CellRule {
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     Lanes moment[D][D + 1];  // [K][0] = sum P_.K, [K][1 + M] = sum P_.K xi_M; a lane per i
     for (int K = 0; K < D; ++K) {
-      const auto Pq = detail::by_lane(P(0, K), P(1, K), P(2, K));
+      const auto Pq = by_lane(P(0, K), P(1, K), P(2, K));
       moment[K][0] = (Pq[0] + Pq[1]) + (Pq[2] + Pq[3]);
       for (int M = 0; M < D; ++M) {
         const Real* x = detail::components(xi[M]);
@@ -93,7 +82,7 @@ struct CellRule {
     const Index* const end = particle.data() + at(start, cell + 1);
     const char* ahead = prefetch_begin(cell) + (end - A) * cache_line;
     for (; A != end; ++A, g += D, ahead += cache_line) {
-      _mm_prefetch(ahead, _MM_HINT_T1);
+      prefetch_second_level(ahead);
       Lanes sum[D + 1];  // a chain per moment hides the latency
       sum[0] = force[*A] + moment[0][0] * detail::components(g[0])[0];
       for (int m = 1; m <= D; ++m) sum[m] = moment[0][m] * detail::components(g[0])[m];
@@ -153,7 +142,7 @@ struct PointRule {
 
   [[gnu::always_inline]] void scatter(Index group, const Tensor<Lanes>& P, Lanes* force) const {
     std::array<Lanes, 4> column[D];
-    for (int K = 0; K < D; ++K) column[K] = detail::by_lane(P(0, K), P(1, K), P(2, K));
+    for (int K = 0; K < D; ++K) column[K] = by_lane(P(0, K), P(1, K), P(2, K));
     const std::ptrdiff_t ahead = distance_to_next(group);
     for (int lane = 0; lane < count(group); ++lane) {
       const Index q = group * per_group + lane;
@@ -161,7 +150,7 @@ struct PointRule {
       const Index* A = rows.particle.data() + at(rows.start, q);
       const Index* const end = rows.particle.data() + at(rows.start, q + 1);
       for (; A != end; ++A, g += D) {
-        _mm_prefetch(reinterpret_cast<const char*>(g + ahead), _MM_HINT_T0);
+        __builtin_prefetch(g + ahead);
         Lanes f = at(column[0], lane) * g[0];
         for (int K = 1; K < D; ++K) f += at(column[K], lane) * g[K];
         force[*A] += f;

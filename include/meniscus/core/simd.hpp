@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Four doubles that are computed together. The compiler maps them to one AVX register, or to two
-// SSE registers: the arithmetic, and so every bit of the result, is the same.
+// registers of SSE or NEON: the arithmetic is the same. The few operations that g++ has no portable
+// name for are instructions of AVX where there are any, and plain C++ elsewhere.
 #pragma once
 #include "meniscus/core/types.hpp"
 
+#ifdef __AVX__
 #include <immintrin.h>
+#endif
 
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace meniscus {
@@ -79,7 +83,37 @@ inline Real sum(Lanes a) {
 }
 
 inline Lanes sqrt(Lanes a) {
+#ifdef __AVX__
   return Lanes::Native(_mm256_sqrt_pd(a.v));
+#else
+  return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+#endif
+}
+
+/// Whether the mask is set in any lane.
+inline bool any(Lanes::Mask mask) {
+#ifdef __AVX__
+  return _mm256_movemask_pd(std::bit_cast<__m256d>(mask)) != 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+#endif
+}
+
+/// Asks for the cache line of `p`, as far as the second level: it is needed soon, not next.
+inline void prefetch_second_level(const void* p) {
+  __builtin_prefetch(p, 0, 2);
+}
+
+/// The vectors (a_q, b_q, c_q, 0) of the lanes q = 0 ... 3.
+inline std::array<Lanes, 4> by_lane(Lanes a, Lanes b, Lanes c) {
+  const Lanes::Native zero{};
+  const Lanes::Native ab0 = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6);
+  const Lanes::Native ab1 = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
+  const Lanes::Native c0 = __builtin_shufflevector(c.v, zero, 0, 4, 2, 6);
+  const Lanes::Native c1 = __builtin_shufflevector(c.v, zero, 1, 5, 3, 7);
+  return {
+      __builtin_shufflevector(ab0, c0, 0, 1, 4, 5), __builtin_shufflevector(ab1, c1, 0, 1, 4, 5),
+      __builtin_shufflevector(ab0, c0, 2, 3, 6, 7), __builtin_shufflevector(ab1, c1, 2, 3, 6, 7)};
 }
 
 }  // namespace meniscus

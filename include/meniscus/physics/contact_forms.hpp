@@ -107,9 +107,7 @@ Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes*
       for (int i = 0; i < Form::components; ++i) W[i] = detail::components(weight[i])[lane];
       const Lanes square = dot<D>(r, r);
       nearest = min(square, nearest);
-      const Lanes::Mask within = square.v < reach * reach;
-      if (_mm256_movemask_pd(std::bit_cast<__m256d>(within)) != 0)
-        Form::add(law, square, r, V, W, T, S);
+      if (any(square.v < reach * reach)) Form::add(law, square, r, V, W, T, S);
     }
   }
   return nearest;

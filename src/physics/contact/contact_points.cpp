@@ -201,7 +201,7 @@ void ContactPoints<D>::add_force(std::span<const Index> clusters, std::span<cons
     for (Index c = begin; c < end; ++c) {
       if (!at(pushed_, c)) continue;
       const Lanes* pull = T.data() + offset(c, D);
-      const auto by_point = detail::by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
+      const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
       for (Index lane = 0; lane < points_in(c); ++lane)
         scatter_value(rule_.rows, c * Lanes::width + lane, -at(by_point, lane), f);
       if (!S.empty()) rule_.scatter(c, -1.0 * stress(c, S.data() + offset(c, D)), f);
