@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pre-flight: what a run of the scene would be.
+// Dry run of a scene: everything short of running it.
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/scene/simulation.hpp"

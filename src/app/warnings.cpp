@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Doubtful states of a run.
+// Run-time warnings: doubtful states of a run.
 #include "meniscus/app/warnings.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The only file that knows nanoflann.
+// Neighbour search by nanoflann, which no other file sees.
 #include "meniscus/approx/neighbor_search.hpp"
 
 #include <nanoflann.hpp>

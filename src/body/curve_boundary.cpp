@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the exact surface lies from the middles of boundary edges and facets.
+// Curved boundary cells: distances of the exact surface from the middles of edges and facets.
 #include "meniscus/body/surface_points.hpp"
 
 #include <algorithm>

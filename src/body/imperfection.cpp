@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random smooth displacements.
+// Shape imperfections: random smooth displacements.
 #include "meniscus/body/imperfection.hpp"
 
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances of particles from the other side of a cavity.
+// Wall supports from the distances of particles to the other side of a cavity.
 #include "meniscus/body/wall_supports.hpp"
 
 #include "meniscus/body/surface_points.hpp"

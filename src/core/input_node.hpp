@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind Block and SceneInput: the document with its list of problems, and one node per
-// table that was asked for, which remembers the values it handed out.
+// Nodes behind Block and SceneInput: the document with its list of problems, and one node per table
+// that was asked for, which remembers the values it handed out.
 #pragma once
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"

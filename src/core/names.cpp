@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Help with misspelt names: edit distance and the sentence built on it.
+// Suggestions for misspelt names: edit distance and the sentence built on it.
 #include "meniscus/core/names.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all frames of a result file have in common.
+// Layout that all frames of a result file share.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How HDF5 files are written so that they survive an interruption at any moment.
+// HDF5 file driver: files that survive an interruption at any moment.
 //
 // HDF5 adds a frame by writing new structures and changing a few old ones (group index, superblock,
 // array sizes), in an order of its own; a file whose writer is killed among these changes does not

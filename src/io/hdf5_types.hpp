@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the HDF5 files share: number types and text attributes.
+// HDF5 number types and text attributes, shared by the HDF5 files.
 #pragma once
 #include <hdf5.h>
 

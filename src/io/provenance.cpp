@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collects where a result comes from.
+// Provenance of a result, collected.
 #include "meniscus/io/provenance.hpp"
 
 #include <fmt/chrono.h>

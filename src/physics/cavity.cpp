@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Force of a filling on the surface around it.
+// Cavity: force of a filling on the surface around it.
 #include "meniscus/physics/cavity.hpp"
 
 #include "meniscus/physics/cavity_gap.hpp"

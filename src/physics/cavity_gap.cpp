@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of opposite places of a cavity.
+// Cavity gap: pairs of opposite places.
 #include "meniscus/physics/cavity_gap.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers taken from the history of a run, compared with what the scene expects.
+// Expectations: numbers taken from the history of a run and compared.
 #include "meniscus/scene/expectations.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape of red blood cells.
+// Shape measures of red blood cells.
 #include "meniscus/solve/cell_measures.hpp"
 
 #include "meniscus/body/wall_supports.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time step as the body deforms.
+// Step control as the body deforms.
 #include "meniscus/solve/step_controller.hpp"
 
 #include "meniscus/core/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program can be asked to do.
+// The commands of the program.
 #pragma once
 #include <cstdint>
 #include <optional>

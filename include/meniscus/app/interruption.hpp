@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asking a run to stop: signals and a limit on wall-clock time.
+// Interruption of a run: signals and a limit on wall-clock time.
 #pragma once
 #include <chrono>
 #include <optional>

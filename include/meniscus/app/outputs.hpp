@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of what a run writes: columns of its history and fields of its frames.
+// Names of the output of a run: columns of its history and fields of its frames.
 #pragma once
 #include "meniscus/io/history.hpp"
 #include "meniscus/scene/scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The line that tells a person how far a run is.
+// Progress of a run on one line of the terminal.
 #pragma once
 #include "meniscus/solve/audit.hpp"
 

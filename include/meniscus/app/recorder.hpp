@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run writes: rows of the history, frames, checkpoints, and when.
+// Output of a run: rows of the history, frames and checkpoints, and when they are due.
 #pragma once
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/history.hpp"

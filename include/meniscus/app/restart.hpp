@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a run goes on from, and where its results go.
+// Restart: the state a run continues from, and the directory of its results.
 #pragma once
 #include "meniscus/app/commands.hpp"
 #include "meniscus/io/checkpoint.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run should be doubted for, looked at whenever a row of the history is written.
+// Run-time warnings, looked for whenever a row of the history is written.
 #pragma once
 #include "meniscus/scene/simulation.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a cell at a curved surface has beyond its multilinear map: quadratic bulges of its edges and
-// sides.
+// Bulges of cells at a curved surface: quadratic deviations of their edges and sides from the
+// multilinear map.
 #pragma once
 #include "meniscus/core/types.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that are not made quite to shape.
+// Shape imperfections.
 #pragma once
 #include "meniscus/body/geometry.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kernels of a hollow body reach through its wall only.
+// Wall supports: kernels of a hollow body reach through its wall only.
 #pragma once
 #include "meniscus/approx/particle_set.hpp"
 #include "meniscus/body/geometry.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// log(1 + x), e^x - 1, and what they are beyond their linear part, for every scalar that materials
+// Elementary functions: log(1 + x), e^x - 1 and their remainders, for every scalar that materials
 // are evaluated with. All are accurate near x = 0.
 #pragma once
 #include "meniscus/core/simd.hpp"

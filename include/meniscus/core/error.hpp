@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ways in which a run can end badly; app maps each to its exit code.
+// Errors; app maps each kind to its exit code.
 #pragma once
 #include <stdexcept>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Help with misspelt names.
+// Suggestions for misspelt names.
 #pragma once
 #include <string>
 #include <string_view>

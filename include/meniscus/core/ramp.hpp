@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How loads and material numbers are switched on: smoothly over a span of time, then constant.
+// Ramps: loads and material numbers switched on smoothly over a span of time, then constant.
 #pragma once
 #include "meniscus/core/input.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is in a file of results, for `meniscus info`.
+// Summaries of result files, for `meniscus info`.
 #pragma once
 #include <filesystem>
 #include <string>

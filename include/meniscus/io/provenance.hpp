@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a result comes from: program, libraries, command and input. Nothing in it names a machine
-// or a person.
+// Provenance of a result: program, libraries, command and input. Nothing in it names a machine or a
+// person.
 #pragma once
 #include <string>
 #include <utility>

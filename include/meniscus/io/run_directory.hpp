@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The directory of the results of one run, and who may write there.
+// Results directory of a run, locked for one writer.
 #pragma once
 #include <filesystem>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run has to say: everything to run.log, warnings and errors also to stderr.
+// Log of a run: everything to run.log, warnings and errors also to stderr.
 #pragma once
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A load per mass, e.g. gravity, as a function of reference position and time.
+// Body force: force per mass, e.g. gravity, as a function of reference position and time.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/expression.hpp"

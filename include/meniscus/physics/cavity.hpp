@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fills a closed surface: a pressure, or a content of prescribed volume.
+// Cavity: a closed surface filled with a pressure, or with a content of prescribed volume.
 #pragma once
 #include "meniscus/core/ramp.hpp"
 #include "meniscus/physics/closed_surface.hpp"

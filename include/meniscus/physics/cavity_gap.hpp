@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far opposite places of an inner surface are from each other.
+// Cavity gap: distances of opposite places of an inner surface.
 #pragma once
 #include "meniscus/physics/closed_surface.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the outer or inner surface of a body encloses, and how that changes with the particles.
+// Closed surface of a body, outer or inner: enclosed volume and its gradient.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/body/surface_points.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What contact asks of the time step, and how well its gap is resolved.
+// Demand of contact on the time step, and resolution of its gap.
 #pragma once
 #include "meniscus/physics/contact_law.hpp"
 #include "meniscus/physics/contact_points.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a contact point feels from another one in the different forms, and the sum over partners:
-// four points at a time, a lane each (CGCM notes 2 and 4).
+// Forms of contact: the force of one contact point on another, and the sum over partners: four
+// points at a time, a lane each (CGCM notes 2 and 4).
 //
 // With r = x - y from the other point to the own one, V and W the weights of the own and the other
 // point, a form adds to

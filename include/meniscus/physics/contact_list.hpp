@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which contact points may interact: a Verlet list of clusters of four points.
+// Contact list: a Verlet list of clusters of four points.
 #pragma once
 #include "meniscus/approx/neighbor_search.hpp"
 #include "meniscus/core/aligned.hpp"

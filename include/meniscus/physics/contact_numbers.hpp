@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an interaction means for two flat bodies: adhesion, equilibrium gap, strength, stiffness.
+// Interaction of two flat bodies: adhesion, equilibrium gap, strength, stiffness.
 #pragma once
 #include "meniscus/physics/contact_law.hpp"
 

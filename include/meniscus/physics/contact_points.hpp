@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points of a body between which contact forces act: its closed surface, or its volume.
+// Contact points of a body: on its closed surface, or in its volume.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of isotropic solids that have the two parameters of Lame.
+// Numbers of isotropic solids with Lame's two parameters.
 #pragma once
 #include "meniscus/physics/law.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a material law is: a plain struct of numbers with pure functions of the deformation.
+// Material laws: plain structs of numbers with pure functions of the deformation.
 //
 // A law lives in its own file in src/materials, in an anonymous namespace, and ends with
 //   const bool registered = register_law<MyLaw>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the material of a scene to the internal force of a body. The template that joins law and
-// integration rule is instantiated once per law, at its registration.
+// Materials: from the table of a scene to the internal force of a body. The template that joins law
+// and integration rule is instantiated once per law, at its registration.
 #pragma once
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/core/error.hpp"

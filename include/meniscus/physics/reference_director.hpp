@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The direction in which a material is different, at each point of its reference.
+// Reference director: the axis of an anisotropic material at each point of its reference.
 #pragma once
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/core/input.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a body with internal stress can report: fields and measures from the state at its stress
-// points. Apart from the law and the integration rule, which only say what that state is.
+// Output of a body with internal stress: fields and measures from the state at its stress points.
+// Apart from the law and the integration rule, which only say what that state is.
 #pragma once
 #include "meniscus/core/tensor.hpp"
 #include "meniscus/physics/force_term.hpp"

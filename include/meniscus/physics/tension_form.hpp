@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the discrete forms of surface tension have in common: the energy gamma x area.
+// Common part of the discrete forms of surface tension: the energy gamma x area.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"

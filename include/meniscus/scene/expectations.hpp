@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene expects of its own result, held against the history of the run.
+// Expectations of a scene, compared with the history of its run.
 #pragma once
 #include "meniscus/scene/settings.hpp"
 

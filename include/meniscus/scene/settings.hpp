@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene says, as structs whose rows are the reference of the input keys.
+// Settings of a scene: structs whose rows are the reference of the input keys.
 #pragma once
 #include "meniscus/core/input.hpp"
 #include "meniscus/core/ramp.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the energy is, and whether energy and momenta are kept.
+// Audit: energy by kind, and whether energy and momenta are conserved.
 #pragma once
 #include "meniscus/solve/system.hpp"
 

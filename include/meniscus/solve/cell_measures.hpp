@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that describe the shape of a red blood cell.
+// Shape measures of red blood cells.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"

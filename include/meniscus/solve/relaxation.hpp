@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way to equilibrium: explicit dynamics with the damping that its motion asks for.
+// Dynamic relaxation: explicit dynamics with the damping that its motion asks for.
 #pragma once
 #include "meniscus/core/snapshot.hpp"
 #include "meniscus/solve/system.hpp"

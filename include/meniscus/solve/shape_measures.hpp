@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that describe where a body is and what shape it has.
+// Measures of the place and the shape of a body.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/expression.hpp"

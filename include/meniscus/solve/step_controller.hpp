@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the time step of a run: a fraction of the stable step, or the step that was asked for.
+// Step control: a fraction of the stable step, or the step that was asked for.
 #pragma once
 #include "meniscus/core/snapshot.hpp"
 #include "meniscus/solve/time_step.hpp"

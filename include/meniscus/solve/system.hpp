@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that moves and all that acts: bodies, force terms, and the state that changes in time.
+// System: bodies, force terms, and the state that changes in time.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Convergence studies: a family of resolutions and methods, and what they cost. A study lives in
+// Convergence studies: resolutions and methods, their errors and what they cost. A study lives in
 // its own file in src/study, in an anonymous namespace, and ends with
 //   const bool registered = register_study({...});
 #pragma once

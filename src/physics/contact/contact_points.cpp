@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact points carried along with their body, and the way of forces back to its particles.
+// Contact points that move with their body, and their forces on its particles.
 #include "meniscus/physics/contact_points.hpp"
 
 #include "meniscus/body/surface_points.hpp"

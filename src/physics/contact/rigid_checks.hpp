@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makers of rigid partners refuse.
+// Checks of the numbers of rigid partners.
 #pragma once
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact_law.hpp"

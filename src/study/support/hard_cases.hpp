@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the study of hard cases follows a run, and what it states about it.
+// Hard cases: following a run, and stating what became of it.
 #pragma once
 #include "meniscus/study/study.hpp"
 
