@@ -75,7 +75,7 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
   system_.add_up(state.motion(), base_);
   const bool viscous = system_.viscous();
   StableStep best{0, 0, 0, 1};
-  Real dt = 0;  // weighs stiffness against viscosity; known after the first iteration
+  Real dt = 0;  // balances stiffness and viscosity; known after the first iteration
   Real last_fall = 0;
   for (int iteration = 0, settled = 0; iteration < most_iterations; ++iteration) {
     Real largest = 0, mass_norm = 0;
@@ -99,7 +99,7 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
     best.evaluations += viscous ? 2 : 1;
     const Real limit = 4 / (c + std::sqrt(c * c + 4 * k));
     // The limit falls from iteration to iteration, in the end as a geometric series: what is left
-    // of it is taken off.
+    // of it is subtracted.
     const Real fall = dt - limit, slope = last_fall - fall;
     const Real left =
         fall > 0 && slope > 0 ? std::min(fall * fall / slope, 0.1 * limit) : std::abs(fall);

@@ -82,7 +82,7 @@ Measurement measure(const Rule& rule, Body<3>& body, int n, Real jitter, Real lo
 }
 
 /// Energy of the saw-tooth (-1)^(i + j + k) along x at the node in the middle of a lattice, where
-/// the boundary is not felt.
+/// the boundary does not matter.
 Real saw_tooth_energy(const Integration& integration, Body<3>& body, int n) {
   NodalVectors u(static_cast<std::size_t>(body.size()), Lanes::zero());
   Index middle = 0;

@@ -140,8 +140,8 @@ class Stage {
     });
   }
 
-  /// F of this stage, and the surface carried along as the next reference.
-  SurfacePoints<D> carried(const NodalVectors& d, std::vector<Mat<D>>& F) const {
+  /// F of this stage, and the deformed surface as the next reference.
+  SurfacePoints<D> deformed_surface(const NodalVectors& d, std::vector<Mat<D>>& F) const {
     SurfacePoints<D> next = surface_;
     F.resize(surface_.X.size());
     parallel_for(surface_.size(), [&](Index q) {
@@ -271,7 +271,7 @@ Measurement CurvatureProblem<D>::measure(const CurvatureMethod<D>& method) const
     });
     result.bytes = std::max(result.bytes, stage.bytes() + (fit ? fit->bytes() : 0));
     std::vector<Mat<D>> F;
-    surface = stage.carried(d, F);
+    surface = stage.deformed_surface(d, F);
     for (std::size_t q = 0; q < F.size(); ++q) found.F[q] = F[q] * found.F[q];
     for (std::size_t A = 0; A < cloud.size(); ++A)
       cloud[A] = vector_at<D>(d, static_cast<Index>(A));

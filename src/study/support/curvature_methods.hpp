@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curvature of a surface that carries an exact map, found from the particles alone, and its errors.
+// Curvature of a surface under an exact map, found from the particles alone, and its errors.
 #pragma once
 #include "meniscus/approx/particle_set.hpp"
 #include "meniscus/body/surface_points.hpp"

@@ -63,7 +63,7 @@ class LoadSum {
 };
 
 template <int D>
-void take_off(const std::vector<NodalVectors>& modes, NodalVectors& u) {
+void remove_modes(const std::vector<NodalVectors>& modes, NodalVectors& u) {
   for (const NodalVectors& mode : modes) u = sum_of(std::move(u), -dot(mode, u), mode);
 }
 
@@ -230,7 +230,7 @@ std::vector<NodalVectors> rigid_modes(const Body<D>& body) {
     NodalVectors mode(static_cast<std::size_t>(body.size()));
     for (Index A = 0; A < body.size(); ++A)
       set_vector<D>(mode, A, fields.value(m, at(body.particles.X(), A) - Vec<D>::Constant(0.5)));
-    take_off<D>(modes, mode);
+    remove_modes<D>(modes, mode);
     const Real length = norm(mode);
     for (Lanes& x : mode) x /= length;
     modes.push_back(std::move(mode));
@@ -242,14 +242,14 @@ template <int D>
 Solution solve(LinearBody<D>& linear, const ElasticCase<D>& c, Real tolerance) {
   const auto rigid = rigid_modes(*c.body);
   NodalVectors load = c.load;
-  take_off<D>(rigid, load);
+  remove_modes<D>(rigid, load);
   const Real scale = norm(load);
   Solution s{NodalVectors(load.size(), Lanes::zero()), 0, 1};
   // Restarted with the true residual, which rounding lets the recursive one part from.
   constexpr int restarts = 3;
   for (int pass = 0; pass < restarts && s.residual > tolerance; ++pass) {
     NodalVectors r = sum_of(load, -1, linear.stiffness_times(s.u)), p = r;
-    take_off<D>(rigid, r);
+    remove_modes<D>(rigid, r);
     Real rr = dot(r, r), least = rr;
     const int most = 200 * static_cast<int>(std::sqrt(linear.size()) + 10);
     for (int k = 0, idle = 0; k < most && idle < 500 && std::sqrt(rr) > 0.5 * tolerance * scale;
@@ -267,7 +267,7 @@ Solution solve(LinearBody<D>& linear, const ElasticCase<D>& c, Real tolerance) {
         idle = 0;
       }
     }
-    take_off<D>(rigid, s.u);
+    remove_modes<D>(rigid, s.u);
     s.residual = norm(sum_of(load, -1, linear.stiffness_times(s.u))) / scale;
   }
   return s;

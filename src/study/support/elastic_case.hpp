@@ -73,7 +73,7 @@ struct Solution {
 template <int D>
 Solution solve(LinearBody<D>& linear, const ElasticCase<D>& c, Real tolerance);
 
-/// Relative errors of displacement and gradient; the best rigid motion is taken off.
+/// Relative errors of displacement and gradient; the best rigid motion is left out.
 struct ElasticErrors {
   Real L2, H1;
 };
