@@ -71,7 +71,7 @@ Handle text_type(const std::string& text) {
   Handle type(H5Tcopy(H5T_C_S1), "describe a text");
   check(H5Tset_size(type, std::max<std::size_t>(text.size(), 1)), "describe a text");
   check(H5Tset_strpad(type, H5T_STR_NULLPAD), "describe a text");
-  const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return c >= 0; });
+  const bool ascii = std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 128; });
   check(H5Tset_cset(type, ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8), "describe a text");
   return type;
 }
