@@ -15,6 +15,8 @@ import tempfile
 
 EFFECTS = {
     "surface tension": r"SurfaceTension<|_surface_tension<",
+    "patches": r"SurfacePatches<[23]>::",
+    "coefficient damping": r"CoefficientDamping<|coefficient_damping<",
     "curvature": r"CurvatureSurfaceTension<|hessian_along|\(meniscus::Derivatives\)2",
     # Its stress is inlined into the loop over stress points of a viscous law.
     "viscosity": r"InternalForce<[23], (?!meniscus::WithoutViscosity).*Newtonian|viscous_stress",
@@ -53,7 +55,18 @@ SCENES = {
     "drop without viscosity": (DROP.replace("viscosity = 0.3", "viscosity = 0"), {"internal force"}),
     "viscous drop": (DROP, {"internal force", "viscosity"}),
     "elastic cube on a plate": (CUBE + SOLID + PLATE, {"internal force", "contact"}),
-    "elastic cube, tension": (CUBE + SOLID + TENSION, {"internal force", "surface tension"}),
+    "elastic cube, tension": (
+        CUBE + SOLID + TENSION,
+        {"internal force", "surface tension", "patches"},
+    ),
+    "elastic cube, tension at Gauss points": (
+        CUBE + SOLID + TENSION + 'form = "weak"\n',
+        {"internal force", "surface tension"},
+    ),
+    "viscous drop, tension": (
+        DROP + TENSION,
+        {"internal force", "viscosity", "surface tension", "patches", "coefficient damping"},
+    ),
     "viscous drop, tension by curvature": (
         DROP + TENSION + 'form = "curvature"\n',
         {"internal force", "viscosity", "surface tension", "curvature"},

@@ -10,6 +10,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/run_log.hpp"
 #include "meniscus/scene/expectations.hpp"
+#include "meniscus/solve/drop_measures.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -108,6 +109,22 @@ void introduce(const Scene<D>& scene, const Provenance& origin,
   log.info(fmt::format("stable step {:.6g} {}", stable.dt, scene.units.symbol(dimension::time)));
 }
 
+/// How far the drops are from equilibrium at the start.
+template <int D>
+void report_residuals(const Simulation<D>& simulation, RunLog& log) {
+  const State& state = simulation.state();
+  for (const Drop<D>& drop : simulation.scene().drops) {
+    const Body<D>& body = *drop.body;
+    const auto force =
+        std::span<const Lanes>(state.force)
+            .subspan(static_cast<std::size_t>(body.first), static_cast<std::size_t>(body.size()));
+    log.info(fmt::format("body '{}': residual force of the start: {:.2g} of the capillary force",
+                         body.name,
+                         capillary_residual<D>(force, drop.gamma, drop.area(state.motion()),
+                                               drop.volume(state.motion()))));
+  }
+}
+
 template <int D>
 std::string summarise(const Simulation<D>& simulation, std::int64_t first_step,
                       double set_up_seconds, const Interruption& interruption) {
@@ -178,6 +195,7 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
   RunLog log(directory.log_file());
   const Provenance origin = provenance(request.command_line, complete);
   introduce(scene, origin, restart, simulation.controller().stable(), log);
+  if (!restart) report_residuals(simulation, log);
 
   if (in_place)  // before rows and frames are dropped that a later checkpoint would need
     CheckpointWriter(directory, origin)

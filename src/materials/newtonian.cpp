@@ -40,9 +40,9 @@ struct Newtonian {
   Real p_wave_modulus() const { return bulk_modulus; }
   bool inviscid() const { return viscosity == 0 && bulk_viscosity == 0; }
 
+  /// U(1 + theta).
   template <class T>
-  T energy_density(const Tensor<T>& H) const {
-    const T theta = volume_change(H);  // J - 1
+  T volumetric_energy(T theta) const {
     switch (equation_of_state) {
       case EquationOfState::linear:
         return 0.5 * bulk_modulus * theta * theta;
@@ -54,6 +54,38 @@ struct Newtonian {
     const Real m = exponent - 1;
     return bulk_modulus / exponent *
            (exp_remainder(-m * log1p(theta)) / m - log1p_remainder(theta));
+  }
+
+  /// U'(1 + theta). All points of a body take the same branch.
+  template <class T>
+  [[gnu::always_inline]] T mean_stress(T theta) const {
+    switch (equation_of_state) {
+      case EquationOfState::linear:
+        return bulk_modulus * theta;
+      case EquationOfState::log:
+        return bulk_modulus * log1p(theta);
+      case EquationOfState::tait:
+        break;
+    }
+    return -bulk_modulus / exponent * expm1(-exponent * log1p(theta));
+  }
+
+  /// m of U'' = kappa J^(m - 2).
+  Real volumetric_degree() const {
+    switch (equation_of_state) {
+      case EquationOfState::linear:
+        return 2;
+      case EquationOfState::log:
+        return 1;
+      case EquationOfState::tait:
+        break;
+    }
+    return 1 - exponent;
+  }
+
+  template <class T>
+  T energy_density(const Tensor<T>& H) const {
+    return volumetric_energy(volume_change(H));
   }
 
   /// P = U'(J) cof F.
@@ -75,20 +107,6 @@ struct Newtonian {
   }
 
  private:
-  /// All points of a body take the same branch.
-  template <class T>
-  [[gnu::always_inline]] T mean_stress(T theta) const {
-    switch (equation_of_state) {
-      case EquationOfState::linear:
-        return bulk_modulus * theta;
-      case EquationOfState::log:
-        return bulk_modulus * log1p(theta);
-      case EquationOfState::tait:
-        break;
-    }
-    return -bulk_modulus / exponent * expm1(-exponent * log1p(theta));
-  }
-
   static Row<Newtonian> equation_row() {
     Row<Newtonian> row;
     row.key = "equation_of_state";

@@ -22,11 +22,18 @@ Tensor<Lanes> StressPointForce<D, Rule>::gradients(Index group, const Lanes* u) 
 }
 
 template <int D, class Rule>
-std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motion) const {
+Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
   const Lanes* u = motion.u.data() + body_.first;
   return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
-    return sum(rule_.weight(g) * laws_->energy_density(g, motion.time, gradients(g, u)));
+    return sum(rule_.weight(g) * laws.energy_density(g, motion.time, gradients(g, u)));
   });
+}
+
+template <int D, class Rule>
+std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motion) const {
+  if (!surface_) return energy(*laws_, motion);
+  const Real volume = surface_->measure(Size::volume, motion.u.data() + body_.first);
+  return energy(*laws_->about(volume / surface_->reference(Size::volume) - 1), motion);
 }
 
 template <int D, class Rule>

@@ -79,7 +79,7 @@ void plan_bodies(const Block& root, Plan<D>& plan) {
     Geometry<D> geometry = read_geometry<D>(block);
     auto material = plan_material<D>(block);
     block.done();
-    plan.bodies.push_back({std::move(settings), std::move(geometry), std::move(material)});
+    plan.bodies.push_back({std::move(settings), std::move(geometry), std::move(material), false});
   }
 }
 
@@ -131,8 +131,11 @@ void plan_loads(const Block& root, Plan<D>& plan) {
     require_first(block, plan.tensions);
     if (body && plan.tensions.back().form == "curvature" && !body->geometry.smooth)
       block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
-                                        "undefined; allowed are weak, triangles",
+                                        "undefined; allowed are balanced, weak, triangles",
                                         body->settings.name));
+    if (plan.tensions.back().form == "balanced")
+      for (auto& planned : plan.bodies)
+        planned.enclosed |= &planned == body && planned.material && planned.material->fluid();
     block.done();
   }
   for (const Block& block : root.tables("body_force")) {

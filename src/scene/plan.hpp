@@ -26,6 +26,7 @@ struct Plan {
     BodySettings settings;
     Geometry<D> geometry;
     std::unique_ptr<Material<D>> material;
+    bool enclosed = false;  ///< Integration::enclosed
   };
   std::vector<PlannedBody> bodies;
   std::vector<TensionSettings> tensions;

@@ -7,12 +7,15 @@
 #include "meniscus/body/wall_supports.hpp"
 #include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/cavity.hpp"
+#include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/solve/cell_measures.hpp"
+#include "meniscus/solve/drop_measures.hpp"
 #include "meniscus/solve/shape_measures.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "plan.hpp"
@@ -79,9 +82,9 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
   body.first = scene.system.size();
   body.at_particles =
       build_point_rows<D>(body.particles, body.particles.X(), {.value = true}, body.name);
-  auto built = planned.material->build(
-      body,
-      {planned.settings.integration, planned.settings.gauss_points, planned.settings.volumetric});
+  auto built =
+      planned.material->build(body, {planned.settings.integration, planned.settings.gauss_points,
+                                     planned.settings.volumetric, planned.enclosed});
   scene.system.mass.insert(scene.system.mass.end(), body.mass.begin(), body.mass.end());
   scene.notes.push_back(fmt::format(
       "body '{}': {} particles, {} cells, mean spacing {:.4g} {}, {:.1f} neighbours per particle, "
@@ -123,6 +126,7 @@ void build_body(typename Plan<D>::PlannedBody& planned, Scene<D>& scene) {
     scene.measures.push_back(std::move(m));
   }
   scene.fields.push_back(std::move(fields));
+  scene.viscosity.push_back(std::move(built.viscosity));
   scene.system.terms.push_back(std::move(built.force));
 }
 
@@ -150,19 +154,56 @@ void build_cavities(const Plan<D>& plan, Scene<D>& scene) {
 }
 
 template <int D>
-void build_loads(const Plan<D>& plan, Scene<D>& scene) {
+std::unique_ptr<ForceTerm> tension_of(const Body<D>& body, const TensionSettings& tension) {
+  if (tension.form == "balanced") return balanced_surface_tension(body, tension.gamma);
+  if (tension.form == "weak") return weak_surface_tension(body, tension.gamma, tension.points);
+  if (tension.form == "curvature")
+    return curvature_surface_tension(body, tension.gamma, tension.points);
+  return triangle_surface_tension(body, tension.gamma);
+}
+
+template <int D>
+void add_measures(const Body<D>& body, std::vector<MeasureSource> measures, Scene<D>& scene) {
+  for (MeasureSource& m : measures) {
+    m.name = body.name + "." + m.name;
+    scene.measures.push_back(std::move(m));
+  }
+}
+
+template <int D>
+std::function<Real(const Motion&)> measure_named(const Scene<D>& scene, const std::string& name) {
+  const auto found = std::find_if(scene.measures.begin(), scene.measures.end(),
+                                  [&](const MeasureSource& m) { return m.name == name; });
+  return found->compute;
+}
+
+template <int D>
+void build_tensions(const Plan<D>& plan, Scene<D>& scene) {
   for (const TensionSettings& tension : plan.tensions) {
     const Body<D>& body = body_named(scene.system, tension.body);
-    auto term = tension.form == "weak" ? weak_surface_tension(body, tension.gamma, tension.points)
-                : tension.form == "curvature"
-                    ? curvature_surface_tension(body, tension.gamma, tension.points)
-                    : triangle_surface_tension(body, tension.gamma);
-    for (MeasureSource& m : term->measures()) {
-      m.name = body.name + "." + m.name;
-      scene.measures.push_back(std::move(m));
-    }
+    const auto same = [&](const Body<D>& other) { return &other == &body; };
+    const auto number = std::find_if(scene.system.bodies.begin(), scene.system.bodies.end(), same) -
+                        scene.system.bodies.begin();
+    const std::vector<Real>& viscosity = at(scene.viscosity, number);
+    auto term = tension_of(body, tension);
+    add_measures(body, term->measures(), scene);
+    add_measures(body, drop_measures(body, viscosity, tension.gamma), scene);
     scene.system.terms.push_back(std::move(term));
+    const auto viscous = [](Real mu) { return mu > 0; };
+    if (tension.form == "balanced" && tension.coefficient_damping > 0 &&
+        std::any_of(viscosity.begin(), viscosity.end(), viscous))
+      scene.system.terms.push_back(
+          coefficient_damping(body, viscosity, tension.coefficient_damping));
+    if (!viscosity.empty())
+      scene.drops.push_back({&body, tension.gamma, measure_named(scene, body.name + ".area"),
+                             measure_named(scene, body.name + ".volume"),
+                             tension.form == "triangles"});
   }
+}
+
+template <int D>
+void build_loads(const Plan<D>& plan, Scene<D>& scene) {
+  build_tensions(plan, scene);
   build_cavities(plan, scene);
   for (const BodyForceSettings& load : plan.body_forces)
     scene.system.terms.push_back(

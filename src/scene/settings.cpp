@@ -99,11 +99,13 @@ Rows<BodySettings> BodySettings::rows() {
                  "q_scni"),
       integer_row("gauss_points", &S::gauss_points, {1, 8},
                   "Gauss points per direction and cell, for integration = \"gauss\"", 3),
-      choice_row("volumetric", &S::volumetric, {"automatic", "full", "cell_average"},
-                 "volume change at every stress point, or its mean over each nodal cell "
-                 "(integration = \"q_scni\"), which does not lock where solids are nearly "
-                 "incompressible; automatic: cell_average where bulk / shear modulus >= 1000",
-                 "automatic"),
+      choice_row(
+          "volumetric", &S::volumetric, {"automatic", "full", "cell_average"},
+          "volume change at every stress point, or its mean over each nodal cell "
+          "(integration = \"q_scni\"), which does not lock where solids are nearly "
+          "incompressible; automatic: cell_average where bulk / shear modulus >= 1000, and in "
+          "fluids with balanced surface tension",
+          "automatic"),
       choice_row("window", &S::window, windows(), "window function of the kernel", "cubic_spline"),
       real_row("support_factor", &S::support_factor, dimension::none, {1, 10},
                "support of a particle / distance to its neighbour of rank support_rank", 1.8),
@@ -124,11 +126,17 @@ Rows<TensionSettings> TensionSettings::rows() {
       text_row("body", &S::body, "name of the body whose surface is under tension"),
       real_row("gamma", &S::gamma, dimension::tension, range::positive, "surface tension"),
       choice_row(
-          "form", &S::form, {"weak", "curvature", "triangles"},
-          "gradient of the discrete area; curvature from second derivatives (smooth surfaces "
-          "only); flat triangles",
-          "weak"),
-      integer_row("points", &S::points, {1, 8}, "Gauss points per direction and surface facet", 3),
+          "form", &S::form, {"balanced", "weak", "curvature", "triangles"},
+          "gradient of the area of patches through places, with the volume that they enclose for "
+          "the pressure of a fluid; gradient of the area at Gauss points; curvature from second "
+          "derivatives (smooth surfaces only); flat triangles",
+          "balanced"),
+      integer_row("points", &S::points, {1, 8},
+                  "Gauss points per direction and surface facet, for weak and curvature", 3),
+      real_row("coefficient_damping", &S::coefficient_damping, dimension::none, range::non_negative,
+               "damping of what of the velocity coefficients of a fluid does not move places, in "
+               "kinematic viscosity / spacing^2, for balanced; 0: none",
+               0.5),
   };
 }
 

@@ -4,6 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/solve/central_difference.hpp"
+#include "meniscus/solve/drop_measures.hpp"
 
 #include <fmt/format.h>
 
@@ -103,8 +104,28 @@ void Simulation<D>::advance() {
   }
 }
 
+/// A surface smaller than that of the ball (2D: disk) of the same volume cannot be: its quadrature
+/// has lost the shape.
+template <int D>
+void Simulation<D>::refuse_impossible_surfaces() const {
+  constexpr Real bearable = 1e-3;
+  for (const Drop<D>& drop : scene_.drops) {
+    const Real area = drop.area(state_.motion()), volume = drop.volume(state_.motion());
+    const Real ratio = isoperimetric_ratio<D>(area, volume);
+    if (drop.inscribed || ratio >= 1 - bearable) continue;
+    throw SolveError(fmt::format(
+        "step {}, t = {:.9g}: body '{}' has the isoperimetric ratio {:.6f}: the {} {:.6g} of its "
+        "surface tension is below the least possible {:.6g} for its {}. The surface is no longer "
+        "resolved; use form = \"balanced\", finer particles, or a reference shape nearer to the "
+        "present one",
+        state_.step, state_.time, drop.body->name, ratio, D == 3 ? "area" : "circumference", area,
+        area / ratio, D == 3 ? "volume" : "area"));
+  }
+}
+
 template <int D>
 Ledger Simulation<D>::audit_now() {
+  refuse_impossible_surfaces();
   const Ledger ledger = take_ledger(scene_.system, state_);
   audit_.follow(scene_.system, state_, ledger);
   return ledger;

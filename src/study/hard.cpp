@@ -36,17 +36,6 @@ std::string box(const std::string& cells, const std::string& keys, Real end,
       end, size, cells, keys);
 }
 
-/// A drop with R = rho = gamma = 1 near its sphere.
-std::string drop(const std::string& axes, int core, Real Oh, Real end,
-                 const std::string& keys = "") {
-  return fmt::format(
-      "dimension = 3\ntime = {{ end = {}, safety = 0.2 }}\n[[body]]\nname = \"body\"\nshape = "
-      "\"ellipsoid\"\n"
-      "semi_axes = {}\ncore = {}\nlayers = {}\n{}material = {{ type = \"newtonian\", density = 1, "
-      "bulk_modulus = 200, viscosity = {} }}\n[[surface_tension]]\nbody = \"body\"\ngamma = 1\n",
-      end, axes, core, core / 2, keys, Oh);
-}
-
 /// Central differences at `part` of the estimated limit, as nobody could ask for in a scene (steps
 /// above the limit are refused there).
 HardOutcome run_at(Real part, int steps) {
@@ -132,16 +121,6 @@ void run(StudyRun& study) {
       1e-2, {full ? 1e6 : 1e4});
   study.require("spinning ball: largest error of the angular momentum",
                 spinning.angular_momentum_error, {0, 1e-10});
-  // Its particles stay where the long reference has them: later the surface of the drop is no
-  // longer resolved, falls below that of the sphere, and a run says so.
-  const std::string long_drop = "drop 1 : 4 : 1";
-  const HardOutcome relaxed = cases.stays_stable(
-      long_drop, drop("[0.63, 2.52, 0.63]", 6, 0.93, full ? 0.75 : 0.3, "support_factor = 2.3\n"),
-      1e-2);
-  study.require(long_drop + ": area / area of the sphere", relaxed.measure("body.area") / 12.566,
-                {1, 1.28});
-  cases.stays_stable("drop at Oh = 0.01", drop("[1, 1.1, 1]", full ? 6 : 4, 0.01, full ? 20 : 4),
-                     1e-2);
   cases.stays_stable(
       "impact at 0.3 c",
       box("[6, 6, 6]", "initial_velocity = [\"-0.348*tanh(20*x)\", \"0\", \"0\"]\n" + solid, 3),
@@ -149,6 +128,7 @@ void run(StudyRun& study) {
   cases.stops("inverted from the start",
               box("[4, 4, 4]", "initial_displacement = [\"-1.5*x\", \"0\", \"0\"]\n" + solid, 1),
               "particle");
+  study::hard_drops(cases);
   study::hard_contact(cases);
 }
 

@@ -193,7 +193,7 @@ class Reports(ProgramTest):
                 "[[body]]": "name integration gauss_points volumetric window support_factor support_rank "
                             "support_spacings initial_displacement initial_velocity",
                 "[[body]] of any shape": "shape imperfection imperfection_seed jitter jitter_seed",
-                "[[surface_tension]]": "body gamma form points",
+                "[[surface_tension]]": "body gamma form points coefficient_damping",
                 "[[body_force]]": "body acceleration",
                 "[[exact]]": "body displacement velocity rate",
                 "[expect.NAME]": "of reduce at from to level value within within_relative"}.items():

@@ -83,7 +83,8 @@ TEST(Allocations, AreCounted) {
 }
 
 TEST(Allocations, NoneInAStep) {
-  for (const std::string form : {"\"weak\"\n", "\"curvature\"\n", "\"triangles\"\n"}) {
+  for (const std::string form :
+       {"\"balanced\"\n", "\"weak\"\n", "\"curvature\"\n", "\"triangles\"\n"}) {
     EXPECT_EQ(allocations_of<3>(drop(3, "", tension + form)), 0) << form;
     EXPECT_EQ(allocations_of<2>(drop(2, "", tension + form)), 0) << form;
   }

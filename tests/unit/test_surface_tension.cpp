@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The three forms of surface tension: gradients of their areas, balance, exact curvature.
+// The four forms of surface tension: gradients of their areas, balance, exact curvature.
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/surface_tension.hpp"
@@ -13,10 +13,11 @@
 namespace meniscus {
 namespace {
 
-enum class Form { weak, curvature, triangles };
+enum class Form { balanced, weak, curvature, triangles };
 
 template <int D>
 std::unique_ptr<ForceTerm> tension(const Body<D>& body, Form form, Real gamma = 1, int points = 3) {
+  if (form == Form::balanced) return balanced_surface_tension<D>(body, gamma);
   if (form == Form::weak) return weak_surface_tension<D>(body, gamma, points);
   if (form == Form::curvature) return curvature_surface_tension<D>(body, gamma, points);
   return triangle_surface_tension<D>(body, gamma);
@@ -32,7 +33,7 @@ Real measure(const ForceTerm& term, const std::string& name, const NodalVectors&
 template <int D>
 void expect_gradient_of_area(Geometry<D> geometry) {
   const auto body = test::body_of<D>(std::move(geometry));
-  for (const Form form : {Form::weak, Form::triangles}) {
+  for (const Form form : {Form::balanced, Form::weak, Form::triangles}) {
     const auto term = tension<D>(*body, form, 2.5);
     for (unsigned seed = 0; seed < 3; ++seed) {
       const NodalVectors u = test::random_field<D>(body->size(), 0.03, seed);
@@ -62,7 +63,7 @@ void expect_balance() {
     w[D - 1] += 0.1 * X[0] * X[0];
     return w;
   });
-  for (const Form form : {Form::weak, Form::triangles}) {
+  for (const Form form : {Form::balanced, Form::weak, Form::triangles}) {
     const auto term = tension<D>(*body, form);
     const test::Balance net = test::balance_of<D>(*body, u, test::force_of(*term, u));
     EXPECT_LT(net.force, 1e-14);
@@ -91,6 +92,7 @@ TEST(SurfaceTension, AreasOfRoundBodies) {
   const auto body = test::body_of<3>(test::ball(4, 2));
   const NodalVectors u(static_cast<std::size_t>(body->size()), Lanes::zero());
   const Real exact = 4 * M_PI;
+  EXPECT_NEAR(measure(*tension<3>(*body, Form::balanced), "area", u), exact, 1e-10 * exact);
   EXPECT_NEAR(measure(*tension<3>(*body, Form::weak), "area", u), exact, 1e-5 * exact);
   EXPECT_NEAR(measure(*tension<3>(*body, Form::curvature), "area", u), exact, 1e-5 * exact);
   const Real triangles = measure(*tension<3>(*body, Form::triangles), "area", u);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The same bits for any number of threads: every force term, and a whole small run.
 #include "meniscus/physics/body_force.hpp"
+#include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/scene/simulation.hpp"
 
@@ -60,6 +61,13 @@ void expect_all_terms_same() {
     expect_same_bits<D>(*body,
                         [&] { return test::internal_force<D>(*body, "newtonian", integration); });
   }
+  const Integration enclosed{"q_scni", 0, "automatic", true};
+  expect_same_bits<D>(*body, [&] { return test::internal_force<D>(*body, "newtonian", enclosed); });
+  expect_same_bits<D>(*body, [&] {
+    return coefficient_damping<D>(*body,
+                                  std::vector<Real>(static_cast<std::size_t>(body->size()), 1), 2);
+  });
+  expect_same_bits<D>(*body, [&] { return balanced_surface_tension<D>(*body, 1); });
   expect_same_bits<D>(*body, [&] { return weak_surface_tension<D>(*body, 1, 3); });
   expect_same_bits<D>(*body, [&] { return curvature_surface_tension<D>(*body, 1, 3); });
   expect_same_bits<D>(*body, [&] { return triangle_surface_tension<D>(*body, 1); });

@@ -6,6 +6,15 @@
 
 namespace meniscus {
 
+/// Mean over the D + 1 points of a nodal cell, in all lanes; they have equal weights.
+template <int D>
+[[gnu::always_inline]] inline Lanes cell_mean(Lanes x) {
+  if constexpr (D == 3)
+    return 0.25 * sum(x);
+  else
+    return (1.0 / 3.0) * (x[0] + x[1] + x[2]);
+}
+
 /// A law for the D + 1 stress points of a nodal cell together: each point sees its deformation
 /// gradient at the mean volume change of the cell,
 ///   F* = s F,  s^3 = Jm / J,  Jm = mean of J over the points (current / reference volume),
@@ -45,6 +54,7 @@ class CellAverage {
   }
 
   Real p_wave_modulus() const { return law_.p_wave_modulus(); }
+  bool inviscid() const requires ViscousLaw<L> { return law_.inviscid(); }
 
   CellAverage at_time(Real t) const requires RampedLaw<L> { return CellAverage(law_.at_time(t)); }
   Lanes energy_rate(const Tensor<Lanes>& H) const requires RampedLaw<L> {
@@ -54,13 +64,7 @@ class CellAverage {
   Real steady_after() const requires RampedLaw<L> { return law_.steady_after(); }
 
  private:
-  /// Mean over the points of the cell, in all lanes; they have equal weights.
-  static Lanes mean(Lanes x) {
-    if constexpr (D == 3)
-      return 0.25 * sum(x);
-    else
-      return (1.0 / 3.0) * (x[0] + x[1] + x[2]);
-  }
+  [[gnu::always_inline]] static Lanes mean(Lanes x) { return cell_mean<D>(x); }
   /// s - 1 from J - 1 and Jm - 1, without cancellation near the reference state.
   [[gnu::always_inline]] static Lanes stretch(Lanes theta, Lanes mean_theta) {
     return expm1((1.0 / 3.0) * log1p((mean_theta - theta) / (1.0 + theta)));

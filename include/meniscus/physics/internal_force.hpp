@@ -5,6 +5,8 @@
 #pragma once
 #include "meniscus/physics/stress_point_force.hpp"
 
+#include <numeric>
+
 namespace meniscus {
 
 /// `Rule` is CellRule<D> or PointRule<D>. One law for the whole body, or one for each group of
@@ -12,23 +14,28 @@ namespace meniscus {
 template <int D, GroupLaw L, class Rule>
 class InternalForce final : public StressPointForce<D, Rule> {
  public:
-  InternalForce(const Body<D>& body, Rule rule, std::vector<L> laws)
+  /// `surface` of an EnclosedLaw: the patches whose volume the pressure works on; none: the volume
+  /// of the stress points.
+  InternalForce(const Body<D>& body, Rule rule, std::vector<L> laws,
+                std::unique_ptr<SurfacePatches<D>> surface = nullptr)
       : StressPointForce<D, Rule>(body, std::move(rule),
-                                  std::make_unique<PointLawsOf<L>>(std::move(laws))) {}
+                                  std::make_unique<PointLawsOf<L>>(std::move(laws)),
+                                  std::move(surface)) {}
 
   bool viscous() const override { return L::viscous; }
 
   void add_force(const Motion& motion, std::span<Lanes> force) override {
-    const auto& laws = static_cast<const PointLawsOf<L>&>(this->laws());
+    auto& laws = static_cast<PointLawsOf<L>&>(this->laws());
     const Rule& rule = this->rule();
     const Lanes* u = motion.u.data() + this->body().first;
     [[maybe_unused]] const Lanes* v = motion.v.data() + this->body().first;
     this->clear_failure();
-    std::array<Real, chunk_count> power{}, ramp_power{};
+    if constexpr (EnclosedLaw<L>) laws.enclose(this->follow_enclosed(u));
+    std::array<Real, chunk_count> power{}, ramp_power{}, pull{};
     this->accumulate(force, [&](int chunk, Index begin, Index end, Lanes* f) {
       Lanes::Mask folded{};
       Lanes heat = Lanes::zero();
-      [[maybe_unused]] Lanes work = Lanes::zero();
+      [[maybe_unused]] Lanes work = Lanes::zero(), on_enclosed = Lanes::zero();
       for (Index g = begin; g < end; ++g) {
         const Lanes w = rule.weight(g);
         Tensor<Lanes> H;
@@ -37,6 +44,7 @@ class InternalForce final : public StressPointForce<D, Rule> {
         const auto& law = laws.at(g, motion.time);
         Tensor<Lanes> P = law.stress(H);
         if constexpr (RampedLaw<L>) work += w * law.energy_rate(H);
+        if constexpr (EnclosedLaw<L>) on_enclosed += w * law.pull_on_enclosed(H);
         if constexpr (L::viscous) {
           Tensor<Lanes> F_rate;
           rule.gather(g, v, F_rate);
@@ -48,11 +56,14 @@ class InternalForce final : public StressPointForce<D, Rule> {
       }
       at(power, chunk) = sum(heat);
       at(ramp_power, chunk) = sum(work);
+      at(pull, chunk) = sum(on_enclosed);
       if (folded[0] | folded[1] | folded[2] | folded[3]) this->note_failure(begin, end, u);
     });
     dissipation_ = ramp_power_ = 0;
     for (const Real p : power) dissipation_ += p;
     for (const Real p : ramp_power) ramp_power_ += p;
+    if constexpr (EnclosedLaw<L>)
+      this->pull_on_surface(std::accumulate(pull.begin(), pull.end(), 0.0), force);
     this->describe_failure(u);
   }
 

@@ -5,6 +5,7 @@
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/cell_average.hpp"
+#include "meniscus/physics/fluid_points.hpp"
 #include "meniscus/physics/internal_force.hpp"
 #include "meniscus/physics/reference_director.hpp"
 
@@ -21,6 +22,9 @@ struct Integration {
   /// "full", "cell_average" (with "q_scni" only) or "automatic": cell_average for "q_scni" where
   /// the bulk modulus is at least 1000 shear moduli.
   std::string volumetric = "automatic";
+  /// The pressure of a fluid works on the volume that the surface encloses: its discrete surface
+  /// tension is balanced. Then "automatic" is cell_average with "q_scni".
+  bool enclosed = false;
 };
 
 /// A material read from a scene, ready to be put on a body.
@@ -33,10 +37,13 @@ class Material {
     MassReport mass;
     bool cell_average;                ///< one volume change per nodal cell
     std::optional<std::string> note;  ///< for the log
+    std::vector<Real> viscosity;      ///< shear viscosity of a fluid, per particle; empty: a solid
   };
   /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
   /// InputError (a formula leaves its range somewhere in the body).
   virtual Built build(Body<D>& body, const Integration& integration) const = 0;
+  /// No stress but a pressure at rest.
+  virtual bool fluid() const = 0;
 };
 
 template <int D, Law L>
@@ -51,10 +58,8 @@ class MaterialOf final : public Material<D> {
       CellOperator<D> op = build_cell_rule(body);
       std::vector<Vec<D>> places;
       for (Index A = 0; A < body.size(); ++A) places.push_back(body.cells.centroid(A));
-      const std::vector<L> laws = laws_at(places, body.geometry);
-      if (averages(integration, laws))
-        return put<CellAverage<D, L>>(body, std::move(op.rule), laws, op.shape_integral);
-      return put<L>(body, std::move(op.rule), laws, op.shape_integral);
+      return put(body, std::move(op.rule), laws_at(places, body.geometry), op.shape_integral,
+                 integration);
     }
     const bool gauss = integration.rule == "gauss";
     const auto X = body.particles.X();
@@ -64,8 +69,10 @@ class MaterialOf final : public Material<D> {
     PointRule<D> rule =
         gauss ? build_gauss_rule(body, integration.gauss_points) : build_nodal_rule(body);
     if (!uniform()) rule.per_group = 1;
-    return put<L>(body, std::move(rule), laws_at(places, body.geometry), shape_integrals(body));
+    return put(body, std::move(rule), laws_at(places, body.geometry), shape_integrals(body),
+               integration);
   }
+  bool fluid() const override { return FluidLaw<L>; }
 
  private:
   bool uniform() const { return law_.uniform() && (!director_ || director_->uniform()); }
@@ -94,34 +101,62 @@ class MaterialOf final : public Material<D> {
   }
 
   static bool averages(const Integration& integration, const std::vector<L>& laws) {
+    if (integration.rule != "q_scni") return false;
     if (integration.volumetric != "automatic") return integration.volumetric == "cell_average";
-    return std::any_of(laws.begin(), laws.end(),
-                       [](const L& law) { return bulk_over_shear(law) >= 1e3; });
+    return integration.enclosed || std::any_of(laws.begin(), laws.end(), [](const L& law) {
+             return bulk_over_shear(law) >= 1e3;
+           });
   }
 
-  /// `Points`: the law of a group of stress points, L itself or what is made of it.
-  template <class Points, class Rule>
+  template <class Rule>
   typename Material<D>::Built put(Body<D>& body, Rule rule, const std::vector<L>& laws,
-                                  const std::vector<Real>& shape_integral) const {
-    std::vector<Real> density(static_cast<std::size_t>(body.size()), law_.base.density);
-    if (!law_.uniform())
-      for (Index A = 0; A < body.size(); ++A)
-        at(density, A) = law_at(at(body.particles.X(), A), body.geometry).density;
+                                  const std::vector<Real>& shape_integral,
+                                  const Integration& integration) const {
+    const auto X = body.particles.X();
+    std::vector<Real> density, viscosity;
+    for (Index A = 0; A < body.size(); ++A) {
+      const L law = law_.uniform() ? law_.base : law_at(at(X, A), body.geometry);
+      density.push_back(law.density);
+      if constexpr (FluidLaw<L>) viscosity.push_back(law.viscosity);
+    }
     const MassReport mass = lump_mass(body, density, shape_integral);
     std::optional<std::string> note;
     if constexpr (NotingLaw<L>) note = laws.front().note(mean_spacing(body.geometry.grid));
-    return {force<Points>(body, std::move(rule), laws), mass, !std::is_same_v<Points, L>,
-            std::move(note)};
+    const bool averaged = averages(integration, laws);
+    return {force(body, std::move(rule), laws, averaged, integration.enclosed), mass, averaged,
+            std::move(note), std::move(viscosity)};
+  }
+
+  /// The law of a group of stress points is L itself or what is made of it.
+  template <class Rule>
+  static std::unique_ptr<ForceTerm> force(const Body<D>& body, Rule rule,
+                                          const std::vector<L>& laws, bool averaged,
+                                          bool enclosed) {
+    if constexpr (FluidLaw<L>) {
+      std::vector<FluidPoints<D, L>> points;
+      for (const L& law : laws) points.emplace_back(law, averaged);
+      return force_of(body, std::move(rule), std::move(points),
+                      enclosed ? std::make_unique<SurfacePatches<D>>(body) : nullptr);
+    } else {
+      if constexpr (std::is_same_v<Rule, CellRule<D>>)
+        if (averaged)
+          return force_of(body, std::move(rule),
+                          std::vector<CellAverage<D, L>>(laws.begin(), laws.end()), nullptr);
+      return force_of(body, std::move(rule), laws, nullptr);
+    }
   }
 
   template <class Points, class Rule>
-  static std::unique_ptr<ForceTerm> force(const Body<D>& body, Rule rule,
-                                          const std::vector<L>& laws) {
+  static std::unique_ptr<ForceTerm> force_of(const Body<D>& body, Rule rule,
+                                             std::vector<Points> points,
+                                             std::unique_ptr<SurfacePatches<D>> surface) {
     if constexpr (Points::viscous)
-      if (std::all_of(laws.begin(), laws.end(), [](const L& law) { return law.inviscid(); }))
-        return force<WithoutViscosity<Points>>(body, std::move(rule), laws);
-    return std::make_unique<InternalForce<D, Points, Rule>>(
-        body, std::move(rule), std::vector<Points>(laws.begin(), laws.end()));
+      if (std::all_of(points.begin(), points.end(), [](const auto& law) { return law.inviscid(); }))
+        return force_of(body, std::move(rule),
+                        std::vector<WithoutViscosity<Points>>(points.begin(), points.end()),
+                        std::move(surface));
+    return std::make_unique<InternalForce<D, Points, Rule>>(body, std::move(rule),
+                                                            std::move(points), std::move(surface));
   }
 
   Varying<L> law_;

@@ -11,6 +11,14 @@
 
 namespace meniscus {
 
+/// A law of a whole body that depends on a number J_e of that body, as last given to enclose().
+template <class L>
+concept EnclosedLaw = requires(L law, const Tensor<Lanes> H) {
+  law.enclose(Real{});                                     ///< J_e - 1
+  { law.pull_on_enclosed(H) } -> std::same_as<Lanes>;      ///< dW/dJ_e
+  { law.local_stress(H) } -> std::same_as<Tensor<Lanes>>;  ///< without regard to J_e
+};
+
 /// What is asked of a law at a group of up to four stress points, a lane per point; H = F - I.
 template <class L>
 concept GroupLaw = ElasticIn<L, Lanes> &&(ViscousIn<L, Lanes> || !L::viscous);
@@ -19,8 +27,10 @@ class PointLaws {
  public:
   virtual ~PointLaws() = default;
 
+  /// The same laws about J_e - 1 = `enclosed`, for what is an EnclosedLaw.
+  virtual std::unique_ptr<PointLaws> about(Real enclosed) const = 0;
   virtual Lanes energy_density(Index group, Real time, const Tensor<Lanes>& H) const = 0;
-  /// Elastic first Piola stress.
+  /// Elastic first Piola stress; that of an EnclosedLaw at the local J.
   virtual Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H) const = 0;
   /// Size of the stress of the reference law, without what ramps add: an active body is free of
   /// stress where that cancels. Stresses of round-off are no scale: those of a strain of 1e-9 count
@@ -50,14 +60,30 @@ class PointLawsOf final : public PointLaws {
       return reference(group);
   }
 
+  void enclose(Real enclosed) requires EnclosedLaw<L> {
+    for (L& law : laws_) law.enclose(enclosed);
+  }
+
+  std::unique_ptr<PointLaws> about([[maybe_unused]] Real enclosed) const override {
+    auto same = std::make_unique<PointLawsOf>(laws_);
+    if constexpr (EnclosedLaw<L>) same->enclose(enclosed);
+    return same;
+  }
   Lanes energy_density(Index group, Real time, const Tensor<Lanes>& H) const override {
     return at(group, time).energy_density(H);
   }
   Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H) const override {
-    return at(group, time).stress(H);
+    if constexpr (EnclosedLaw<L>)
+      return reference(group).local_stress(H);
+    else
+      return at(group, time).stress(H);
   }
   Lanes stress_scale(Index group, const Tensor<Lanes>& H) const override {
-    const Tensor<Lanes> P = reference(group).stress(H);
+    Tensor<Lanes> P;
+    if constexpr (EnclosedLaw<L>)
+      P = reference(group).local_stress(H);
+    else
+      P = reference(group).stress(H);
     return max(sqrt(contract(P, P)), Lanes(1e-9 * reference(group).p_wave_modulus()));
   }
   bool warns() const override { return WarningLaw<L>; }

@@ -4,7 +4,7 @@
 // itself, which has to know the law, is left to internal_force.hpp.
 #pragma once
 #include "meniscus/approx/stress_rules.hpp"
-#include "meniscus/body/body.hpp"
+#include "meniscus/body/surface_patches.hpp"
 #include "meniscus/physics/force_term.hpp"
 #include "meniscus/physics/point_laws.hpp"
 #include "meniscus/physics/stress_output.hpp"
@@ -24,25 +24,37 @@ class StressPointForce : public ForceTerm {
   std::optional<std::string> warning(const Motion& motion) const final;
   std::vector<FieldSource> fields() const final;
   std::vector<MeasureSource> measures() const final;
-  std::size_t bytes() const final { return rule_.bytes() + windows_.bytes() + laws_->bytes(); }
-  Offset pairs() const final { return rule_.pairs(); }
+  std::size_t bytes() const final {
+    return rule_.bytes() + windows_.bytes() + laws_->bytes() + (surface_ ? surface_->bytes() : 0);
+  }
+  Offset pairs() const final { return rule_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
  protected:
-  StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<const PointLaws> laws)
+  StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<PointLaws> laws,
+                   std::unique_ptr<SurfacePatches<D>> surface)
       : body_(body),
         rule_(std::move(rule)),
         windows_(rule_.windows(body.size())),
-        laws_(std::move(laws)) {}
+        laws_(std::move(laws)),
+        surface_(std::move(surface)) {}
 
   const Body<D>& body() const { return body_; }
   const Rule& rule() const { return rule_; }
-  const PointLaws& laws() const { return *laws_; }
+  PointLaws& laws() { return *laws_; }
   /// Sums of the forces of this body's particles out of `all`.
   template <class F>
   void accumulate(std::span<Lanes> all, F&& work) {
-    windows_.accumulate(
-        all.subspan(static_cast<std::size_t>(body_.first), static_cast<std::size_t>(body_.size())),
-        work);
+    windows_.accumulate(own(all), work);
+  }
+
+  /// J_e - 1 of the surface at the displacements `u` of the body, whose gradient is remembered;
+  /// zero without a surface.
+  Real follow_enclosed(const Lanes* u) {
+    return surface_ ? surface_->follow(Size::volume, u) / surface_->reference(Size::volume) - 1 : 0;
+  }
+  /// Forces of the energy whose derivative with respect to J_e is `slope`.
+  void pull_on_surface(Real slope, std::span<Lanes> all) {
+    if (surface_) surface_->add_gradient(-slope / surface_->reference(Size::volume), own(all));
   }
 
   /// Forgets the failure of the last force.
@@ -54,8 +66,14 @@ class StressPointForce : public ForceTerm {
   void describe_failure(const Lanes* u);
 
  private:
+  using Size = typename SurfacePatches<D>::Size;
   static constexpr Index no_group = std::numeric_limits<Index>::max();
 
+  std::span<Lanes> own(std::span<Lanes> all) const {
+    return all.subspan(static_cast<std::size_t>(body_.first),
+                       static_cast<std::size_t>(body_.size()));
+  }
+  Real energy(const PointLaws& laws, const Motion& motion) const;
   /// H at the stress points of a group.
   [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const Lanes* u) const;
   void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
@@ -64,7 +82,8 @@ class StressPointForce : public ForceTerm {
   const Body<D>& body_;
   Rule rule_;
   ForceWindows windows_;
-  std::unique_ptr<const PointLaws> laws_;
+  std::unique_ptr<PointLaws> laws_;
+  std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
   Index failed_group_ = no_group;
   Failure failure_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface tension of the whole surface of a body, in three discrete forms (RKPM note 4).
+// Surface tension of the whole surface of a body, in four discrete forms (RKPM note 4).
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
@@ -8,6 +8,13 @@
 #include <memory>
 
 namespace meniscus {
+
+/// The exact gradient of gamma c A, A the area of closed patches through places (SurfacePatches), c
+/// such that gamma c A is exact in the reference. Balanced together with a fluid whose pressure
+/// works on the volume of the same patches (FluidPoints): at rest the body is a sphere without
+/// parasitic currents.
+template <int D>
+std::unique_ptr<ForceTerm> balanced_surface_tension(const Body<D>& body, Real gamma);
 
 /// f_A,i = -gamma sum_q da (I - n n)_ij F^-1_Kj N_A,K: the exact gradient of gamma x the discrete
 /// area sum_q da. Needs first derivatives only; `points` Gauss points per facet direction.

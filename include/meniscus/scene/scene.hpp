@@ -10,6 +10,15 @@
 
 namespace meniscus {
 
+/// A body of fluid under surface tension.
+template <int D>
+struct Drop {
+  const Body<D>* body;
+  Real gamma;
+  std::function<Real(const Motion&)> area, volume;  ///< those of the forces
+  bool inscribed;  ///< the area is of a polyhedron inside: smaller than what encloses the volume
+};
+
 template <int D>
 struct Scene {
   std::string title;
@@ -18,6 +27,8 @@ struct Scene {
   OutputSettings output;
   System<D> system;
   State initial;
+  std::vector<std::vector<Real>> viscosity;  ///< [body][particle]; empty: a solid
+  std::vector<Drop<D>> drops;
   bool steps_may_be_rejected = false;  ///< by a force term
   /// Measures by full name, e.g. "drop.aspect".
   std::vector<MeasureSource> measures;

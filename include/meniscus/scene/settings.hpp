@@ -47,6 +47,7 @@ struct TensionSettings {
   std::string body, form;
   Real gamma = 0;
   int points = 3;
+  Real coefficient_damping = 0;  ///< in kinematic viscosity / spacing^2
   static Rows<TensionSettings> rows();
 };
 

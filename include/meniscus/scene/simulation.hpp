@@ -37,7 +37,8 @@ class Simulation {
   const Audit& audit() const { return audit_; }
   /// Nothing if the scene is not relaxed.
   const std::optional<Relaxation<D>>& relaxation() const { return relaxation_; }
-  /// The ledger of now; widens the scales of the audit.
+  /// The ledger of now; widens the scales of the audit. Throws SolveError if a drop has lost its
+  /// shape: an isoperimetric ratio below 1 - 1e-3.
   Ledger audit_now();
 
   /// Everything that decides how the run goes on, bit for bit.
@@ -47,6 +48,7 @@ class Simulation {
 
  private:
   void step(Real dt);
+  void refuse_impossible_surfaces() const;
 
   Scene<D>& scene_;
   State state_;

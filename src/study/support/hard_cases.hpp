@@ -52,6 +52,9 @@ class HardCases {
   StudyRun& study_;
 };
 
+/// Cases of drops.
+void hard_drops(HardCases& cases);
+
 /// Cases of contact (CGCM notes 7 and 10).
 void hard_contact(HardCases& cases);
 

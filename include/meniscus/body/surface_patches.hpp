@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The closed surface of a body as biquadratic (2D: quadratic) patches through places of material
+// points: one surface that has both an area and an enclosed volume.
+#pragma once
+#include "meniscus/approx/force_windows.hpp"
+#include "meniscus/body/body.hpp"
+
+#include <array>
+
+namespace meniscus {
+
+/// Every boundary facet is the Lagrange patch x(xi) = sum_a L_a(xi) x_a, xi in [-1, 1]^(D-1), with
+/// nodes at -1, 0, 1 per direction: the places x_a = X_a + sum_A N_A(X_a) u_A of points X_a of the
+/// exact reference surface. Neighbouring facets share points, so that the surface is closed.
+///
+/// With tangents t_k = x,k and the area normal m = t_1 x t_2 (2D: t turned clockwise), 3 Gauss
+/// points per direction give
+///   area    A = sum w |m|
+///   volume  V = 1/D sum w x . m        exact, hence without net force and torque
+/// and the gradients of both with respect to the particles, by the chain rule through
+/// dm . b = dt_1 . (t_2 x b) + dt_2 . (b x t_1). In 2D: circumference and area, per unit depth.
+template <int D>
+class SurfacePatches {
+ public:
+  enum class Size { area, volume };
+
+  /// Throws SolveError if shape functions cannot be built.
+  explicit SurfacePatches(const Body<D>& body);
+
+  /// A size in the reference configuration.
+  Real reference(Size size) const { return size == Size::area ? area_ : volume_; }
+  /// A size at the displacement coefficients `u` of the body.
+  Real measure(Size size, const Lanes* u) const;
+  /// The same, and its gradient is remembered. Allocates nothing.
+  Real follow(Size size, const Lanes* u);
+  /// force_A += factor d(size)/du_A of what was followed last, over the particles of the body.
+  void add_gradient(Real factor, std::span<Lanes> force);
+
+  Index point_count() const { return static_cast<Index>(X_.size()); }
+  Index patch_count() const { return patches_; }
+  Offset pairs() const { return rows_.entries(); }
+  std::size_t bytes() const;
+
+ private:
+  static constexpr int nodes = D == 3 ? 9 : 3;
+  using Vector = std::array<Lanes, D>;
+  /// A Gauss point: L_a, its derivatives and the weight.
+  struct Functions {
+    Real weight;
+    std::array<Real, nodes> L;
+    std::array<std::array<Real, nodes>, D - 1> dL;
+  };
+  /// Where a component of the gradient with respect to a point is added up from.
+  struct Share {
+    std::size_t entry;  // in gradient_, of the first component
+    int lane;
+  };
+
+  void number_points(const Geometry<D>& geometry);
+  void list_shares();
+  void place(const Lanes* u, NodalVectors& x) const;
+  Real size_of_all(Size size, const NodalVectors& x) const;
+  /// Size of four patches; its gradient with respect to their nodes, [a][i], if asked for.
+  Real group_size(Size size, Index group, const NodalVectors& x, Lanes* gradient) const;
+  Index groups() const { return (patches_ + 3) / 4; }
+
+  std::array<Functions, nodes> gauss_;
+  Index patches_ = 0;
+  std::vector<std::array<Index, nodes>> node_;  // [patch][a]: number of a point
+  std::vector<Vec<D>> X_;                       // [point]
+  PointRows<D> rows_;
+  ForceWindows windows_;
+  std::vector<Index> share_begin_;  // [point + 1]
+  std::vector<Share> share_;
+  Real area_, volume_;  // of the reference
+  // Of what was followed last: places, and gradient [group][a][i] with a patch per lane.
+  NodalVectors x_;
+  AlignedVector<Lanes> gradient_;
+};
+
+}  // namespace meniscus

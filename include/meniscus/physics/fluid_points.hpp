@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A fluid at the stress points of a group: its pressure may work on the volume that the surface
+// encloses (static-drop note 3), and on one volume change per nodal cell.
+#pragma once
+#include "meniscus/physics/cell_average.hpp"
+#include "meniscus/physics/law.hpp"
+
+#include <cmath>
+
+namespace meniscus {
+
+/// A law whose energy depends on J alone, W = U(J) with U'' = kappa J^(m - 2),
+/// kappa = p_wave_modulus().
+template <class L>
+concept FluidLaw = Law<L> && requires(const L law, const Lanes theta) {
+  { law.volumetric_energy(theta) } -> std::same_as<Lanes>;  ///< U(1 + theta)
+  { law.mean_stress(theta) } -> std::same_as<Lanes>;        ///< U'(1 + theta)
+  { law.volumetric_degree() } -> std::same_as<Real>;        ///< m
+  { law.viscosity } -> std::convertible_to<Real>;
+};
+
+/// The energy of the points of a body whose surface encloses J_e times its reference volume is
+///   sum w W,  W = [U(J) - U(J_e) - U'(J_e) (J - J_e)] + U(J_e).
+/// The bracket, a Bregman distance, is never negative and vanishes with its gradient where J = J_e:
+/// points of equal pressure feel no force, that of the surface does the work
+///   dW/dJ = U'(J) - U'(J_e),   dW/dJ_e = U'(J_e) - U''(J_e) (J - J_e).
+/// As U'' is a power of J, the bracket is J_e^m U(1 + r) and dW/dJ = J_e^(m-1) U'(1 + r) with
+/// r = (J - J_e)/J_e: no cancellation. With J_e = 1, as at the beginning, W = U(J).
+///
+/// `averaged`: J is the mean over the D + 1 points of a nodal cell, what CellAverage does to a law
+/// that has no deviator. The viscous stress is that of each point.
+template <int D, FluidLaw L>
+class FluidPoints {
+ public:
+  static constexpr bool viscous = L::viscous;
+
+  FluidPoints(const L& law, bool averaged) : law_(law), averaged_(averaged) { enclose(0); }
+
+  void enclose(Real theta) {
+    enclosed_ = theta;
+    per_enclosed_ = 1 / (1 + theta);
+    scale_ = std::pow(1 + theta, law_.volumetric_degree() - 1);
+    enclosed_stress_ = law_.mean_stress(theta);
+  }
+
+  Lanes energy_density(const Tensor<Lanes>& H) const {
+    return (1 + enclosed_) * scale_ * law_.volumetric_energy(excess(H)) +
+           law_.volumetric_energy(Lanes(enclosed_));
+  }
+  [[gnu::always_inline]] Tensor<Lanes> stress(const Tensor<Lanes>& H) const {
+    return (scale_ * law_.mean_stress(excess(H))) * cofactor_of_deformation(H);
+  }
+  [[gnu::always_inline]] Lanes pull_on_enclosed(const Tensor<Lanes>& H) const {
+    return enclosed_stress_ - scale_ * law_.p_wave_modulus() * excess(H);
+  }
+  Tensor<Lanes> local_stress(const Tensor<Lanes>& H) const {
+    return law_.mean_stress(theta(H)) * cofactor_of_deformation(H);
+  }
+  [[gnu::always_inline]] Tensor<Lanes> viscous_stress(
+      const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const requires ViscousLaw<L> {
+    return law_.viscous_stress(H, F_rate);
+  }
+  Real p_wave_modulus() const { return law_.p_wave_modulus(); }
+  bool inviscid() const requires ViscousLaw<L> { return law_.inviscid(); }
+
+ private:
+  [[gnu::always_inline]] Lanes theta(const Tensor<Lanes>& H) const {
+    const Lanes each = volume_change(H);
+    return averaged_ ? cell_mean<D>(each) : each;
+  }
+  /// r.
+  [[gnu::always_inline]] Lanes excess(const Tensor<Lanes>& H) const {
+    return per_enclosed_ * (theta(H) - enclosed_);
+  }
+
+  L law_;
+  bool averaged_;
+  Real enclosed_, per_enclosed_, scale_;  // J_e - 1, 1/J_e, J_e^(m-1)
+  Real enclosed_stress_;                  // U'(J_e)
+};
+
+}  // namespace meniscus

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Area and enclosed volume of patches through material points.
+#include "meniscus/body/surface_patches.hpp"
+
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/gauss.hpp"
+#include "meniscus/body/surface_points.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace meniscus {
+namespace {
+
+/// Quadratic Lagrange functions of the nodes -1, 0, 1 and their derivatives.
+std::array<Real, 3> lagrange(Real x) {
+  return {0.5 * x * (x - 1), 1 - x * x, 0.5 * x * (x + 1)};
+}
+std::array<Real, 3> lagrange_slopes(Real x) {
+  return {x - 0.5, -2 * x, x + 0.5};
+}
+
+Lanes dot(const std::array<Lanes, 2>& a, const std::array<Lanes, 2>& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+Lanes dot(const std::array<Lanes, 3>& a, const std::array<Lanes, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+std::array<Lanes, 3> cross(const std::array<Lanes, 3>& a, const std::array<Lanes, 3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+using Tangent2 = std::array<std::array<Lanes, 2>, 1>;
+using Tangents3 = std::array<std::array<Lanes, 3>, 2>;
+
+/// m, outward for outward facets.
+std::array<Lanes, 2> area_normal(const Tangent2& t) {
+  return {t[0][1], -t[0][0]};
+}
+std::array<Lanes, 3> area_normal(const Tangents3& t) {
+  return cross(t[0], t[1]);
+}
+/// c_k of b . dm = sum_k c_k . dt_k.
+Tangent2 through_tangents(const Tangent2&, const std::array<Lanes, 2>& b) {
+  return {{{-b[1], b[0]}}};
+}
+Tangents3 through_tangents(const Tangents3& t, const std::array<Lanes, 3>& b) {
+  return {cross(t[1], b), cross(b, t[0])};
+}
+
+/// The nodes of the grid that a patch node lies between, ascending: one for a corner, two for the
+/// middle of an edge, all for the middle of the facet. Equal for facets that share it.
+template <int D>
+std::vector<Index> supporters(const Facet<D>& facet, const Vec<D - 1>& xi) {
+  std::vector<Index> found;
+  for (int corner = 0; corner < (1 << (D - 1)); ++corner) {
+    bool supports = true;
+    for (int k = 0; k < D - 1; ++k) supports = supports && xi[k] * corner_sign(corner, k) >= 0;
+    if (supports) found.push_back(at(facet.nodes, corner));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+template <int D>
+SurfacePatches<D>::SurfacePatches(const Body<D>& body)
+    : patches_(static_cast<Index>(body.geometry.grid.facets.size())) {
+  const TensorRule<D - 1> rule = tensor_rule<D - 1>(3);
+  for (int q = 0; q < nodes; ++q) {
+    Functions& f = at(gauss_, q);
+    f.weight = at(rule.w, q);
+    for (int a = 0; a < nodes; ++a) {
+      at(f.L, a) = 1;
+      for (auto& slope : f.dL) at(slope, a) = 1;
+      for (int k = 0, rest = a; k < D - 1; ++k, rest /= 3) {
+        const Real xi = at(rule.x, q)[k];
+        const Real value = at(lagrange(xi), rest % 3), slope = at(lagrange_slopes(xi), rest % 3);
+        at(f.L, a) *= value;
+        for (int l = 0; l < D - 1; ++l) at(at(f.dL, l), a) *= l == k ? slope : value;
+      }
+    }
+  }
+  number_points(body.geometry);
+  rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
+  windows_ = {rows_.start, rows_.particle, body.size()};
+  list_shares();
+  x_.assign(X_.size(), Lanes::zero());
+  for (Index q = 0; q < point_count(); ++q) set_vector<D>(x_, q, at(X_, q));
+  area_ = size_of_all(Size::area, x_);
+  volume_ = size_of_all(Size::volume, x_);
+  gradient_.assign(static_cast<std::size_t>(groups()) * nodes * D, Lanes::zero());
+}
+
+template <int D>
+void SurfacePatches<D>::number_points(const Geometry<D>& geometry) {
+  std::map<std::vector<Index>, Index> numbers;
+  for (const Facet<D>& facet : geometry.grid.facets) {
+    std::array<Index, nodes> numbered;
+    for (int a = 0; a < nodes; ++a) {
+      Vec<D - 1> xi;
+      for (int k = 0, rest = a; k < D - 1; ++k, rest /= 3) xi[k] = rest % 3 - 1;
+      const auto [found, fresh] =
+          numbers.try_emplace(supporters<D>(facet, xi), static_cast<Index>(X_.size()));
+      if (fresh) X_.push_back(surface_point<D>(geometry, facet, xi));
+      at(numbered, a) = found->second;
+    }
+    node_.push_back(numbered);
+  }
+}
+
+template <int D>
+void SurfacePatches<D>::list_shares() {
+  std::vector<std::vector<Share>> of_point(X_.size());
+  for (Index patch = 0; patch < patches_; ++patch)
+    for (int a = 0; a < nodes; ++a)
+      at(of_point, at(at(node_, patch), a))
+          .push_back({static_cast<std::size_t>((patch / 4 * nodes + a) * D), patch % 4});
+  share_begin_.push_back(0);
+  for (const std::vector<Share>& shares : of_point) {
+    share_.insert(share_.end(), shares.begin(), shares.end());
+    share_begin_.push_back(static_cast<Index>(share_.size()));
+  }
+}
+
+template <int D>
+void SurfacePatches<D>::place(const Lanes* u, NodalVectors& x) const {
+  parallel_for(point_count(), [&](Index q) {
+    Lanes& place = at(x, q) = value_at(rows_, q, u);
+    for (int i = 0; i < D; ++i) place.set(i, place[i] + at(X_, q)[i]);
+  });
+}
+
+template <int D>
+Real SurfacePatches<D>::group_size(Size size, Index group, const NodalVectors& x,
+                                   Lanes* gradient) const {
+  // From one of its places: neither size depends on the origin, round-off does.
+  const Lanes origin = x.front();
+  std::array<Vector, nodes> place;
+  for (int lane = 0; lane < 4; ++lane) {
+    const auto& node = at(node_, std::min(group * 4 + lane, patches_ - 1));
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < D; ++i) at(at(place, a), i).set(lane, (at(x, at(node, a)) - origin)[i]);
+  }
+  if (gradient) std::fill_n(gradient, nodes * D, Lanes::zero());
+
+  Lanes total = Lanes::zero();
+  for (const Functions& f : gauss_) {
+    Vector p;
+    std::array<Vector, D - 1> t;
+    p.fill(Lanes::zero());
+    for (Vector& tangent : t) tangent.fill(Lanes::zero());
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < D; ++i) {
+        at(p, i) += at(f.L, a) * at(at(place, a), i);
+        for (int k = 0; k < D - 1; ++k) at(at(t, k), i) += at(at(f.dL, k), a) * at(at(place, a), i);
+      }
+    // The size is sum s; ds = by_place . dx + by_normal . dm.
+    const Vector m = area_normal(t);
+    Vector by_place, by_normal;
+    if (size == Size::area) {
+      const Lanes length = sqrt(dot(m, m));
+      total += f.weight * length;
+      for (int i = 0; i < D; ++i) {
+        at(by_place, i) = Lanes::zero();
+        at(by_normal, i) = f.weight * at(m, i) / length;
+      }
+    } else {
+      total += (f.weight / D) * dot(p, m);
+      for (int i = 0; i < D; ++i) {
+        at(by_place, i) = (f.weight / D) * at(m, i);
+        at(by_normal, i) = (f.weight / D) * at(p, i);
+      }
+    }
+    if (!gradient) continue;
+    const auto c = through_tangents(t, by_normal);
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < D; ++i) {
+        Lanes& g = gradient[a * D + i];
+        g += at(f.L, a) * at(by_place, i);
+        for (int k = 0; k < D - 1; ++k) g += at(at(f.dL, k), a) * at(at(c, k), i);
+      }
+  }
+  Real sum = 0;  // the last group may have lanes without a patch
+  for (int lane = 0; lane < 4 && group * 4 + lane < patches_; ++lane) sum += total[lane];
+  return sum;
+}
+
+template <int D>
+Real SurfacePatches<D>::measure(Size size, const Lanes* u) const {
+  NodalVectors x(X_.size());
+  place(u, x);
+  return size_of_all(size, x);
+}
+
+template <int D>
+Real SurfacePatches<D>::size_of_all(Size size, const NodalVectors& x) const {
+  return parallel_sum(groups(), 0.0, [&](Index g) { return group_size(size, g, x, nullptr); });
+}
+
+template <int D>
+Real SurfacePatches<D>::follow(Size size, const Lanes* u) {
+  place(u, x_);
+  return parallel_sum(groups(), 0.0, [&](Index g) {
+    return group_size(size, g, x_, gradient_.data() + static_cast<std::size_t>(g) * nodes * D);
+  });
+}
+
+template <int D>
+void SurfacePatches<D>::add_gradient(Real factor, std::span<Lanes> force) {
+  windows_.accumulate(force, [&](int, Index begin, Index end, Lanes* f) {
+    for (Index q = begin; q < end; ++q) {
+      Lanes sum = Lanes::zero();
+      for (Index s = at(share_begin_, q); s < at(share_begin_, q + 1); ++s) {
+        const Share& share = at(share_, s);
+        for (int i = 0; i < D; ++i)
+          sum.set(i, sum[i] + gradient_[share.entry + static_cast<std::size_t>(i)][share.lane]);
+      }
+      scatter_value(rows_, q, factor * sum, f);
+    }
+  });
+}
+
+template <int D>
+std::size_t SurfacePatches<D>::bytes() const {
+  return rows_.bytes() + windows_.bytes() + node_.size() * sizeof(node_.front()) +
+         X_.size() * sizeof(Vec<D>) + share_begin_.size() * sizeof(Index) +
+         share_.size() * sizeof(Share) + (x_.size() + gradient_.size()) * sizeof(Lanes);
+}
+
+template class SurfacePatches<2>;
+template class SurfacePatches<3>;
+
+}  // namespace meniscus

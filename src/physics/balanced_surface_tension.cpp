@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surface tension on closed patches through places: the form whose area and enclosed volume are
+// those of one surface (static-drop note 2).
+#include "meniscus/body/surface_patches.hpp"
+#include "meniscus/body/surface_points.hpp"
+#include "meniscus/physics/surface_tension.hpp"
+#include "meniscus/physics/tension_form.hpp"
+
+namespace meniscus {
+namespace {
+
+template <int D>
+class BalancedSurfaceTension final : public TensionForm<D> {
+  using Size = typename SurfacePatches<D>::Size;
+
+ public:
+  BalancedSurfaceTension(const Body<D>& body, Real gamma)
+      : TensionForm<D>(body, gamma), patches_(body) {
+    constexpr int fine = 8;
+    Real exact = 0;
+    for (const Real area : surface_points(body.geometry, fine).area) exact += area;
+    correction_ = exact / patches_.reference(Size::area);
+  }
+
+  void add_force(const Motion& motion, std::span<Lanes> force) override {
+    patches_.follow(Size::area, this->displacements(motion));
+    patches_.add_gradient(-this->gamma_ * correction_, this->own_part(force));
+  }
+  std::size_t bytes() const override { return patches_.bytes(); }
+  Offset pairs() const override { return patches_.pairs(); }
+
+ private:
+  Real area(const Motion& motion) const override {
+    return correction_ * patches_.measure(Size::area, this->displacements(motion));
+  }
+
+  SurfacePatches<D> patches_;
+  Real correction_;  // area of the exact surface over that of the patches, in the reference
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ForceTerm> balanced_surface_tension(const Body<D>& body, Real gamma) {
+  return std::make_unique<BalancedSurfaceTension<D>>(body, gamma);
+}
+template std::unique_ptr<ForceTerm> balanced_surface_tension(const Body<2>&, Real);
+template std::unique_ptr<ForceTerm> balanced_surface_tension(const Body<3>&, Real);
+
+}  // namespace meniscus

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damping of the motion of coefficients that does not move places.
+#include "meniscus/physics/coefficient_damping.hpp"
+
+#include "meniscus/approx/row_sums.hpp"
+
+#include <Eigen/Dense>
+
+namespace meniscus {
+namespace {
+
+Eigen::Vector3d spatial(Lanes x) {
+  return {x[0], x[1], x[2]};
+}
+
+template <int D>
+class CoefficientDamping final : public ForceTerm {
+ public:
+  CoefficientDamping(const Body<D>& body, std::span<const Real> viscosity, Real strength)
+      : body_(body),
+        windows_(body.at_particles.start, body.at_particles.particle, body.size()),
+        slip_(static_cast<std::size_t>(body.size())),
+        offset_(slip_) {
+    const Real h = mean_spacing(body.geometry.grid);
+    for (Index A = 0; A < body.size(); ++A)
+      rate_.push_back(strength * at(viscosity, A) * body.cells.volume(A) / (h * h));
+  }
+
+  std::string name() const override { return "coefficient damping of '" + body_.name + "'"; }
+  bool viscous() const override { return true; }
+
+  void add_force(const Motion& motion, std::span<Lanes> force) override {
+    const Rotation sums = take_off_places(motion);
+    const Eigen::Vector3d w = sums.rate();
+    heat_ = parallel_sum(body_.size(), 0.0, [&](Index A) {
+      const Eigen::Vector3d turned = w.cross(spatial(at(offset_, A)));
+      const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
+      at(slip_, A) = at(rate_, A) * s;
+      return at(rate_, A) * sum(s * s);
+    });
+    const auto own = force.subspan(static_cast<std::size_t>(body_.first),
+                                   static_cast<std::size_t>(body_.size()));
+    windows_.accumulate(own, [&](int, Index begin, Index end, Lanes* f) {
+      for (Index A = begin; A < end; ++A) scatter_value(body_.at_particles, A, at(slip_, A), f);
+    });
+    for (Index A = 0; A < body_.size(); ++A) at(own, A) -= at(slip_, A);
+  }
+
+  Real dissipation() const override { return heat_; }
+  std::size_t bytes() const override {
+    return windows_.bytes() + rate_.size() * sizeof(Real) +
+           (slip_.size() + offset_.size()) * sizeof(Lanes);
+  }
+  Offset pairs() const override { return body_.at_particles.entries(); }
+
+ private:
+  /// Sums of c (|e|^2 I - e e) and c e x d, d = (I - N) v and e = (I - N) x.
+  struct Rotation {
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+    friend Rotation operator+(const Rotation& a, const Rotation& b) {
+      return {a.inertia + b.inertia, a.momentum + b.momentum};
+    }
+    /// w of sum c e x (d - w x e) = 0.
+    Eigen::Vector3d rate() const {
+      constexpr Real round_off = 1e-15;
+      const Real size = inertia.trace();
+      if (!(size > 0)) return Eigen::Vector3d::Zero();
+      return (inertia + round_off * size * Eigen::Matrix3d::Identity()).inverse() * momentum;
+    }
+  };
+
+  /// d to slip_, e to offset_. Positions are quadratic fields: (I - N) x = (I - N) u.
+  Rotation take_off_places(const Motion& motion) {
+    const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
+    return parallel_sum(body_.size(), Rotation{}, [&](Index A) {
+      const PointRows<D>& rows = body_.at_particles;
+      Lanes d = v[A], e = u[A];
+      for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
+        const Real N = at(rows.value, k);
+        const Index B = at(rows.particle, k);
+        d -= N * v[B];
+        e -= N * u[B];
+      }
+      at(slip_, A) = d;
+      at(offset_, A) = e;
+      const Eigen::Vector3d x = spatial(e);
+      const Real c = at(rate_, A);
+      return Rotation{c * (x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose()),
+                      c * x.cross(spatial(d))};
+    });
+  }
+
+  const Body<D>& body_;
+  ForceWindows windows_;
+  std::vector<Real> rate_;  // c, [particle]
+  NodalVectors slip_, offset_;
+  Real heat_ = 0;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ForceTerm> coefficient_damping(const Body<D>& body, std::span<const Real> viscosity,
+                                               Real strength) {
+  return std::make_unique<CoefficientDamping<D>>(body, viscosity, strength);
+}
+template std::unique_ptr<ForceTerm> coefficient_damping(const Body<2>&, std::span<const Real>,
+                                                        Real);
+template std::unique_ptr<ForceTerm> coefficient_damping(const Body<3>&, std::span<const Real>,
+                                                        Real);
+
+}  // namespace meniscus
