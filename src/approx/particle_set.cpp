@@ -159,8 +159,7 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
   for (int i = 0; i < D; ++i) place += fmt::format("{}{:.6g}", i ? ", " : "", x[i]);
   throw SolveError(fmt::format(
       "body '{}': the shape functions are not determined at point ({}): {} neighbours, quality of "
-      "the "
-      "moment matrix {:.2g}, at least {:.0e} is needed. Use {}.",
+      "the moment matrix {:.2g}, at least {:.0e} is needed; use {}",
       body, place, near.size(), quality, unusable_quality,
       limit_.empty() ? "a larger support or a less distorted cloud"
                      : "more particles through the wall and along it: supports must end before the "

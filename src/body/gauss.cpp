@@ -33,7 +33,7 @@ Legendre legendre(int k, Extended x) {
 
 GaussRule gauss_rule(int k) {
   if (k < 1 || k > 20)
-    throw InputError("A Gauss rule has 1 to 20 points per direction, not " + std::to_string(k) +
+    throw InputError("a Gauss rule has 1 to 20 points per direction, not " + std::to_string(k) +
                      ".");
   GaussRule rule{std::vector<Real>(static_cast<std::size_t>(k)),
                  std::vector<Real>(static_cast<std::size_t>(k))};

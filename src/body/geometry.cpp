@@ -58,7 +58,7 @@ int find_patch(const Grid<D>& unit, const Facet<D>& facet,
     });
     if (on_patch) return static_cast<int>(p);
   }
-  throw InputError(fmt::format("Side {} of cell {} lies on none of the {} surface patches.",
+  throw InputError(fmt::format("side {} of cell {} lies on none of the {} surface patches",
                                facet.side, facet.cell, patches.size()));
 }
 
@@ -104,7 +104,7 @@ Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bo
   geometry.unit_X = geometry.grid.X;
   for (auto& X : geometry.grid.X) X = geometry.map(X).x;
   curve_boundary(geometry);
-  check_jacobians(geometry.grid, "The shape");
+  check_jacobians(geometry.grid, "the shape");
   return geometry;
 }
 
@@ -113,7 +113,7 @@ Geometry<D> apply_map(const SmoothMap<D>& map, Geometry<D> geometry) {
   for (auto& X : geometry.grid.X) X = map(X).x;
   geometry.map = compose<D>(map, std::move(geometry.map));
   curve_boundary(geometry);
-  check_jacobians(geometry.grid, "The map");
+  check_jacobians(geometry.grid, "the map");
   return geometry;
 }
 

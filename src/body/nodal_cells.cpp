@@ -160,7 +160,7 @@ NodalCells<D>::NodalCells(const Grid<D>& grid)
       covariance_(grid.X.size()) {
   for (Index node = 0; node < grid.node_count(); ++node)
     if (octants_.of(node).empty())
-      throw InputError(fmt::format("Node {} of the grid belongs to no cell.", node));
+      throw InputError(fmt::format("node {} of the grid belongs to no cell", node));
   for (const auto& facet : grid.facets)
     at(boundary_sides_, facet.cell) |= static_cast<std::uint8_t>(1u << facet.side);
   for_chunks(grid.node_count(), [&](Index, Index begin, Index end) {

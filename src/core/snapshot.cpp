@@ -24,8 +24,8 @@ constexpr auto bytes_of_values = [](const auto& values) {
 
 [[noreturn]] void wrong_count(std::string_view name, std::size_t found, std::size_t expected) {
   throw FileError(
-      fmt::format("The saved state '{}' holds {} numbers where {} are expected: it was written by "
-                  "another scene.",
+      fmt::format("the saved state '{}' holds {} numbers where {} are expected: it was written by "
+                  "another scene",
                   name, found, expected));
 }
 
@@ -59,9 +59,8 @@ const T& Snapshot::find(std::string_view name, std::string_view type) const {
   std::vector<std::string_view> names;
   for (const auto& entry : arrays_) names.push_back(entry.first);
   throw FileError(
-      fmt::format("The saved state has no {} named '{}': it was written by another scene or "
-                  "another version. It "
-                  "has: {}.",
+      fmt::format("the saved state has no {} named '{}': it was written by another scene or "
+                  "another version; it has: {}",
                   type, name, fmt::join(names, ", ")));
 }
 
@@ -114,8 +113,8 @@ void Snapshot::require_finite() const {
     for (std::size_t i = 0; i < values->size(); ++i)
       if (!std::isfinite((*values)[i]))
         throw SolveError(
-            fmt::format("The state '{}' is {} at entry {} and was not saved; the last saved state "
-                        "is still good.",
+            fmt::format("the state '{}' is {} at entry {} and was not saved; the last saved state "
+                        "is still good",
                         name, (*values)[i], i));
   }
 }

@@ -61,10 +61,10 @@ std::string kept_part(const std::filesystem::path& path, const std::vector<Histo
                       Real last_time) {
   const History history = History::read(path);
   if (history.columns() != columns)
-    throw FileError(fmt::format(
-        "Cannot continue '{}': its columns differ from those of this run. Choose another directory "
-        "with --output.",
-        path.string()));
+    throw FileError(
+        fmt::format("cannot continue '{}': its columns differ from those of this run; choose "
+                    "another directory with --output",
+                    path.string()));
   std::string kept = header_text(columns);
   std::vector<Real> row(columns.size());
   for (std::size_t r = 0; r < history.rows(); ++r) {
@@ -99,7 +99,7 @@ void HistoryWriter::write(std::span<const Real> values) {
 History History::read(const std::filesystem::path& file) {
   const std::vector<std::string> lines = complete_lines(read_file(file));
   const auto fail = [&](std::size_t line, std::string_view what) {
-    throw FileError(fmt::format("{}:{}: {}.", file.string(), line, what));
+    throw FileError(fmt::format("{}:{}: {}", file.string(), line, what));
   };
   if (lines.size() < 2 || !lines[0].starts_with("# time") || !lines[1].starts_with("# "))
     fail(1, "this is not a history: it does not begin with a line of names and one of units");
@@ -134,7 +134,7 @@ const std::vector<Real>& History::column(std::string_view name) const {
     names.push_back(columns_[c].name);
   }
   throw FileError(
-      fmt::format("The history has no column '{}'. It has: {}.", name, fmt::join(names, ", ")));
+      fmt::format("the history has no column '{}'; it has: {}", name, fmt::join(names, ", ")));
 }
 
 }  // namespace meniscus

@@ -164,10 +164,10 @@ class ResultFile::Writer {
 
   void require_same_layout(const FrameLayout& layout) const {
     if (layout == *layout_) return;
-    throw FileError(fmt::format(
-        "Cannot add to '{}': its frames have {}, the new one has {}. Choose the same fields and "
-        "precision, or another directory with --output.",
-        path_.string(), describe(*layout_), describe(layout)));
+    throw FileError(
+        fmt::format("cannot add to '{}': its frames have {}, the new one has {}; choose the same "
+                    "fields and precision, or another directory with --output",
+                    path_.string(), describe(*layout_), describe(layout)));
   }
 
   void require_storable(const Field& field, std::int64_t step) const {
@@ -182,8 +182,8 @@ class ResultFile::Writer {
       const auto body = std::find_if(bodies_.rbegin(), bodies_.rend(),
                                      [&](const BodyRange& b) { return b.first_particle <= I; });
       throw SolveError(
-          fmt::format("The field '{}' is {} at particle {} of body '{}' in step {}{}; the frame "
-                      "was not written.",
+          fmt::format("the field '{}' is {} at particle {} of body '{}' in step {}{}; the frame "
+                      "was not written",
                       field.name, field.values[i], I - body->first_particle, body->name, step,
                       std::isfinite(field.values[i]) ? ", too large for float32" : ""));
     }
@@ -229,10 +229,10 @@ class ResultFile::Writer {
              group.integer("first_particle") == bodies_[b].first_particle;
     }
     if (!same)
-      throw FileError(fmt::format(
-          "Cannot continue '{}': its bodies are not those of this scene. Choose another "
-          "directory with --output.",
-          path_.string()));
+      throw FileError(
+          fmt::format("cannot continue '{}': its bodies are not those of this scene; choose "
+                      "another directory with --output",
+                      path_.string()));
   }
 
   void drop_later_frames() {

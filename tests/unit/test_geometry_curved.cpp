@@ -199,7 +199,7 @@ TEST(CurvedCells, FoldsOfBulgesAreFound) {
   Grid<2> disk = Disk{}.geometry().grid;
   ASSERT_FALSE(disk.bulges.empty());
   disk.bulges.front().deviation *= -50;
-  EXPECT_THROW(check_jacobians(disk, "The test"), InputError);
+  EXPECT_THROW(check_jacobians(disk, "the test"), InputError);
 }
 
 }  // namespace

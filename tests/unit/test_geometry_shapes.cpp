@@ -263,10 +263,10 @@ TEST(Grid, FoldedCellIsNamed) {
   Grid<2> grid = brick.geometry().grid;
   std::swap(at(grid.X, 4), at(grid.X, 8));
   try {
-    check_jacobians(grid, "The test");
+    check_jacobians(grid, "the test");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("The test folds cell 1 at (0.5, 0)"),
+    EXPECT_NE(std::string(error.what()).find("the test folds cell 1 at (0.5, 0)"),
               std::string::npos)
         << error.what();
   }

@@ -65,7 +65,7 @@ TEST(SnapshotOfARun, WrongNamesTypesAndSizesAreNamed) {
   Snapshot s;
   s.add_reals("velocity", std::vector<Real>{1, 2, 3});
   std::vector<Real> four(4);
-  EXPECT_THROW_WITH(s.reals("speed"), FileError, "It has: velocity");
+  EXPECT_THROW_WITH(s.reals("speed"), FileError, "it has: velocity");
   EXPECT_THROW_WITH(s.integers("velocity"), FileError, "array of integers");
   EXPECT_THROW_WITH(s.copy_to("velocity", four), FileError, "3 numbers where 4 are expected");
   EXPECT_THROW(s.real("velocity"), FileError);

@@ -35,7 +35,7 @@ TEST_F(Histories, ReadBackBitForBit) {
   EXPECT_EQ(history.column("time"), (std::vector<Real>{0, 0.1, 1e-300}));
   EXPECT_EQ(history.column("aspect"), (std::vector<Real>{1.0 / 3.0, 1 / (3 + 0.1), 1.0 / 3.0}));
   EXPECT_TRUE(history.has("aspect"));
-  EXPECT_THROW_WITH(history.column("energy"), FileError, "It has: time, aspect");
+  EXPECT_THROW_WITH(history.column("energy"), FileError, "it has: time, aspect");
 }
 
 TEST_F(Histories, RowsAreOutAtOnce) {

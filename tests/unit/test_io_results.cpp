@@ -73,7 +73,7 @@ TEST_F(Results, BadNumbersAreRefusedByFieldAndParticle) {
   x[7] = std::numeric_limits<Real>::quiet_NaN();
   const Field nan[] = {{"position", 2, "m", x}};
   EXPECT_THROW_WITH(file.write_frame(3, 0, nan), SolveError,
-                    "The field 'position' is nan at particle 1 of body 'wall' in step 3");
+                    "the field 'position' is nan at particle 1 of body 'wall' in step 3");
   x[7] = -std::numeric_limits<Real>::infinity();
   const Field infinite[] = {{"position", 2, "m", x}};
   EXPECT_THROW(file.write_frame(3, 0, infinite), SolveError);

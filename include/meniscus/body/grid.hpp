@@ -121,7 +121,7 @@ template <int D>
 std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell);
 
 /// Throws InputError naming the first folded cell, place and Jacobian. `cause` begins the message,
-/// e.g. "The shape".
+/// e.g. "the shape".
 template <int D>
 void check_jacobians(const Grid<D>& grid, const std::string& cause);
 

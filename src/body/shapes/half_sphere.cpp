@@ -49,7 +49,7 @@ Rows<HalfSphere> HalfSphere::rows() {
 Geometry<3> HalfSphere::geometry() const {
   if (core % 2 != 0)
     throw InputError(
-        "A half sphere has an even number of cells along the core; use a multiple of 2.");
+        "a half sphere has an even number of cells along the core; use a multiple of 2");
   const Vec<3> origin = Vec<3>::Zero(), z = Vec<3>::UnitZ();
   return make_geometry<3>(
       upper_half(cubed_ball<3>(core, layers)),

@@ -54,7 +54,7 @@ Rows<DiskShell> DiskShell::rows() {
 Geometry<3> DiskShell::geometry() const {
   if (height > 2 * radius)
     throw InputError(fmt::format(
-        "A disk of radius {:g} cannot have a round rim of the height {:g}: at most {:g}.", radius,
+        "a disk of radius {:g} cannot have a round rim of the height {:g}: at most {:g}", radius,
         height, 2 * radius));
   return wall_of(*this, rounded_cylinder_meridian(radius, height, 0.5 * height));
 }
@@ -72,7 +72,7 @@ Rows<CylinderShell> CylinderShell::rows() {
 Geometry<3> CylinderShell::geometry() const {
   const Real largest = std::min(radius, 0.5 * height);
   if (edge_radius > largest)
-    throw InputError(fmt::format("The edge radius is {:g}, but the cylinder allows at most {:g}.",
+    throw InputError(fmt::format("the edge radius is {:g}, but the cylinder allows at most {:g}",
                                  edge_radius, largest));
   return wall_of(*this, rounded_cylinder_meridian(radius, height, edge_radius));
 }

@@ -63,9 +63,9 @@ template <int D>
 void require_curvature(const std::string& shape, const Geometry<D>& geometry) {
   if (!geometry.smooth)
     throw InputError(fmt::format(
-        "The shape '{}' has edges. The normal jumps there, 2 kappa = -div n is infinite, and so "
-        "the error of a curvature is undefined. Study the {}; a simulation of this shape takes the "
-        "weak form of surface tension, which needs no curvature.",
+        "the shape '{}' has edges; the normal jumps there, 2 kappa = -div n is infinite, and so "
+        "the error of a curvature is undefined; study the {}; a simulation of this shape takes the "
+        "weak form of surface tension, which needs no curvature",
         shape, reference_shapes<D>()[0]));
 }
 

@@ -120,8 +120,8 @@ void require_no_fold(const NamedMap<D>& map, std::span<const Vec<D>> places) {
     std::string place = fmt::format("{:.4g}", X[0]);
     for (int i = 1; i < D; ++i) place += fmt::format(", {:.4g}", X[i]);
     throw InputError(fmt::format(
-        "The map '{}' folds the body: det F = {:.4g} at X = ({}). A map must keep det F > 0 on "
-        "the whole unit {}; make its displacements smaller or exchange two of its components.",
+        "the map '{}' folds the body: det F = {:.4g} at X = ({}); a map must keep det F > 0 on the "
+        "whole unit {}; make its displacements smaller or exchange two of its components",
         map.name, J, place, D == 3 ? "ball" : "disk"));
   }
 }
