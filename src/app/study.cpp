@@ -159,7 +159,7 @@ int study(const StudyRequest& request) {
     return exit_usage;
   }
   if (request.threads > 0) omp_set_num_threads(request.threads);
-  const StudyEntry& entry = study_named(request.name);
+  const StudyEntry& entry = studies().at(request.name);
   const SceneInput settings = SceneInput::from_text("", "study " + request.name, request.set);
   const std::filesystem::path output = request.output;
   if (!request.output.empty()) make_directory(output);

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry of shapes and the reading of a body's geometry.
+// Reading the geometry of a body.
 #include "meniscus/body/shapes.hpp"
 
 #include "meniscus/body/imperfection.hpp"
 #include "meniscus/core/error.hpp"
 
 namespace meniscus {
-
-template <int D>
-std::map<std::string, ShapeKind<D>>& shapes() {
-  static std::map<std::string, ShapeKind<D>> registry;
-  return registry;
-}
 
 namespace {
 
@@ -27,9 +21,7 @@ Geometry<D> stand_in() {
 
 template <int D>
 Geometry<D> read_geometry(const Block& block) {
-  std::vector<std::string> names;
-  for (const auto& [name, kind] : shapes<D>()) names.push_back(name);
-  const std::string name = block.choice("shape", names, {});
+  const std::string name = block.choice("shape", shapes<D>().names(), {});
   const Real jitter = block.real("jitter", dimension::none, {0, 0.5}, 0.0);
   const auto seed = block.integer("jitter_seed", range::non_negative, 1);
   const Real imperfection = block.real("imperfection", dimension::length, range::non_negative, 0.0);
@@ -47,8 +39,6 @@ Geometry<D> read_geometry(const Block& block) {
   }
 }
 
-template std::map<std::string, ShapeKind<2>>& shapes();
-template std::map<std::string, ShapeKind<3>>& shapes();
 template Geometry<2> read_geometry(const Block&);
 template Geometry<3> read_geometry(const Block&);
 

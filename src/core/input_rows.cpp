@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of rows that do not depend on the struct: texts, units and the printed table.
+// The parts of rows that do not depend on the struct: texts and units.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 
@@ -76,26 +76,6 @@ void throw_out_of_range(const std::string& place, Real value, const Range& allow
                         const Eigen::Vector3d& X) {
   throw InputError(fmt::format("{}: at x = {}, y = {}, z = {} the value {}", place, X[0], X[1],
                                X[2], allowed.refusal(value)));
-}
-
-void print_table(std::ostream& out, const std::string& heading,
-                 const std::vector<std::array<std::string, 6>>& lines) {
-  std::array<std::string, 6> head{"key", "type", "unit", "range", "default", "meaning"};
-  std::array<std::size_t, 6> width{};
-  const auto widen = [&](const std::array<std::string, 6>& line) {
-    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
-  };
-  widen(head);
-  for (const auto& line : lines) widen(line);
-  const auto print = [&](const std::array<std::string, 6>& line) {
-    out << " ";
-    for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      out << fmt::format(" {:<{}} ", line[i], width[i]);
-    out << " " << line.back() << "\n";
-  };
-  out << heading << "\n";
-  print(head);
-  for (const auto& line : lines) print(line);
 }
 
 }  // namespace rows

@@ -204,16 +204,16 @@ PartnerPlan<D> read_partner(const Block& block) {
   return plan;
 }
 
-void describe_contact_keys(std::ostream& out) {
-  describe<ContactSettings>(out, "[[contact]]");
-  rows::print_table(out, "[contact.partner] of any type",
-                    {{{"type", "text", "", "half_space | ball | cavity | frame (2D)", "required",
-                       "kind of the rigid partner; ball and cavity are cylindrical in 2D"}},
-                     {{"displacement", "numbers or formulas", "m", "", "0",
-                       "prescribed motion, a formula of t for each component"}}});
-  describe<HalfSpace>(out, "[contact.partner] type = \"half_space\"");
-  describe<Round>(out, "[contact.partner] type = \"ball\" or \"cavity\"");
-  describe<Frame>(out, "[contact.partner] type = \"frame\" (2D)");
+std::vector<KeyTable> contact_key_tables() {
+  return {{"[[contact]]", key_texts(ContactSettings::rows())},
+          {"[contact.partner] of any type",
+           {{"type", "text", "", "half_space | ball | cavity | frame (2D)", "required",
+             "kind of the rigid partner; ball and cavity are cylindrical in 2D"},
+            {"displacement", "numbers or formulas", "m", "", "0",
+             "prescribed motion, a formula of t for each component"}}},
+          {"[contact.partner] type = \"half_space\"", key_texts(HalfSpace::rows())},
+          {"[contact.partner] type = \"ball\" or \"cavity\"", key_texts(Round::rows())},
+          {"[contact.partner] type = \"frame\" (2D)", key_texts(Frame::rows())}};
 }
 
 template PartnerPlan<2> read_partner(const Block&);

@@ -49,12 +49,9 @@ template <int D>
 std::unique_ptr<Material<D>> plan_material(const Block& body) {
   const auto block = body.table("material", true);
   if (!block) return nullptr;
-  std::vector<std::string> names;
-  for (const auto& [name, law] : laws()) names.emplace_back(name);
-  const std::string type = block->choice("type", names, std::nullopt);
-  const auto law = laws().find(type);
-  if (law == laws().end()) return nullptr;
-  auto material = law->second.template material<D>(*block);
+  const LawEntry* law = laws().find(block->choice("type", laws().names(), std::nullopt));
+  if (law == nullptr) return nullptr;
+  auto material = law->template material<D>(*block);
   block->done();
   return material;
 }

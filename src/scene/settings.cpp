@@ -4,36 +4,12 @@
 
 #include "meniscus/approx/window.hpp"
 #include "meniscus/body/shapes.hpp"
+#include "meniscus/core/optional_rows.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/scene/contact_settings.hpp"
 
 namespace meniscus {
 namespace {
-
-/// An optional number: absent stays absent.
-template <class M>
-Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension dimension,
-                    Range range, std::string fallback, std::string meaning) {
-  Row<M> row = real_row<M>(std::move(key), nullptr, dimension, range, std::move(meaning), 0.0);
-  row.fallback = std::move(fallback);
-  row.read = [key = row.key, member, dimension, range](M& m, const Block& block) {
-    if (block.has(key)) m.*member = block.real(key, dimension, range, std::nullopt);
-  };
-  return row;
-}
-
-/// Formulas that may be left out.
-template <class M>
-Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*member,
-                                Dimension dimension, std::string meaning) {
-  Row<M> row = expressions_row<M>(std::move(key), nullptr, 0, dimension, std::move(meaning),
-                                  std::vector<Expression>{});
-  row.fallback = "0";
-  row.read = [key = row.key, member, dimension](M& m, const Block& block) {
-    if (block.has(key)) m.*member = block.expressions(key, 0, dimension, std::nullopt);
-  };
-  return row;
-}
 
 std::vector<std::string> windows() {
   return {window_names.begin(), window_names.end()};
@@ -113,9 +89,9 @@ Rows<BodySettings> BodySettings::rows() {
                   "rank of that neighbour; 0: 20 in 3D, 8 in 2D", 0),
       real_row("support_spacings", &S::support_spacings, dimension::none, {0, 20},
                "support of all particles / mean cell size; 0: adaptive by support_factor", 0.0),
-      optional_expressions_row("initial_displacement", &S::initial_displacement, dimension::length,
-                               "a formula of x, y, z for each component"),
-      optional_expressions_row("initial_velocity", &S::initial_velocity, dimension::velocity,
+      optional_expressions_row("initial_displacement", &S::initial_displacement, 0,
+                               dimension::length, "a formula of x, y, z for each component"),
+      optional_expressions_row("initial_velocity", &S::initial_velocity, 0, dimension::velocity,
                                "a formula of x, y, z for each component"),
   };
 }
@@ -216,64 +192,55 @@ Rows<ExpectSettings> ExpectSettings::rows() {
 
 namespace {
 
-void describe_numbers(std::ostream& out) {
-  out << "A plain number is in the unit system of the scene; a text such as \"72.8 mN/m\" has its "
-         "own\n"
-         "unit. The units and defaults below are those of SI. A formula is a text in x, y, z, "
-         "t.\n\n";
+void add_shapes(auto& tables, const auto& shapes, const std::string& dimension) {
+  for (const auto& [name, shape] : shapes)
+    tables.push_back(
+        {"[[body]] shape = \"" + name + "\" (" + dimension + "): " + std::string(shape.meaning),
+         shape.keys()});
 }
 
-template <class Keys>
-void describe_list(std::ostream& out, const std::string& heading, const Keys& keys) {
-  std::vector<std::array<std::string, 6>> lines;
-  for (const auto& k : keys)
-    lines.push_back({k.key, k.type, k.unit, k.range, k.fallback, k.meaning});
-  rows::print_table(out, heading, lines);
-}
-
-template <int D>
-void describe_shapes(std::ostream& out) {
-  for (const auto& [name, kind] : shapes<D>())
-    describe_list(out,
-                  "[[body]] shape = \"" + name + "\" (" + std::to_string(D) + "D): " + kind.meaning,
-                  kind.keys());
+/// The tables of a scene in the order of the reference.
+std::vector<KeyTable> key_tables() {
+  std::vector<KeyTable> tables{
+      {"top level",
+       {{"title", "text", "", "", "\"\"", "heading of reports"},
+        {"dimension", "integer", "", "2 or 3", "required", "dimension of space"}}},
+      {"[units]",
+       {{"system", "text", "", "", "\"SI\"",
+         "SI, or the units of length, time and mass such as \"nm-ps-ag\""}}},
+      {"[time]", key_texts(TimeSettings::rows())},
+      {"[output]", key_texts(OutputSettings::rows())},
+      {"[[body]]", key_texts(BodySettings::rows())},
+      {"[[body]] of any shape",
+       {{"shape", "text", "", "", "required", "one of the shapes below"},
+        {"imperfection", "number", "m", ">= 0", "0",
+         "rms of a smooth random displacement of the reference"},
+        {"imperfection_seed", "integer", "", ">= 0", "1", "seed of the displacement"},
+        {"jitter", "number", "", ">= 0 and <= 0.5", "0",
+         "random shift of interior particles / shortest cell edge"},
+        {"jitter_seed", "integer", "", ">= 0", "1", "seed of the shifts"}}}};
+  add_shapes(tables, shapes<3>(), "3D");
+  add_shapes(tables, shapes<2>(), "2D");
+  for (const auto& [name, law] : laws())
+    tables.push_back({"[body.material] type = \"" + name + "\"", law.keys});
+  tables.push_back({"[[surface_tension]]", key_texts(TensionSettings::rows())});
+  tables.push_back({"[[body_force]]", key_texts(BodyForceSettings::rows())});
+  for (KeyTable& table : contact_key_tables()) tables.push_back(std::move(table));
+  tables.push_back({"[[cavity]]", key_texts(CavitySettings::rows())});
+  tables.push_back({"[[profile]]", key_texts(ProfileSettings::rows())});
+  tables.push_back({"[[exact]]", key_texts(ExactSettings::rows())});
+  tables.push_back({"[expect.NAME]", key_texts(ExpectSettings::rows())});
+  return tables;
 }
 
 }  // namespace
 
 void describe_keys(std::ostream& out) {
-  describe_numbers(out);
-  describe_list(out, "top level",
-                std::vector<ShapeKey>{
-                    {"title", "text", "", "", "\"\"", "heading of reports"},
-                    {"dimension", "integer", "", "2 or 3", "required", "dimension of space"}});
-  describe_list(out, "[units]",
-                std::vector<ShapeKey>{{"system", "text", "", "", "\"SI\"",
-                                       "SI, or the units of length, time and mass such as "
-                                       "\"nm-ps-ag\""}});
-  describe<TimeSettings>(out, "[time]");
-  describe<OutputSettings>(out, "[output]");
-  describe<BodySettings>(out, "[[body]]");
-  describe_list(out, "[[body]] of any shape",
-                std::vector<ShapeKey>{
-                    {"shape", "text", "", "", "required", "one of the shapes below"},
-                    {"imperfection", "number", "m", ">= 0", "0",
-                     "rms of a smooth random displacement of the reference"},
-                    {"imperfection_seed", "integer", "", ">= 0", "1", "seed of the displacement"},
-                    {"jitter", "number", "", ">= 0 and <= 0.5", "0",
-                     "random shift of interior particles / shortest cell edge"},
-                    {"jitter_seed", "integer", "", ">= 0", "1", "seed of the shifts"}});
-  describe_shapes<3>(out);
-  describe_shapes<2>(out);
-  for (const auto& [name, law] : laws())
-    describe_list(out, "[body.material] type = \"" + std::string(name) + "\"", law.keys);
-  describe<TensionSettings>(out, "[[surface_tension]]");
-  describe<BodyForceSettings>(out, "[[body_force]]");
-  describe_contact_keys(out);
-  describe<CavitySettings>(out, "[[cavity]]");
-  describe<ProfileSettings>(out, "[[profile]]");
-  describe<ExactSettings>(out, "[[exact]]");
-  describe<ExpectSettings>(out, "[expect.NAME]");
+  out << "A plain number is in the unit system of the scene; a text such as \"72.8 mN/m\" has its "
+         "own\n"
+         "unit. The units and defaults below are those of SI. A formula is a text in x, y, z, "
+         "t.\n\n";
+  for (const KeyTable& table : key_tables()) print(out, table);
 }
 
 }  // namespace meniscus

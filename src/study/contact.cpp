@@ -237,13 +237,14 @@ void run(StudyRun& study) {
                     m.error("force"), {0, 0.01});
 }
 
-const bool registered = register_study({"contact",
-                                        "forms of contact: total force of two balls of radius "
-                                        "3 sigma0, cost at equal accuracy",
-                                        "cells per edge of the core of a ball",
-                                        {4, 6, 8, 12, 16, 20},
-                                        {4, 8},
-                                        run});
+const bool registered =
+    register_entry(StudyEntry{"contact",
+                              "forms of contact: total force of two balls of radius "
+                              "3 sigma0, cost at equal accuracy",
+                              "cells per edge of the core of a ball",
+                              {4, 6, 8, 12, 16, 20},
+                              {4, 8},
+                              run});
 
 }  // namespace
 }  // namespace meniscus

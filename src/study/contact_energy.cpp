@@ -117,14 +117,15 @@ void run(StudyRun& study) {
   }
 }
 
-const bool registered = register_study({"contact_energy",
-                                        "energy of a disk bouncing on an adhesive plate, over the "
-                                        "time step, for the forms of contact",
-                                        "steps per 0.02 time units",
-                                        {4, 8, 16, 32},
-                                        {4, 8},
-                                        run,
-                                        "time step"});
+const bool registered =
+    register_entry(StudyEntry{"contact_energy",
+                              "energy of a disk bouncing on an adhesive plate, over the "
+                              "time step, for the forms of contact",
+                              "steps per 0.02 time units",
+                              {4, 8, 16, 32},
+                              {4, 8},
+                              run,
+                              "time step"});
 
 }  // namespace
 }  // namespace meniscus

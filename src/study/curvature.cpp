@@ -221,13 +221,13 @@ void run(StudyRun& study) {
 }
 
 const bool registered =
-    register_study({"curvature",
-                    "curvature of exact surfaces from the deformation of a ball or disk; "
-                    "--set map=NAME or FILE.toml, shape=NAME, jitter=NUMBER",
-                    "cells per edge of the core of the ball or disk",
-                    {6, 10, 14, 20},
-                    {4, 6, 8},
-                    run});
+    register_entry(StudyEntry{"curvature",
+                              "curvature of exact surfaces from the deformation of a ball or disk; "
+                              "--set map=NAME or FILE.toml, shape=NAME, jitter=NUMBER",
+                              "cells per edge of the core of the ball or disk",
+                              {6, 10, 14, 20},
+                              {4, 6, 8},
+                              run});
 
 }  // namespace
 }  // namespace meniscus

@@ -182,13 +182,13 @@ void run(StudyRun& study) {
   }
 }
 
-const bool registered =
-    register_study({"drop_modes",
-                    "viscous drop: decay rate and frequency of small oscillations, l = 2 and 3",
-                    "cells per edge of the core of the ball",
-                    {4, 6, 8, 10},
-                    {4, 6},
-                    run});
+const bool registered = register_entry(
+    StudyEntry{"drop_modes",
+               "viscous drop: decay rate and frequency of small oscillations, l = 2 and 3",
+               "cells per edge of the core of the ball",
+               {4, 6, 8, 10},
+               {4, 6},
+               run});
 
 }  // namespace
 }  // namespace meniscus

@@ -95,14 +95,14 @@ void run(StudyRun& study) {
   measure_all<3>(study, rules);
 }
 
-const bool registered = register_study(
-    {"elasticity",
-     "elastostatics: errors of a smooth displacement under its loads, mean of several "
-     "irregular clouds",
-     "cells per edge of a cube, half of those of a square",
-     {6, 9, 12, 16},
-     {4, 8},
-     run});
+const bool registered = register_entry(
+    StudyEntry{"elasticity",
+               "elastostatics: errors of a smooth displacement under its loads, mean of several "
+               "irregular clouds",
+               "cells per edge of a cube, half of those of a square",
+               {6, 9, 12, 16},
+               {4, 8},
+               run});
 
 }  // namespace
 }  // namespace meniscus

@@ -128,13 +128,13 @@ void run(StudyRun& study) {
   }
 }
 
-const bool registered =
-    register_study({"ellipsoid_drop",
-                    "nano-drop 1:1.5:1 relaxing: its aspect converged, by several methods",
-                    "cells per edge of the core of the ellipsoid",
-                    {6, 8, 10, 14},
-                    {6, 8},
-                    run});
+const bool registered = register_entry(
+    StudyEntry{"ellipsoid_drop",
+               "nano-drop 1:1.5:1 relaxing: its aspect converged, by several methods",
+               "cells per edge of the core of the ellipsoid",
+               {6, 8, 10, 14},
+               {6, 8},
+               run});
 
 }  // namespace
 }  // namespace meniscus

@@ -133,12 +133,12 @@ void run(StudyRun& study) {
 }
 
 const bool registered =
-    register_study({"hard",
-                    "hard cases: each stays stable, or stops and names the cause",
-                    "none: every case has its own size",
-                    {0},
-                    {0},
-                    run});
+    register_entry(StudyEntry{"hard",
+                              "hard cases: each stays stable, or stops and names the cause",
+                              "none: every case has its own size",
+                              {0},
+                              {0},
+                              run});
 
 }  // namespace
 }  // namespace meniscus

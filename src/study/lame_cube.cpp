@@ -147,13 +147,13 @@ void run(StudyRun& study) {
                     peer.code, peer.deck, peer.particles, peer.state_error, peer.seconds));
 }
 
-const bool registered =
-    register_study({"lame_cube",
-                    "elastodynamics: state error of a free cube after two periods of its Lame mode",
-                    "cells per edge",
-                    {4, 6, 8, 12, 16},
-                    {4, 6, 8},
-                    run});
+const bool registered = register_entry(
+    StudyEntry{"lame_cube",
+               "elastodynamics: state error of a free cube after two periods of its Lame mode",
+               "cells per edge",
+               {4, 6, 8, 12, 16},
+               {4, 6, 8},
+               run});
 
 }  // namespace
 }  // namespace meniscus

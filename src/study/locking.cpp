@@ -76,14 +76,14 @@ void run(StudyRun& study) {
   measure_all<3>(study);
 }
 
-const bool registered =
-    register_study({"locking",
-                    "nearly incompressible elastostatics: error against lambda/mu, dilatation at "
-                    "every stress point and averaged over cells",
-                    "cells per edge of a cube, half of those of a square",
-                    {4, 6, 9},
-                    {4, 6},
-                    run});
+const bool registered = register_entry(
+    StudyEntry{"locking",
+               "nearly incompressible elastostatics: error against lambda/mu, dilatation at "
+               "every stress point and averaged over cells",
+               "cells per edge of a cube, half of those of a square",
+               {4, 6, 9},
+               {4, 6},
+               run});
 
 }  // namespace
 }  // namespace meniscus

@@ -72,13 +72,13 @@ void run(StudyRun& study) {
   measure_all<3>(study, rules);
 }
 
-const bool registered =
-    register_study({"patch",
-                    "elastic patch tests: a linear and a quadratic displacement under their loads",
-                    "cells per edge of a cube, half of those of a square",
-                    {4, 8},
-                    {4},
-                    run});
+const bool registered = register_entry(
+    StudyEntry{"patch",
+               "elastic patch tests: a linear and a quadratic displacement under their loads",
+               "cells per edge of a cube, half of those of a square",
+               {4, 8},
+               {4},
+               run});
 
 }  // namespace
 }  // namespace meniscus

@@ -214,14 +214,14 @@ void run(StudyRun& study) {
   vary(study);
 }
 
-const bool registered =
-    register_study({"rbc",
-                    "a deflated red blood cell against finite elements, and cells that are not "
-                    "perfect",
-                    "cells along a quarter of the meridian",
-                    {6, 8, 12, 16},
-                    {6, 8},
-                    run});
+const bool registered = register_entry(
+    StudyEntry{"rbc",
+               "a deflated red blood cell against finite elements, and cells that are not "
+               "perfect",
+               "cells along a quarter of the meridian",
+               {6, 8, 12, 16},
+               {6, 8},
+               run});
 
 }  // namespace
 }  // namespace meniscus

@@ -136,13 +136,14 @@ void run(StudyRun& study) {
   compare_saw_teeth(study, rules);
 }
 
-const bool registered = register_study({"spectrum",
-                                        "free elastic cube: modes without energy, lowest and "
-                                        "highest frequency, energy of saw-teeth",
-                                        "cells per edge",
-                                        {4, 6},
-                                        {4},
-                                        run});
+const bool registered =
+    register_entry(StudyEntry{"spectrum",
+                              "free elastic cube: modes without energy, lowest and "
+                              "highest frequency, energy of saw-teeth",
+                              "cells per edge",
+                              {4, 6},
+                              {4},
+                              run});
 
 }  // namespace
 }  // namespace meniscus

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of studies, and the bookkeeping of one.
+// The bookkeeping of a study.
 #include "meniscus/study/study.hpp"
-
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
 
 #include <fmt/format.h>
 
@@ -15,11 +12,6 @@
 
 namespace meniscus {
 namespace {
-
-std::map<std::string_view, StudyEntry>& table() {
-  static std::map<std::string_view, StudyEntry> entries;
-  return entries;
-}
 
 std::optional<Real> order_between(const Measurement& coarse, const Measurement& fine,
                                   std::string_view error) {
@@ -73,25 +65,6 @@ Real StudyRun::overall_order(std::string_view method, std::string_view error) co
   constexpr Real none = std::numeric_limits<Real>::quiet_NaN();
   if (first == measurements_.end()) return none;
   return order_between(*first, *last, error).value_or(none);
-}
-
-const std::map<std::string_view, StudyEntry>& studies() {
-  return table();
-}
-
-const StudyEntry& study_named(std::string_view name) {
-  const auto found = studies().find(name);
-  if (found != studies().end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& entry : studies()) known.emplace_back(entry.first);
-  throw InputError(fmt::format("There is no study '{}': {}.", name, allowed_names(name, known)));
-}
-
-bool register_study(StudyEntry entry) {
-  const std::string_view name = entry.name;
-  if (!table().emplace(name, std::move(entry)).second)
-    throw std::logic_error(fmt::format("the study '{}' is registered twice", name));
-  return true;
 }
 
 double Stopwatch::now() {

@@ -157,14 +157,14 @@ void run(StudyRun& study) {
   require_orders(study);
 }
 
-const bool registered =
-    register_study({"surface_force",
-                    "forms of surface tension: nodal force, work, balance, Young-Laplace, cost; "
-                    "--set support=NUMBER (of d_20)",
-                    "cells per edge of the core of the ball",
-                    {6, 10, 14, 20},
-                    {4, 6},
-                    run});
+const bool registered = register_entry(
+    StudyEntry{"surface_force",
+               "forms of surface tension: nodal force, work, balance, Young-Laplace, cost; "
+               "--set support=NUMBER (of d_20)",
+               "cells per edge of the core of the ball",
+               {6, 10, 14, 20},
+               {4, 6},
+               run});
 
 }  // namespace
 }  // namespace meniscus

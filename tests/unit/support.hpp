@@ -100,7 +100,7 @@ std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
                                 : D == 2 ? "reference_director = [0.6, 0.8]\n"
                                          : "reference_director = [0.6, 0, -0.8]\n";
   const SceneInput scene = SceneInput::from_text(text + "\n" + direction);
-  const auto material = law_named(law).template material<D>(scene.root());
+  const auto material = laws().at(law).template material<D>(scene.root());
   scene.check();
   return material->build(body, integration).force;
 }

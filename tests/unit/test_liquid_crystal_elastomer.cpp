@@ -71,7 +71,7 @@ class LiquidCrystalElastomer : public testing::Test {
   }
   std::unique_ptr<AnyLaw> law(const std::string& more) const {
     const SceneInput scene = SceneInput::from_text(numbers(more));
-    auto read = law_named("liquid_crystal_elastomer").read(scene.root());
+    auto read = laws().at("liquid_crystal_elastomer").read(scene.root());
     scene.check();
     return read->at_time(0);
   }
@@ -272,7 +272,7 @@ TEST(LiquidCrystalElastomerBody, TakesItsDirectorFromTheWallsOrAFormula) {
     geometry.director = normal;
     const auto body = test::body_of<3>(std::move(geometry));
     const SceneInput scene = SceneInput::from_text(body_text(director));
-    const auto material = law_named("liquid_crystal_elastomer").material<3>(scene.root());
+    const auto material = laws().at("liquid_crystal_elastomer").material<3>(scene.root());
     scene.check();
     const NodalVectors u = test::random_field<3>(body->size(), 0.1, 5);
     NodalVectors f = test::zeros(u);
@@ -309,7 +309,7 @@ TEST(LiquidCrystalElastomerBody, ReportsFrankElasticity) {
   const auto note = [&](const std::string& more) {
     const SceneInput scene =
         SceneInput::from_text(body_text("reference_director = [1, 0, 0]\n" + more));
-    return law_named("liquid_crystal_elastomer").material<3>(scene.root())->build(*body, {}).note;
+    return laws().at("liquid_crystal_elastomer").material<3>(scene.root())->build(*body, {}).note;
   };
   EXPECT_EQ(note(""), std::nullopt);
   const std::string text = note("frank_constant = 0.0075\n").value_or("");  // (0.1 spacings)^2 mu

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole scenes: files, syntax errors, overrides, the complete input, the reference of keys.
+#include "meniscus/core/key_table.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -239,7 +241,7 @@ TEST(Complete, AConstantFormulaBecomesItsNumber) {
 
 TEST(Describe, PrintsAnAlignedTable) {
   std::ostringstream out;
-  describe<Liquid>(out, "[body.liquid]");
+  print(out, {"[body.liquid]", key_texts(Liquid::rows())});
   EXPECT_EQ(out.str(),
             R"toml([body.liquid]
   key           type                   unit    range                default       meaning

@@ -253,7 +253,7 @@ void expect_linear_patch(Geometry<D> geometry) {
   const NodalVectors force = test::force_of(*term, u);
 
   const SceneInput numbers = SceneInput::from_text(test::law_texts().at("neo_hookean"));
-  const auto law = law_named("neo_hookean").read(numbers.root());
+  const auto law = laws().at("neo_hookean").read(numbers.root());
   const Tensor<Real> P =
       law->stress(Tensor<Real>::map([&](int i, int K) { return i < D && K < D ? H(i, K) : 0.0; }));
   const auto flux = boundary_fluxes(*body);

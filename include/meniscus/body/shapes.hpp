@@ -3,11 +3,10 @@
 // struct like those below and the line `const bool registered = register_shape<D, MyShape>();`.
 #pragma once
 #include "meniscus/body/geometry.hpp"
-#include "meniscus/core/input.hpp"
+#include "meniscus/core/key_table.hpp"
+#include "meniscus/core/registry.hpp"
 
-#include <functional>
-#include <map>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace meniscus {
@@ -146,37 +145,28 @@ struct Brick {
   Geometry<D> geometry() const;
 };
 
-/// A key of a shape as `meniscus keys` prints it.
-struct ShapeKey {
-  std::string key, type, unit, range, fallback, meaning;
+/// What the program knows of a shape by its name.
+template <int D>
+struct ShapeEntry {
+  static constexpr const char* kind = "shape";
+  std::string_view name, meaning;
+  std::vector<KeyText> (*keys)();
+  Geometry<D> (*make)(const Block&);  ///< throws InputError for numbers that make no shape
 };
 
+/// The registry of the shapes of D dimensions.
 template <int D>
-struct ShapeKind {
-  std::string meaning;
-  std::function<std::vector<ShapeKey>()> keys;
-  std::function<Geometry<D>(const Block&)> make;
-};
+const Registry<ShapeEntry<D>>& shapes() {
+  return Registry<ShapeEntry<D>>::all();
+}
 
-/// All shapes of D dimensions by name.
-template <int D>
-std::map<std::string, ShapeKind<D>>& shapes();
-
-/// Adds S: name, meaning, rows(), and geometry(), which throws InputError for numbers that make no
-/// shape. Returns true.
+/// Enters S: name, meaning, rows(), and geometry(), which throws InputError for numbers that make
+/// no shape.
 template <int D, class S>
 bool register_shape() {
-  ShapeKind<D> kind;
-  kind.meaning = S::meaning;
-  kind.keys = [] {
-    std::vector<ShapeKey> keys;
-    for (const Row<S>& row : S::rows())
-      keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
-    return keys;
-  };
-  kind.make = [](const Block& block) { return read<S>(block).geometry(); };
-  shapes<D>()[S::name] = std::move(kind);
-  return true;
+  return register_entry(
+      ShapeEntry<D>{S::name, S::meaning, [] { return key_texts(S::rows()); },
+                    [](const Block& block) { return read<S>(block).geometry(); }});
 }
 
 /// The body that a table of the scene describes: `shape` names a registered shape, its own keys

@@ -3,10 +3,8 @@
 // Included at the end of input.hpp, whose names it uses.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <limits>
-#include <ostream>
 
 namespace meniscus {
 
@@ -90,11 +88,6 @@ struct Varying {
 template <class M>
 Varying<M> read_varying(const Block& block);
 
-/// Prints a heading and the rows of M as lines of an aligned table: key, type, unit, range,
-/// default, meaning (`meniscus keys`).
-template <class M>
-void describe(std::ostream& out, const std::string& heading);
-
 // ------------------------------------------------------------------------------------------------
 
 namespace rows {
@@ -112,8 +105,6 @@ std::string si_symbol(Dimension);
 Range in_scene_units(const Range& range, Dimension, const Block& block);
 [[noreturn]] void throw_out_of_range(const std::string& place, Real value, const Range& allowed,
                                      const Eigen::Vector3d& X);
-void print_table(std::ostream& out, const std::string& heading,
-                 const std::vector<std::array<std::string, 6>>& lines);
 
 template <class T>
 std::string fallback_text(const std::vector<T>& values) {
@@ -300,14 +291,6 @@ Varying<M> read_varying(const Block& block) {
       varying.formulas.push_back({block.place(row.key), row.member, value, allowed});
   }
   return varying;
-}
-
-template <class M>
-void describe(std::ostream& out, const std::string& heading) {
-  std::vector<std::array<std::string, 6>> lines;
-  for (const Row<M>& row : M::rows())
-    lines.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
-  rows::print_table(out, heading, lines);
 }
 
 }  // namespace meniscus

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of material laws by name. Laws enter themselves before main() begins.
+// The registry of material laws.
 #pragma once
+#include "meniscus/core/key_table.hpp"
+#include "meniscus/core/registry.hpp"
 #include "meniscus/physics/law.hpp"
 #include "meniscus/physics/material.hpp"
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace meniscus {
@@ -40,13 +40,9 @@ class AnyLaw {
   virtual std::optional<std::string> warning(const Tensor<Real>& H) const = 0;
 };
 
-/// One line of the reference of input keys.
-struct KeyText {
-  std::string key, type, unit, range, fallback, meaning;
-};
-
 /// What the program knows of a law by its name.
 struct LawEntry {
+  static constexpr const char* kind = "material law";
   std::string_view name;
   bool viscous;
   std::vector<KeyText> keys;
@@ -64,14 +60,9 @@ struct LawEntry {
   }
 };
 
-/// All laws, sorted by name.
-const std::map<std::string_view, LawEntry>& laws();
-
-/// Throws InputError (without a place) that lists the known laws.
-const LawEntry& law_named(std::string_view name);
-
-/// Throws std::logic_error if the name is taken.
-bool add_law(LawEntry entry);
+inline const Registry<LawEntry>& laws() {
+  return Registry<LawEntry>::all();
+}
 
 template <Law L>
 class AnyLawOf final : public AnyLaw {
@@ -126,10 +117,8 @@ class AnyLawOf final : public AnyLaw {
 
 template <Law L>
 LawEntry make_entry() {
-  LawEntry entry{L::type_name,        L::viscous,         {}, nullptr, nullptr,
-                 read_material<2, L>, read_material<3, L>};
-  for (const Row<L>& row : L::rows())
-    entry.keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
+  LawEntry entry{L::type_name, L::viscous,          key_texts(L::rows()), nullptr,
+                 nullptr,      read_material<2, L>, read_material<3, L>};
   if constexpr (DirectedLaw<L>)
     entry.keys.push_back({ReferenceDirector::key, "numbers or formulas", "1", "",
                           "normal of the walls",
@@ -151,10 +140,10 @@ LawEntry make_entry() {
   return entry;
 }
 
-/// Enters the law into the table: the last line of every file in src/materials.
+/// Enters the law: the last line of every file in src/materials.
 template <Law L>
 bool register_law() {
-  return add_law(make_entry<L>());
+  return register_entry(make_entry<L>());
 }
 
 }  // namespace meniscus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a scene says about contact: [[contact]] and the rigid partner in it.
 #pragma once
-#include "meniscus/core/input.hpp"
+#include "meniscus/core/key_table.hpp"
 #include "meniscus/physics/contact.hpp"
 
 #include <functional>
@@ -31,7 +31,7 @@ struct PartnerPlan {
 template <int D>
 PartnerPlan<D> read_partner(const Block& block);
 
-/// Prints the keys of [[contact]] and of all rigid partners.
-void describe_contact_keys(std::ostream& out);
+/// The keys of [[contact]] and of all rigid partners.
+std::vector<KeyTable> contact_key_tables();
 
 }  // namespace meniscus

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Convergence studies: resolutions and methods, their errors and what they cost. A study lives in
 // its own file in src/study, in an anonymous namespace, and ends with
-//   const bool registered = register_study({...});
+//   const bool registered = register_entry(StudyEntry{...});
 #pragma once
 #include "meniscus/core/input.hpp"
+#include "meniscus/core/registry.hpp"
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -92,6 +92,7 @@ class StudyRun {
 };
 
 struct StudyEntry {
+  static constexpr const char* kind = "study";
   std::string_view name;
   std::string_view summary;        ///< one line of `meniscus study --list`
   std::string_view level_meaning;  ///< e.g. "cells per edge of the core of the ball"
@@ -101,14 +102,9 @@ struct StudyEntry {
   std::string_view h_meaning = "$h$";  ///< name of Measurement::h in plots
 };
 
-/// All studies, sorted by name.
-const std::map<std::string_view, StudyEntry>& studies();
-
-/// Throws InputError that lists the known studies.
-const StudyEntry& study_named(std::string_view name);
-
-/// Throws std::logic_error if the name is taken.
-bool register_study(StudyEntry entry);
+inline const Registry<StudyEntry>& studies() {
+  return Registry<StudyEntry>::all();
+}
 
 /// Wall time since it was made, s.
 class Stopwatch {

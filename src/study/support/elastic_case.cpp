@@ -202,7 +202,8 @@ LinearBody<D>::LinearBody(Body<D>& body, const Integration& integration, Moduli 
     : size_(body.size()) {
   const SceneInput numbers = SceneInput::from_text(
       fmt::format("density = 1\nmu = {:.17g}\nlambda = {:.17g}", moduli.mu, moduli.lambda));
-  term_ = law_named("st_venant_kirchhoff")
+  term_ = laws()
+              .at("st_venant_kirchhoff")
               .template material<D>(numbers.root())
               ->build(body, integration)
               .force;

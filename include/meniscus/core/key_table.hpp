@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reference of input keys that `meniscus keys` prints, made of the rows that also read them.
+#pragma once
+#include "meniscus/core/input.hpp"
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// One key with its type, unit in SI, allowed range, default and meaning.
+struct KeyText {
+  std::string key, type, unit, range, fallback, meaning;
+};
+
+/// The keys of one table of a scene.
+struct KeyTable {
+  std::string heading;  ///< e.g. "[[body]]"
+  std::vector<KeyText> keys;
+};
+
+template <class M>
+std::vector<KeyText> key_texts(const Rows<M>& rows) {
+  std::vector<KeyText> keys;
+  for (const Row<M>& row : rows)
+    keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
+  return keys;
+}
+
+/// Prints heading and keys as lines of an aligned table.
+void print(std::ostream& out, const KeyTable& table);
+
+}  // namespace meniscus

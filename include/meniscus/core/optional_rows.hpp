@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rows of keys that may be left out and then have no value at all.
+#pragma once
+#include "meniscus/core/input.hpp"
+
+namespace meniscus {
+
+/// A number that stays absent. `fallback`: what `meniscus keys` says of its absence.
+template <class M>
+Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension dimension,
+                    Range range, std::string fallback, std::string meaning) {
+  Row<M> row = real_row<M>(std::move(key), nullptr, dimension, range, std::move(meaning), 0.0);
+  row.fallback = std::move(fallback);
+  row.read = [key = row.key, member, dimension, range](M& m, const Block& block) {
+    if (block.has(key)) m.*member = block.real(key, dimension, range, std::nullopt);
+  };
+  return row;
+}
+
+/// `count` formulas (0: any number of them); none if left out, which means zero.
+template <class M>
+Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*member,
+                                std::size_t count, Dimension dimension, std::string meaning) {
+  Row<M> row = expressions_row<M>(std::move(key), nullptr, count, dimension, std::move(meaning),
+                                  std::vector<Expression>{});
+  row.fallback = "0";
+  row.read = [key = row.key, member, count, dimension](M& m, const Block& block) {
+    if (block.has(key)) m.*member = block.expressions(key, count, dimension, std::nullopt);
+  };
+  return row;
+}
+
+}  // namespace meniscus

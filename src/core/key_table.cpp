@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The printed table of keys.
+#include "meniscus/core/key_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace meniscus {
+
+void print(std::ostream& out, const KeyTable& table) {
+  using Line = std::array<std::string, 6>;
+  std::vector<Line> lines{{"key", "type", "unit", "range", "default", "meaning"}};
+  for (const KeyText& k : table.keys)
+    lines.push_back({k.key, k.type, k.unit, k.range, k.fallback, k.meaning});
+  std::array<std::size_t, 6> width{};
+  for (const Line& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
+  out << table.heading << "\n";
+  for (const Line& line : lines) {
+    out << " ";
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      out << fmt::format(" {:<{}} ", line[i], width[i]);
+    out << " " << line.back() << "\n";
+  }
+}
+
+}  // namespace meniscus
