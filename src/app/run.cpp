@@ -10,7 +10,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/run_log.hpp"
 #include "meniscus/scene/expectations.hpp"
-#include "meniscus/solve/drop_measures.hpp"
+#include "meniscus/measure/drop_measures.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>

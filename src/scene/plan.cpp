@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading a scene whole, with every check that needs no particles: one short block per kind of
-// table.
-#include "plan.hpp"
+// Reading a scene whole, with every check that needs no particles.
+#include "meniscus/scene/plan.hpp"
 
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/body/wall_supports.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
 #include "meniscus/physics/law_registry.hpp"
@@ -18,10 +16,10 @@
 namespace meniscus {
 
 template <int D>
-const typename Plan<D>::PlannedBody* Plan<D>::require(const Block& block, const std::string& name,
-                                                      const char* key) const {
+const BodyPlan<D>* require_body(const Block& block, const BodyPlans<D>& bodies,
+                                const std::string& name, std::string_view key) {
   std::vector<std::string> known;
-  for (const PlannedBody& body : bodies) {
+  for (const BodyPlan<D>& body : bodies) {
     if (body.settings.name == name) return &body;
     known.push_back(body.settings.name);
   }
@@ -29,6 +27,10 @@ const typename Plan<D>::PlannedBody* Plan<D>::require(const Block& block, const 
     block.problem(key, fmt::format("there is no body '{}'; {}", name, allowed_names(name, known)));
   return nullptr;
 }
+template const BodyPlan<2>* require_body(const Block&, const BodyPlans<2>&, const std::string&,
+                                         std::string_view);
+template const BodyPlan<3>* require_body(const Block&, const BodyPlans<3>&, const std::string&,
+                                         std::string_view);
 
 namespace {
 
@@ -57,7 +59,7 @@ std::unique_ptr<Material<D>> plan_material(const Block& body) {
 }
 
 template <int D>
-void plan_bodies(const Block& root, Plan<D>& plan) {
+void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
   if (blocks.empty()) root.problem("body", "a scene needs at least one [[body]]");
   std::set<std::string> names;
@@ -76,80 +78,34 @@ void plan_bodies(const Block& root, Plan<D>& plan) {
     Geometry<D> geometry = read_geometry<D>(block);
     auto material = plan_material<D>(block);
     block.done();
-    plan.bodies.push_back({std::move(settings), std::move(geometry), std::move(material), false});
+    bodies.push_back({std::move(settings), std::move(geometry), std::move(material)});
   }
 }
 
-/// The measures of a table that a body may have once only would have equal names.
-template <class Settings>
-void require_first(const Block& block, const std::vector<Settings>& all) {
-  const auto same = [&](const Settings& s) { return s.body == all.back().body; };
-  if (block.has("body") && std::count_if(all.begin(), all.end(), same) > 1)
-    block.problem("body", fmt::format("'{}' has such a table already; allowed is one per body",
-                                      all.back().body));
-}
-
+/// Reads all tables of a kind of load.
 template <int D>
-void plan_cavities(const Block& root, Plan<D>& plan) {
-  for (const Block& block : root.tables("cavity")) {
-    plan.cavities.push_back(read<CavitySettings>(block));
-    const CavitySettings& cavity = plan.cavities.back();
-    const auto* body = plan.require(block, cavity.body);
-    require_first(block, plan.cavities);
-    if (body && cavity.surface == "inner" && !is_hollow(body->geometry))
-      block.problem("surface", fmt::format("'{}' has no inner surface; allowed is outer",
-                                           body->settings.name));
-    if (cavity.pressure && cavity.volume_target)
-      block.problem("pressure", "the volume is given, too; allowed is one of them");
-    if (cavity.volume_target.has_value() != cavity.penalty.has_value())
-      block.problem("penalty", "goes with volume_target; allowed are both or neither");
+void plan_loads(const Block& root, const LoadEntry<D>& kind, Plan<D>& plan) {
+  std::set<std::string> identities;
+  for (const Block& block : root.tables(kind.name)) {
+    std::unique_ptr<Load<D>> load = kind.read(block);
+    load->check(block, plan.bodies);
+    load->prepare(plan.bodies);
+    const auto identity = load->identity();
+    if (identity && !identity->value.empty() && !identities.insert(identity->value).second)
+      block.problem(identity->key, fmt::format("there is a [[{}]] with {} '{}' already; allowed is "
+                                               "one",
+                                               kind.name, identity->key, identity->value));
     block.done();
-  }
-  for (const Block& block : root.tables("profile")) {
-    plan.profiles.push_back(read<ProfileSettings>(block));
-    const ProfileSettings& profile = plan.profiles.back();
-    const auto* body = plan.require(block, profile.body);
-    require_first(block, plan.profiles);
-    if (body && !is_hollow(body->geometry))
-      block.problem("body", fmt::format("'{}' is not a shell", body->settings.name));
-    if (profile.r.size() != profile.z.size() || profile.r.empty())
-      block.problem("z",
-                    fmt::format("has {} numbers, but r has {}; allowed are as many, at least 1",
-                                profile.z.size(), profile.r.size()));
-    block.done();
+    plan.loads.push_back(std::move(load));
   }
 }
 
+/// Reads all loads in the order in which they are built.
 template <int D>
 void plan_loads(const Block& root, Plan<D>& plan) {
-  for (const Block& block : root.tables("surface_tension")) {
-    plan.tensions.push_back(read<TensionSettings>(block));
-    const auto* body = plan.require(block, plan.tensions.back().body);
-    require_first(block, plan.tensions);
-    if (body && plan.tensions.back().form == "curvature" && !body->geometry.smooth)
-      block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
-                                        "undefined; allowed are balanced, weak, triangles",
-                                        body->settings.name));
-    if (plan.tensions.back().form == "balanced")
-      for (auto& planned : plan.bodies)
-        planned.enclosed |= &planned == body && planned.material && planned.material->fluid();
-    block.done();
-  }
-  for (const Block& block : root.tables("body_force")) {
-    plan.body_forces.push_back(read<BodyForceSettings>(block));
-    plan.require(block, plan.body_forces.back().body);
-    require_components(block, "acceleration", plan.body_forces.back().acceleration.size(), D);
-    block.done();
-  }
-  plan_cavities(root, plan);
-  for (const Block& block : root.tables("exact")) {
-    plan.exact.push_back(read<ExactSettings>(block));
-    plan.require(block, plan.exact.back().body);
-    require_first(block, plan.exact);
-    require_components(block, "displacement", plan.exact.back().displacement.size(), D);
-    require_components(block, "velocity", plan.exact.back().velocity.size(), D);
-    block.done();
-  }
+  for (const Stage stage : {Stage::surface, Stage::volume, Stage::contact})
+    for (const auto& [name, kind] : loads<D>())
+      if (kind.stage == stage) plan_loads(root, kind, plan);
 }
 
 /// What can never be met, or is always, is a mistake.
@@ -174,44 +130,48 @@ void require_reachable(const Block& block, const ExpectSettings& e, Real end) {
                                    : "is missing; reduce = \"falls\" counts falls below it");
 }
 
-template <int D>
-void read_settings(const SceneInput& input, Scene<D>& scene) {
-  const Block& root = input.root();
-  scene.title = root.text("title", "");
-  scene.units = root.units();
+RunSettings read_settings(const Block& root) {
+  RunSettings run;
+  run.title = root.text("title", "");
+  run.units = root.units();
   if (const auto block = root.table("time", true)) {
-    scene.time = read<TimeSettings>(*block);
-    scene.time.step_place = block->place("step");
+    run.time = read<TimeSettings>(*block);
+    run.time.step_place = block->place("step");
     block->done();
   }
   const Block output = root.table_or_defaults("output");
-  scene.output = read<OutputSettings>(output);
+  run.output = read<OutputSettings>(output);
   output.done();
   if (const auto expect = root.table("expect"))
     for (const auto& [name, block] : expect->named_tables()) {
       ExpectSettings e = read<ExpectSettings>(block);
       if (e.of.empty()) e.of = name;
-      require_reachable(block, e, scene.time.end);
+      require_reachable(block, e, run.time.end);
       block.done();
-      scene.expectations.emplace_back(name, std::move(e));
+      run.expectations.emplace_back(name, std::move(e));
     }
+  return run;
 }
 
 }  // namespace
 
+int scene_dimension(const SceneInput& input) {
+  const auto dimension = input.root().integer("dimension", {2, 3}, std::nullopt);
+  if (dimension != 2 && dimension != 3) input.check();
+  return static_cast<int>(dimension);
+}
+
 template <int D>
-Plan<D> read_plan(const SceneInput& input, Scene<D>& scene) {
-  Plan<D> plan;
-  read_settings(input, scene);
-  plan_bodies(input.root(), plan);
+Plan<D> read_plan(const SceneInput& input) {
+  Plan<D> plan{read_settings(input.root()), {}, {}};
+  plan_bodies(input.root(), plan.bodies);
   plan_loads(input.root(), plan);
-  plan_contacts(input.root(), plan);
   input.root().done();
   input.check();
   return plan;
 }
 
-template Plan<2> read_plan(const SceneInput&, Scene<2>&);
-template Plan<3> read_plan(const SceneInput&, Scene<3>&);
+template Plan<2> read_plan(const SceneInput&);
+template Plan<3> read_plan(const SceneInput&);
 
 }  // namespace meniscus

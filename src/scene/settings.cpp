@@ -6,7 +6,9 @@
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/core/optional_rows.hpp"
 #include "meniscus/physics/law_registry.hpp"
-#include "meniscus/scene/contact_settings.hpp"
+#include "meniscus/scene/load.hpp"
+
+#include <iterator>
 
 namespace meniscus {
 namespace {
@@ -96,74 +98,6 @@ Rows<BodySettings> BodySettings::rows() {
   };
 }
 
-Rows<TensionSettings> TensionSettings::rows() {
-  using S = TensionSettings;
-  return {
-      text_row("body", &S::body, "name of the body whose surface is under tension"),
-      real_row("gamma", &S::gamma, dimension::tension, range::positive, "surface tension"),
-      choice_row(
-          "form", &S::form, {"balanced", "weak", "curvature", "triangles"},
-          "gradient of the area of patches through places, with the volume that they enclose for "
-          "the pressure of a fluid; gradient of the area at Gauss points; curvature from second "
-          "derivatives (smooth surfaces only); flat triangles",
-          "balanced"),
-      integer_row("points", &S::points, {1, 8},
-                  "Gauss points per direction and surface facet, for weak and curvature", 3),
-      real_row("coefficient_damping", &S::coefficient_damping, dimension::none, range::non_negative,
-               "damping of what of the velocity coefficients of a fluid does not move places, in "
-               "kinematic viscosity / spacing^2, for balanced; 0: none",
-               0.5),
-  };
-}
-
-Rows<BodyForceSettings> BodyForceSettings::rows() {
-  using S = BodyForceSettings;
-  return {text_row("body", &S::body, "name of the body"),
-          expressions_row("acceleration", &S::acceleration, 0, dimension::acceleration,
-                          "force per mass, a formula of reference position x, y, z and time t for "
-                          "each component")};
-}
-
-Rows<CavitySettings> CavitySettings::rows() {
-  using S = CavitySettings;
-  return {
-      text_row("body", &S::body, "name of the body around the cavity"),
-      choice_row("surface", &S::surface, {"inner", "outer"},
-                 "the closed surface that is filled; a drop has an outer one only", "inner"),
-      optional_row("pressure", &S::pressure, dimension::pressure, range::any, "none",
-                   "pressure inside above that outside; either this or volume_target, or neither: "
-                   "vented"),
-      optional_row("volume_target", &S::volume_target, dimension::none, range::positive, "none",
-                   "volume of the content / enclosed volume of the reference"),
-      optional_row("penalty", &S::penalty, dimension::pressure, range::positive, "none",
-                   "pressure per deviation from volume_target, which needs it"),
-      ramp_row("ramp", &S::ramp, "pressure from 0 or volume_target from 1"),
-      integer_row("points", &S::points, {1, 8}, "Gauss points per direction and surface facet", 2),
-  };
-}
-
-Rows<ProfileSettings> ProfileSettings::rows() {
-  using S = ProfileSettings;
-  return {text_row("body", &S::body, "name of the shell whose mean meridian is compared"),
-          reals_row("r", &S::r, 0, dimension::length, range::non_negative,
-                    "distances from the axis of places of a known outer profile"),
-          reals_row("z", &S::z, 0, dimension::length, range::any,
-                    "their heights above the middle plane; the profile is symmetric"),
-          text_row("label", &S::label, "what pictures call it", "given profile")};
-}
-
-Rows<ExactSettings> ExactSettings::rows() {
-  using S = ExactSettings;
-  return {text_row("body", &S::body, "name of the body whose exact motion is known"),
-          expressions_row("displacement", &S::displacement, 0, dimension::length,
-                          "a formula of x, y, z, t for each component"),
-          expressions_row("velocity", &S::velocity, 0, dimension::velocity,
-                          "a formula of x, y, z, t for each component"),
-          real_row("rate", &S::rate, dimension::rate, range::positive,
-                   "weighs displacements against velocities in the error; the frequency of an "
-                   "oscillation")};
-}
-
 Rows<ExpectSettings> ExpectSettings::rows() {
   using S = ExpectSettings;
   return {
@@ -199,6 +133,10 @@ void add_shapes(auto& tables, const auto& shapes, const std::string& dimension) 
          shape.keys()});
 }
 
+void add(std::vector<KeyTable>& tables, std::vector<KeyTable> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(tables));
+}
+
 /// The tables of a scene in the order of the reference.
 std::vector<KeyTable> key_tables() {
   std::vector<KeyTable> tables{
@@ -223,12 +161,9 @@ std::vector<KeyTable> key_tables() {
   add_shapes(tables, shapes<2>(), "2D");
   for (const auto& [name, law] : laws())
     tables.push_back({"[body.material] type = \"" + name + "\"", law.keys});
-  tables.push_back({"[[surface_tension]]", key_texts(TensionSettings::rows())});
-  tables.push_back({"[[body_force]]", key_texts(BodyForceSettings::rows())});
-  for (KeyTable& table : contact_key_tables()) tables.push_back(std::move(table));
-  tables.push_back({"[[cavity]]", key_texts(CavitySettings::rows())});
-  tables.push_back({"[[profile]]", key_texts(ProfileSettings::rows())});
-  tables.push_back({"[[exact]]", key_texts(ExactSettings::rows())});
+  for (const auto& [name, load] : loads<3>()) add(tables, load.keys());
+  for (const auto& [name, load] : loads<2>())
+    if (!loads<3>().find(name)) add(tables, load.keys());
   tables.push_back({"[expect.NAME]", key_texts(ExpectSettings::rows())});
   return tables;
 }

@@ -3,10 +3,12 @@
 #include "meniscus/scene/simulation.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/measure/drop_measures.hpp"
 #include "meniscus/solve/central_difference.hpp"
-#include "meniscus/solve/drop_measures.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace meniscus {
 namespace {
@@ -40,6 +42,9 @@ template <int D>
 Simulation<D>::Simulation(Scene<D>& scene)
     : scene_(scene),
       state_(scene.initial),
+      keeps_state_before_(std::any_of(
+          scene.system.terms.begin(), scene.system.terms.end(),
+          [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
       controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every,
                                  scene.time.step_place}) {
   if (scene.time.solver != "relax") return;
@@ -91,7 +96,7 @@ template <int D>
 void Simulation<D>::advance() {
   try {
     last_step_ = controller_.next(state_, scene_.time.end);
-    if (scene_.steps_may_be_rejected)
+    if (keeps_state_before_)
       step(last_step_);
     else
       meniscus::advance(scene_.system, state_, last_step_);

@@ -4,7 +4,7 @@
 // particles keep that deformation (static-drop note 3).
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/drop_measures.hpp"
+#include "meniscus/measure/drop_measures.hpp"
 #include "meniscus/study/study.hpp"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/drop_measures.hpp"
+#include "meniscus/measure/drop_measures.hpp"
 
 #include <gtest/gtest.h>
 

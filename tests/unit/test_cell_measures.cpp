@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shape measures of cells on shapes that are known.
-#include "meniscus/solve/cell_measures.hpp"
-#include "meniscus/solve/meridian_shape.hpp"
+#include "meniscus/measure/cell_measures.hpp"
+#include "meniscus/measure/meridian_shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class CellMeasures : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     body = test::body_of<3>(flat_cell(0.49).geometry());
-    measures = cell_measures(*body, 1);
+    measures = cell_measures(*body, UnitSystem("um-s-ng"));
   }
   static void TearDownTestSuite() {
     measures.clear();
@@ -113,7 +113,7 @@ TEST(EvansFung, HasTheNumbersOfItsCoefficients) {
 
 TEST(EvansFung, SolidBodiesHaveNoCellMeasures) {
   const auto ball = test::body_of<3>(test::ball(3, 2));
-  EXPECT_TRUE(cell_measures(*ball, 1).empty());
+  EXPECT_TRUE(cell_measures(*ball, UnitSystem()).empty());
 }
 
 }  // namespace

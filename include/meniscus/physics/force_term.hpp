@@ -84,6 +84,8 @@ class ForceTerm {
   virtual Real uncancelled_force(const Motion&) const { return 0; }
 
   virtual std::optional<Failure> failure() const { return std::nullopt; }
+  /// Whether a failure may be one `of_step`, so that the state before a step has to be kept.
+  virtual bool may_reject_steps() const { return false; }
   /// About the last add_force(). Only terms whose stiffness grows by multiples within few steps
   /// have a demand.
   virtual StepDemand step_demand() const { return {}; }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scene file to bodies, force terms and an initial state. The only place that knows all
-// kinds of terms.
+// A scene: bodies, force terms, measures and an initial state, built from a plan.
 #pragma once
-#include "meniscus/scene/settings.hpp"
+#include "meniscus/scene/plan.hpp"
 #include "meniscus/solve/system.hpp"
 
 #include <string>
@@ -20,21 +19,15 @@ struct Drop {
 };
 
 template <int D>
-struct Scene {
-  std::string title;
-  UnitSystem units;
-  TimeSettings time;
-  OutputSettings output;
+struct Scene : RunSettings {
   System<D> system;
   State initial;
   std::vector<std::vector<Real>> viscosity;  ///< [body][particle]; empty: a solid
   std::vector<Drop<D>> drops;
-  bool steps_may_be_rejected = false;  ///< by a force term
   /// Measures by full name, e.g. "drop.aspect".
   std::vector<MeasureSource> measures;
   /// Fields of each body by name, in the order of the bodies.
   std::vector<std::vector<FieldSource>> fields;
-  std::vector<std::pair<std::string, ExpectSettings>> expectations;
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
 
@@ -45,11 +38,12 @@ struct Scene {
   }
 };
 
-/// 2 or 3. Throws InputError if the scene does not say.
-int scene_dimension(const SceneInput& input);
+/// Throws InputError for what shows only here (a formula that leaves its range, surfaces that start
+/// too close), SolveError if shape functions cannot be built.
+template <int D>
+Scene<D> build(const Plan<D>& plan);
 
-/// Reads the whole scene, then builds it. Throws InputError with all problems of the input at once,
-/// SolveError if shape functions cannot be built.
+/// Reads the whole scene, then builds it.
 template <int D>
 Scene<D> build_scene(const SceneInput& input);
 

@@ -2,7 +2,6 @@
 // Settings of a scene: structs whose rows are the reference of the input keys.
 #pragma once
 #include "meniscus/core/input.hpp"
-#include "meniscus/core/ramp.hpp"
 
 #include <optional>
 
@@ -40,46 +39,6 @@ struct BodySettings {
   Real support_spacings = 0;  ///< > 0: the same support everywhere, x mean cell size
   std::vector<Expression> initial_displacement, initial_velocity;  ///< empty: zero
   static Rows<BodySettings> rows();
-};
-
-/// [[surface_tension]]
-struct TensionSettings {
-  std::string body, form;
-  Real gamma = 0;
-  int points = 3;
-  Real coefficient_damping = 0;  ///< in kinematic viscosity / spacing^2
-  static Rows<TensionSettings> rows();
-};
-
-/// [[body_force]]
-struct BodyForceSettings {
-  std::string body;
-  std::vector<Expression> acceleration;
-  static Rows<BodyForceSettings> rows();
-};
-
-/// [[cavity]]
-struct CavitySettings {
-  std::string body, surface;
-  std::optional<Real> pressure, volume_target, penalty;
-  Ramp ramp;
-  int points = 2;
-  static Rows<CavitySettings> rows();
-};
-
-/// [[profile]]
-struct ProfileSettings {
-  std::string body, label;
-  std::vector<Real> r, z;
-  static Rows<ProfileSettings> rows();
-};
-
-/// [[exact]]
-struct ExactSettings {
-  std::string body;
-  std::vector<Expression> displacement, velocity;
-  Real rate = 0;
-  static Rows<ExactSettings> rows();
 };
 
 /// [expect.NAME]

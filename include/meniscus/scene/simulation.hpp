@@ -52,7 +52,8 @@ class Simulation {
 
   Scene<D>& scene_;
   State state_;
-  State before_;  // the step, where steps may be rejected
+  State before_;  // the step, where a term may reject it
+  bool keeps_state_before_;
   StepController<D> controller_;
   std::optional<Relaxation<D>> relaxation_;
   Audit audit_;

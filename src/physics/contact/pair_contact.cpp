@@ -68,6 +68,7 @@ class PairContact final : public ForceTerm {
   }
 
   std::optional<Failure> failure() const override { return failure_; }
+  bool may_reject_steps() const override { return true; }
   StepDemand step_demand() const override { return demand_; }
 
   std::optional<std::string> warning(const Motion& motion) const override {

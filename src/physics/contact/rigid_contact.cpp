@@ -66,6 +66,7 @@ class RigidContact final : public ForceTerm {
   Real steady_after() const override { return steady_after_; }
 
   std::optional<Failure> failure() const override { return failure_; }
+  bool may_reject_steps() const override { return true; }
   StepDemand step_demand() const override { return demand_; }
 
   std::optional<std::string> warning(const Motion& motion) const override {

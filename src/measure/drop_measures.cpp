@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motion of places and shape of drops.
-#include "meniscus/solve/drop_measures.hpp"
+#include "meniscus/measure/drop_measures.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/physics/closed_surface.hpp"

@@ -13,7 +13,7 @@ namespace meniscus {
 /// smallest extent), p2 (amplitude of the second Legendre mode about the axis of the largest
 /// reference extent, relative to the mean radius; in 2D of the mode cos 2 phi), radius (mean).
 template <int D>
-std::vector<MeasureSource> shape_measures(const Body<D>& body);
+std::vector<MeasureSource> shape_measures(const Body<D>& body, const UnitSystem&);
 
 /// An exact solution to compare with.
 struct ExactSolution {

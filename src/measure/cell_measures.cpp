@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shape measures of red blood cells.
-#include "meniscus/solve/cell_measures.hpp"
+#include "meniscus/measure/cell_measures.hpp"
 
 #include "meniscus/body/wall_supports.hpp"
+#include "meniscus/measure/measure_registry.hpp"
+#include "meniscus/measure/meridian_shape.hpp"
 #include "meniscus/physics/closed_surface.hpp"
-#include "meniscus/solve/meridian_shape.hpp"
 
 #include <cmath>
 #include <memory>
@@ -22,6 +23,7 @@ T& built(std::optional<T>& part, Arguments&&... arguments) {
   return *part;
 }
 
+/// `micrometre` in units of the scene.
 class CellShape {
  public:
   CellShape(const Body<3>& body, Real micrometre) : body_(body), micrometre_(micrometre) {}
@@ -82,15 +84,9 @@ class CellShape {
 
 }  // namespace
 
-template <>
-std::vector<MeasureSource> cell_measures(const Body<2>&, Real) {
-  return {};
-}
-
-template <>
-std::vector<MeasureSource> cell_measures(const Body<3>& body, Real micrometre) {
+std::vector<MeasureSource> cell_measures(const Body<3>& body, const UnitSystem& units) {
   if (!is_hollow(body.geometry)) return {};
-  const auto shape = std::make_shared<CellShape>(body, micrometre);
+  const auto shape = std::make_shared<CellShape>(body, 1e-6 / units.in_si(dimension::length));
   std::vector<MeasureSource> measures;
   const auto add = [&](const char* name, Dimension unit, const char* meaning, auto compute) {
     measures.push_back(
@@ -132,6 +128,10 @@ std::vector<MeasureSource> cell_measures(const Body<3>& body, Real micrometre) {
   add("cavity_area", dimension::area, "area of the inner surface",
       [](CellShape& s, const Motion& m) { return s.inner(m).area; });
   return measures;
+}
+
+namespace {
+const bool registered = register_measures("shell", nullptr, cell_measures);
 }
 
 MeasureSource profile_rms(const Body<3>& body, std::vector<Real> r, std::vector<Real> z) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meridians of a body of revolution after its deformation.
-#include "meniscus/solve/meridian_shape.hpp"
+#include "meniscus/measure/meridian_shape.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/parallel.hpp"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shape of a body from the places of its surface particles, and the error against an exact
 // solution.
-#include "meniscus/solve/shape_measures.hpp"
+#include "meniscus/measure/shape_measures.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/measure/measure_registry.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -80,7 +81,7 @@ class SurfacePlaces {
 }  // namespace
 
 template <int D>
-std::vector<MeasureSource> shape_measures(const Body<D>& body) {
+std::vector<MeasureSource> shape_measures(const Body<D>& body, const UnitSystem&) {
   const auto surface = std::make_shared<const SurfacePlaces<D>>(body);
   std::vector<MeasureSource> measures;
   for (int i = 0; i < D; ++i)
@@ -101,6 +102,10 @@ std::vector<MeasureSource> shape_measures(const Body<D>& body) {
                         return r[1] / r[0];
                       }});
   return measures;
+}
+
+namespace {
+const bool registered = register_measures("shape", shape_measures<2>, shape_measures<3>);
 }
 
 template <int D>
@@ -126,8 +131,8 @@ MeasureSource state_error(const Body<D>& body, ExactSolution exact) {
           "error of places and velocities against the exact solution", compute};
 }
 
-template std::vector<MeasureSource> shape_measures(const Body<2>&);
-template std::vector<MeasureSource> shape_measures(const Body<3>&);
+template std::vector<MeasureSource> shape_measures(const Body<2>&, const UnitSystem&);
+template std::vector<MeasureSource> shape_measures(const Body<3>&, const UnitSystem&);
 template MeasureSource state_error(const Body<2>&, ExactSolution);
 template MeasureSource state_error(const Body<3>&, ExactSolution);
 

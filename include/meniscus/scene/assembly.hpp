@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scene while it is built: where loads add what they are made of.
+#pragma once
+#include "meniscus/scene/scene.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace meniscus {
+
+template <int D>
+class Assembly {
+ public:
+  /// `scene` has its bodies and its initial state.
+  explicit Assembly(Scene<D>& scene) : scene_(scene) {}
+
+  /// Throws InputError if there is none of that name.
+  const Body<D>& body(const std::string& name) const;
+
+  /// Adds a term; its measures are called `prefix`.NAME.
+  void add(std::unique_ptr<ForceTerm> term, const std::string& prefix);
+  /// Adds a measure called `prefix`.NAME.
+  void measure(const std::string& prefix, MeasureSource source);
+  /// The measure of that full name; it has been added.
+  std::function<Real(const Motion&)> measure_named(const std::string& name) const;
+  /// Says that a body is a drop.
+  void drop(Drop<D> drop) { scene_.drops.push_back(std::move(drop)); }
+  /// Shear viscosity of each particle of a fluid; empty for a solid.
+  const std::vector<Real>& viscosity(const std::string& body) const;
+  /// For the log: what was decided, and what is doubtful.
+  void note(std::string sentence) { scene_.notes.push_back(std::move(sentence)); }
+  void warn(std::string sentence) { scene_.warnings.push_back(std::move(sentence)); }
+
+  /// Says, or asks, the energy per area of the free surface of a body; none if nobody said it.
+  void set_surface_energy(const std::string& body, Real gamma) { surface_energy_[body] = gamma; }
+  std::optional<Real> surface_energy(const std::string& body) const;
+
+  const UnitSystem& units() const { return scene_.units; }
+  Real end_time() const { return scene_.time.end; }
+  const State& initial() const { return scene_.initial; }
+
+ private:
+  Scene<D>& scene_;
+  std::map<std::string, Real> surface_energy_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rigid half space.
+#include "meniscus/physics/partner_registry.hpp"
+
+namespace meniscus {
+namespace {
+
+template <int D>
+struct HalfSpace {
+  std::vector<Real> point, normal;
+
+  static Rows<HalfSpace> rows() {
+    return {reals_row("point", &HalfSpace::point, D, dimension::length, range::any,
+                      "a point of the plane"),
+            reals_row("normal", &HalfSpace::normal, D, dimension::none, range::any,
+                      "out of the solid, of any length")};
+  }
+  std::unique_ptr<RigidPartner<D>> make(const ContactLaw& law, Real beta) const {
+    return rigid_half_space<D>(law, beta, Vec<D>::Map(point.data()), Vec<D>::Map(normal.data()));
+  }
+};
+
+constexpr const char* meaning = "all that is behind a plane";
+const bool registered = register_partner<2, HalfSpace<2>>("half_space", meaning) &&
+                        register_partner<3, HalfSpace<3>>("half_space", meaning);
+
+}  // namespace
+}  // namespace meniscus

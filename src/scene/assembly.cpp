@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What loads add to a scene.
+#include "meniscus/scene/assembly.hpp"
+
+#include "meniscus/core/error.hpp"
+
+#include <stdexcept>
+
+namespace meniscus {
+
+template <int D>
+const Body<D>& Assembly<D>::body(const std::string& name) const {
+  for (const Body<D>& body : scene_.system.bodies)
+    if (body.name == name) return body;
+  throw InputError("there is no body '" + name + "'");
+}
+
+template <int D>
+void Assembly<D>::add(std::unique_ptr<ForceTerm> term, const std::string& prefix) {
+  for (MeasureSource& source : term->measures()) measure(prefix, std::move(source));
+  scene_.system.terms.push_back(std::move(term));
+}
+
+template <int D>
+void Assembly<D>::measure(const std::string& prefix, MeasureSource source) {
+  source.name = prefix + "." + source.name;
+  scene_.measures.push_back(std::move(source));
+}
+
+template <int D>
+std::function<Real(const Motion&)> Assembly<D>::measure_named(const std::string& name) const {
+  for (const MeasureSource& source : scene_.measures)
+    if (source.name == name) return source.compute;
+  throw std::logic_error("there is no measure '" + name + "'");
+}
+
+template <int D>
+const std::vector<Real>& Assembly<D>::viscosity(const std::string& name) const {
+  for (std::size_t b = 0; b < scene_.viscosity.size(); ++b)
+    if (scene_.system.bodies[b].name == name) return scene_.viscosity[b];
+  throw std::logic_error("there is no body '" + name + "'");
+}
+
+template <int D>
+std::optional<Real> Assembly<D>::surface_energy(const std::string& body) const {
+  const auto found = surface_energy_.find(body);
+  return found == surface_energy_.end() ? std::nullopt : std::optional(found->second);
+}
+
+template class Assembly<2>;
+template class Assembly<3>;
+
+}  // namespace meniscus

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Building a body of a scene.
+#include "build_body.hpp"
+
+#include "meniscus/body/ordering.hpp"
+#include "meniscus/body/surface_points.hpp"
+#include "meniscus/body/wall_supports.hpp"
+#include "meniscus/measure/measure_registry.hpp"
+
+#include <fmt/format.h>
+
+namespace meniscus {
+namespace {
+
+template <int D>
+ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& geometry) {
+  Window window{};
+  for (std::size_t k = 0; k < window_names.size(); ++k)
+    if (window_names[k] == settings.window) window = static_cast<Window>(k);
+  if (settings.support_spacings > 0)
+    return {geometry.grid.X, settings.support_spacings * mean_spacing(geometry.grid), window};
+  typename ParticleSet<D>::AdaptiveSupport rule;
+  rule.factor = settings.support_factor;
+  if (settings.support_rank > 0) rule.rank = settings.support_rank;
+  return {geometry.grid.X, rule, window};
+}
+
+/// Where the deficiency monitor looks: particles, cell centres, and a point per surface facet.
+template <int D>
+std::vector<Vec<D>> probe_points(const Geometry<D>& geometry) {
+  std::vector<Vec<D>> points = geometry.grid.X;
+  const auto centres = cell_gauss_points(geometry.grid, 1).X;
+  points.insert(points.end(), centres.begin(), centres.end());
+  const auto surface = surface_points(geometry, 1);
+  points.insert(points.end(), surface.X.begin(), surface.X.end());
+  return points;
+}
+
+/// Particles whose supports stay in the wall of a hollow body and make well-conditioned shape
+/// functions everywhere.
+template <int D>
+ParticleSet<D> sound_particles(const BodySettings& settings, const Geometry<D>& geometry,
+                               Assembly<D>& assembly) {
+  const std::string& name = settings.name;
+  ParticleSet<D> particles = make_particles(settings, geometry);
+  const WallReport wall = keep_supports_in_wall(particles, geometry);
+  if (wall.shortened > 0)
+    assembly.note(fmt::format(
+        "body '{}': the supports of {} of {} particles were shortened, to {:.0f} % at least, to "
+        "end before the other side of the cavity",
+        name, wall.shortened, particles.size(), 100 * wall.least_share));
+  if (wall.least_share < 0.6)
+    assembly.warn(fmt::format(
+        "body '{}': the cavity is narrow for the distance of the particles, {:.0f} % of a support "
+        "are left; use a finer spacing",
+        name, 100 * wall.least_share));
+  const Index enlarged = particles.ensure_quality(probe_points(geometry), name);
+  if (enlarged > 0)
+    assembly.warn(fmt::format(
+        "body '{}': the supports of {} of {} particles were enlarged, their moment matrices were "
+        "poorly conditioned",
+        name, enlarged, particles.size()));
+  return particles;
+}
+
+template <int D>
+void report(const Body<D>& body, const typename Material<D>::Built& built,
+            const BodySettings& settings, Assembly<D>& assembly) {
+  const std::string& name = body.name;
+  assembly.note(fmt::format(
+      "body '{}': {} particles, {} cells, mean spacing {:.4g} {}, {:.1f} neighbours per particle, "
+      "{:.1f} pairs per particle, {:.1f} MB for the internal force",
+      name, body.size(), body.geometry.grid.cell_count(), mean_spacing(body.geometry.grid),
+      assembly.units().symbol(dimension::length),
+      static_cast<Real>(body.at_particles.entries()) / body.size(),
+      static_cast<Real>(built.force->pairs()) / body.size(),
+      1e-6 * static_cast<Real>(built.force->bytes())));
+  if (built.cell_average)
+    assembly.note(
+        fmt::format("body '{}': the volume change is averaged over each nodal cell (volumetric = "
+                    "\"cell_average\")",
+                    name));
+  if (built.mass.raised > 0)
+    assembly.note(
+        fmt::format("body '{}': the masses of {} particles were raised to 0.3 of their cells, the "
+                    "total by {:.2g}",
+                    name, built.mass.raised, built.mass.added));
+  if (built.note) assembly.note(fmt::format("body '{}': {}", name, *built.note));
+  if (settings.integration == "nodal")
+    assembly.warn(
+        fmt::format("body '{}': integration = \"nodal\" has modes without energy and is unstable; "
+                    "for comparison only",
+                    name));
+}
+
+}  // namespace
+
+template <int D>
+void build_body(const BodyPlan<D>& planned, Scene<D>& scene, Assembly<D>& assembly) {
+  const BodySettings& settings = planned.settings;
+  Geometry<D> geometry = planned.geometry;
+  order_spatially(geometry);
+  ParticleSet<D> particles = sound_particles(settings, geometry, assembly);
+  System<D>& system = scene.system;
+  Body<D>& body =
+      system.bodies.emplace_back(settings.name, std::move(geometry), std::move(particles));
+  body.first = system.size();
+  body.at_particles =
+      build_point_rows<D>(body.particles, body.particles.X(), {.value = true}, body.name);
+  auto built = planned.material->build(
+      body, {settings.integration, settings.gauss_points, settings.volumetric,
+             planned.enclosed && planned.material->fluid()});
+  system.mass.insert(system.mass.end(), body.mass.begin(), body.mass.end());
+  report(body, built, settings, assembly);
+  scene.fields.push_back(built.force->fields());
+  scene.viscosity.push_back(std::move(built.viscosity));
+  assembly.add(std::move(built.force), body.name);
+  for (const auto& [name, group] : measures<D>())
+    for (MeasureSource& source : group.make(body, scene.units))
+      assembly.measure(body.name, std::move(source));
+}
+
+template void build_body(const BodyPlan<2>&, Scene<2>&, Assembly<2>&);
+template void build_body(const BodyPlan<3>&, Scene<3>&, Assembly<3>&);
+
+}  // namespace meniscus

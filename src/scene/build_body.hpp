@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a planned body to particles, internal force and measures.
+#pragma once
+#include "meniscus/scene/assembly.hpp"
+
+namespace meniscus {
+
+/// Adds the body to `scene`; the assembly is of the same scene.
+template <int D>
+void build_body(const BodyPlan<D>& planned, Scene<D>& scene, Assembly<D>& assembly);
+
+}  // namespace meniscus
