@@ -6,6 +6,7 @@
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/body/wall_supports.hpp"
 #include "meniscus/measure/measure_registry.hpp"
+#include "meniscus/physics/material.hpp"
 
 #include <fmt/format.h>
 

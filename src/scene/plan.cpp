@@ -48,12 +48,12 @@ void require_plain_name(const Block& block, const std::string& name) {
 }
 
 template <int D>
-std::unique_ptr<Material<D>> plan_material(const Block& body) {
+std::shared_ptr<const Material<D>> plan_material(const Block& body) {
   const auto block = body.table("material", true);
   if (!block) return nullptr;
   const LawEntry* law = laws().find(block->choice("type", laws().names(), std::nullopt));
   if (law == nullptr) return nullptr;
-  auto material = law->template material<D>(*block);
+  std::shared_ptr<const Material<D>> material = law->template material<D>(*block);
   block->done();
   return material;
 }

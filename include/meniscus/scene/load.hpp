@@ -10,7 +10,6 @@
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/core/key_table.hpp"
 #include "meniscus/core/registry.hpp"
-#include "meniscus/physics/material.hpp"
 #include "meniscus/scene/settings.hpp"
 
 #include <memory>
@@ -23,13 +22,15 @@ namespace meniscus {
 
 template <int D>
 class Assembly;
+template <int D>
+class Material;
 
 /// A body as a scene describes it, before particles are made of it.
 template <int D>
 struct BodyPlan {
   BodySettings settings;
   Geometry<D> geometry;
-  std::unique_ptr<const Material<D>> material;
+  std::shared_ptr<const Material<D>> material;
   bool enclosed = false;  ///< if it is a fluid: Integration::enclosed
 };
 template <int D>
