@@ -17,17 +17,12 @@ bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Fields of the motion, and those that the internal forces of all bodies have.
+/// Fields of the motion, and those that a body has.
 template <int D>
 Names known_fields(const Scene<D>& scene) {
   Names names{"displacement", "velocity", "force"};
-  for (const FieldSource& field : scene.fields.front()) {
-    const auto has_it = [&](const std::vector<FieldSource>& of_body) {
-      return std::any_of(of_body.begin(), of_body.end(),
-                         [&](const FieldSource& f) { return f.name == field.name; });
-    };
-    if (std::all_of(scene.fields.begin(), scene.fields.end(), has_it)) names.push_back(field.name);
-  }
+  for (const BodyField& field : scene.fields)
+    if (!contains(names, field.source.name)) names.push_back(field.source.name);
   return names;
 }
 

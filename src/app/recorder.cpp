@@ -82,29 +82,6 @@ std::vector<Real> positions(const System<D>& system, const State& state) {
   return x;
 }
 
-/// The field of a body by its name, which require_known_outputs() has found to exist.
-template <int D>
-const FieldSource& source(const Scene<D>& scene, std::size_t body, const std::string& name) {
-  const std::vector<FieldSource>& all = scene.fields[body];
-  return *std::find_if(all.begin(), all.end(),
-                       [&](const FieldSource& field) { return field.name == name; });
-}
-
-/// A field of the internal force, bodies one after the other.
-template <int D>
-std::vector<Real> of_all_bodies(const Scene<D>& scene, const std::string& name,
-                                const Motion& motion) {
-  std::vector<Real> values;
-  for (std::size_t b = 0; b < scene.fields.size(); ++b) {
-    const FieldSource& field = source(scene, b, name);
-    std::vector<Real> part(
-        static_cast<std::size_t>(scene.system.bodies[b].size() * field.components));
-    field.compute(motion, part);
-    values.insert(values.end(), part.begin(), part.end());
-  }
-  return values;
-}
-
 /// Whether a multiple of `every` lies in (before, now].
 bool due(Real before, Real now, Real every) {
   const auto count = [every](Real t) { return std::floor(t / every + 1e-9); };
@@ -168,6 +145,11 @@ void Recorder<D>::write_frame(bool with_state) {
                        std::vector<Real> values) {
     fields.push_back({name, components, std::move(unit), storage.emplace_back(std::move(values))});
   };
+  const auto add_source = [&](const std::string& name) {
+    const FieldSource& source = field_named(scene, name);
+    add(name, source.components, scene.units.symbol(source.dimension),
+        field_values(scene, name, state.motion()));
+  };
   add("position", D, scene.units.symbol(dimension::length), positions(scene.system, state));
   for (const std::string& name : scene.output.fields) {
     if (name == "displacement")
@@ -177,9 +159,7 @@ void Recorder<D>::write_frame(bool with_state) {
     else if (name == "force")
       add(name, D, scene.symbol_of_sum(dimension::force), packed<D>(state.force));
     else
-      add(name, source(scene, 0, name).components,
-          scene.units.symbol(source(scene, 0, name).dimension),
-          of_all_bodies(scene, name, state.motion()));
+      add_source(name);
   }
   std::optional<Snapshot> snapshot;
   if (with_state) snapshot = simulation_.snapshot();

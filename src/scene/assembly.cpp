@@ -9,16 +9,28 @@
 namespace meniscus {
 
 template <int D>
+std::size_t Assembly<D>::number_of(const std::string& body) const {
+  const auto& bodies = scene_.system.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].name == body) return b;
+  throw InputError("there is no body '" + body + "'");
+}
+
+template <int D>
 const Body<D>& Assembly<D>::body(const std::string& name) const {
-  for (const Body<D>& body : scene_.system.bodies)
-    if (body.name == name) return body;
-  throw InputError("there is no body '" + name + "'");
+  return scene_.system.bodies[number_of(name)];
 }
 
 template <int D>
 void Assembly<D>::add(std::unique_ptr<ForceTerm> term, const std::string& prefix) {
   for (MeasureSource& source : term->measures()) measure(prefix, std::move(source));
+  for (FieldSource& source : term->fields()) field(prefix, std::move(source));
   scene_.system.terms.push_back(std::move(term));
+}
+
+template <int D>
+void Assembly<D>::field(const std::string& body, FieldSource source) {
+  scene_.fields.push_back({number_of(body), std::move(source)});
 }
 
 template <int D>

@@ -113,7 +113,6 @@ void build_body(const BodyPlan<D>& planned, Scene<D>& scene, Assembly<D>& assemb
              planned.enclosed && planned.material->fluid()});
   system.mass.insert(system.mass.end(), body.mass.begin(), body.mass.end());
   report(body, built, settings, assembly);
-  scene.fields.push_back(built.force->fields());
   scene.viscosity.push_back(std::move(built.viscosity));
   assembly.add(std::move(built.force), body.name);
   for (const auto& [name, group] : measures<D>())

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "build_body.hpp"
 
 namespace meniscus {
@@ -52,6 +54,29 @@ void warn_of_overlaps(Scene<D>& scene) {
 }  // namespace
 
 template <int D>
+const FieldSource& field_named(const Scene<D>& scene, const std::string& name) {
+  for (const BodyField& field : scene.fields)
+    if (field.source.name == name) return field.source;
+  throw std::logic_error("no body has a field '" + name + "'");
+}
+
+template <int D>
+std::vector<Real> field_values(const Scene<D>& scene, const std::string& name,
+                               const Motion& motion) {
+  const int components = field_named(scene, name).components;
+  std::vector<Real> values(static_cast<std::size_t>(scene.system.size() * components), 0.0), part;
+  for (const BodyField& field : scene.fields) {
+    if (field.source.name != name) continue;
+    const Body<D>& body = scene.system.bodies[field.body];
+    part.resize(static_cast<std::size_t>(body.size() * components));
+    field.source.compute(motion, part);
+    for (std::size_t k = 0; k < part.size(); ++k)
+      values[static_cast<std::size_t>(body.first * components) + k] += part[k];
+  }
+  return values;
+}
+
+template <int D>
 Scene<D> build(const Plan<D>& plan) {
   Scene<D> scene;
   static_cast<RunSettings&>(scene) = plan;
@@ -68,6 +93,10 @@ Scene<D> build_scene(const SceneInput& input) {
   return build(read_plan<D>(input));
 }
 
+template const FieldSource& field_named(const Scene<2>&, const std::string&);
+template const FieldSource& field_named(const Scene<3>&, const std::string&);
+template std::vector<Real> field_values(const Scene<2>&, const std::string&, const Motion&);
+template std::vector<Real> field_values(const Scene<3>&, const std::string&, const Motion&);
 template Scene<2> build(const Plan<2>&);
 template Scene<3> build(const Plan<3>&);
 template Scene<2> build_scene(const SceneInput&);

@@ -184,7 +184,8 @@ class Reports(ProgramTest):
     def test_keys(self):
         text = self.call("keys").stdout
         self.assertEqual(text, self.call("keys").stdout)
-        tables = dict(re.findall(r"^(\S.*)\n((?:  .*\n)+)", text, re.M))
+        tables = {heading.split(": ")[0]: keys
+                  for heading, keys in re.findall(r"^(\S.*)\n((?:  .*\n)+)", text, re.M)}
         for heading, keys in {
                 "top level": "title dimension", "[units]": "system",
                 "[time]": "end step safety check_every solver force_tolerance shape_tolerance",
@@ -196,6 +197,10 @@ class Reports(ProgramTest):
                 "[[surface_tension]]": "body gamma form points coefficient_damping",
                 "[[body_force]]": "body acceleration",
                 "[[exact]]": "body displacement velocity rate",
+                "[[cavity]]": "body surface pressure volume_target penalty ramp points",
+                "[[profile]]": "body r z label",
+                "[contact.partner] of any type": "type displacement",
+                '[contact.partner] type = "frame" (2D)': "low high thickness",
                 "[expect.NAME]": "of reduce at from to level value within within_relative"}.items():
             self.assertEqual([line.split()[0] for line in tables[heading].splitlines()[1:]],
                              keys.split(), heading)

@@ -19,8 +19,11 @@ class Assembly {
   /// Throws InputError if there is none of that name.
   const Body<D>& body(const std::string& name) const;
 
-  /// Adds a term; its measures are called `prefix`.NAME.
+  /// Adds a term; its measures are called `prefix`.NAME. Its fields, if it has any, are of the body
+  /// of that name.
   void add(std::unique_ptr<ForceTerm> term, const std::string& prefix);
+  /// Adds a field of a body.
+  void field(const std::string& body, FieldSource source);
   /// Adds a measure called `prefix`.NAME.
   void measure(const std::string& prefix, MeasureSource source);
   /// The measure of that full name; it has been added.
@@ -42,6 +45,8 @@ class Assembly {
   const State& initial() const { return scene_.initial; }
 
  private:
+  std::size_t number_of(const std::string& body) const;
+
   Scene<D>& scene_;
   std::map<std::string, Real> surface_energy_;
 };

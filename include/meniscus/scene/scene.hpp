@@ -18,6 +18,13 @@ struct Drop {
   bool inscribed;  ///< the area is of a polyhedron inside: smaller than what encloses the volume
 };
 
+/// A field of one of the bodies. Of another body it is 0, if that has no field of the same name;
+/// those of the same name on the same body add up.
+struct BodyField {
+  std::size_t body;  ///< its number
+  FieldSource source;
+};
+
 template <int D>
 struct Scene : RunSettings {
   System<D> system;
@@ -26,8 +33,7 @@ struct Scene : RunSettings {
   std::vector<Drop<D>> drops;
   /// Measures by full name, e.g. "drop.aspect".
   std::vector<MeasureSource> measures;
-  /// Fields of each body by name, in the order of the bodies.
-  std::vector<std::vector<FieldSource>> fields;
+  std::vector<BodyField> fields;
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
 
@@ -37,6 +43,15 @@ struct Scene : RunSettings {
     return units.symbol(d);
   }
 };
+
+/// A field of any body by its name. Throws std::logic_error if no body has it.
+template <int D>
+const FieldSource& field_named(const Scene<D>& scene, const std::string& name);
+
+/// The field of that name at the particles of all bodies, [particle][component].
+template <int D>
+std::vector<Real> field_values(const Scene<D>& scene, const std::string& name,
+                               const Motion& motion);
 
 /// Throws InputError for what shows only here (a formula that leaves its range, surfaces that start
 /// too close), SolveError if shape functions cannot be built.
