@@ -25,7 +25,13 @@ MAY_INCLUDE = {
     "study": ["core", "approx", "body", "physics", "solve", "measure", "scene"],
     "app": ["core", "approx", "body", "physics", "solve", "measure", "io", "scene", "study"],
 }
-LEAVES = {"materials": "physics", "partners": "physics", "loads": "scene"}
+LEAVES = {
+    "materials": "physics",
+    "surfaces": "physics",
+    "interactions": "physics",
+    "partners": "physics",
+    "loads": "scene",
+}
 
 # Library: (beginning of its headers' names, files that may see it; None: any one source).
 CONFINED = {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The registry of surface laws.
+#pragma once
+#include "meniscus/core/key_table.hpp"
+#include "meniscus/core/registry.hpp"
+#include "meniscus/physics/surface_force.hpp"
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace meniscus {
+
+/// A law with its numbers, ready to be put on the surface of a body.
+class SurfaceMaterial {
+ public:
+  virtual ~SurfaceMaterial() = default;
+  virtual std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const = 0;
+  virtual std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const = 0;
+  /// Energy per area of the undeformed surface.
+  virtual Real energy_at_rest() const = 0;
+};
+
+struct SurfaceLawEntry {
+  static constexpr const char* kind = "surface law";
+  std::string_view name, meaning;
+  std::vector<KeyText> keys;
+  std::unique_ptr<SurfaceMaterial> (*read)(const Block&);  ///< notes problems in the block
+};
+
+inline const Registry<SurfaceLawEntry>& surface_laws() {
+  return Registry<SurfaceLawEntry>::all();
+}
+
+template <SurfaceLaw L>
+class SurfaceMaterialOf final : public SurfaceMaterial {
+ public:
+  explicit SurfaceMaterialOf(const L& law) : law_(law) {}
+
+  std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const override {
+    return std::make_unique<SurfaceForce<2, L>>(body, law_, points);
+  }
+  std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
+    return std::make_unique<SurfaceForce<3, L>>(body, law_, points);
+  }
+  Real energy_at_rest() const override {
+    SurfaceState<Lanes> rest{};
+    rest.cofactor = Tensor<Lanes>::identity();
+    rest.N = rest.m = {Lanes(1.0), Lanes::zero(), Lanes::zero()};
+    rest.stretch = Lanes(1.0);
+    return law_.energy_density(rest)[0];
+  }
+
+ private:
+  L law_;
+};
+
+/// Enters the law: the last line of every file in src/surfaces.
+template <SurfaceLaw L>
+bool register_surface_law(std::string_view meaning) {
+  return register_entry(SurfaceLawEntry{L::type_name, meaning, key_texts(L::rows()),
+                                        [](const Block& block) -> std::unique_ptr<SurfaceMaterial> {
+                                          return std::make_unique<SurfaceMaterialOf<L>>(
+                                              meniscus::read<L>(block));
+                                        }});
+}
+
+}  // namespace meniscus

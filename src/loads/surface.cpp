@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A surface law on the whole surface of a body.
+#include "meniscus/physics/surface_registry.hpp"
+#include "meniscus/scene/assembly.hpp"
+
+namespace meniscus {
+namespace {
+
+struct Keys {
+  std::string body;
+  int points = 3;
+  std::unique_ptr<const SurfaceMaterial> law;
+
+  static Rows<Keys> rows() {
+    return {text_row("body", &Keys::body, "name of the body whose surface it is"),
+            integer_row("points", &Keys::points, {1, 8},
+                        "Gauss points per direction and surface facet", 3)};
+  }
+  /// [surface.law]
+  void read_inner(const Block& block) {
+    const auto table = block.table("law", true);
+    if (!table) return;
+    const SurfaceLawEntry* entry =
+        surface_laws().find(table->choice("type", surface_laws().names(), std::nullopt));
+    if (entry == nullptr) return;
+    law = entry->read(*table);
+    table->done();
+  }
+  static std::vector<KeyTable> inner_tables() {
+    std::vector<KeyTable> tables;
+    for (const auto& [name, law] : surface_laws())
+      tables.push_back(
+          {"[surface.law] type = \"" + name + "\": " + std::string(law.meaning), law.keys});
+    return tables;
+  }
+};
+
+template <int D>
+struct Surface final : Load<D>, Keys {
+  std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }
+  void check(const Block& block, const BodyPlans<D>& bodies) const override {
+    require_body(block, bodies, body);
+  }
+  void build(Assembly<D>& assembly) const override {
+    assembly.add(law->build(assembly.body(body), points), body);
+    assembly.set_surface_energy(body, law->energy_at_rest());
+  }
+};
+
+const bool registered = register_load<Surface>("surface", Stage::surface,
+                                               "the whole surface of a body by a law of its own");
+
+}  // namespace
+}  // namespace meniscus
