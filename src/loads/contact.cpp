@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adhesive contact of two bodies, or of a body with a rigid partner.
-#include "meniscus/physics/contact.hpp"
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/optional_rows.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
-#include "meniscus/physics/partner_registry.hpp"
+#include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
 
 #include <fmt/format.h>
@@ -13,52 +11,13 @@
 namespace meniscus {
 namespace {
 
-constexpr Dimension per_volume{-3, 0, 0}, per_area{-2, 0, 0};
-
 struct Keys {
-  std::string name, kernel, form, density;
+  std::string name, form, density, interaction;
   std::vector<std::string> bodies;
-  Real epsilon = 0, sigma0 = 0, cutoff = 0, least_gap = 0, skin = 0;
-  Real beta = 0, beta_other = 0;  // of the first body, and of the other side
+  Real skin = 0;
   int points = 0;
   static Rows<Keys> rows();
 };
-
-/// Interaction energy and densities per area have other units in the planar kernel.
-Row<Keys> epsilon_row() {
-  Row<Keys> row = real_row("epsilon", &Keys::epsilon, dimension::energy, range::positive,
-                           "depth of the potential phi; kernel = \"planar\": per depth, N");
-  row.read = [](Keys& k, const Block& block) {
-    const bool planar = k.kernel == "planar";
-    k.epsilon = block.real("epsilon", planar ? dimension::force : dimension::energy,
-                           range::positive, std::nullopt);
-  };
-  return row;
-}
-
-Row<Keys> beta_row() {
-  Row<Keys> row = real_row("beta", &Keys::beta, per_volume, range::positive,
-                           "particles of the interaction per volume of the first body, and of the "
-                           "other side unless beta_other is given; kernel = \"planar\": per area");
-  row.read = [](Keys& k, const Block& block) {
-    k.beta = block.real("beta", k.kernel == "planar" ? per_area : per_volume, range::positive,
-                        std::nullopt);
-  };
-  return row;
-}
-
-Row<Keys> beta_other_row() {
-  Row<Keys> row = real_row("beta_other", &Keys::beta_other, per_volume, range::positive,
-                           "of the other body or the rigid partner", 1.0);
-  row.fallback = "beta";
-  row.read = [](Keys& k, const Block& block) {
-    k.beta_other = k.beta;
-    if (block.has("beta_other"))
-      k.beta_other = block.real("beta_other", k.kernel == "planar" ? per_area : per_volume,
-                                range::positive, std::nullopt);
-  };
-  return row;
-}
 
 Rows<Keys> Keys::rows() {
   return {
@@ -66,23 +25,9 @@ Rows<Keys> Keys::rows() {
                ""),
       texts_row("bodies", &Keys::bodies,
                 "names of two bodies, or of one that has a [contact.partner]"),
-      choice_row("kernel", &Keys::kernel, {"integrated", "planar"},
-                 "plane strain: phi integrated along the third axis, or phi in the plane; without "
-                 "meaning in 3D",
-                 "integrated"),
-      epsilon_row(),
-      real_row("sigma0", &Keys::sigma0, dimension::length, range::positive,
-               "distance of the minimum of phi"),
-      beta_row(),
-      beta_other_row(),
-      real_row("cutoff", &Keys::cutoff, dimension::none, {least_cutoff, 100},
-               "cut-off / sigma0 between two bodies, switched smoothly from 3/4 of it; rigid "
-               "partners have none",
-               4.0),
-      real_row("least_gap", &Keys::least_gap, dimension::none, {0.1, 0.6},
-               "gap / sigma0 below which a step is rejected and a start refused; the stiffness "
-               "grows by its power -10",
-               meniscus::least_gap),
+      choice_row("interaction", &Keys::interaction, interactions<3>().names(),
+                 "by which they act on each other; its own keys follow in the same table",
+                 "lennard_jones"),
       choice_row("form", &Keys::form, {contact_form_names.begin(), contact_form_names.end()},
                  "gradient of the surface energy (conserves energy and momenta exactly); "
                  "disjoining pressure; forces between volume points; traction of the dissertation "
@@ -99,19 +44,19 @@ Rows<Keys> Keys::rows() {
   };
 }
 
-/// [contact.partner], but for the keys of its type.
+/// [contact.partner]
 template <int D>
 struct Partner {
-  PartnerMaker<D> make;
+  std::shared_ptr<const PartnerShape<D>> shape;
   std::vector<Expression> displacement;  // of the time; empty: at rest
 
   static Rows<Partner> rows() {
-    Row<Partner> type =
-        choice_row<Partner>("type", nullptr, partners<D>().names(), "kind of the rigid partner");
+    Row<Partner> type = choice_row<Partner>("type", nullptr, partners<D>().names(),
+                                            "kind of the rigid partner; its own keys follow");
     type.read = [](Partner& p, const Block& block) {
-      const auto* entry =
+      const PartnerEntry<D>* entry =
           partners<D>().find(block.choice("type", partners<D>().names(), std::nullopt));
-      if (entry) p.make = entry->read(block);
+      if (entry) p.shape = entry->read(block);
     };
     return {type,
             optional_expressions_row("displacement", &Partner::displacement, D, dimension::length,
@@ -119,9 +64,15 @@ struct Partner {
   }
 };
 
-std::vector<KeyTable> partner_tables() {
+/// Of the interactions and of the partners.
+std::vector<KeyTable> tables_of_parts() {
+  std::vector<KeyTable> tables;
+  for (const auto& [name, interaction] : interactions<3>())
+    tables.push_back(
+        {fmt::format("[[contact]] interaction = \"{}\": {}", name, interaction.meaning),
+         interaction.keys()});
   // In the plane there are all partners of space, and more.
-  std::vector<KeyTable> tables{{"[contact.partner] of any type", key_texts(Partner<2>::rows())}};
+  tables.push_back({"[contact.partner] of any type", key_texts(Partner<2>::rows())});
   for (const auto& [name, partner] : partners<2>()) {
     const auto* in_space = partners<3>().find(name);
     tables.push_back({fmt::format("[contact.partner] type = \"{}\"{}: {}", name,
@@ -133,9 +84,11 @@ std::vector<KeyTable> partner_tables() {
 
 template <int D>
 struct Contact final : Load<D>, Keys {
+  std::unique_ptr<const ContactModel<D>> model;
   std::optional<Partner<D>> partner;  // none: between two bodies
 
   void read_inner(const Block& block) {
+    model = interactions<D>().at(interaction).read(block);
     if (const auto table = block.table("partner")) {
       partner = read<Partner<D>>(*table);
       table->done();
@@ -143,18 +96,17 @@ struct Contact final : Load<D>, Keys {
     if (name.empty() && !bodies.empty())
       name = bodies[0] + "-" + (bodies.size() > 1 ? bodies[1] : "partner");
   }
-  static std::vector<KeyTable> inner_tables() { return partner_tables(); }
+  static std::vector<KeyTable> inner_tables() { return tables_of_parts(); }
 
   std::optional<typename Load<D>::Identity> identity() const override { return {{"name", name}}; }
   void check(const Block& block, const BodyPlans<D>& planned) const override;
   void build(Assembly<D>& assembly) const override;
 
  private:
-  ContactLaw law() const;
   ContactChoice choice() const;
-  std::unique_ptr<ForceTerm> term(const ContactLaw& law, const Assembly<D>& assembly) const;
+  std::unique_ptr<ForceTerm> term(const Assembly<D>& assembly) const;
   void require_gap(ForceTerm& term, const State& initial) const;
-  void report(const ContactLaw& law, const ForceTerm& term, Assembly<D>& assembly) const;
+  void report(const ForceTerm& term, Assembly<D>& assembly) const;
 };
 
 template <int D>
@@ -167,6 +119,7 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
   for (const std::string& body : bodies) require_body(block, planned, body, "bodies");
   if (bodies.size() == 2 && bodies[0] == bodies[1])
     block.problem("bodies", fmt::format("'{}' cannot be in contact with itself", bodies[0]));
+  model->check(block, partner.has_value());
   if (form != "volume") return;
   if (block.has("density") && density == "constant")
     block.problem("density",
@@ -179,22 +132,10 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
 
 template <int D>
 void Contact<D>::build(Assembly<D>& assembly) const {
-  const ContactLaw law = this->law();
-  std::unique_ptr<ForceTerm> term = this->term(law, assembly);
+  std::unique_ptr<ForceTerm> term = this->term(assembly);
   require_gap(*term, assembly.initial());
-  report(law, *term, assembly);
+  report(*term, assembly);
   assembly.add(std::move(term), name);
-}
-
-template <int D>
-ContactLaw Contact<D>::law() const {
-  ContactLaw law;
-  law.kernel = D == 3 ? PairKernel::space : pair_kernel_named(kernel);
-  law.epsilon = epsilon;
-  law.sigma0 = sigma0;
-  law.cutoff = partner ? std::numeric_limits<Real>::infinity() : cutoff;
-  law.guard = least_gap;
-  return law;
 }
 
 template <int D>
@@ -210,20 +151,15 @@ ContactChoice Contact<D>::choice() const {
 }
 
 template <int D>
-std::unique_ptr<ForceTerm> Contact<D>::term(const ContactLaw& law,
-                                            const Assembly<D>& assembly) const {
-  const ContactBody<D> first{assembly.body(bodies[0]), beta};
-  if (!partner)
-    return contact_pair(first, ContactBody<D>{assembly.body(bodies[1]), beta_other}, law, choice());
-  MovingPartner<D> moving;
-  moving.shape = partner->make(law, beta_other);
-  moving.beta = beta_other;
-  if (!partner->displacement.empty()) moving.motion = RigidMotion<D>(partner->displacement);
-  moving.velocity_step = 1e-4 * assembly.end_time();
-  return rigid_contact(first, std::move(moving), law, choice());
+std::unique_ptr<ForceTerm> Contact<D>::term(const Assembly<D>& assembly) const {
+  const Body<D>& first = assembly.body(bodies[0]);
+  if (!partner) return model->between(first, assembly.body(bodies[1]), choice());
+  RigidMotion<D> motion;
+  if (!partner->displacement.empty()) motion = RigidMotion<D>(partner->displacement);
+  return model->with_partner(first, {partner->shape, motion, 1e-4 * assembly.end_time()}, choice());
 }
 
-/// Two surfaces that start closer than least_gap have forces that no step can follow.
+/// Two surfaces that start closer than the least gap have forces that no step can follow.
 template <int D>
 void Contact<D>::require_gap(ForceTerm& term, const State& initial) const {
   NodalVectors force(initial.u.size(), Lanes::zero());
@@ -234,14 +170,13 @@ void Contact<D>::require_gap(ForceTerm& term, const State& initial) const {
 
 /// Adhesion, gap, strength and stiffness of the contact as if it were flat.
 template <int D>
-void Contact<D>::report(const ContactLaw& law, const ForceTerm& term, Assembly<D>& assembly) const {
+void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   const auto unit = [&](Dimension d) { return assembly.units().symbol(d); };
-  const PlaneContact flat = plane_contact(law, beta * beta_other);
-  std::string note = fmt::format("contact '{}', form {}: adhesion W = {:.6g} {}", name, form,
-                                 flat.adhesion, unit(dimension::tension));
-  if (law.cut())
-    note += fmt::format(" ({:.1f} % lost by the cut-off at {:.3g} sigma0)",
-                        100 * flat.lost_adhesion(), law.cutoff);
+  const PlaneContact flat = model->flat(partner.has_value());
+  std::string note = fmt::format("contact '{}', {}, form {}: adhesion W = {:.6g} {}", name,
+                                 interaction, form, flat.adhesion, unit(dimension::tension));
+  if (flat.lost_adhesion() > 0)
+    note += fmt::format(" ({:.1f} % lost by the cut-off)", 100 * flat.lost_adhesion());
   note += fmt::format(", equilibrium gap {:.4g} {}, peak traction {:.4g} {}, stiffness {:.4g} {}",
                       flat.equilibrium_gap, unit(dimension::length), flat.peak_traction,
                       unit(dimension::pressure), flat.stiffness, unit({-2, -2, 1}));

@@ -2,10 +2,12 @@
 // Rigid walls around a rectangle.
 #include "meniscus/physics/partner_registry.hpp"
 
+#include <limits>
+
 namespace meniscus {
 namespace {
 
-struct Frame {
+struct Frame final : PartnerShape<2> {
   std::vector<Real> low, high;
   Real thickness = 0;
 
@@ -17,7 +19,17 @@ struct Frame {
             real_row("thickness", &Frame::thickness, dimension::length, range::non_negative,
                      "of the walls; 0: infinite", 0.0)};
   }
-  std::unique_ptr<RigidPartner<2>> make(const ContactLaw& law, Real beta) const {
+  /// Of the nearest of the four walls, seen from inside the room.
+  Foot foot(const Vec<2>& x) const override {
+    Foot nearest{std::numeric_limits<Real>::infinity(), Vec<2>::Zero(), Mat<2>::Zero()};
+    for (int i = 0; i < 2; ++i) {
+      const Real above_low = x[i] - at(low, i), below_high = at(high, i) - x[i];
+      if (above_low < nearest.distance) nearest = {above_low, Vec<2>::Unit(i), Mat<2>::Zero()};
+      if (below_high < nearest.distance) nearest = {below_high, -Vec<2>::Unit(i), Mat<2>::Zero()};
+    }
+    return nearest;
+  }
+  std::unique_ptr<RigidPartner<2>> lennard_jones(const ContactLaw& law, Real beta) const override {
     return rigid_frame(law, beta, Vec<2>::Map(low.data()), Vec<2>::Map(high.data()),
                        thickness > 0 ? thickness : std::numeric_limits<Real>::infinity());
   }

@@ -6,7 +6,7 @@ namespace meniscus {
 namespace {
 
 template <int D>
-struct HalfSpace {
+struct HalfSpace final : PartnerShape<D> {
   std::vector<Real> point, normal;
 
   static Rows<HalfSpace> rows() {
@@ -15,7 +15,11 @@ struct HalfSpace {
             reals_row("normal", &HalfSpace::normal, D, dimension::none, range::any,
                       "out of the solid, of any length")};
   }
-  std::unique_ptr<RigidPartner<D>> make(const ContactLaw& law, Real beta) const {
+  typename PartnerShape<D>::Foot foot(const Vec<D>& x) const override {
+    const Vec<D> n = Vec<D>::Map(normal.data()).normalized();
+    return {n.dot(x - Vec<D>::Map(point.data())), n, Mat<D>::Zero()};
+  }
+  std::unique_ptr<RigidPartner<D>> lennard_jones(const ContactLaw& law, Real beta) const override {
     return rigid_half_space<D>(law, beta, Vec<D>::Map(point.data()), Vec<D>::Map(normal.data()));
   }
 };

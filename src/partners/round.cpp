@@ -5,41 +5,35 @@
 namespace meniscus {
 namespace {
 
-template <int D>
-struct Round {
+template <int D, bool hollow>
+struct Round final : PartnerShape<D> {
   std::vector<Real> centre;
   Real radius = 0;
-};
 
-template <int D, class Partner>
-Rows<Partner> round_rows() {
-  return {
-      reals_row<Partner>("centre", &Partner::centre, D, dimension::length, range::any, "centre"),
-      real_row<Partner>("radius", &Partner::radius, dimension::length, range::positive, "radius")};
-}
-
-template <int D>
-struct Ball : Round<D> {
-  static Rows<Ball> rows() { return round_rows<D, Ball>(); }
-  std::unique_ptr<RigidPartner<D>> make(const ContactLaw& law, Real beta) const {
-    return rigid_ball<D>(law, beta, Vec<D>::Map(this->centre.data()), this->radius);
+  static Rows<Round> rows() {
+    return {reals_row("centre", &Round::centre, D, dimension::length, range::any, "centre"),
+            real_row("radius", &Round::radius, dimension::length, range::positive, "radius")};
   }
-};
-
-template <int D>
-struct Cavity : Round<D> {
-  static Rows<Cavity> rows() { return round_rows<D, Cavity>(); }
-  std::unique_ptr<RigidPartner<D>> make(const ContactLaw& law, Real beta) const {
-    return rigid_cavity<D>(law, beta, Vec<D>::Map(this->centre.data()), this->radius);
+  typename PartnerShape<D>::Foot foot(const Vec<D>& x) const override {
+    const Vec<D> arm = x - Vec<D>::Map(centre.data());
+    const Real r = arm.norm(), sign = hollow ? -1 : 1;
+    const Vec<D> k = r > 0 ? Vec<D>(arm / r) : Vec<D>::Unit(0);
+    const Mat<D> across = Mat<D>::Identity() - k * k.transpose();
+    return {sign * (r - radius), sign * k, r > 0 ? Mat<D>(sign / r * across) : Mat<D>::Zero()};
+  }
+  std::unique_ptr<RigidPartner<D>> lennard_jones(const ContactLaw& law, Real beta) const override {
+    const Vec<D> place = Vec<D>::Map(centre.data());
+    return hollow ? rigid_cavity<D>(law, beta, place, radius)
+                  : rigid_ball<D>(law, beta, place, radius);
   }
 };
 
 constexpr const char *ball = "ball; in 2D a cylinder across the plane",
                      *cavity = "all that is around a ball; in 2D around a cylinder";
-const bool registered = register_partner<2, Ball<2>>("ball", ball) &&
-                        register_partner<3, Ball<3>>("ball", ball) &&
-                        register_partner<2, Cavity<2>>("cavity", cavity) &&
-                        register_partner<3, Cavity<3>>("cavity", cavity);
+const bool registered = register_partner<2, Round<2, false>>("ball", ball) &&
+                        register_partner<3, Round<3, false>>("ball", ball) &&
+                        register_partner<2, Round<2, true>>("cavity", cavity) &&
+                        register_partner<3, Round<3, true>>("cavity", cavity);
 
 }  // namespace
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/physics/contact_law.hpp"
 #include "meniscus/physics/contact_points.hpp"
+#include "meniscus/physics/interaction.hpp"
 #include "meniscus/physics/rigid_motion.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
 
@@ -53,7 +54,13 @@ struct MovingPartner {
   Real velocity_step = 0;  ///< of the difference that gives its velocity: 1e-4 of the run
 };
 
-/// Contact of a body with a rigid partner; any form but `volume`, for which InputError is thrown.
+/// Contact of a body with a rigid partner, whose field is that of the interaction; any form but
+/// `volume`, for which InputError is thrown.
+template <int D>
+std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>& body, MovingPartner<D> partner,
+                                         std::shared_ptr<const Interaction> interaction,
+                                         const ContactChoice& choice);
+/// The same for a partner made with `law`.
 template <int D>
 std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>& body, MovingPartner<D> partner,
                                          const ContactLaw& law, const ContactChoice& choice);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Demand of contact on the time step, and resolution of its gap.
 #pragma once
-#include "meniscus/physics/contact_law.hpp"
 #include "meniscus/physics/contact_points.hpp"
+#include "meniscus/physics/interaction.hpp"
 
 #include <optional>
 #include <string>
@@ -23,22 +23,22 @@ Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active
 
 /// The numbers of a contact that decide its stiffness.
 struct ContactInertia {
-  ContactLaw law;
-  Real beta_product;
+  const Interaction& interaction;
   Real inverse_inertia;  ///< sum of 1 / inertia of the points of both sides
   Real spacing;          ///< of the points; 0: no quadrature on the other side
   int dimension;
 };
 
 /// A step closes at most 1/20 of the gap, and the stiffness is that of two planes at the gap it can
-/// reach, K ~ gap^-10 (CGCM notes 3.1 and 8); (1 + 2 (spacing/gap)^(D-1)) K where the points of the
+/// reach (CGCM notes 3.1 and 8); (1 + 2 (spacing/gap)^(D-1)) K where the points of the
 /// other side are so far apart that single ones are felt. The step is at most half the stable one
 /// of that stiffness: so stiff a spring whose stiffness changes by multiples heats up at longer
 /// steps.
 StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed);
 
-/// A sentence if the points are more than half a gap apart, within reach of the forces.
+/// A sentence if the points are more than half a gap apart where the interaction, of that range, is
+/// strong.
 std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, Real spacing,
-                                          Real sigma0);
+                                          Real range);
 
 }  // namespace meniscus

@@ -2,38 +2,38 @@
 // Interaction of two flat bodies: adhesion, equilibrium gap, strength, stiffness.
 #pragma once
 #include "meniscus/physics/contact_law.hpp"
+#include "meniscus/physics/interaction.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 
 namespace meniscus {
 
-/// Two half spaces (half planes) with a gap g between them: e(g) energy per area, zero far apart,
-/// p = -e' pressure (negative: attraction), K = -p' stiffness. The kernel `planar` counts per
-/// length and depth.
-struct PlaneContact {
-  Real equilibrium_gap;  ///< p = 0
-  Real adhesion;         ///< W = -e at the equilibrium gap
-  Real peak_traction;    ///< largest attraction -p
-  Real peak_gap;         ///< where it is
-  Real stiffness;        ///< K at the equilibrium gap
-  Real softening;        ///< largest -K; elastic stiffness per area below it jumps into contact
-  Real softening_gap;    ///< where it is
-  Real uncut_adhesion;   ///< W without the cut-off
-
-  /// Part of the adhesion that the cut-off costs.
-  Real lost_adhesion() const { return 1 - adhesion / uncut_adhesion; }
-};
-
 /// `beta_product`: beta1 beta2 of the two bodies. Closed form without a cut-off (CGCM note 3.1);
 /// with one all is exact to rounding, but softening_gap to half the digits.
 PlaneContact plane_contact(const ContactLaw& law, Real beta_product);
 
-/// Energy, pressure and stiffness of two half spaces at the gap g > 0.
-struct PlaneState {
-  Real energy, pressure, stiffness;
-};
+/// Two half spaces (half planes) at the gap g > 0. The kernel `planar` counts per length and depth.
 PlaneState plane_state(const ContactLaw& law, Real beta_product, Real gap);
+
+/// The law between bodies with `beta_product` = beta1 beta2 as an interaction of surfaces. States
+/// are those without a cut-off, in closed form: it adds little where the stiffness matters.
+class LennardJones final : public Interaction {
+ public:
+  LennardJones(const ContactLaw& law, Real beta_product)
+      : law_(law), uncut_(law), beta_product_(beta_product) {
+    uncut_.cutoff = std::numeric_limits<Real>::infinity();
+  }
+  PlaneState at(Real gap) const override { return plane_state(uncut_, beta_product_, gap); }
+  Real range() const override { return 5 * law_.sigma0; }
+  Real least_gap() const override { return law_.guard * law_.sigma0; }
+  PlaneContact flat() const override { return plane_contact(law_, beta_product_); }
+
+ private:
+  ContactLaw law_, uncut_;
+  Real beta_product_;
+};
 
 /// The angle in radians at which a liquid with surface tension gamma meets a rigid plane to which
 /// it adheres, cos theta = W/gamma - 1 (Young-Dupre); none where W >= 2 gamma: complete wetting.

@@ -1,32 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry of rigid partners of a contact.
+// The shapes of rigid partners of a contact, and their registry.
 //
-// A partner that scenes can name is a struct in its own file in src/partners, with rows() and
-// make(law, beta), which ends with
-//   const bool registered = register_partner<2, MyPartner<2>>("my_partner", "what it is") && ...;
+// A shape that scenes can name is a struct in its own file in src/partners, with rows(), which ends
+// with
+//   const bool registered = register_partner<2, MyShape<2>>("my_shape", "what it is") && ...;
 #pragma once
 #include "meniscus/core/key_table.hpp"
 #include "meniscus/core/registry.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
 
-#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 namespace meniscus {
 
-/// Makes a partner with `beta` particles of the interaction per volume; throws InputError for
-/// numbers that make none.
 template <int D>
-using PartnerMaker = std::function<std::unique_ptr<RigidPartner<D>>(const ContactLaw&, Real beta)>;
+class PartnerShape {
+ public:
+  virtual ~PartnerShape() = default;
+
+  /// How far a point is from the surface, negative inside of the material: d, grad d (unit, out of
+  /// the material) and grad grad d.
+  struct Foot {
+    Real distance;
+    Vec<D> normal;
+    Mat<D> bend;
+  };
+  virtual Foot foot(const Vec<D>& x) const = 0;
+
+  /// The field of this shape filled with `beta` particles of a Lennard-Jones law per volume. Throws
+  /// InputError for numbers that make no shape.
+  virtual std::unique_ptr<RigidPartner<D>> lennard_jones(const ContactLaw& law,
+                                                         Real beta) const = 0;
+};
 
 template <int D>
 struct PartnerEntry {
   static constexpr const char* kind = "rigid partner";
   std::string_view name, meaning;
   std::vector<KeyText> (*keys)();
-  PartnerMaker<D> (*read)(const Block&);  ///< notes problems in the block
+  std::shared_ptr<const PartnerShape<D>> (*read)(const Block&);  ///< notes problems in the block
 };
 
 template <int D>
@@ -36,13 +50,13 @@ const Registry<PartnerEntry<D>>& partners() {
 
 template <int D, class P>
 bool register_partner(std::string_view name, std::string_view meaning) {
-  return register_entry(PartnerEntry<D>{name, meaning, [] { return key_texts(P::rows()); },
-                                        [](const Block& block) -> PartnerMaker<D> {
-                                          return [partner = meniscus::read<P>(block)](
-                                                     const ContactLaw& law, Real beta) {
-                                            return partner.make(law, beta);
-                                          };
-                                        }});
+  return register_entry(
+      PartnerEntry<D>{name, meaning, [] { return key_texts(P::rows()); },
+                      [](const Block& block) -> std::shared_ptr<const PartnerShape<D>> {
+                        auto shape = std::make_shared<P>();
+                        for (const auto& row : P::rows()) row.read(*shape, block);
+                        return shape;
+                      }});
 }
 
 }  // namespace meniscus

@@ -3,7 +3,6 @@
 #include "meniscus/physics/contact_demand.hpp"
 
 #include "meniscus/approx/neighbor_search.hpp"
-#include "meniscus/physics/contact_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -70,11 +69,8 @@ StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_
   StepDemand demand;
   if (!(gap > 0)) return demand;
   if (closing_speed > 0) demand.longest = closed_in_a_step * gap / closing_speed;
-  const Real reached =
-      std::max((1 - closed_in_a_step) * gap, contact.law.guard * contact.law.sigma0);
-  ContactLaw uncut = contact.law;  // in closed form; the cut-off adds little where K matters
-  uncut.cutoff = std::numeric_limits<Real>::infinity();
-  const Real K = plane_state(uncut, contact.beta_product, reached).stiffness;
+  const Real reached = std::max((1 - closed_in_a_step) * gap, contact.interaction.least_gap());
+  const Real K = contact.interaction.at(reached).stiffness;
   const Real single = 1 + 2 * std::pow(contact.spacing / reached, contact.dimension - 1);
   demand.stiffness = std::max(0.0, K) * single * contact.inverse_inertia;
   if (demand.stiffness > 0)
@@ -83,9 +79,9 @@ StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_
 }
 
 std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, Real spacing,
-                                          Real sigma0) {
-  constexpr Real felt = 1.5;  // a gap in sigma0 at which forces matter
-  if (gap > felt * sigma0 || gap >= 2 * spacing) return std::nullopt;
+                                          Real range) {
+  constexpr Real strong = 0.3;  // part of the range
+  if (gap > strong * range || gap >= 2 * spacing) return std::nullopt;
   return fmt::format(
       "contact '{}' is under-resolved: its gap {:.4g} is below twice the distance {:.4g} of its "
       "points; the error of its forces grows from 1 % there to tens of per cent at a gap of one "

@@ -6,6 +6,7 @@
 #include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_forms.hpp"
 #include "meniscus/physics/contact_list.hpp"
+#include "meniscus/physics/contact_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -43,7 +44,7 @@ class PairContact final : public ForceTerm {
       : name_(choice.name),
         law_(law),
         pair_law_(law),
-        beta_product_(first.beta * second.beta),
+        interaction_(law, first.beta * second.beta),
         now_(std::make_unique<Configuration>(
             Configuration{Side<D>(points_of(first, choice), Form::moment),
                           Side<D>(points_of(second, choice), Form::moment),
@@ -73,7 +74,7 @@ class PairContact final : public ForceTerm {
 
   std::optional<std::string> warning(const Motion& motion) const override {
     bring_up(motion);
-    return unresolved_gap(name_, std::sqrt(least_square()), spacing(), law_.sigma0);
+    return unresolved_gap(name_, std::sqrt(least_square()), spacing(), interaction_.range());
   }
 
   std::vector<MeasureSource> measures() const override;
@@ -173,7 +174,7 @@ class PairContact final : public ForceTerm {
   std::string name_;
   ContactLaw law_;
   PairLaw<K> pair_law_;
-  Real beta_product_;
+  LennardJones interaction_;
   std::unique_ptr<Configuration> now_;
   std::optional<Failure> failure_;
   StepDemand demand_;
@@ -187,12 +188,12 @@ void PairContact<D, Form, K>::note_closeness(const Motion& motion) {
   const std::vector<Real>& nearest = now_->first.nearest;
   if (nearest.empty()) return;
   const Real gap = std::sqrt(*std::min_element(nearest.begin(), nearest.end()));
-  if (gap < law_.guard * law_.sigma0) failure_ = describe_overlap(gap);
+  if (gap < interaction_.least_gap()) failure_ = describe_overlap(gap);
   const ContactPoints<D>&a = now_->first.points, &b = now_->second.points;
   const Real speed = closing_speed<D>(a, now_->list.of_first().active, &b,
                                       now_->list.of_second().active, Vec<D>::Zero(), motion);
-  demand_ = contact_demand({law_, beta_product_, 1 / a.inertia() + 1 / b.inertia(), spacing(), D},
-                           gap, speed);
+  demand_ =
+      contact_demand({interaction_, 1 / a.inertia() + 1 / b.inertia(), spacing(), D}, gap, speed);
 }
 
 template <int D, class Form, PairKernel K>

@@ -3,6 +3,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_demand.hpp"
+#include "meniscus/physics/contact_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -24,12 +25,11 @@ Eigen::Vector3d cross(const Vec<D>& x, const Vec<D>& y) {
 template <int D>
 class RigidContact final : public ForceTerm {
  public:
-  RigidContact(const ContactBody<D>& body, MovingPartner<D> partner, const ContactLaw& law,
-               const ContactChoice& choice)
+  RigidContact(const ContactBody<D>& body, MovingPartner<D> partner,
+               std::shared_ptr<const Interaction> interaction, const ContactChoice& choice)
       : name_(choice.name),
-        law_(law),
+        interaction_(std::move(interaction)),
         form_(choice.form),
-        beta_product_(body.beta * partner.beta),
         partner_(std::move(partner)),
         now_(std::make_unique<Configuration>(
             ContactPoints<D>::on_surface(body.body, body.beta, choice.density, choice.points))) {
@@ -71,7 +71,7 @@ class RigidContact final : public ForceTerm {
 
   std::optional<std::string> warning(const Motion& motion) const override {
     bring_up(motion);
-    return unresolved_gap(name_, gap(), now_->points.spacing(), law_.sigma0);
+    return unresolved_gap(name_, gap(), now_->points.spacing(), interaction_->range());
   }
 
   std::vector<MeasureSource> measures() const override;
@@ -119,9 +119,8 @@ class RigidContact final : public ForceTerm {
   Eigen::Vector3d net_torque() const;
 
   std::string name_;
-  ContactLaw law_;
+  std::shared_ptr<const Interaction> interaction_;
   ContactForm form_;
-  Real beta_product_;
   MovingPartner<D> partner_;
   std::unique_ptr<Configuration> now_;
   std::vector<Index> near_;  // clusters that the step demand looks at
@@ -198,30 +197,29 @@ Eigen::Vector3d RigidContact<D>::net_torque() const {
 /// What the places and velocities of the last add_force() mean for the step.
 template <int D>
 void RigidContact<D>::note_closeness(const Motion& motion) {
-  constexpr Real within = 5;  // sigma0
   failure_.reset();
   demand_ = {};
   const Index nearest = nearest_point();
   const Real gap = distance(nearest);
-  if (!(gap < within * law_.sigma0)) return;
-  if (gap < law_.guard * law_.sigma0)
+  if (!(gap < interaction_->range())) return;
+  if (gap < interaction_->least_gap())
     failure_ = Failure{
         now_->points.particle_at(nearest),
         fmt::format("surfaces overlap: the gap between '{}' and the rigid partner of contact '{}' "
-                    "is {:.4g} = {:.3g} sigma0, least is {:.2g} sigma0",
-                    now_->points.body().name, name_, gap, gap / law_.sigma0, law_.guard),
+                    "is {:.4g}, least is {:.4g}",
+                    now_->points.body().name, name_, gap, interaction_->least_gap()),
         true};
   near_.clear();
   for (const Index c : now_->all) {
     const Lanes& d = at(now_->distance, c);
-    if (std::min(std::min(d[0], d[1]), std::min(d[2], d[3])) < within * law_.sigma0)
+    if (std::min(std::min(d[0], d[1]), std::min(d[2], d[3])) < interaction_->range())
       near_.push_back(c);
   }
   const Vec<D> velocity = partner_.motion.moves()
                               ? partner_.motion.velocity(motion.time, partner_.velocity_step)
                               : Vec<D>::Zero();
   const Real speed = closing_speed<D>(now_->points, near_, nullptr, {}, velocity, motion);
-  demand_ = contact_demand({law_, beta_product_, 1 / now_->points.inertia(), 0, D}, gap, speed);
+  demand_ = contact_demand({*interaction_, 1 / now_->points.inertia(), 0, D}, gap, speed);
 }
 
 template <int D>
@@ -259,16 +257,31 @@ std::vector<MeasureSource> RigidContact<D>::measures() const {
 
 template <int D>
 std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>& body, MovingPartner<D> partner,
-                                         const ContactLaw& law, const ContactChoice& choice) {
+                                         std::shared_ptr<const Interaction> interaction,
+                                         const ContactChoice& choice) {
   if (choice.form == ContactForm::volume)
     throw InputError(
         "form = \"volume\" is for two deformable bodies; a rigid partner is known by its surface "
         "interaction (allowed are energy, pressure, dissertation)");
-  return std::make_unique<RigidContact<D>>(body, std::move(partner), law, choice);
+  return std::make_unique<RigidContact<D>>(body, std::move(partner), std::move(interaction),
+                                           choice);
 }
-template std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<2>&, MovingPartner<2>,
-                                                  const ContactLaw&, const ContactChoice&);
-template std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<3>&, MovingPartner<3>,
-                                                  const ContactLaw&, const ContactChoice&);
+
+template <int D>
+std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>& body, MovingPartner<D> partner,
+                                         const ContactLaw& law, const ContactChoice& choice) {
+  auto interaction = std::make_shared<LennardJones>(law, body.beta * partner.beta);
+  return rigid_contact(body, std::move(partner), std::move(interaction), choice);
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                              \
+  template std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>&, MovingPartner<D>, \
+                                                    std::shared_ptr<const Interaction>,      \
+                                                    const ContactChoice&);                   \
+  template std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>&, MovingPartner<D>, \
+                                                    const ContactLaw&, const ContactChoice&);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
 
 }  // namespace meniscus

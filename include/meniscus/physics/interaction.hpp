@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an interaction of two surfaces is, whatever its origin: energy, pressure and stiffness per
+// area as functions of the gap between them.
+#pragma once
+#include "meniscus/core/types.hpp"
+
+namespace meniscus {
+
+/// Two flat surfaces with a gap g between them: e(g) energy per area, zero far apart, p = -e'
+/// pressure (negative: attraction), K = -p' stiffness.
+struct PlaneState {
+  Real energy, pressure, stiffness;
+};
+
+/// What it means for two flat bodies.
+struct PlaneContact {
+  Real equilibrium_gap;  ///< p = 0
+  Real adhesion;         ///< W = -e at the equilibrium gap
+  Real peak_traction;    ///< largest attraction -p
+  Real peak_gap;         ///< where it is
+  Real stiffness;        ///< K at the equilibrium gap
+  Real softening;        ///< largest -K; elastic stiffness per area below it jumps into contact
+  Real softening_gap;    ///< where it is
+  Real uncut_adhesion;   ///< W without the cut-off
+
+  /// Part of the adhesion that the cut-off costs.
+  Real lost_adhesion() const { return 1 - adhesion / uncut_adhesion; }
+};
+
+class Interaction {
+ public:
+  virtual ~Interaction() = default;
+
+  /// At a gap of at least least_gap().
+  virtual PlaneState at(Real gap) const = 0;
+  /// Gap beyond which it is too weak to matter to a step.
+  virtual Real range() const = 0;
+  /// Steps into a narrower gap are rejected.
+  virtual Real least_gap() const = 0;
+  virtual PlaneContact flat() const = 0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The registry of interactions: what a [[contact]] can be by.
+//
+// A law of the gap is a struct derived from Interaction in its own file in src/interactions, with
+// rows(), which ends with
+//   const bool registered = register_interaction<MyLaw>("my_law", "what it is");
+// It then acts between a body and rigid partners of any shape. A ContactModel of its own is for
+// interactions that know more than a law of the gap.
+#pragma once
+#include "meniscus/physics/contact.hpp"
+#include "meniscus/physics/partner_registry.hpp"
+
+namespace meniscus {
+
+/// The rigid partner that a scene describes.
+template <int D>
+struct PartnerPlan {
+  std::shared_ptr<const PartnerShape<D>> shape;
+  RigidMotion<D> motion;
+  Real velocity_step;  ///< as in MovingPartner
+};
+
+/// An interaction with its numbers, ready to act between bodies.
+template <int D>
+class ContactModel {
+ public:
+  virtual ~ContactModel() = default;
+
+  /// Notes in the block what cannot be, between two bodies or of one with a rigid partner.
+  virtual void check(const Block& block, bool rigid) const = 0;
+  virtual std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
+                                             const ContactChoice& choice) const = 0;
+  virtual std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
+                                                  const ContactChoice& choice) const = 0;
+  /// What it means for flat surfaces.
+  virtual PlaneContact flat(bool rigid) const = 0;
+};
+
+template <int D>
+struct InteractionEntry {
+  static constexpr const char* kind = "interaction";
+  std::string_view name, meaning;
+  std::vector<KeyText> (*keys)();
+  std::unique_ptr<ContactModel<D>> (*read)(const Block&);  ///< notes problems in the block
+};
+
+template <int D>
+const Registry<InteractionEntry<D>>& interactions() {
+  return Registry<InteractionEntry<D>>::all();
+}
+
+/// A law of the gap on a body and rigid partners.
+template <int D>
+std::unique_ptr<ContactModel<D>> gap_contact(std::shared_ptr<const Interaction> law);
+
+/// The field of a law e(d) of the distance from a shape: S = -e(d) grad d, so that the energy S.n
+/// of a surface that faces the partner (n = -grad d) is e per area, and U = div S. Nearer than the
+/// least gap the pressure goes on growing linearly.
+template <int D>
+std::unique_ptr<RigidPartner<D>> distance_field(std::shared_ptr<const Interaction> law,
+                                                std::shared_ptr<const PartnerShape<D>> shape);
+
+template <int D, class L>
+bool register_interaction_in(std::string_view name, std::string_view meaning) {
+  return register_entry(InteractionEntry<D>{name, meaning, [] { return key_texts(L::rows()); },
+                                            [](const Block& block) {
+                                              auto law = std::make_shared<L>();
+                                              for (const auto& row : L::rows())
+                                                row.read(*law, block);
+                                              return gap_contact<D>(std::move(law));
+                                            }});
+}
+
+template <class L>
+bool register_interaction(std::string_view name, std::string_view meaning) {
+  return register_interaction_in<2, L>(name, meaning) &&
+         register_interaction_in<3, L>(name, meaning);
+}
+
+}  // namespace meniscus

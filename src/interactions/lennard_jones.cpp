@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lennard-Jones between the particles of two bodies, smeared out over both, or over a rigid
+// partner.
+#include "meniscus/physics/contact_numbers.hpp"
+#include "meniscus/physics/interaction_registry.hpp"
+
+namespace meniscus {
+namespace {
+
+constexpr Dimension per_volume{-3, 0, 0}, per_area{-2, 0, 0};
+
+struct Keys {
+  std::string kernel;
+  Real epsilon = 0, sigma0 = 0, cutoff = 0, least_gap = 0;
+  Real beta = 0, beta_other = 0;  // of the first body, and of the other side
+  static Rows<Keys> rows();
+};
+
+/// Interaction energy and densities per area have other units in the planar kernel.
+Row<Keys> epsilon_row() {
+  Row<Keys> row = real_row("epsilon", &Keys::epsilon, dimension::energy, range::positive,
+                           "depth of the potential phi; kernel = \"planar\": per depth, N");
+  row.read = [](Keys& k, const Block& block) {
+    const bool planar = k.kernel == "planar";
+    k.epsilon = block.real("epsilon", planar ? dimension::force : dimension::energy,
+                           range::positive, std::nullopt);
+  };
+  return row;
+}
+
+Row<Keys> beta_row() {
+  Row<Keys> row = real_row("beta", &Keys::beta, per_volume, range::positive,
+                           "particles of the interaction per volume of the first body, and of the "
+                           "other side unless beta_other is given; kernel = \"planar\": per area");
+  row.read = [](Keys& k, const Block& block) {
+    k.beta = block.real("beta", k.kernel == "planar" ? per_area : per_volume, range::positive,
+                        std::nullopt);
+  };
+  return row;
+}
+
+Row<Keys> beta_other_row() {
+  Row<Keys> row = real_row("beta_other", &Keys::beta_other, per_volume, range::positive,
+                           "of the other body or the rigid partner", 1.0);
+  row.fallback = "beta";
+  row.read = [](Keys& k, const Block& block) {
+    k.beta_other = k.beta;
+    if (block.has("beta_other"))
+      k.beta_other = block.real("beta_other", k.kernel == "planar" ? per_area : per_volume,
+                                range::positive, std::nullopt);
+  };
+  return row;
+}
+
+Rows<Keys> Keys::rows() {
+  return {
+      choice_row("kernel", &Keys::kernel, {"integrated", "planar"},
+                 "plane strain: phi integrated along the third axis, or phi in the plane; without "
+                 "meaning in 3D",
+                 "integrated"),
+      epsilon_row(),
+      real_row("sigma0", &Keys::sigma0, dimension::length, range::positive,
+               "distance of the minimum of phi"),
+      beta_row(),
+      beta_other_row(),
+      real_row("cutoff", &Keys::cutoff, dimension::none, {least_cutoff, 100},
+               "cut-off / sigma0 between two bodies, switched smoothly from 3/4 of it; rigid "
+               "partners have none",
+               4.0),
+      real_row("least_gap", &Keys::least_gap, dimension::none, {0.1, 0.6},
+               "gap / sigma0 below which a step is rejected and a start refused; the stiffness "
+               "grows by its power -10",
+               meniscus::least_gap),
+  };
+}
+
+template <int D>
+class Model final : public ContactModel<D> {
+ public:
+  explicit Model(Keys keys) : k_(std::move(keys)) {}
+
+  void check(const Block&, bool) const override {}
+
+  std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
+                                     const ContactChoice& choice) const override {
+    return contact_pair<D>({first, k_.beta}, {second, k_.beta_other}, law(k_.cutoff), choice);
+  }
+  std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
+                                          const ContactChoice& choice) const override {
+    const ContactLaw uncut = law(std::numeric_limits<Real>::infinity());
+    MovingPartner<D> partner{plan.shape->lennard_jones(uncut, k_.beta_other), plan.motion,
+                             k_.beta_other, plan.velocity_step};
+    return rigid_contact<D>({body, k_.beta}, std::move(partner), uncut, choice);
+  }
+  PlaneContact flat(bool rigid) const override {
+    return plane_contact(law(rigid ? std::numeric_limits<Real>::infinity() : k_.cutoff),
+                         k_.beta * k_.beta_other);
+  }
+
+ private:
+  ContactLaw law(Real cutoff) const {
+    ContactLaw law;
+    law.kernel = D == 3 ? PairKernel::space : pair_kernel_named(k_.kernel);
+    law.epsilon = k_.epsilon;
+    law.sigma0 = k_.sigma0;
+    law.cutoff = cutoff;
+    law.guard = k_.least_gap;
+    return law;
+  }
+
+  Keys k_;
+};
+
+template <int D>
+bool enter() {
+  return register_entry(
+      InteractionEntry<D>{"lennard_jones", "Lennard-Jones between particles spread over both sides",
+                          [] { return key_texts(Keys::rows()); },
+                          [](const Block& block) -> std::unique_ptr<ContactModel<D>> {
+                            return std::make_unique<Model<D>>(read<Keys>(block));
+                          }});
+}
+
+const bool registered = enter<2>() && enter<3>();
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Laws of the gap between a body and rigid partners.
+#include "meniscus/core/error.hpp"
+#include "meniscus/physics/interaction_registry.hpp"
+
+namespace meniscus {
+namespace {
+
+template <int D>
+class DistanceField final : public RigidPartner<D> {
+ public:
+  DistanceField(std::shared_ptr<const Interaction> law,
+                std::shared_ptr<const PartnerShape<D>> shape)
+      : law_(std::move(law)),
+        shape_(std::move(shape)),
+        core_(law_->least_gap()),
+        at_core_(law_->at(core_)) {}
+
+  RigidField<D> field(const Vec<D>& x) const override {
+    const auto foot = shape_->foot(x);
+    const auto [e, p] = state(foot.distance);
+    const Mat<D> nn = foot.normal * foot.normal.transpose();
+    return {p - e * foot.bend.trace(), -e * foot.normal, p * nn - e * foot.bend};
+  }
+  Real distance(const Vec<D>& x) const override { return shape_->foot(x).distance; }
+
+ private:
+  struct State {
+    Real energy, pressure;
+  };
+  State state(Real gap) const {
+    if (gap >= core_) {
+      const PlaneState s = law_->at(gap);
+      return {s.energy, s.pressure};
+    }
+    const Real depth = core_ - gap, p = at_core_.pressure, K = at_core_.stiffness;
+    return {at_core_.energy + depth * (p + depth * K / 2), p + depth * K};
+  }
+
+  std::shared_ptr<const Interaction> law_;
+  std::shared_ptr<const PartnerShape<D>> shape_;
+  Real core_;
+  PlaneState at_core_;
+};
+
+template <int D>
+class GapContact final : public ContactModel<D> {
+ public:
+  explicit GapContact(std::shared_ptr<const Interaction> law) : law_(std::move(law)) {}
+
+  void check(const Block& block, bool rigid) const override {
+    if (!rigid)
+      block.problem("interaction",
+                    "is a law of the gap, which needs a rigid partner; allowed between two bodies "
+                    "is lennard_jones");
+  }
+  std::unique_ptr<ForceTerm> between(const Body<D>&, const Body<D>&,
+                                     const ContactChoice& choice) const override {
+    throw InputError("contact '" + choice.name + "': a law of the gap needs a rigid partner");
+  }
+  std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
+                                          const ContactChoice& choice) const override {
+    MovingPartner<D> partner{distance_field<D>(law_, plan.shape), plan.motion, 1,
+                             plan.velocity_step};
+    return rigid_contact<D>({body, 1}, std::move(partner), law_, choice);
+  }
+  PlaneContact flat(bool) const override { return law_->flat(); }
+
+ private:
+  std::shared_ptr<const Interaction> law_;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<RigidPartner<D>> distance_field(std::shared_ptr<const Interaction> law,
+                                                std::shared_ptr<const PartnerShape<D>> shape) {
+  return std::make_unique<DistanceField<D>>(std::move(law), std::move(shape));
+}
+
+template <int D>
+std::unique_ptr<ContactModel<D>> gap_contact(std::shared_ptr<const Interaction> law) {
+  return std::make_unique<GapContact<D>>(std::move(law));
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                    \
+  template std::unique_ptr<RigidPartner<D>> distance_field(                        \
+      std::shared_ptr<const Interaction>, std::shared_ptr<const PartnerShape<D>>); \
+  template std::unique_ptr<ContactModel<D>> gap_contact(std::shared_ptr<const Interaction>);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus
