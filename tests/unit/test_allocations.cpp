@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "load_examples.hpp"
+
 namespace {
 
 std::atomic<long> allocations{0};
@@ -80,6 +82,13 @@ TEST(Allocations, AreCounted) {
   const long before = allocations;
   ::operator delete(::operator new(8));
   EXPECT_GT(allocations, before);
+}
+
+TEST(Allocations, NoneInAStepOfAnyLoad) {
+  for (const auto& [name, example] : Registry<test::LoadExample>::all()) {
+    if (!example.tables(2).empty()) EXPECT_EQ(allocations_of<2>(example.scene(2), 60), 0) << name;
+    if (!example.tables(3).empty()) EXPECT_EQ(allocations_of<3>(example.scene(3), 60), 0) << name;
+  }
 }
 
 TEST(Allocations, NoneInAStep) {
