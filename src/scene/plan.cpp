@@ -92,9 +92,9 @@ void plan_loads(const Block& root, const LoadEntry<D>& kind, Plan<D>& plan) {
     load->prepare(plan.bodies);
     const auto identity = load->identity();
     if (identity && !identity->value.empty() && !identities.insert(identity->value).second)
-      block.problem(identity->key, fmt::format("there is a [[{}]] with {} '{}' already; allowed is "
-                                               "one",
-                                               kind.name, identity->key, identity->value));
+      block.problem(identity->key,
+                    fmt::format("there is a [[{}]] with {} '{}' already; allowed is one per {}",
+                                kind.name, identity->key, identity->value, identity->key));
     block.done();
     plan.loads.push_back(std::move(load));
   }

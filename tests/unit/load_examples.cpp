@@ -53,8 +53,8 @@ material = { type = "neo_hookean", density = 1, mu = 1, lambda = 5 }
 namespace {
 
 std::string contact(const std::string& bodies, const std::string& more) {
-  return "[[contact]]\nbodies = " + bodies +
-         "\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\nskin = 0.02\n" + more;
+  return "[[contact]]\nbodies = " + bodies + "\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\nskin = 10\n" +
+         more;
 }
 
 const bool registered =

@@ -205,7 +205,7 @@ TEST(ContactRun, WrongTablesAreNoted) {
   expect(both, "form = \"volume\"\ndensity = \"constant\"", "referential");
   expect(both, "cutoff = 1", "out of range");
   expect("[\"left\"]", "partner = { type = \"ball\", centre = [9, 9, 9], radius = 1 }",
-         "3 components");
+         "has 3 entries; allowed is an array of 2");
   expect("[\"left\"]",
          "form = \"volume\"\npartner = { type = \"ball\", centre = [9, 9], radius = 1 }",
          "volume is for two bodies");

@@ -17,11 +17,11 @@ const std::map<std::string, std::string>& texts() {
                         std::string>{{"half_space",
                                       "point = [0.1, 0.2, -1.6]\nnormal = [0.2, -0.4, 2]"},
                                      {"ball", "centre = [0.3, -0.2, -2.5]\nradius = 0.8"},
-                                     {"cavity", "centre = [0.1, 0, 0.2]\nradius = 2.1"}}
+                                     {"cavity", "centre = [-0.5, 0, -0.3]\nradius = 2.1"}}
              : std::map<std::string, std::string>{
                    {"half_space", "point = [0.1, -1.6]\nnormal = [0.2, 2]"},
                    {"ball", "centre = [0.3, -2.5]\nradius = 0.8"},
-                   {"cavity", "centre = [0.1, 0.2]\nradius = 2.1"},
+                   {"cavity", "centre = [-0.5, -0.4]\nradius = 2.1"},
                    {"frame", "low = [-1.7, -1.5]\nhigh = [2, 1.8]"}};
   return all;
 }
