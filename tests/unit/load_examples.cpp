@@ -57,23 +57,22 @@ std::string contact(const std::string& bodies, const std::string& more) {
          more;
 }
 
+std::string tension(const std::string& form) {
+  return "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\nform = \"" + form + "\"\n";
+}
+
 const bool registered =
     register_entry(LoadExample{
-        "surface_tension.weak", one_drop,
-        [](int) -> std::string { return "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n"; },
-        true, true}) &&
-    register_entry(LoadExample{
-        "surface_tension.curvature", one_drop,
-        [](int) -> std::string {
-          return "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\nform = \"curvature\"\n";
-        },
-        false, false}) &&
-    register_entry(LoadExample{
-        "surface_tension.triangles", one_drop,
-        [](int) -> std::string {
-          return "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\nform = \"triangles\"\n";
-        },
-        true, true}) &&
+        "surface_tension.balanced", one_drop,
+        [](int) { return tension("balanced") + "coefficient_damping = 0\n"; }, true, true}) &&
+    register_entry(LoadExample{"surface_tension.damped", one_drop,
+                               [](int) { return tension("balanced"); }, false, false}) &&
+    register_entry(LoadExample{"surface_tension.weak", one_drop,
+                               [](int) { return tension("weak"); }, true, true}) &&
+    register_entry(LoadExample{"surface_tension.curvature", one_drop,
+                               [](int) { return tension("curvature"); }, false, false}) &&
+    register_entry(LoadExample{"surface_tension.triangles", one_drop,
+                               [](int) { return tension("triangles"); }, true, true}) &&
     register_entry(LoadExample{"surface.tension", one_drop,
                                [](int) -> std::string {
                                  return "[[surface]]\nbody = \"drop\"\n"
