@@ -111,7 +111,7 @@ void require_components(const Block& block, int D) {
     if (block.has(key)) {
       const auto count =
           std::string_view(key) == "displacement"
-              ? block.expressions(key, 0, dimension::length, std::nullopt).size()
+              ? block.expressions(key, 0, dimension::length, std::nullopt, Variables::time).size()
               : block
                     .reals(key, 0,
                            std::string_view(key) == "normal" ? dimension::none : dimension::length,
@@ -193,13 +193,14 @@ PartnerPlan<D> read_partner(const Block& block) {
   std::vector<std::string> names;
   for (const auto& entry : partner_kinds<D>()) names.push_back(entry.first);
   PartnerPlan<D> plan;
-  const std::string type = block.choice("type", names, std::nullopt);
-  const auto kind = partner_kinds<D>().find(type);
-  if (kind == partner_kinds<D>().end()) return plan;
+  const auto type = block.kind("type", names);
+  if (!type) return plan;
+  const auto kind = partner_kinds<D>().find(*type);
   require_components(block, D);
   plan.make = kind->second(block);
   if (block.has("displacement"))
-    plan.displacement = block.expressions("displacement", 0, dimension::length, std::nullopt);
+    plan.displacement =
+        block.expressions("displacement", 0, dimension::length, std::nullopt, Variables::time);
   block.done();
   return plan;
 }

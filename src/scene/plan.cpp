@@ -51,10 +51,9 @@ std::unique_ptr<Material<D>> plan_material(const Block& body) {
   if (!block) return nullptr;
   std::vector<std::string> names;
   for (const auto& [name, law] : laws()) names.emplace_back(name);
-  const std::string type = block->choice("type", names, std::nullopt);
-  const auto law = laws().find(type);
-  if (law == laws().end()) return nullptr;
-  auto material = law->second.template material<D>(*block);
+  const auto type = block->kind("type", names);
+  if (!type) return nullptr;
+  auto material = laws().find(*type)->second.template material<D>(*block);
   block->done();
   return material;
 }

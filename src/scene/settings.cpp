@@ -22,7 +22,7 @@ Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension d
   return row;
 }
 
-/// Formulas that may be left out.
+/// Formulas of the place that may be left out.
 template <class M>
 Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*member,
                                 Dimension dimension, std::string meaning) {
@@ -30,7 +30,8 @@ Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*mem
                                   std::vector<Expression>{});
   row.fallback = "0";
   row.read = [key = row.key, member, dimension](M& m, const Block& block) {
-    if (block.has(key)) m.*member = block.expressions(key, 0, dimension, std::nullopt);
+    if (block.has(key))
+      m.*member = block.expressions(key, 0, dimension, std::nullopt, Variables::place);
   };
   return row;
 }

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -155,7 +156,8 @@ template <int D>
 struct ShapeKind {
   std::string meaning;
   std::function<std::vector<ShapeKey>()> keys;
-  std::function<Geometry<D>(const Block&)> make;
+  /// Nothing if something of the table is wrong.
+  std::function<std::optional<Geometry<D>>(const Block&)> make;
 };
 
 /// All shapes of D dimensions by name.
@@ -174,7 +176,11 @@ bool register_shape() {
       keys.push_back({row.key, row.type, row.unit, row.range, row.fallback, row.meaning});
     return keys;
   };
-  kind.make = [](const Block& block) { return read<S>(block).geometry(); };
+  kind.make = [](const Block& block) -> std::optional<Geometry<D>> {
+    const S shape = read<S>(block);
+    if (!block.in_order()) return std::nullopt;
+    return shape.geometry();
+  };
   shapes<D>()[S::name] = std::move(kind);
   return true;
 }
