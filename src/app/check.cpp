@@ -2,6 +2,8 @@
 // Dry run of a scene: everything short of running it.
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/outputs.hpp"
+#include "meniscus/app/print.hpp"
+#include "meniscus/app/set_up.hpp"
 #include "meniscus/scene/simulation.hpp"
 
 #include <fmt/format.h>
@@ -14,12 +16,13 @@ namespace meniscus {
 namespace {
 
 template <int D>
-void check_scene(const SceneInput& input) {
-  Scene<D> scene = build_scene<D>(input);
+void check_scene(const SceneInput& input, const RunRequest& request) {
+  Scene<D> scene = set_up(input, [&] { return build_scene<D>(input); });
   require_known_outputs(input, scene);
+  const Real stop = time_to_stop(request, scene.units);
   const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
-  if (!scene.title.empty()) fmt::print("{}\n", scene.title);
-  for (const auto& note : scene.notes) fmt::print("{}\n", note);
+  if (!scene.title.empty()) say("{}\n", scene.title);
+  for (const auto& note : scene.notes) say("{}\n", note);
   for (const Body<D>& body : scene.system.bodies) {
     Vec<D> low = Vec<D>::Constant(1e300), high = -low;
     Real least = 1e300, largest = 0;
@@ -32,45 +35,45 @@ void check_scene(const SceneInput& input) {
     std::string box;
     for (int i = 0; i < D; ++i)
       box += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", low[i], high[i]);
-    fmt::print("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}\n", body.name, box,
-               unit(dimension::length), least, largest, unit(dimension::length));
+    say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}\n", body.name, box,
+        unit(dimension::length), least, largest, unit(dimension::length));
   }
   for (const auto& term : scene.system.terms)
-    fmt::print("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),
-               1e-6 * static_cast<Real>(term->bytes()));
+    say("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),
+        1e-6 * static_cast<Real>(term->bytes()));
 
-  Simulation<D> simulation(scene);
-  simulation.begin();
+  Simulation<D> simulation = set_up(input, [&] { return Simulation<D>(scene); });
+  set_up(input, [&] { simulation.begin(); });
   const StableStep& stable = simulation.controller().stable();
   const Real dt = scene.time.step.value_or(scene.time.safety * stable.dt);
-  fmt::print("stable step {:.6g} {} (", stable.dt, unit(dimension::time));
+  say("stable step {:.6g} {} (", stable.dt, unit(dimension::time));
   if (stable.viscosity > 0)
-    fmt::print("stiffness alone {:.3g}, viscosity alone {:.3g}; ", 2 / stable.stiffness,
-               2 / stable.viscosity);
-  fmt::print("used: {:.6g})\n", dt);
+    say("stiffness alone {:.3g}, viscosity alone {:.3g}; ", 2 / stable.stiffness,
+        2 / stable.viscosity);
+  say("used: {:.6g})\n", dt);
 
   const auto begin = std::chrono::steady_clock::now();
   constexpr int trial_steps = 10;
-  for (int k = 0; k < trial_steps; ++k) simulation.advance();
+  set_up(input, [&] {
+    for (int k = 0; k < trial_steps; ++k) simulation.advance();
+  });
   const double per_step =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / trial_steps;
-  const Real steps = std::ceil(scene.time.end / dt);
-  fmt::print(
-      "{:.0f} steps, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
+  const Real steps = std::ceil(std::min(scene.time.end, stop) / dt);
+  say("{:.0f} steps, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
       "forces\n",
       steps, steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
       1e-6 * static_cast<Real>(scene.system.bytes()));
-  for (const auto& warning : scene.warnings) fmt::print("warning: {}\n", warning);
-  fmt::print("the scene is in order\n");
+  for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
+  say("the scene is in order\n");
 }
 
 }  // namespace
 
-int check(const RunRequest& request) {
+void check(const RunRequest& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   const SceneInput input = SceneInput::from_file(request.scene, request.set);
-  scene_dimension(input) == 2 ? check_scene<2>(input) : check_scene<3>(input);
-  return exit_ok;
+  scene_dimension(input) == 2 ? check_scene<2>(input, request) : check_scene<3>(input, request);
 }
 
 }  // namespace meniscus

@@ -11,9 +11,14 @@ namespace {
 
 volatile std::sig_atomic_t caught = 0;
 
+constexpr int asking_to_stop[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
+
 void handle_by(void (*handler)(int)) {
-  std::signal(SIGINT, handler);
-  std::signal(SIGTERM, handler);
+  for (const int signal : asking_to_stop) {
+    struct sigaction present {};
+    sigaction(signal, nullptr, &present);
+    if (present.sa_handler != SIG_IGN) std::signal(signal, handler);
+  }
 }
 
 void note(int signal) {
@@ -27,6 +32,9 @@ Interruption::Interruption(std::optional<double> max_walltime)
     : begin_(std::chrono::steady_clock::now()),
       limit_seconds_(max_walltime.value_or(std::numeric_limits<double>::infinity())) {
   caught = 0;
+}
+
+void Interruption::catch_signals() {
   handle_by(note);
 }
 

@@ -2,7 +2,9 @@
 // The command line.
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/interruption.hpp"
+#include "meniscus/app/print.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/names.hpp"
 #include "meniscus/io/info.hpp"
 #include "meniscus/io/provenance.hpp"
 #include "meniscus/scene/settings.hpp"
@@ -10,7 +12,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <iostream>
+#include <algorithm>
+#include <charconv>
+#include <climits>
+#include <optional>
+#include <sstream>
 
 namespace {
 
@@ -18,9 +24,30 @@ using namespace meniscus;
 
 void print_version() {
   const Build b = build();
-  fmt::print("meniscus {}\ngit {}{}\ncompiler {}\n", b.version, b.git_hash,
-             b.git_dirty ? " (modified)" : "", b.compiler);
-  for (const auto& library : b.libraries) fmt::print("{} {}\n", library.first, library.second);
+  say("meniscus {}\ngit {}{}\ncompiler {}\nflags {}\n", b.version, b.git_hash,
+      b.git_dirty ? " (modified)" : "", b.compiler, b.flags);
+  for (const auto& library : b.libraries) say("{} {}\n", library.first, library.second);
+}
+
+void print_keys() {
+  std::ostringstream text;
+  describe_keys(text);
+  print_text(text.str());
+}
+
+/// An integer of a range, refused by a sentence.
+CLI::Validator integer_between(std::int64_t low, std::int64_t high) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        std::int64_t value = 0;
+        const char* end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, value);
+        if (error == std::errc() && rest == end && value >= low && value <= high)
+          return std::string();
+        return fmt::format("'{}' is out of range; allowed is an integer >= {}{}", text, low,
+                           high < INT_MAX ? fmt::format(" and <= {}", high) : "");
+      },
+      "");
 }
 
 void add_scene_options(CLI::App& command, RunRequest& request) {
@@ -31,7 +58,14 @@ void add_scene_options(CLI::App& command, RunRequest& request) {
       ->type_size(1)
       ->allow_extra_args(false);
   command.add_option("--threads", request.threads, "number of threads; all cores by default")
-      ->check(CLI::Range(1, 4096));
+      ->check(integer_between(1, 4096));
+  command
+      .add_option(
+          "--until", request.until,
+          "stop after the first step that reaches this time, e.g. '0.1 ns', with a "
+          "checkpoint. Steps, rows and frames are those of the whole run, so that --restart "
+          "continues it bit for bit (the end of the scene, time.end, is hit exactly)")
+      ->type_name("TIME");
 }
 
 void add_run_options(CLI::App& command, RunRequest& request) {
@@ -40,13 +74,6 @@ void add_run_options(CLI::App& command, RunRequest& request) {
                   "directory of the results; by default results/SCENE, or DIR of --restart DIR")
       ->type_name("DIR");
   command.add_flag("--overwrite", request.overwrite, "replace results that are already there");
-  command
-      .add_option(
-          "--until", request.until,
-          "stop after the first step that reaches this time, e.g. '0.1 ns', with a "
-          "checkpoint. Steps, rows and frames are those of the whole run, so that --restart "
-          "continues it bit for bit (the end of the scene, time.end, is hit exactly)")
-      ->type_name("TIME");
   CLI::Option* restart =
       command
           .add_option(
@@ -60,7 +87,7 @@ void add_run_options(CLI::App& command, RunRequest& request) {
       .add_option("--frame", request.frame,
                   "continue from this frame of the run instead; later rows and frames are replaced")
       ->type_name("K")
-      ->check(CLI::NonNegativeNumber)
+      ->check(integer_between(0, INT_MAX))
       ->needs(restart);
   command
       .add_option_function<std::string>(
@@ -82,16 +109,26 @@ CLI::App* add_study_command(CLI::App& app, StudyRequest& request, bool& list) {
   CLI::Option* name = command->add_option("NAME", request.name, "study to run");
   command->add_flag("--list", list, "print the known studies")->excludes(name);
   command->add_option("--levels", request.levels, "resolutions, e.g. --levels 6 10 14")
-      ->check(CLI::PositiveNumber);
+      ->check(integer_between(1, INT_MAX));
   command->add_option("--set", request.set, "key=value: settings of the study")
       ->type_size(1)
       ->allow_extra_args(false);
   command->add_option("--output", request.output, "directory for study.csv and study.json")
       ->type_name("DIR");
   command->add_option("--threads", request.threads, "number of threads; all cores by default")
-      ->check(CLI::Range(1, 4096));
+      ->check(integer_between(1, 4096));
   command->add_flag("--short", request.brief, "the short form of the tests: few levels, seconds");
   return command;
+}
+
+/// What is wrong with the first word if it is no command.
+std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+  const std::string given = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), given) != names.end()) return std::nullopt;
+  return fmt::format("'{}' is no command; {}", given, allowed_names(given, names));
 }
 
 int dispatch(int argc, char** argv) {
@@ -101,7 +138,9 @@ int dispatch(int argc, char** argv) {
       "Exit codes: 0 ok, 1 internal error, 2 usage, 3 input, 4 numerical failure, 5 files,\n"
       "7 an expectation of the scene or study was missed, 128 + n stopped by signal n after a "
       "checkpoint\n"
-      "(130 Ctrl-C, 143 SIGTERM, 142 the limit on wall-clock time). A second signal ends at once.");
+      "(130 Ctrl-C, 143 SIGTERM; SIGHUP, SIGUSR1 and SIGXCPU too; 142 the limit on wall-clock "
+      "time).\n"
+      "A second signal ends at once.");
   RunRequest request;
   request.command_line = portable_command_line(argc, argv);
   StudyRequest study_request;
@@ -122,31 +161,37 @@ int dispatch(int argc, char** argv) {
   CLI::App* study_command = add_study_command(app, study_request, list);
   CLI::App* version_command = app.add_subcommand("version", "print version and build");
 
+  if (const auto refusal = unknown_command(app, argc, argv)) {
+    print_complaint(*refusal);
+    return exit_usage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? exit_ok : exit_usage;
   }
   if (run_command->parsed()) return run(request);
-  if (check_command->parsed()) return check(request);
+  if (check_command->parsed()) check(request);
   if (study_command->parsed()) {
     if (!list) return study(study_request);
     list_studies();
   }
-  if (keys_command->parsed()) describe_keys(std::cout);
-  if (info_command->parsed()) std::cout << describe_file(file);
+  if (keys_command->parsed()) print_keys();
+  if (info_command->parsed()) print_text(describe_file(file));
   if (version_command->parsed()) print_version();
+  require_printed();
   return exit_ok;
 }
 
 int complain(const char* kind, const std::exception& e, int code) {
-  fmt::print(stderr, "{}{}\n", kind, e.what());
+  print_complaint(fmt::format("{}{}", kind, e.what()));
   return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  meniscus::secure_streams();
   try {
     return dispatch(argc, argv);
   } catch (const meniscus::InputError& e) {

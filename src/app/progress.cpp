@@ -2,6 +2,8 @@
 // Progress on one line of a terminal.
 #include "meniscus/app/progress.hpp"
 
+#include "meniscus/app/print.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -30,15 +32,14 @@ void Progress::show(const State& state, Real dt, const std::optional<Ledger>& le
   std::string energies = fmt::format("kinetic {:.3g}", ledger_.kinetic);
   for (const auto& [kind, energy] : ledger_.stored)
     energies += fmt::format(", {} {:.3g}", kind, energy);
-  fmt::print(
-      "\r\033[Kstep {}  t {:.4g} {}  dt {:.3g}  {:.1f} %  ETA {:.0f} s  {:.0f} steps/s  {} {}",
+  say("\r\033[Kstep {}  t {:.4g} {}  dt {:.3g}  {:.1f} %  ETA {:.0f} s  {:.0f} steps/s  {} {}",
       state.step, state.time, time_unit_, dt, 100 * done, seconds * (1 - done) / done, rate,
       energies, energy_unit_);
   std::fflush(stdout);
 }
 
 void Progress::finish() {
-  if (on_) fmt::print("\r\033[K");
+  if (on_) say("\r\033[K");
   std::fflush(stdout);
 }
 

@@ -3,9 +3,11 @@
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/interruption.hpp"
 #include "meniscus/app/outputs.hpp"
+#include "meniscus/app/print.hpp"
 #include "meniscus/app/progress.hpp"
 #include "meniscus/app/recorder.hpp"
 #include "meniscus/app/restart.hpp"
+#include "meniscus/app/set_up.hpp"
 #include "meniscus/app/warnings.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/run_log.hpp"
@@ -22,22 +24,6 @@
 
 namespace meniscus {
 namespace {
-
-/// The time of --until in units of the scene; none given: never.
-Real time_to_stop(const RunRequest& request, const UnitSystem& units) {
-  if (request.until.empty()) return std::numeric_limits<Real>::infinity();
-  try {
-    std::size_t used = 0;
-    const Real number = std::stod(request.until, &used);
-    const Real time =
-        used == request.until.size() ? number : units.quantity(request.until, dimension::time);
-    if (time > 0 && std::isfinite(time)) return time;
-  } catch (const std::exception&) {
-  }
-  throw InputError(
-      fmt::format("--until '{}': allowed is a time > 0 in {}, or with a unit, e.g. '1 ps'",
-                  request.until, units.symbol(dimension::time)));
-}
 
 template <int D>
 int report_expectations(const Simulation<D>& simulation, const RunDirectory& directory,
@@ -57,7 +43,7 @@ int report_expectations(const Simulation<D>& simulation, const RunDirectory& dir
       [&](const std::string& name) -> const std::vector<Real>& { return history.column(name); },
       end);
   const std::string table = expectation_table(results);
-  fmt::print("{}", table);
+  say("{}", table);
   std::istringstream lines(table);
   for (std::string line; std::getline(lines, line);) log.info(line);
   for (const auto& r : results)
@@ -172,31 +158,13 @@ void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunD
       directory.path().string()));
 }
 
+/// The run itself, once its directory is open.
 template <int D>
-int run_scene(const SceneInput& input, const RunRequest& request) {
-  const Interruption interruption(request.max_walltime);
-  Scene<D> scene = build_scene<D>(input);
-  require_known_outputs(input, scene);
-  const std::string complete = input.complete();
-  const Real stop = std::min(scene.time.end, time_to_stop(request, scene.units));
-  const std::optional<Restart> restart = read_restart(request, complete);
+int run_recorded(Simulation<D>& simulation, const RunRequest& request, const Provenance& origin,
+                 const std::optional<Restart>& restart, const Interruption& interruption, Real stop,
+                 const RunDirectory& directory, RunLog& log) {
+  const Scene<D>& scene = simulation.scene();
   const bool in_place = restart && restart->in_place;
-
-  Simulation<D> simulation(scene);
-  if (restart)
-    simulation.restore(restart->from.checkpoint.state);
-  else
-    simulation.begin();
-
-  const RunDirectory directory(output_directory(request), in_place ? ExistingRun::keep
-                                                          : request.overwrite
-                                                              ? ExistingRun::replace
-                                                              : ExistingRun::refuse);
-  RunLog log(directory.log_file());
-  const Provenance origin = provenance(request.command_line, complete);
-  introduce(scene, origin, restart, simulation.controller().stable(), log);
-  if (!restart) report_residuals(simulation, log);
-
   if (in_place)  // before rows and frames are dropped that a later checkpoint would need
     CheckpointWriter(directory, origin)
         .write(simulation.state().step, simulation.state().time, simulation.snapshot());
@@ -220,7 +188,7 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
 
   const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
   log.info(summary);
-  if (!request.quiet) fmt::print("{}\nresults in {}\n", summary, directory.path().string());
+  if (!request.quiet) say("{}\nresults in {}\n", summary, directory.path().string());
   if (!signal) {
     const bool rest = report_rest(simulation, log);
     const int expected = report_expectations(simulation, directory, log);
@@ -228,6 +196,38 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
   }
   say_how_to_continue(simulation, *signal, directory, log);
   return exit_signal + *signal;
+}
+
+template <int D>
+int run_scene(const SceneInput& input, const RunRequest& request) {
+  Interruption interruption(request.max_walltime);
+  Scene<D> scene = set_up(input, [&] { return build_scene<D>(input); });
+  require_known_outputs(input, scene);
+  const std::string complete = input.complete();
+  const Real stop = std::min(scene.time.end, time_to_stop(request, scene.units));
+  const std::optional<Restart> restart = read_restart(request, complete);
+
+  Simulation<D> simulation = set_up(input, [&] { return Simulation<D>(scene); });
+  if (restart)
+    simulation.restore(restart->from.checkpoint.state);
+  else
+    set_up(input, [&] { simulation.begin(); });
+
+  interruption.catch_signals();  // before this nothing is lost by ending at once
+  const RunDirectory directory(output_directory(request),
+                               restart && restart->in_place ? ExistingRun::keep
+                               : request.overwrite          ? ExistingRun::replace
+                                                            : ExistingRun::refuse);
+  RunLog log(directory.log_file());
+  const Provenance origin = provenance(request.command_line, complete);
+  introduce(scene, origin, restart, simulation.controller().stable(), log);
+  if (!restart) report_residuals(simulation, log);
+  try {
+    return run_recorded(simulation, request, origin, restart, interruption, stop, directory, log);
+  } catch (const FileError& e) {
+    log.error(e.what());
+    return exit_file;
+  }
 }
 
 }  // namespace

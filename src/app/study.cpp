@@ -3,6 +3,7 @@
 #include "meniscus/study/study.hpp"
 
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/print.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/files.hpp"
 #include "meniscus/io/provenance.hpp"
@@ -25,15 +26,14 @@ std::string order_text(std::optional<Real> order) {
 void print_measurement(const StudyRun& run) {
   const auto& all = run.measurements();
   const Measurement& m = all.back();
-  if (all.size() == 1 || all[all.size() - 2].method != m.method) fmt::print("\n{}\n", m.method);
-  fmt::print("  {:>5} {:>8} h {:<9.3g}", m.level, m.particles, m.h);
+  if (all.size() == 1 || all[all.size() - 2].method != m.method) say("\n{}\n", m.method);
+  say("  {:>5} {:>8} h {:<9.3g}", m.level, m.particles, m.h);
   for (const auto& [name, value] : m.errors)
-    fmt::print(" {} {:.3g}{}", name, value,
-               run.order(m, name) ? fmt::format(" ({})", order_text(run.order(m, name))) : "");
-  for (const auto& [name, value] : m.values) fmt::print(", {} {:.6g}", name, value);
-  fmt::print("; {:.3g} + {:.3g} s, {:.3g} MB\n", m.set_up, m.time,
-             1e-6 * static_cast<Real>(m.bytes));
-  if (!m.remark.empty()) fmt::print("        {}\n", m.remark);
+    say(" {} {:.3g}{}", name, value,
+        run.order(m, name) ? fmt::format(" ({})", order_text(run.order(m, name))) : "");
+  for (const auto& [name, value] : m.values) say(", {} {:.6g}", name, value);
+  say("; {:.3g} + {:.3g} s, {:.3g} MB\n", m.set_up, m.time, 1e-6 * static_cast<Real>(m.bytes));
+  if (!m.remark.empty()) say("        {}\n", m.remark);
   std::fflush(stdout);
 }
 
@@ -136,10 +136,10 @@ std::string json(const StudyEntry& entry, const StudyRun& run, const StudyReques
 /// Prints the checks; returns how many are missed.
 int print_checks(const StudyRun& run) {
   int missed = 0;
-  if (!run.checks().empty()) fmt::print("\n");
+  if (!run.checks().empty()) say("\n");
   for (const Check& c : run.checks()) {
-    fmt::print("{}: {}: {:.4g}, asked {}\n", c.met() ? "met   " : "MISSED", c.what, c.value,
-               c.allowed.text());
+    say("{}: {}: {:.4g}, asked {}\n", c.met() ? "met   " : "MISSED", c.what, c.value,
+        c.allowed.text());
     missed += !c.met();
   }
   return missed;
@@ -149,8 +149,8 @@ int print_checks(const StudyRun& run) {
 
 void list_studies() {
   for (const auto& [name, entry] : studies())
-    fmt::print("{:<14} {}\n{:<14} levels: {}; by default {}\n", name, entry.summary, "",
-               entry.level_meaning, fmt::join(entry.levels, " "));
+    say("{:<14} {}\n{:<14} levels: {}; by default {}\n", name, entry.summary, "",
+        entry.level_meaning, fmt::join(entry.levels, " "));
 }
 
 int study(const StudyRequest& request) {
@@ -168,10 +168,10 @@ int study(const StudyRequest& request) {
   if (levels.empty()) levels = request.brief ? entry.brief_levels : entry.levels;
   std::sort(levels.begin(), levels.end());
   StudyRun run(levels, request.brief, settings, print_measurement);
-  fmt::print("{}\nlevels: {}; time: set-up + method, wall clock, {} threads\n", entry.summary,
-             entry.level_meaning, omp_get_max_threads());
+  say("{}\nlevels: {}; time: set-up + method, wall clock, {} threads\n", entry.summary,
+      entry.level_meaning, omp_get_max_threads());
   entry.run(run);
-  if (!run.notes().empty()) fmt::print("\n{}\n", fmt::join(run.notes(), "\n"));
+  if (!run.notes().empty()) say("\n{}\n", fmt::join(run.notes(), "\n"));
   const int missed = print_checks(run);
   if (!request.output.empty()) {
     replace_file(output / "study.csv", csv(run));

@@ -53,12 +53,6 @@ void for_gauss_points(const Grid<D>& grid, Index cell, const TensorRule<D>& rule
 
 }  // namespace
 
-void require_countable(Real cells) {
-  if (cells > 2e8)
-    throw InputError(
-        fmt::format("The grid would have {:g} cells; at most 2e8 are possible.", cells));
-}
-
 template <int D>
 void find_boundary(Grid<D>& grid) {
   struct Side {

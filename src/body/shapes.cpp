@@ -21,13 +21,16 @@ Geometry<D> stand_in() {
 
 template <int D>
 Geometry<D> read_geometry(const Block& block) {
-  const std::string name = block.choice("shape", shapes<D>().names(), {});
+  const auto name = block.kind("shape", shapes<D>().names());
   const Real jitter = block.real("jitter", dimension::none, {0, 0.5}, 0.0);
   const auto seed = block.integer("jitter_seed", range::non_negative, 1);
   const Real imperfection = block.real("imperfection", dimension::length, range::non_negative, 0.0);
   const auto imperfection_seed = block.integer("imperfection_seed", range::non_negative, 1);
+  if (!name) return stand_in<D>();
   try {
-    Geometry<D> geometry = shapes<D>().at(name).make(block);
+    auto made = shapes<D>().at(*name).make(block);
+    if (!made) return stand_in<D>();
+    Geometry<D> geometry = *std::move(made);
     if (imperfection > 0)
       geometry = with_imperfection(std::move(geometry), imperfection,
                                    static_cast<std::uint64_t>(imperfection_seed));

@@ -23,6 +23,7 @@ struct Expression::Parsed {
   std::mutex lock;
   std::array<Real, 4> variables{};  ///< x, y, z, t
   mu::Parser parser;
+  std::string place;
 };
 
 namespace {
@@ -154,6 +155,7 @@ Expression::Expression(std::string formula) : text_(std::move(formula)) {
       throw InputError(fmt::format("formula '{}': ',' outside of a function", text_));
     const auto& used = parsed->parser.GetUsedVar();
     depends_on_time_ = used.count("t") != 0;
+    depends_on_place_ = used.size() > used.count("t");
     if (!used.empty()) parsed_ = std::move(parsed);
   } catch (const mu::ParserError& error) {
     throw InputError(fmt::format("formula '{}': {}", text_, explain(error, parsed->parser, text_)));
@@ -161,6 +163,20 @@ Expression::Expression(std::string formula) : text_(std::move(formula)) {
 }
 
 Real Expression::operator()(const Eigen::Vector3d& X, Real t) const {
+  const Real value = unchecked(X, t);
+  if (std::isfinite(value) || constant()) return value;
+  throw SolveError(fmt::format(
+      "{}formula '{}' is {} at x = {:.6g}, y = {:.6g}, z = {:.6g}, t = {:.6g}; allowed are finite "
+      "numbers",
+      parsed_->place.empty() ? "" : parsed_->place + ": ", text_,
+      std::isnan(value) ? "not a number" : "infinite", X[0], X[1], X[2], t));
+}
+
+void Expression::set_place(std::string place) {
+  if (parsed_) parsed_->place = std::move(place);
+}
+
+Real Expression::unchecked(const Eigen::Vector3d& X, Real t) const {
   if (constant()) return value_;
   const std::lock_guard guard(parsed_->lock);
   parsed_->variables = {X[0], X[1], X[2], t};

@@ -5,6 +5,7 @@
 #include "meniscus/core/names.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "input_node.hpp"
 #include "input_values.hpp"
@@ -20,13 +21,28 @@ using scene_tree::Value;
 // ---- node
 // ----------------------------------------------------------------------------------------
 
+namespace {
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
 const Entry* Block::Node::ask(std::string_view key) {
-  if (std::find(asked.begin(), asked.end(), key) == asked.end()) asked.emplace_back(key);
+  if (!contains(known, key)) known.emplace_back(key);
   return table == nullptr ? nullptr : table->find(key);
+}
+
+const Entry* Block::Node::take(std::string_view key) {
+  const Entry* entry = ask(key);
+  if (entry != nullptr && !contains(was_read, key)) was_read.emplace_back(key);
+  return entry;
 }
 
 void Block::Node::note(const scene_tree::Place& where, const std::string& full_path,
                        const std::string& what) {
+  wrong = true;
   document->problems.push_back({where, full_path.empty() ? what : full_path + ": " + what});
 }
 
@@ -47,8 +63,8 @@ void Block::Node::echo(std::string_view key, std::string value, const std::strin
 std::shared_ptr<Block::Node> Block::Node::child(std::string_view key, bool in_array,
                                                 const std::string& full_path, const Table* of,
                                                 const scene_tree::Place& where) {
-  for (const Child& known : children)
-    if (known.node->path == full_path) return known.node;
+  for (const Child& earlier : children)
+    if (earlier.node->path == full_path) return earlier.node;
   auto node = std::make_shared<Node>();
   node->document = document;
   node->table = of;
@@ -61,7 +77,7 @@ std::shared_ptr<Block::Node> Block::Node::child(std::string_view key, bool in_ar
 template <class T, class Convert>
 T Block::Node::read(std::string_view key, const std::string& allowed, const std::string& unit,
                     const std::optional<T>& fallback, const T& harmless, Convert convert) {
-  const Entry* entry = ask(key);
+  const Entry* entry = take(key);
   if (entry == nullptr) {
     if (!fallback) {
       note_missing(key, allowed);
@@ -162,6 +178,16 @@ std::string Block::choice(std::string_view key, const std::vector<std::string>& 
       });
 }
 
+std::optional<std::string> Block::kind(std::string_view key,
+                                       const std::vector<std::string>& allowed) const {
+  const bool before = std::exchange(node_->wrong, false);
+  std::string name = choice(key, allowed, std::nullopt);
+  const bool found = !std::exchange(node_->wrong, before || node_->wrong);
+  if (found) return name;
+  node_->quiet = true;
+  return std::nullopt;
+}
+
 std::vector<std::string> Block::texts(std::string_view key,
                                       std::optional<std::vector<std::string>> fallback) const {
   const std::string allowed = "a text";
@@ -179,27 +205,35 @@ std::vector<Real> Block::reals(std::string_view key, std::size_t count, Dimensio
 }
 
 Expression Block::expression(std::string_view key, Dimension dimension,
-                             std::optional<Expression> fallback, Range range) const {
+                             std::optional<Expression> fallback, Range range,
+                             Variables variables) const {
   const input_values::Number number{units(), dimension, range};
-  return node_->read<Expression>(key, number.allowed_or_formula(), number.unit(), fallback,
-                                 input_values::harmless(range),
-                                 [&](const Value& value) { return number.expression(value); });
+  Expression read = node_->read<Expression>(
+      key, number.allowed_or_formula(variables), number.unit(), fallback,
+      input_values::harmless(range),
+      [&](const Value& value) { return number.expression(value, variables); });
+  read.set_place(place(key));
+  return read;
 }
 
 std::vector<Expression> Block::expressions(std::string_view key, std::size_t count,
                                            Dimension dimension,
-                                           std::optional<std::vector<Expression>> fallback) const {
+                                           std::optional<std::vector<Expression>> fallback,
+                                           Variables variables) const {
   const input_values::Number number{units(), dimension, range::any};
-  return node_->read_list<Expression>(key, count, number.allowed_or_formula(), number.unit(),
-                                      fallback, Expression(0),
-                                      [&](const Value& value) { return number.expression(value); });
+  std::vector<Expression> read = node_->read_list<Expression>(
+      key, count, number.allowed_or_formula(variables), number.unit(), fallback, Expression(0),
+      [&](const Value& value) { return number.expression(value, variables); });
+  for (std::size_t i = 0; i < read.size(); ++i)
+    read[i].set_place(fmt::format("{}[{}]", place(key), i));
+  return read;
 }
 
 // ---- tables
 // --------------------------------------------------------------------------------------
 
 std::optional<Block> Block::table(std::string_view key, bool required) const {
-  const Entry* entry = node_->ask(key);
+  const Entry* entry = node_->take(key);
   if (entry == nullptr) {
     if (required) node_->note_missing(key, "a table");
     return std::nullopt;
@@ -222,7 +256,7 @@ Block Block::table_or_defaults(std::string_view key) const {
 }
 
 std::vector<Block> Block::tables(std::string_view key) const {
-  const Entry* entry = node_->ask(key);
+  const Entry* entry = node_->take(key);
   if (entry == nullptr) return {};
   const std::string full_path = joined(path(), key);
   const auto refuse = [&](const Value& value, const std::string& where) {
@@ -248,12 +282,10 @@ std::vector<Block> Block::tables(std::string_view key) const {
 }
 
 std::vector<std::pair<std::string, Block>> Block::named_tables() const {
-  node_->any_table = true;
   std::vector<std::pair<std::string, Block>> result;
   if (node_->table == nullptr) return result;
   for (const Entry& entry : node_->table->entries)
-    if (std::holds_alternative<Table>(entry.value.data))
-      result.emplace_back(entry.key, *table(entry.key));
+    if (auto found = table(entry.key)) result.emplace_back(entry.key, std::move(*found));
   return result;
 }
 
@@ -264,17 +296,15 @@ void Block::problem(std::string_view key, const std::string& what) const {
 }
 
 void Block::done() const {
-  if (node_->table == nullptr) return;
-  const std::vector<std::string>& asked = node_->asked;
-  for (const Entry& entry : node_->table->entries) {
-    if (std::find(asked.begin(), asked.end(), entry.key) != asked.end()) continue;
-    const std::string full_path = joined(path(), entry.key);
-    if (node_->any_table)
-      node_->note(entry.value.place, full_path,
-                  fmt::format("is {}; allowed is a table", scene_tree::kind(entry.value)));
-    else
-      node_->note(entry.place, full_path, "unknown key; " + allowed_names(entry.key, asked));
-  }
+  if (node_->table == nullptr || node_->quiet) return;
+  for (const Entry& entry : node_->table->entries)
+    if (!contains(node_->was_read, entry.key))
+      node_->note(entry.place, joined(path(), entry.key),
+                  "unknown key; " + allowed_names(entry.key, node_->known));
+}
+
+bool Block::in_order() const {
+  return !node_->wrong;
 }
 
 }  // namespace meniscus

@@ -48,14 +48,17 @@ struct Block::Node {
   const scene_tree::Table* table = nullptr;  ///< points into the document; null when absent
   std::string path;
   scene_tree::Place place;
-  bool quiet = false;      ///< not a table at all, so that missing keys are not worth a line
-  bool any_table = false;  ///< sub-tables may have any name
-  std::vector<std::string> asked;
+  bool quiet = false;  ///< not a table, or of unknown kind: missing keys are not worth a line
+  bool wrong = false;  ///< something was noted
+  std::vector<std::string> known;  ///< keys that were asked for, for messages
+  std::vector<std::string> was_read;
   std::vector<Echo> echoes;
   std::vector<Child> children;
 
-  /// The entry `key` if present; ticks it off.
+  /// The entry `key` if present.
   const scene_tree::Entry* ask(std::string_view key);
+  /// The same, to be read now.
+  const scene_tree::Entry* take(std::string_view key);
   void note(const scene_tree::Place& where, const std::string& full_path, const std::string& what);
   void note_missing(std::string_view key, const std::string& allowed);
   void echo(std::string_view key, std::string value, const std::string& unit, bool fallback);

@@ -19,6 +19,25 @@ std::optional<Real> plain_number(const Value& value) {
   return std::nullopt;
 }
 
+const char* names_of(Variables variables) {
+  switch (variables) {
+    case Variables::place:
+      return "x, y, z";
+    case Variables::time:
+      return "t";
+    case Variables::place_and_time:
+      break;
+  }
+  return "x, y, z, t";
+}
+
+void refuse_others(const Expression& formula, Variables variables) {
+  if (variables == Variables::place && formula.depends_on_time())
+    throw InputError(fmt::format("formula '{}': it does not know the time t", formula.text()));
+  if (variables == Variables::time && formula.depends_on_place())
+    throw InputError(fmt::format("formula '{}': it knows no place x, y, z", formula.text()));
+}
+
 }  // namespace
 
 std::string toml(bool value) {
@@ -63,6 +82,10 @@ std::string Number::unit() const {
   return dimension == dimension::none ? "" : units.symbol(dimension);
 }
 
+std::string Number::allowed_or_formula(Variables variables) const {
+  return allowed_or(fmt::format(" or a formula of {}", names_of(variables)));
+}
+
 std::string Number::allowed_or(const std::string& formula) const {
   std::string text = "a number";
   if (!unit().empty()) text += " in " + unit() + " or a text with a unit";
@@ -77,15 +100,22 @@ Real Number::checked(Real value) const {
 
 Real Number::real(const Value& value) const {
   if (const auto number = plain_number(value)) return checked(*number);
-  if (const auto* text = std::get_if<std::string>(&value.data))
-    return checked(units.quantity(*text, dimension));
+  if (const auto* text = std::get_if<std::string>(&value.data)) return checked(converted(*text));
   refuse_kind(value, allowed());
 }
 
-Expression Number::expression(const Value& value) const {
+Real Number::converted(const std::string& text) const {
+  try {
+    return units.quantity(text, dimension);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; allowed is {}", error.what(), allowed()));
+  }
+}
+
+Expression Number::expression(const Value& value, Variables variables) const {
   if (const auto number = plain_number(value)) return checked(*number);
   const auto* text = std::get_if<std::string>(&value.data);
-  if (text == nullptr) refuse_kind(value, allowed_or_formula());
+  if (text == nullptr) refuse_kind(value, allowed_or_formula(variables));
   std::optional<Real> quantity;
   std::string not_quantity;
   try {
@@ -94,15 +124,15 @@ Expression Number::expression(const Value& value) const {
     not_quantity = error.what();
   }
   if (quantity) return checked(*quantity);
+  std::optional<Expression> formula;
   try {
-    Expression formula(*text);
-    if (!formula.constant()) return formula;
-    quantity = formula({0, 0, 0});
+    formula.emplace(*text);
   } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("neither a quantity ({}) nor a formula ({})", not_quantity, error.what()));
+    throw InputError(fmt::format("neither a quantity ({}) nor a formula ({}); allowed is {}",
+                                 not_quantity, error.what(), allowed_or_formula(variables)));
   }
-  return checked(*quantity);
+  refuse_others(*formula, variables);
+  return formula->constant() ? checked((*formula)({0, 0, 0})) : *std::move(formula);
 }
 
 }  // namespace meniscus::input_values

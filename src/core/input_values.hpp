@@ -54,15 +54,17 @@ struct Number {
   std::string unit() const;
   /// "a number in Pa or a text with a unit, > 0".
   std::string allowed() const { return allowed_or(""); }
-  std::string allowed_or_formula() const { return allowed_or(" or a formula of x, y, z, t"); }
+  std::string allowed_or_formula(Variables) const;
 
   Real real(const scene_tree::Value& value) const;
   /// A text is a quantity if it can be one, else a formula.
-  Expression expression(const scene_tree::Value& value) const;
+  Expression expression(const scene_tree::Value& value, Variables) const;
 
  private:
   std::string allowed_or(const std::string& formula) const;
   Real checked(Real value) const;
+  /// The number of a text with or without a unit.
+  Real converted(const std::string& text) const;
 };
 
 }  // namespace meniscus::input_values

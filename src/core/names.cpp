@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Suggestions for misspelt names: edit distance and the sentence built on it.
+// Suggestions for names that are misspelt or those of other programs.
 #include "meniscus/core/names.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace meniscus {
 
@@ -44,10 +45,36 @@ std::string did_you_mean(std::string_view given, const std::vector<std::string>&
   return nearest == nullptr ? "" : fmt::format("; did you mean '{}'?", *nearest);
 }
 
+namespace {
+
+/// What other programs call something, and where it is here.
+constexpr std::pair<std::string_view, std::string_view> foreign_words[] = {
+    {"gravity", "a weight is a table [[body_force]] with its acceleration"},
+    {"dt", "the step is [time] step, chosen by itself if absent"},
+    {"timestep", "the step is [time] step, chosen by itself if absent"},
+    {"time_step", "the step is [time] step, chosen by itself if absent"},
+    {"sphere", "a sphere is a 'ball'"},
+    {"circle", "a circle is a 'disk'"},
+    {"cube", "a cube is a 'box'"},
+    {"square", "a square is a 'rectangle'"},
+    {"youngs_modulus", "from E and nu follow mu = E/(2 (1 + nu)), lambda = 2 mu nu/(1 - 2 nu)"},
+    {"young_modulus", "from E and nu follow mu = E/(2 (1 + nu)), lambda = 2 mu nu/(1 - 2 nu)"},
+    {"poissons_ratio", "from E and nu follow mu = E/(2 (1 + nu)), lambda = 2 mu nu/(1 - 2 nu)"},
+    {"poisson_ratio", "from E and nu follow mu = E/(2 (1 + nu)), lambda = 2 mu nu/(1 - 2 nu)"},
+};
+
+std::string hint(std::string_view given, const std::vector<std::string>& known) {
+  for (const auto& [word, home] : foreign_words)
+    if (word == given) return fmt::format("; {}", home);
+  return did_you_mean(given, known);
+}
+
+}  // namespace
+
 std::string allowed_names(std::string_view given, const std::vector<std::string>& known) {
   if (known.empty()) return "none is allowed";
   return fmt::format("allowed {} {}{}", known.size() == 1 ? "is" : "are", fmt::join(known, ", "),
-                     did_you_mean(given, known));
+                     hint(given, known));
 }
 
 }  // namespace meniscus

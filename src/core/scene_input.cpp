@@ -10,8 +10,8 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <system_error>
+#include <unordered_set>
 
 #include "input_node.hpp"
 
@@ -27,10 +27,14 @@ std::string file_text(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) refuse("it is a directory; name a .toml file");
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(std::generic_category().message(errno));
-  std::ostringstream content;
-  content << file.rdbuf();
+  constexpr std::size_t most = 10'000'000;
+  std::string content(most + 1, '\0');
+  file.read(content.data(), static_cast<std::streamsize>(content.size()));
   if (file.bad()) refuse("reading failed");
-  return content.str();
+  content.resize(static_cast<std::size_t>(file.gcount()));
+  if (content.size() > most)
+    throw InputError(fmt::format("{}:1:1: the file is larger than a scene can be, 10 MB", path));
+  return content;
 }
 
 bool is_blank(std::string_view text) {
@@ -102,12 +106,15 @@ void SceneInput::check() const {
   // The file first, then the settings in their order.
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Problem& a, const Problem& b) { return a.place < b.place; });
+  constexpr std::size_t most = 100;  // nobody reads more
   std::vector<std::string> lines;
+  std::unordered_set<std::string> known;
   for (const Problem& problem : sorted) {
-    std::string line = document.place_text(problem.place) + ": " + problem.text;
-    if (std::find(lines.begin(), lines.end(), line) == lines.end())
-      lines.push_back(std::move(line));
+    const std::string line = document.place_text(problem.place) + ": " + problem.text;
+    if (known.insert(line).second && known.size() <= most) lines.push_back(line);
   }
+  if (known.size() > most)
+    lines.push_back(fmt::format("{}: and {} more problems", document.name, known.size() - most));
   throw InputError(fmt::format("{}", fmt::join(lines, "\n")));
 }
 

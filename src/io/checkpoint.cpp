@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 
 #include "hdf5_file.hpp"
@@ -32,21 +33,35 @@ std::string header_text(const Header& header) {
   return text;
 }
 
-std::uint64_t checksum(std::string_view content) {
+/// Beginning of a file and checksum of the rest.
+struct Content {
+  std::string beginning;
+  std::uint64_t checksum;
+  bool more;  ///< there is a rest
+};
+
+Content read_content(const std::filesystem::path& file) {
+  Content content{};
   Fnv1a hash;
-  hash.add(content.substr(header_size));
-  return hash.value();
+  read_pieces(file, [&](std::string_view piece) {
+    const std::size_t missing = std::min(header_size - content.beginning.size(), piece.size());
+    content.beginning += piece.substr(0, missing);
+    hash.add(piece.substr(missing));
+    content.more = content.more || piece.size() > missing;
+  });
+  content.checksum = hash.value();
+  return content;
 }
 
 /// The header of the file if all bytes are as they were written.
 std::optional<Header> valid_header(const std::filesystem::path& file) {
-  const std::string content = read_file(file);
+  const Content content = read_content(file);
   Header header;
-  if (content.size() <= header_size ||
-      std::sscanf(content.c_str(), "meniscus checkpoint 1\nserial %" SCNd64 "\nchecksum %" SCNx64,
-                  &header.serial, &header.checksum) != 2 ||
-      header_text(header) != std::string_view(content).substr(0, header_size) ||
-      checksum(content) != header.checksum)
+  if (!content.more ||
+      std::sscanf(content.beginning.c_str(),
+                  "meniscus checkpoint 1\nserial %" SCNd64 "\nchecksum %" SCNx64, &header.serial,
+                  &header.checksum) != 2 ||
+      header_text(header) != content.beginning || content.checksum != header.checksum)
     return {};
   return header;
 }
@@ -55,8 +70,22 @@ std::string damaged(const std::filesystem::path& file) {
   return fmt::format("'{}' is damaged or not a checkpoint.", file.string());
 }
 
-Checkpoint read_state_and_input(const hdf5::Group& holder, const hdf5::Group& root) {
-  return {holder.integer("step"), holder.real("time"), read_state(holder), read_input(root)};
+ReadCheckpoint read_state_and_input(const hdf5::Group& holder, const hdf5::Group& root,
+                                    const std::filesystem::path& path) {
+  ReadCheckpoint read{
+      {holder.integer("step"), holder.real("time"), read_state(holder), read_input(root)},
+      path,
+      {}};
+  const Checkpoint& c = read.checkpoint;
+  if (c.step < 0 || !std::isfinite(c.time) || c.time < 0)
+    throw FileError(fmt::format("'{}' holds step {} at time {}, which no run has.", path.string(),
+                                c.step, c.time));
+  if (const std::string now = program_text(build()), then = read_program(root); then != now)
+    read.warnings.push_back(
+        fmt::format("'{}' was written by {}; this is {}: the last digits may differ from one run "
+                    "without a stop",
+                    path.string(), then, now));
+  return read;
 }
 
 ReadCheckpoint read_file_of_checkpoint(const std::filesystem::path& path) {
@@ -64,7 +93,7 @@ ReadCheckpoint read_file_of_checkpoint(const std::filesystem::path& path) {
     throw FileError(damaged(path) + " To continue from a frame of a result file, name the frame.");
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group root = file.root();
-  return {read_state_and_input(root, root), path, {}};
+  return read_state_and_input(root, root, path);
 }
 
 struct Newest {
@@ -98,7 +127,7 @@ ReadCheckpoint read_newest(const std::filesystem::path& directory) {
         newest.warnings.empty() ? "." : " Continue from a frame of run.h5 that holds the state."));
   }
   ReadCheckpoint read = read_file_of_checkpoint(newest.file);
-  read.warnings = std::move(newest.warnings);
+  read.warnings.insert(read.warnings.begin(), newest.warnings.begin(), newest.warnings.end());
   return read;
 }
 
@@ -122,7 +151,7 @@ ReadCheckpoint read_frame(const std::filesystem::path& path, std::int64_t frame)
   if (!steps.has(name) || !steps.group(name).has("state"))
     throw FileError(fmt::format("Cannot continue from frame {} of '{}'. {}", frame, path.string(),
                                 frames_with_state(steps)));
-  return {read_state_and_input(steps.group(name), root), path, {}};
+  return read_state_and_input(steps.group(name), root, path);
 }
 
 }  // namespace
@@ -137,6 +166,7 @@ CheckpointWriter::CheckpointWriter(const RunDirectory& directory, Provenance pro
 std::filesystem::path CheckpointWriter::write(std::int64_t step, Real time, const Snapshot& state) {
   const auto target = directory_ / file_names[newest_ == directory_ / file_names[0] ? 1 : 0];
   const auto temporary = temporary_name(target);
+  const RemovedUnlessRenamed remover(temporary);
   hdf5::File file = hdf5::File::create(temporary, header_size);
   {
     hdf5::Group root = file.root();
@@ -146,7 +176,7 @@ std::filesystem::path CheckpointWriter::write(std::int64_t step, Real time, cons
     write_meta(root, provenance_);
   }
   file.close();
-  overwrite_beginning(temporary, header_text({serial_ + 1, checksum(read_file(temporary))}));
+  overwrite_beginning(temporary, header_text({serial_ + 1, read_content(temporary).checksum}));
   sync_to_disk(temporary);
   rename_file(temporary, target);
   sync_to_disk(directory_);

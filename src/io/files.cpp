@@ -16,8 +16,9 @@
 namespace meniscus {
 namespace {
 
-void write_to(const std::filesystem::path& path, const char* mode, std::string_view content) {
-  std::FILE* file = std::fopen(path.c_str(), mode);
+void write_to(const std::filesystem::path& path, int flags, std::string_view content) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC | flags, 0666);
+  std::FILE* file = descriptor < 0 ? nullptr : fdopen(descriptor, "wb");
   if (!file) throw_file_error("write", path, errno);
   const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
   const int write_error = errno;
@@ -36,24 +37,36 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) {
   return path.string() + ".new";
 }
 
+RemovedUnlessRenamed::RemovedUnlessRenamed(std::filesystem::path temporary)
+    : temporary_(std::move(temporary)) {}
+
+RemovedUnlessRenamed::~RemovedUnlessRenamed() {
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
 std::string read_file(const std::filesystem::path& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             std::fclose);
-  if (!file) throw_file_error("read", path, errno);
   std::string content;
-  char piece[65536];
-  while (const std::size_t n = std::fread(piece, 1, sizeof piece, file.get()))
-    content.append(piece, n);
-  if (std::ferror(file.get())) throw_file_error("read", path, errno);
+  read_pieces(path, [&](std::string_view piece) { content += piece; });
   return content;
 }
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
-  write_to(path, "wb", content);
+void read_pieces(const std::filesystem::path& path,
+                 const std::function<void(std::string_view)>& take) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             std::fclose);
+  if (!file) throw_file_error("read", path, errno);
+  char piece[65536];
+  while (const std::size_t n = std::fread(piece, 1, sizeof piece, file.get())) take({piece, n});
+  if (std::ferror(file.get())) throw_file_error("read", path, errno);
+}
+
+void write_new_file(const std::filesystem::path& path, std::string_view content) {
+  write_to(path, O_CREAT | O_EXCL, content);
 }
 
 void overwrite_beginning(const std::filesystem::path& path, std::string_view content) {
-  write_to(path, "r+b", content);
+  write_to(path, 0, content);
 }
 
 void make_directory(const std::filesystem::path& path) {
@@ -68,7 +81,10 @@ void rename_file(const std::filesystem::path& from, const std::filesystem::path&
 
 void replace_file(const std::filesystem::path& path, std::string_view content) {
   const auto temporary = temporary_name(path);
-  write_file(temporary, content);
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  const RemovedUnlessRenamed remover(temporary);
+  write_new_file(temporary, content);
   rename_file(temporary, path);
 }
 

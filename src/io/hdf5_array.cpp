@@ -50,27 +50,40 @@ Handle open_array(std::int64_t group, const std::string& name, const std::string
   return {H5Dopen2(group, name.c_str(), H5P_DEFAULT), doing};
 }
 
+/// How many elements of `size` bytes an array has. Throws FileError unless all of them lie in one
+/// piece of the file.
+std::size_t stored_count(const Handle& array, std::size_t size, const std::string& doing) {
+  const Handle space(H5Dget_space(array), doing), properties(H5Dget_create_plist(array), doing);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  check(count, doing);
+  const hsize_t bytes = H5Dget_storage_size(array);
+  const haddr_t begin = H5Dget_offset(array), end = file_size(array);
+  const bool here = H5Pget_layout(properties) == H5D_CONTIGUOUS &&
+                    H5Pget_external_count(properties) == 0 &&
+                    bytes / size == static_cast<hsize_t>(count) && bytes % size == 0 &&
+                    (bytes == 0 || (begin <= end && bytes <= end - begin));
+  if (!here) throw FileError(fmt::format("Cannot {}: it is not stored as a whole.", doing));
+  return static_cast<std::size_t>(count);
+}
+
 template <class T>
 std::vector<T> read_numbers(const Handle& array, const std::string& doing) {
-  const Handle space(H5Dget_space(array), doing);
-  std::vector<T> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  const Handle type(H5Dget_type(array), doing);
+  const bool real = std::is_same_v<T, double>;
+  if (H5Tequal(type, file_type(real ? Type::float64 : Type::int64)) <= 0)
+    throw FileError(
+        fmt::format("Cannot {}: it does not hold {}.", doing, real ? "numbers" : "integers"));
+  std::vector<T> values(stored_count(array, sizeof(T), doing));
   check(H5Dread(array, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), doing);
   return values;
 }
 
 Type type_of(std::int64_t array, const std::string& doing) {
   const Handle type(H5Dget_type(array), doing);
-  const std::size_t size = H5Tget_size(type);
-  switch (H5Tget_class(type)) {
-    case H5T_FLOAT:
-      return size == 4 ? Type::float32 : Type::float64;
-    case H5T_INTEGER:
-      return size == 4 ? Type::int32 : Type::int64;
-    case H5T_STRING:
-      return Type::text;
-    default:
-      throw FileError(fmt::format("Cannot {}: it is neither numbers nor text.", doing));
-  }
+  if (H5Tget_class(type) == H5T_STRING) return Type::text;
+  for (const Type known : {Type::float32, Type::float64, Type::int32, Type::int64})
+    if (H5Tequal(type, file_type(known)) > 0) return known;
+  throw FileError(fmt::format("Cannot {}: it is neither numbers nor text.", doing));
 }
 
 }  // namespace
@@ -102,10 +115,15 @@ void Group::write_text(const std::string& name, const std::string& text) {
 
 ArrayInfo Group::info(const std::string& name) const {
   const std::string what = doing("read", name);
+  require_own(name, what);
   const Handle array = open_array(handle_, name, what), space(H5Dget_space(array), what);
-  hsize_t size[H5S_MAX_RANK] = {1, 1};
-  const int rank = H5Sget_simple_extent_dims(space, size, nullptr);
+  const int rank = H5Sget_simple_extent_ndims(space);
   check(rank, what);
+  hsize_t size[] = {1, 1};
+  if (rank <= 2) check(H5Sget_simple_extent_dims(space, size, nullptr), what);
+  constexpr hsize_t most = 1'000'000'000'000;
+  if (rank > 2 || size[0] > most || size[1] > 100)
+    throw FileError(fmt::format("Cannot {}: it is no table of a row per particle.", what));
   ArrayInfo info;
   info.type = type_of(array, what);
   info.shape = {static_cast<std::int64_t>(size[0]), rank == 2 ? static_cast<int>(size[1]) : 1};
@@ -115,18 +133,25 @@ ArrayInfo Group::info(const std::string& name) const {
 
 std::vector<Real> Group::reals(const std::string& name) const {
   const std::string what = doing("read", name);
+  require_own(name, what);
   return read_numbers<Real>(open_array(handle_, name, what), what);
 }
 
 std::vector<std::int64_t> Group::integers(const std::string& name) const {
   const std::string what = doing("read", name);
+  require_own(name, what);
   return read_numbers<std::int64_t>(open_array(handle_, name, what), what);
 }
 
 std::string Group::text(const std::string& name) const {
   const std::string what = doing("read", name);
+  require_own(name, what);
   const Handle array = open_array(handle_, name, what), type(H5Dget_type(array), what);
-  std::string text(H5Tget_size(type), '\0');
+  const std::size_t size = H5Tget_size(type);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+      stored_count(array, size, what) != 1)
+    throw FileError(fmt::format("Cannot {}: it is not one text.", what));
+  std::string text(size, '\0');
   check(H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), what);
   text.resize(text.find_last_not_of('\0') + 1);
   return text;

@@ -37,12 +37,18 @@ void write_number(std::int64_t object, const std::string& name, Type type, T val
         fmt::format("write the attribute '{}'", name));
 }
 
+bool one_value(const Handle& attribute) {
+  const Handle space(H5Aget_space(attribute), "read an attribute");
+  return H5Sget_simple_extent_type(space) == H5S_SCALAR;
+}
+
 template <class T>
 T read_number(std::int64_t object, const std::string& name) {
-  const Handle attribute = open(object, name);
-  const Handle space(H5Aget_space(attribute), "read an attribute");
-  if (H5Sget_simple_extent_npoints(space) != 1)
-    throw FileError(fmt::format("Cannot read the attribute '{}': it is not one number.", name));
+  const Handle attribute = open(object, name), type(H5Aget_type(attribute), "read an attribute");
+  const hid_t written = file_type(std::is_same_v<T, double> ? Type::float64 : Type::int64);
+  if (!one_value(attribute) || H5Tequal(type, written) <= 0)
+    throw FileError(fmt::format("Cannot read the attribute '{}': it is not one {}.", name,
+                                std::is_same_v<T, double> ? "number" : "integer"));
   T value{};
   check(H5Aread(attribute, memory_type<T>(), &value), fmt::format("read the attribute '{}'", name));
   return value;
@@ -85,7 +91,7 @@ void write_text_attribute(std::int64_t object, const std::string& name, const st
 
 std::string read_text_attribute(std::int64_t object, const std::string& name) {
   const Handle attribute = open(object, name), type(H5Aget_type(attribute), "read an attribute");
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
+  if (!one_value(attribute) || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
     throw FileError(fmt::format("Cannot read the attribute '{}': it is not a text.", name));
   std::string text(H5Tget_size(type), '\0');
   check(H5Aread(attribute, type, text.data()), fmt::format("read the attribute '{}'", name));
@@ -116,17 +122,6 @@ bool Group::has_attribute(const std::string& name) const {
   return exists(handle_, name);
 }
 
-std::vector<std::string> Group::attribute_names() const {
-  std::vector<std::string> names;
-  const auto add = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
-  };
-  check(H5Aiterate2(handle_, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names),
-        doing("list the attributes of", ""));
-  return names;
-}
-
 Real Group::real(const std::string& name) const {
   return read_number<Real>(handle_, name);
 }
@@ -137,18 +132,6 @@ std::int64_t Group::integer(const std::string& name) const {
 
 std::string Group::attribute_text(const std::string& name) const {
   return read_text_attribute(handle_, name);
-}
-
-std::string Group::attribute_as_text(const std::string& name) const {
-  const Handle attribute = open(handle_, name), type(H5Aget_type(attribute), "read an attribute");
-  switch (H5Tget_class(type)) {
-    case H5T_STRING:
-      return attribute_text(name);
-    case H5T_INTEGER:
-      return fmt::format("{}", integer(name));
-    default:
-      return fmt::format("{}", real(name));
-  }
 }
 
 }  // namespace meniscus::hdf5

@@ -8,14 +8,22 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
+
 #include "hdf5_driver.hpp"
+#include "hdf5_types.hpp"
 
 namespace meniscus::hdf5 {
 namespace {
 
-/// HDF5 would print its whole stack of errors by itself; ours are sentences in exceptions.
+constexpr std::size_t most_members = 100'000;
+constexpr int deepest = 4;
+
+/// HDF5 would print its whole stack of errors by itself; ours are sentences in exceptions. A filter
+/// that a file names would be looked for and loaded as a library.
 void be_quiet() {
-  static const herr_t quiet = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  static const herr_t quiet =
+      std::min(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr), H5PLset_loading_state(0));
   (void)quiet;
 }
 
@@ -50,8 +58,11 @@ Handle access_properties(bool writing) {
 }
 
 Handle open_file(const std::filesystem::path& path, unsigned mode) {
-  if (std::error_code ignored; !std::filesystem::exists(path, ignored))
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
     throw FileError(fmt::format("Cannot open '{}': there is no such file.", path.string()));
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw FileError(fmt::format("Cannot open '{}': it is not a file.", path.string()));
   const Handle access = access_properties(mode == H5F_ACC_RDWR);
   return {H5Fopen(path.c_str(), mode, access), fmt::format("open '{}'", path.string())};
 }
@@ -85,6 +96,7 @@ bool Group::has(const std::string& name) const {
 
 bool Group::has_group(const std::string& name) const {
   if (!has(name)) return false;
+  require_own(name, doing("read", name));
   const Handle object(H5Oopen(handle_, name.c_str(), H5P_DEFAULT), doing("open", name));
   return H5Iget_type(object) == H5I_GROUP;
 }
@@ -92,11 +104,49 @@ bool Group::has_group(const std::string& name) const {
 std::vector<std::string> Group::names() const {
   std::vector<std::string> names;
   const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
+    auto& all = *static_cast<std::vector<std::string>*>(list);
+    all.emplace_back(name);
+    return all.size() > most_members;
   };
   check(H5Literate(handle_, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names), doing("list", ""));
+  require_few(names.size());
   return names;
+}
+
+void Group::for_each_array(
+    const std::function<void(const std::string& name, const ArrayInfo&)>& visit) const {
+  std::size_t members = 0;
+  const std::function<void(const Group&, const std::string&, int)> walk =
+      [&](const Group& group, const std::string& prefix, int depth) {
+        if (depth > deepest)
+          throw FileError(fmt::format("Cannot {}: groups are nested deeper than {} levels.",
+                                      doing("read", prefix), deepest));
+        for (const std::string& name : group.names()) {
+          require_few(++members);
+          if (group.has_group(name))
+            walk(group.group(name), prefix + name + '/', depth + 1);
+          else
+            visit(prefix + name, group.info(name));
+        }
+      };
+  walk(*this, "", 1);
+}
+
+void Group::require_few(std::size_t members) const {
+  if (members > most_members)
+    throw FileError(
+        fmt::format("Cannot {}: it has more than {} members.", doing("list", ""), most_members));
+}
+
+void Group::require_own(const std::string& name, const std::string& what) const {
+  for (std::size_t end = 0; end != name.npos;) {
+    end = name.find('/', end + 1);
+    const std::string step = name.substr(0, end);
+    H5L_info_t info;
+    check(H5Lget_info(handle_, step.c_str(), &info, H5P_DEFAULT), what);
+    if (info.type != H5L_TYPE_HARD)
+      throw FileError(fmt::format("Cannot {}: '{}' is a link by name.", what, step));
+  }
 }
 
 Group Group::create_group(const std::string& name) {
@@ -106,8 +156,13 @@ Group Group::create_group(const std::string& name) {
 }
 
 Group Group::group(const std::string& name) const {
+  require_own(name, doing("open", name));
   Handle handle(H5Gopen2(handle_, name.c_str(), H5P_DEFAULT), doing("open", name));
   return {std::move(handle), path_ + '/' + name};
+}
+
+std::uint64_t Group::file_size() const {
+  return hdf5::file_size(handle_);
 }
 
 void Group::remove(const std::string& name) {
@@ -121,7 +176,10 @@ File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
   const Handle access = access_properties(true);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), "prepare HDF5");
   check(H5Pset_userblock(creation, user_block), "prepare HDF5");
-  Handle handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access),
+  // A new file in any case: what is written is not to follow a link of that name.
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  Handle handle(H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation, access),
                 fmt::format("create '{}'", path.string()));
   return {std::move(handle), path};
 }
@@ -147,6 +205,14 @@ void File::flush() {
 void File::close() {
   flush();
   check(H5Fclose(handle_.release()), fmt::format("write '{}'", path_.string()));
+}
+
+std::uint64_t file_size(std::int64_t object) {
+  constexpr const char* doing = "find the size of a file";
+  const Handle file(H5Iget_file_id(object), doing);
+  hsize_t size = 0;
+  check(H5Fget_filesize(file, &size), doing);
+  return size;
 }
 
 std::string library_version() {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -63,9 +64,16 @@ class Group {
   bool has_group(const std::string& name) const;
   /// Names of the members in HDF5's order (alphabetical).
   std::vector<std::string> names() const;
+  /// Calls visit(name, info) for the arrays of this group and of those below it, in the order of
+  /// their names, which are joined by '/'. Throws FileError where groups lie deeper than four
+  /// levels or members are more than 100,000.
+  void for_each_array(
+      const std::function<void(const std::string& name, const ArrayInfo&)>& visit) const;
   Group create_group(const std::string& name);
   Group group(const std::string& name) const;
   void remove(const std::string& name);
+  /// Bytes of the file that the group lies in.
+  std::uint64_t file_size() const;
 
   // Arrays. A '/' in a name makes the groups in between.
   void write(const std::string& name, std::span<const Real> values, Shape, Storage,
@@ -73,6 +81,10 @@ class Group {
   void write(const std::string& name, std::span<const std::int64_t> values, Shape, Storage,
              const std::string& unit);
   void write_text(const std::string& name, const std::string& text);
+  //
+  // Reading trusts nothing: links into other files, arrays that are stored anywhere but in one
+  // piece of this file, and types other than those written are refused, so that nothing larger than
+  // the file is ever asked of the memory.
   ArrayInfo info(const std::string& name) const;
   std::vector<Real> reals(const std::string& name) const;
   std::vector<std::int64_t> integers(const std::string& name) const;
@@ -94,15 +106,16 @@ class Group {
   void set(const std::string& name, std::span<const std::int64_t> values);
   void set(const std::string& name, const std::string& text);
   bool has_attribute(const std::string& name) const;
-  std::vector<std::string> attribute_names() const;
   Real real(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
   std::string attribute_text(const std::string& name) const;
-  /// The attribute as a person reads it.
-  std::string attribute_as_text(const std::string& name) const;
 
  private:
   std::string doing(std::string_view verb, const std::string& name) const;
+  /// Throws FileError if one of the groups on the way to `name`, or that itself, is a link by name,
+  /// which may lead into another file or in a circle.
+  void require_own(const std::string& name, const std::string& what) const;
+  void require_few(std::size_t members) const;
 
   Handle handle_;
   std::string path_;  ///< for messages: file and place in it

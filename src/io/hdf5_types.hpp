@@ -16,6 +16,9 @@ hid_t memory_type() {
   return std::is_same_v<T, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
 }
 
+/// Bytes of the file that an open object lies in.
+std::uint64_t file_size(std::int64_t object);
+
 /// The type in the file: little-endian on every machine.
 hid_t file_type(Type type);
 

@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "hdf5_file.hpp"
+#include "meta.hpp"
 
 namespace meniscus {
 namespace {
@@ -33,28 +35,20 @@ const char* type_name(hdf5::Type type) {
 
 void describe_program(const hdf5::Group& root, Output out) {
   const hdf5::Group meta = root.group("meta");
-  const bool dirty = meta.integer("git_dirty") != 0;
-  fmt::format_to(out, "program   {} {} ({}{}), {}\n", meta.attribute_text("program"),
-                 meta.attribute_text("version"), meta.attribute_text("git_hash").substr(0, 12),
-                 dirty ? " with changes" : "", meta.attribute_text("compiler"));
+  fmt::format_to(out, "program   {}\n", read_program(root));
   fmt::format_to(out, "started   {}, {} threads\n", meta.attribute_text("started_utc"),
                  meta.integer("threads"));
   fmt::format_to(out, "command   {}\n", meta.attribute_text("command_line"));
   fmt::format_to(out, "input     SHA-256 {}\n", meta.attribute_text("input_sha256"));
 }
 
-void describe_arrays(const hdf5::Group& group, const std::string& prefix, Output out) {
-  for (const std::string& name : group.names()) {
-    if (group.has_group(name)) {
-      describe_arrays(group.group(name), prefix + name + '/', out);
-      continue;
-    }
-    const hdf5::ArrayInfo info = group.info(name);
+void describe_arrays(const hdf5::Group& group, Output out) {
+  group.for_each_array([&](const std::string& name, const hdf5::ArrayInfo& info) {
     const std::string columns =
         info.shape.columns > 1 ? fmt::format(" x {}", info.shape.columns) : "";
-    fmt::format_to(out, "  {:<24} {:<8} {:>10}{:<5} {}\n", prefix + name, type_name(info.type),
+    fmt::format_to(out, "  {:<24} {:<8} {:>10}{:<5} {}\n", name, type_name(info.type),
                    info.shape.rows, columns, info.unit);
-  }
+  });
 }
 
 void describe_bodies(const hdf5::Group& reference, Output out) {
@@ -99,7 +93,7 @@ void describe_checkpoint(const hdf5::Group& root, Output out) {
   fmt::format_to(out, "step      {}\ntime      {:.17g}\nhash      {}\n", root.integer("step"),
                  root.real("time"), root.group("state").attribute_text("hash"));
   fmt::format_to(out, "state\n");
-  describe_arrays(root.group("state"), "", out);
+  describe_arrays(root.group("state"), out);
 }
 
 }  // namespace
@@ -117,6 +111,10 @@ std::string describe_file(const std::filesystem::path& path) {
   else
     throw FileError(
         fmt::format("'{}' is neither a result file nor a checkpoint.", file_path.string()));
+  // Texts of a file are not to command the terminal.
+  std::replace_if(
+      text.begin(), text.end(),
+      [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; }, '?');
   return text;
 }
 

@@ -14,20 +14,35 @@ std::string hash_text(const Snapshot& state) {
   return fmt::format("{:016x}", state.hash());
 }
 
-void read_arrays(const hdf5::Group& group, const std::string& prefix, Snapshot& state) {
-  for (const std::string& name : group.names()) {
-    if (group.has_group(name)) {
-      read_arrays(group.group(name), prefix + name + '/', state);
-      continue;
-    }
-    const hdf5::ArrayInfo info = group.info(name);
-    if (info.type == hdf5::Type::text)
-      state.add(prefix + name, {group.text(name), info.unit});
-    else if (info.type == hdf5::Type::int64)
-      state.add(prefix + name, {group.integers(name), info.unit});
-    else
-      state.add(prefix + name, {group.reals(name), info.unit});
+Snapshot::Values read_values(const hdf5::Group& group, const std::string& name, hdf5::Type type) {
+  switch (type) {
+    case hdf5::Type::text:
+      return group.text(name);
+    case hdf5::Type::int64:
+      return group.integers(name);
+    default:
+      return group.reals(name);
   }
+}
+
+std::size_t bytes_of(const Snapshot::Values& values) {
+  if (const auto* text = std::get_if<std::string>(&values)) return text->size();
+  return 8 * std::visit([](const auto& v) { return v.size(); }, values);
+}
+
+/// A file can name the same bytes many times; together the arrays are not to be larger than it.
+Snapshot read_arrays(const hdf5::Group& group) {
+  Snapshot state;
+  std::size_t bytes = 0;
+  const std::size_t most = group.file_size();
+  group.for_each_array([&](const std::string& name, const hdf5::ArrayInfo& info) {
+    Snapshot::Values values = read_values(group, name, info.type);
+    bytes += bytes_of(values);
+    if (bytes > most)
+      throw FileError(fmt::format("The saved state is larger than its file: '{}'.", name));
+    state.add(name, {std::move(values), info.unit});
+  });
+  return state;
 }
 
 }  // namespace
@@ -39,6 +54,7 @@ void write_meta(hdf5::Group& root, const Provenance& provenance) {
   meta.set("git_hash", provenance.build.git_hash);
   meta.set("git_dirty", std::int64_t{provenance.build.git_dirty});
   meta.set("compiler", provenance.build.compiler);
+  meta.set("flags", provenance.build.flags);
   for (const auto& [library, version] : provenance.build.libraries) meta.set(library, version);
   meta.set("threads", std::int64_t{provenance.threads});
   meta.set("command_line", provenance.command_line);
@@ -53,6 +69,16 @@ std::string read_input(const hdf5::Group& root) {
   if (sha256(input) != meta.attribute_text("input_sha256"))
     throw FileError("The input text in the file does not agree with its SHA-256: it was damaged.");
   return input;
+}
+
+std::string read_program(const hdf5::Group& root) {
+  const hdf5::Group meta = root.group("meta");
+  const auto text = [&](const char* name) {
+    return meta.has_attribute(name) ? meta.attribute_text(name) : std::string("unknown");
+  };
+  const bool dirty = meta.has_attribute("git_dirty") && meta.integer("git_dirty") != 0;
+  return program_text(
+      {text("version"), text("git_hash"), dirty, text("compiler"), text("flags"), {}});
 }
 
 void write_state(hdf5::Group& parent, const Snapshot& state) {
@@ -72,10 +98,14 @@ void write_state(hdf5::Group& parent, const Snapshot& state) {
 
 Snapshot read_state(const hdf5::Group& parent) {
   const hdf5::Group group = parent.group("state");
-  Snapshot state;
-  read_arrays(group, "", state);
+  Snapshot state = read_arrays(group);
   if (hash_text(state) != group.attribute_text("hash"))
     throw FileError("The saved state does not agree with its hash: it was damaged.");
+  try {
+    state.require_finite();
+  } catch (const SolveError& error) {
+    throw FileError(error.what());
+  }
   return state;
 }
 

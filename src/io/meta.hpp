@@ -16,10 +16,14 @@ void write_meta(hdf5::Group& root, const Provenance& provenance);
 /// The input text of the group "meta". Throws FileError if its SHA-256 is not the stored one.
 std::string read_input(const hdf5::Group& root);
 
+/// The program that wrote the file, as program_text() says it.
+std::string read_program(const hdf5::Group& root);
+
 /// Adds the group "state" with its hash.
 void write_state(hdf5::Group& parent, const Snapshot& state);
 
-/// Reads the group "state". Throws FileError if its hash is not the stored one.
+/// Reads the group "state". Throws FileError if its hash is not the stored one or a number is not
+/// finite.
 Snapshot read_state(const hdf5::Group& parent);
 
 }  // namespace meniscus

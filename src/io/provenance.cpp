@@ -32,12 +32,18 @@ Build build() {
           version::git_hash,
           version::git_dirty,
           compiler(),
+          MENISCUS_BUILD_FLAGS,
           {{"Eigen",
             fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
            {"HDF5", hdf5::library_version()},
            {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
                                FMT_VERSION % 100)},
            {"OpenMP", fmt::format("{}", _OPENMP)}}};
+}
+
+std::string program_text(const Build& b) {
+  return fmt::format("meniscus {} ({}{}), {}, {}", b.version, b.git_hash.substr(0, 12),
+                     b.git_dirty ? " with changes" : "", b.compiler, b.flags);
 }
 
 Provenance provenance(std::string command_line, std::string input) {

@@ -29,13 +29,19 @@ void refuse_existing_run(const std::filesystem::path& directory) {
                       directory.string(), run_files[i]));
 }
 
+void remove_file(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error) throw_file_error("remove", file, error.value());
+}
+
+/// What a run that was killed had not brought to its place yet.
+void remove_temporaries(const std::filesystem::path& directory) {
+  for (const char* name : run_files) remove_file(temporary_name(directory / name));
+}
+
 void remove_run(const std::filesystem::path& directory) {
-  for (const char* name : run_files)
-    for (const auto& file : {directory / name, temporary_name(directory / name)}) {
-      std::error_code error;
-      std::filesystem::remove(file, error);
-      if (error) throw_file_error("remove", file, error.value());
-    }
+  for (const char* name : run_files) remove_file(directory / name);
 }
 
 }  // namespace
@@ -47,9 +53,9 @@ RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
   if (access(path_.c_str(), W_OK | X_OK) != 0) throw_file_error("write to", path_, errno);
   if (existing == ExistingRun::refuse) refuse_existing_run(path_);
   lock();
-  if (existing != ExistingRun::replace) return;
   try {
-    remove_run(path_);
+    remove_temporaries(path_);
+    if (existing == ExistingRun::replace) remove_run(path_);
   } catch (...) {
     close(lock_);
     throw;

@@ -36,6 +36,9 @@ spdlog::sink_ptr file_sink(const std::filesystem::path& file) {
 struct RunLog::Logger {
   explicit Logger(std::initializer_list<spdlog::sink_ptr> sinks) : log("meniscus", sinks) {
     log.flush_on(spdlog::level::info);
+    // A log that cannot be written is no reason to say so at each line: the run will fail by
+    // itself.
+    log.set_error_handler([](const std::string&) {});
   }
   spdlog::logger log;
 };

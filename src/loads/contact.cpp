@@ -54,13 +54,12 @@ struct Partner {
     Row<Partner> type = choice_row<Partner>("type", nullptr, partners<D>().names(),
                                             "kind of the rigid partner; its own keys follow");
     type.read = [](Partner& p, const Block& block) {
-      const PartnerEntry<D>* entry =
-          partners<D>().find(block.choice("type", partners<D>().names(), std::nullopt));
-      if (entry) p.shape = entry->read(block);
+      const auto kind = block.kind("type", partners<D>().names());
+      if (kind) p.shape = partners<D>().at(*kind).read(block);
     };
-    return {type,
-            optional_expressions_row("displacement", &Partner::displacement, D, dimension::length,
-                                     "prescribed motion, a formula of t for each component")};
+    return {type, optional_expressions_row("displacement", &Partner::displacement, D,
+                                           dimension::length, Variables::time,
+                                           "prescribed motion, a formula of t for each component")};
   }
 };
 

@@ -20,10 +20,8 @@ struct Keys {
   void read_inner(const Block& block) {
     const auto table = block.table("law", true);
     if (!table) return;
-    const SurfaceLawEntry* entry =
-        surface_laws().find(table->choice("type", surface_laws().names(), std::nullopt));
-    if (entry == nullptr) return;
-    law = entry->read(*table);
+    const auto type = table->kind("type", surface_laws().names());
+    if (type) law = surface_laws().at(*type).read(*table);
     table->done();
   }
   static std::vector<KeyTable> inner_tables() {

@@ -14,10 +14,8 @@ namespace meniscus {
 ReferenceDirector::ReferenceDirector(const Block& block, int dimension) : place_(block.place(key)) {
   if (!block.has(key)) return;
   formulas_ = block.expressions(key, static_cast<std::size_t>(dimension), dimension::none,
-                                std::vector<Expression>(static_cast<std::size_t>(dimension), 1.0));
-  for (const Expression& formula : formulas_)
-    if (formula.depends_on_time())
-      block.problem(key, "a reference cannot change with time; allowed are x, y, z");
+                                std::vector<Expression>(static_cast<std::size_t>(dimension), 1.0),
+                                Variables::place);
 }
 
 bool ReferenceDirector::uniform() const {
@@ -31,7 +29,7 @@ Eigen::Vector3d ReferenceDirector::at(const Vec<D>& X, const Geometry<D>& geomet
   Eigen::Vector3d place = Eigen::Vector3d::Zero(), h = place;
   place.head<D>() = X;
   if (!formulas_.empty()) {
-    for (int i = 0; i < D; ++i) h[i] = meniscus::at(formulas_, i)(place);
+    for (int i = 0; i < D; ++i) h[i] = meniscus::at(formulas_, i).unchecked(place);
   } else if (geometry.director) {
     h.head<D>() = geometry.director(X);
   } else {

@@ -51,9 +51,9 @@ template <int D>
 std::shared_ptr<const Material<D>> plan_material(const Block& body) {
   const auto block = body.table("material", true);
   if (!block) return nullptr;
-  const LawEntry* law = laws().find(block->choice("type", laws().names(), std::nullopt));
-  if (law == nullptr) return nullptr;
-  std::shared_ptr<const Material<D>> material = law->template material<D>(*block);
+  const auto type = block->kind("type", laws().names());
+  if (!type) return nullptr;
+  std::shared_ptr<const Material<D>> material = laws().at(*type).template material<D>(*block);
   block->done();
   return material;
 }

@@ -92,9 +92,10 @@ Rows<BodySettings> BodySettings::rows() {
       real_row("support_spacings", &S::support_spacings, dimension::none, {0, 20},
                "support of all particles / mean cell size; 0: adaptive by support_factor", 0.0),
       optional_expressions_row("initial_displacement", &S::initial_displacement, 0,
-                               dimension::length, "a formula of x, y, z for each component"),
-      optional_expressions_row("initial_velocity", &S::initial_velocity, 0, dimension::velocity,
+                               dimension::length, Variables::place,
                                "a formula of x, y, z for each component"),
+      optional_expressions_row("initial_velocity", &S::initial_velocity, 0, dimension::velocity,
+                               Variables::place, "a formula of x, y, z for each component"),
   };
 }
 

@@ -1,26 +1,62 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Kills a run with SIGKILL at 10 random times: everything it had written can be read, and from the
-newest checkpoint it ends as if nothing had happened. Usage: test_kill.py PROGRAM"""
+"""Kills runs with SIGKILL at random times: everything they had written can be read, and from the
+newest checkpoint they end as if nothing had happened. Usage: test_kill.py PROGRAM"""
 import random
 import signal
 import time
 
 import program
-from program import DROP, ProgramTest, state_of
+from program import DROP, RELAXING_SHEET, ProgramTest, state_of
+
+
+# A disk between two walls, of which one comes and goes.
+CONTACT = """
+dimension = 2
+[time]
+end = 40
+[output]
+history_every = 0.2
+frames_every = 2
+[[body]]
+name = "disk"
+shape = "disk"
+radius = 1
+core = 4
+rings = 2
+[body.material]
+type = "neo_hookean"
+density = 1
+mu = 5
+lambda = 5
+"""
+for name, normal, formula in (("left", 1, "0"), ("right", -1, "-0.3*sin(0.5*t)")):
+    CONTACT += f"""
+[[contact]]
+name = "{name}"
+bodies = ["disk"]
+epsilon = 0.05
+sigma0 = 0.4
+beta = 1
+[contact.partner]
+type = "half_space"
+point = [{-1.35 * normal}, 0]
+normal = [{normal}, 0]
+displacement = ["{formula}", 0]
+"""
 
 
 class Kill(ProgramTest):
-    def test_kill(self):
-        """Ten kills of one run, each continued from what the last one left."""
+    def kill_and_continue(self, text, kills, *longer):
+        """Kills of one run, each continued from what the last one left."""
         random.seed(2)
-        file = self.scene(DROP)
-        longer = ["--set", "time.end='0.6 ns'", "--set", "output.checkpoint_minutes=0.0003"]
+        file = self.scene(text)
+        longer = [*longer, "--set", "output.checkpoint_minutes=0.0003"]
         begin = time.monotonic()
         whole = state_of(self.call("run", file, "--output", "whole", *longer))
-        longest = (time.monotonic() - begin) / 15  # ten kills end before the run does
-        options, kills, rows = [], 0, 0
-        while kills < 10:
+        longest = (time.monotonic() - begin) / (1.5 * kills)  # the kills end before the run does
+        options = []
+        for _ in range(kills):
             process = self.start("run", file, "--output", "out", *longer, *options)
             while not (self.directory / "out/history.csv").exists():
                 self.assertIsNone(process.poll())
@@ -28,11 +64,9 @@ class Kill(ProgramTest):
             process.kill()
             process.communicate()
             self.assertEqual(process.returncode, -signal.SIGKILL, "ended before it was killed")
-            kills += 1
             frames, history = self.frames("out"), self.history("out")
             self.assertTrue(all(a["time"] < b["time"] for a, b in zip(frames, frames[1:])))
             self.assertTrue((history["time"][1:] > history["time"][:-1]).all())
-            rows = max(rows, len(history["time"]))
             has_checkpoint = any((self.directory / "out").glob("checkpoint-?.h5"))
             options = ["--restart", "out"] if has_checkpoint else ["--overwrite"]
         self.assertIn("--restart", options)
@@ -41,6 +75,17 @@ class Kill(ProgramTest):
         self.assertEqual((self.directory / "out/history.csv").read_text(),
                          (self.directory / "whole/history.csv").read_text())
         self.assertEqual(len(self.frames("out")), len(self.frames("whole")))
+        self.assertFalse(list((self.directory / "out").glob("*.new")))
+
+    def test_drop(self):
+        self.kill_and_continue(DROP, 10, "--set", "time.end='0.6 ns'")
+
+    def test_contact(self):
+        self.kill_and_continue(CONTACT, 6)
+
+    def test_relaxation(self):
+        self.kill_and_continue(RELAXING_SHEET, 6, "--set", "time.shape_tolerance=1e-8",
+                               "--set", "time.force_tolerance=1e-8")
 
 
 if __name__ == "__main__":

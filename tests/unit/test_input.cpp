@@ -96,7 +96,8 @@ TEST(Input, MessagesAboutNumbers) {
   EXPECT_EQ(report("rho = nan", read),
             "s.toml:1:7: rho: nan kg/m^3 is out of range; allowed is > 0");
   EXPECT_EQ(report("rho = \"2 GPa\"", read),
-            "s.toml:1:7: rho: '2 GPa' is a pressure (kg/(m s^2)), expected a density (kg/m^3)");
+            "s.toml:1:7: rho: '2 GPa' is a pressure (kg/(m s^2)), expected a density (kg/m^3); "
+            "allowed is a number in kg/m^3 or a text with a unit, > 0");
   const auto read_any = [](const Block& b) { b.real("nu", none, {}, 0.0); };
   EXPECT_EQ(report("nu = -inf", read_any),
             "s.toml:1:6: nu: -inf is out of range; allowed is a finite number");
@@ -139,9 +140,11 @@ TEST(Input, MessagesAboutArraysOfNumbers) {
   EXPECT_EQ(report("axes = [1]", read),
             "s.toml:1:8: axes: has 1 entry; allowed is an array of 2 of: a number in m or a text "
             "with a unit, > 0");
-  EXPECT_EQ(report("axes = [\n-1,\n'2 s']", read),
-            "s.toml:2:1: axes[0]: -1 m is out of range; allowed is > 0\n"
-            "s.toml:3:1: axes[1]: '2 s' is a time (s), expected a length (m)");
+  EXPECT_EQ(
+      report("axes = [\n-1,\n'2 s']", read),
+      "s.toml:2:1: axes[0]: -1 m is out of range; allowed is > 0\n"
+      "s.toml:3:1: axes[1]: '2 s' is a time (s), expected a length (m); allowed is a number in "
+      "m or a text with a unit, > 0");
 }
 
 TEST(Input, MessagesAboutFormulas) {
@@ -149,11 +152,13 @@ TEST(Input, MessagesAboutFormulas) {
   EXPECT_EQ(report("", read),
             "s.toml:1:1: p: missing; allowed is a number in Pa or a text with a unit or a formula "
             "of x, y, z, t, > 0");
-  EXPECT_EQ(report("p = '2 Pa*x'", read),
-            "s.toml:1:5: p: neither a quantity (unknown unit 'x'; allowed are m, s, g, N, Pa, J, "
-            "W, Hz, L (prefixes z a f p n u m c k M G T), min, h, angstrom, rad, deg) nor a "
-            "formula (formula '2 Pa*x': unknown name 'Pa' at character 3; allowed are x, y, z, t, "
-            "pi, e and functions such as sqrt)");
+  EXPECT_EQ(
+      report("p = '2 Pa*x'", read),
+      "s.toml:1:5: p: neither a quantity (unknown unit 'x'; allowed are m, s, g, N, Pa, J, "
+      "W, Hz, L (prefixes z a f p n u m c k M G T), min, h, angstrom, rad, deg) nor a "
+      "formula (formula '2 Pa*x': unknown name 'Pa' at character 3; allowed are x, y, z, t, "
+      "pi, e and functions such as sqrt); allowed is a number in Pa or a text with a unit or a "
+      "formula of x, y, z, t, > 0");
   EXPECT_EQ(report("p = '1 - 2'", read), "s.toml:1:5: p: -1 Pa is out of range; allowed is > 0");
   EXPECT_EQ(report("p = -1", read), "s.toml:1:5: p: -1 Pa is out of range; allowed is > 0");
   EXPECT_EQ(report("p = '-2 GPa'", read),
@@ -181,11 +186,14 @@ TEST(Input, MessagesAboutTables) {
   const auto named = [](const Block& b) {
     for (const auto& [name, t] : b.table("expect")->named_tables())
       t.real("value", none, {}, {}), t.done();
-    b.table("expect")->done();
   };
   EXPECT_EQ(report("[expect]\na = 1\n'b.c' = {}", named),
             "s.toml:2:5: expect.a: is an integer; allowed is a table\n"
             "s.toml:3:9: expect.\"b.c\".value: missing; allowed is a number");
+  EXPECT_EQ(report("[[expect.z]]\n[expect.y]\nvalue = 1\n[[expect.x.w]]", named),
+            "s.toml:1:1: expect.z: is an array; allowed is a table\n"
+            "s.toml:4:1: expect.x.value: missing; allowed is a number\n"
+            "s.toml:4:12: expect.x.w: unknown key; allowed is value");
 }
 
 TEST(Input, UnknownKeys) {
@@ -221,7 +229,7 @@ axes = [1, 2]
 s.toml:2:10: units.system: unknown unit system 'cgs': three units joined by '-' are needed; allowed are "SI" and a length-time-mass triple such as "nm-ps-ag"
 s.toml:4:8: body[0].name: is an integer; allowed is a text
 s.toml:6:1: body[0].liquid.densty: unknown key; allowed are density, bulk_modulus, viscosity, points, ripened, law, note, fields, axes, velocity; did you mean 'density'?
-s.toml:7:16: body[0].liquid.bulk_modulus: neither a quantity ('2 m' is a length (m), expected a pressure (kg/(m s^2))) nor a formula (formula '2 m': unknown name 'm' at character 3; allowed are x, y, z, t, pi, e and functions such as sqrt)
+s.toml:7:16: body[0].liquid.bulk_modulus: neither a quantity ('2 m' is a length (m), expected a pressure (kg/(m s^2))) nor a formula (formula '2 m': unknown name 'm' at character 3; allowed are x, y, z, t, pi, e and functions such as sqrt); allowed is a number in Pa or a text with a unit or a formula of x, y, z, > 0
 s.toml:8:10: body[0].liquid.points: 9 is out of range; allowed is >= 1 and <= 5
 s.toml:9:8: body[0].liquid.axes: has 2 entries; allowed is an array of 3 of: a number in m or a text with a unit, > 0
 s.toml:10:3: bdy: unknown key; allowed are units, dimension, body, output, expect; did you mean 'body'?
@@ -264,9 +272,71 @@ TEST(Input, AFormulaThatLeavesItsRange) {
     input.check();
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "s.toml:3:9: density: a material cannot change with time; allowed are x, y, z");
+    EXPECT_STREQ(error.what(), "s.toml:3:9: density: formula '1+t': it does not know the time t");
   }
+}
+
+TEST(Input, FormulasKnowTheirVariablesOnly) {
+  const auto of = [](Variables variables) {
+    return [variables](const Block& b) {
+      b.expression("p", none, 0.0, {}, variables);
+      b.expressions("q", 1, none, {{0.0}}, variables);
+    };
+  };
+  EXPECT_EQ(report("p = 'x + y*z'\nq = ['2*t']", of(Variables::place)),
+            "s.toml:2:6: q[0]: formula '2*t': it does not know the time t");
+  EXPECT_EQ(report("p = 'z*t'\nq = ['2*t']", of(Variables::time)),
+            "s.toml:1:5: p: formula 'z*t': it knows no place x, y, z");
+  EXPECT_EQ(report("p = 'z*t'", of(Variables::place_and_time)), "");
+  EXPECT_EQ(report("p = true", of(Variables::time)),
+            "s.toml:1:5: p: is a boolean; allowed is a number or a formula of t");
+}
+
+TEST(Input, AFormulaThatIsNotFiniteNamesItsPlace) {
+  const auto input = SceneInput::from_text("[a]\nv = [1, '1/(0.5 - t)']", "s.toml");
+  const auto v = input.root().table("a")->expressions("v", 2, none, {});
+  EXPECT_EQ(v[1]({0, 0, 0}, 1.5), -1);
+  try {
+    v[1]({1, 2, 3}, 0.5);
+    FAIL();
+  } catch (const SolveError& error) {
+    EXPECT_STREQ(error.what(),
+                 "s.toml:2:5: a.v[1]: formula '1/(0.5 - t)' is infinite at x = 1, y = 2, z = 3, t "
+                 "= 0.5; allowed are finite numbers");
+  }
+}
+
+TEST(Input, AnUnknownKindIsOneProblem) {
+  const auto read = [](const Block& b) {
+    const auto kind = b.kind("shape", {"ball", "box"});
+    if (kind == "ball") b.real("radius", dimension::length, range::positive, {});
+    b.done();
+    EXPECT_EQ(b.in_order(), kind.has_value());
+  };
+  EXPECT_EQ(report("shape = 'bal'\nradius = 3\nsize = 1", read),
+            "s.toml:1:9: shape: 'bal' is unknown; allowed are ball, box; did you mean 'ball'?");
+  EXPECT_EQ(report("size = 1", read), "s.toml:1:1: shape: missing; allowed is one of ball, box");
+  EXPECT_EQ(report("shape = 'ball'\nradius = 3", read), "");
+}
+
+TEST(Input, AKeyThatIsOnlyLookedAtIsUnknown) {
+  const auto read = [](const Block& b) {
+    EXPECT_TRUE(b.has("size"));
+    b.done();
+  };
+  EXPECT_EQ(report("size = 1", read).find("s.toml:1:1: size: unknown key"), 0u);
+}
+
+TEST(Input, WordsOfOtherProgramsLeadHome) {
+  const auto read = [](const Block& b) {
+    b.real("density", none, {}, 1);
+    b.done();
+  };
+  for (const auto& [word, home] :
+       {std::pair("gravity", "[[body_force]]"), std::pair("dt", "[time] step"),
+        std::pair("sphere", "'ball'"), std::pair("youngs_modulus", "mu = E/(2 (1 + nu))"),
+        std::pair("poissons_ratio", "lambda = 2 mu nu/(1 - 2 nu)")})
+    EXPECT_NE(report(std::string(word) + " = 1", read).find(home), std::string::npos) << word;
 }
 
 }  // namespace

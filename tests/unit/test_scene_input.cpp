@@ -2,8 +2,10 @@
 // Whole scenes: files, syntax errors, overrides, the complete input, the reference of keys.
 #include "meniscus/core/key_table.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -36,12 +38,60 @@ TEST(Input, SyntaxErrorsCarryTheirPlace) {
   EXPECT_EQ(syntax_report("a = \"\xff\""), "s.toml:1:5: Encountered invalid utf-8 sequence");
   std::string deep = "\n[a";
   for (int i = 0; i < 100000; ++i) deep += ".a";
-  EXPECT_EQ(syntax_report(deep + "]"), "s.toml:2:1: a key has more than 100 dots");
-  EXPECT_EQ(syntax_report("# " + std::string(300, '.')), "");
+  EXPECT_EQ(syntax_report(deep + "]"), "s.toml:2:1: a key has more than 10 dots");
   EXPECT_EQ(syntax_report("a = " + std::string(300, '[')),
             "s.toml:1:261: Error while parsing value: exceeded maximum nested value depth of 256 "
             "(TOML_MAX_NESTED_VALUES)");
   EXPECT_EQ(syntax_report(std::string_view("a = \0 1", 7)).find("s.toml:1:"), 0u);
+}
+
+TEST(Input, DotsCountInKeysOnly) {
+  const std::string dots(300, '.'), report = "s.toml:3:1: a key has more than 10 dots";
+  for (const std::string& text :
+       {"# " + dots, "a = '" + dots + "'", "a = \"" + dots + "\"", "a = '''\n" + dots + "'''''",
+        "a = \"\"\"\n\\\"" + dots + "\"\"\"\"",
+        "a = ['''it's # " + dots + "''', \"\\\"" + dots + "\"]", "'" + dots + "' = 1"})
+    EXPECT_EQ(syntax_report(text), "") << text;
+  // What a key hides behind quotes, brackets and equal signs in its parts.
+  for (const char* part : {".'='", ".\"=\"", ".'#'", ".\"\\\"=\"", ".''", ". '\"'"}) {
+    std::string key = "a";
+    for (int i = 0; i < 20000; ++i) key += part;
+    for (const std::string& text :
+         {"\n\n" + key + " = 1", "\n\n[" + key + "]", "\n\nb = {" + key + " = 1}"})
+      EXPECT_EQ(syntax_report(text), report) << part;
+  }
+}
+
+TEST(Input, MissingQuotesAreNamed) {
+  for (const char* quantity : {"10 ms", "72.8 mN/m", "1e3 kg/(m s^2)"})
+    EXPECT_NE(syntax_report(fmt::format("# a\n[time]\nend = {}  # long", quantity))
+                  .find(fmt::format("; a number with a unit is a text: write \"{}\"", quantity)),
+              std::string::npos)
+        << quantity;
+  EXPECT_EQ(syntax_report("a = 10 apples").find("write"), std::string::npos);
+}
+
+TEST(Input, ControlCharactersAreRefusedWhereTheyStand) {
+  EXPECT_EQ(syntax_report("b = 1\na = [\"x\\u0000y\"]"),
+            "s.toml:2:6: \"x\\u0000y\" has the control character \\u0000; allowed are line break "
+            "and tabulator");
+  EXPECT_EQ(syntax_report("\"x\\u001B\" = 1"),
+            "s.toml:1:1: \"x\\u001B\" has the control character \\u001B; allowed are line break "
+            "and tabulator");
+  EXPECT_EQ(syntax_report("a = \"x\\ty\\nz\""), "");
+}
+
+TEST(Input, MoreThanASceneCanHaveIsRefusedAtOnce) {
+  std::string keys, bodies;
+  for (int i = 0; i < 50000; ++i) {
+    keys += fmt::format("k{} = 1\n", i);
+    bodies += "[[body]]\n";
+  }
+  EXPECT_EQ(syntax_report(keys), "s.toml:1:1: has 50000 keys; allowed are at most 1000");
+  EXPECT_EQ(syntax_report(bodies), "s.toml:1:1: has 50000 entries; allowed are at most 10000");
+  const std::string some = report(bodies.substr(0, 9 * 300), [](const Block& b) { read_scene(b); });
+  EXPECT_EQ(std::count(some.begin(), some.end(), '\n'), 100);
+  EXPECT_NE(some.find("\ns.toml: and "), std::string::npos) << some;
 }
 
 TEST(Input, LineEndsByteOrderMarkAndUnicode) {
@@ -76,6 +126,8 @@ TEST(Input, FilesThatCannotBeRead) {
   EXPECT_EQ(message(file), file + ":1:1: the scene is empty");
   std::ofstream(file) << "a = 1\nb =\n";
   EXPECT_EQ(message(file).find(file + ":2:"), 0u);
+  std::ofstream(file) << std::string(20'000'000, ' ');
+  EXPECT_EQ(message(file), file + ":1:1: the file is larger than a scene can be, 10 MB");
   std::ofstream(file) << valid_scene;
   EXPECT_EQ(message(file), "no error");
   std::filesystem::remove_all(folder);
@@ -135,7 +187,7 @@ TEST(Overrides, ThatCannotBeApplied) {
             "bulk_modulus, viscosity, points, ripened, law, note, fields, axes, velocity");
   EXPECT_EQ(message({"body[1].liquid={}"}),
             "--set 'body[1].liquid={}': body[1].liquid.bulk_modulus: missing; allowed is a number "
-            "in Pa or a text with a unit or a formula of x, y, z, t, > 0\n"
+            "in Pa or a text with a unit or a formula of x, y, z, > 0\n"
             "--set 'body[1].liquid={}': body[1].liquid.axes: missing; allowed is an array of 3 of: "
             "a number in m or a text with a unit, > 0");
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands of the program.
 #pragma once
+#include "meniscus/core/types.hpp"
+#include "meniscus/core/units.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,7 +38,10 @@ int run(const RunRequest& request);
 
 /// Everything short of running: reads, builds, estimates step, memory and duration, and prints
 /// them.
-int check(const RunRequest& request);
+void check(const RunRequest& request);
+
+/// The time of --until in units of the scene; infinity if none was given. Throws InputError.
+Real time_to_stop(const RunRequest& request, const UnitSystem& units);
 
 struct StudyRequest {
   std::string name, output, command_line;

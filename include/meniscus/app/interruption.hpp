@@ -7,14 +7,17 @@
 
 namespace meniscus {
 
-/// SIGINT and SIGTERM are noted and acted on at the end of the step; a second one ends the program
-/// at once. One object at a time.
+/// SIGINT, SIGTERM, SIGHUP, SIGUSR1 and SIGXCPU are noted and acted on at the end of the step; a
+/// second one ends the program at once. One object at a time.
 class Interruption {
  public:
   /// `max_walltime` in seconds from now.
   explicit Interruption(std::optional<double> max_walltime);
   ~Interruption();
   Interruption(const Interruption&) = delete;
+
+  /// From now on signals are noted, but for those the program was started to ignore (nohup).
+  void catch_signals();
 
   /// Number of the signal to stop for; SIGALRM (14) when the time is up.
   std::optional<int> requested() const;

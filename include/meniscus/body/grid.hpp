@@ -107,9 +107,6 @@ CellPoint<D, D> cell_point(const std::array<Vec<D>, (1 << D)>& corners, const Bu
   return point;
 }
 
-/// Throws InputError if a grid of so many cells cannot be numbered (2e8; a few hundred GB).
-void require_countable(Real cells);
-
 /// Fills grid.facets, ordered by cell and side, from the cells of any conforming grid.
 /// Throws InputError naming the cells if more than two of them share a side.
 template <int D>

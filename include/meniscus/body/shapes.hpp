@@ -6,6 +6,7 @@
 #include "meniscus/core/key_table.hpp"
 #include "meniscus/core/registry.hpp"
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -151,7 +152,8 @@ struct ShapeEntry {
   static constexpr const char* kind = "shape";
   std::string_view name, meaning;
   std::vector<KeyText> (*keys)();
-  Geometry<D> (*make)(const Block&);  ///< throws InputError for numbers that make no shape
+  /// Nothing if something of the table is wrong. Throws InputError for numbers that make no shape.
+  std::optional<Geometry<D>> (*make)(const Block&);
 };
 
 /// The registry of the shapes of D dimensions.
@@ -164,9 +166,12 @@ const Registry<ShapeEntry<D>>& shapes() {
 /// no shape.
 template <int D, class S>
 bool register_shape() {
-  return register_entry(
-      ShapeEntry<D>{S::name, S::meaning, [] { return key_texts(S::rows()); },
-                    [](const Block& block) { return read<S>(block).geometry(); }});
+  return register_entry(ShapeEntry<D>{S::name, S::meaning, [] { return key_texts(S::rows()); },
+                                      [](const Block& block) -> std::optional<Geometry<D>> {
+                                        const S shape = read<S>(block);
+                                        if (!block.in_order()) return std::nullopt;
+                                        return shape.geometry();
+                                      }});
 }
 
 /// The body that a table of the scene describes: `shape` names a registered shape, its own keys

@@ -24,8 +24,13 @@ class Expression {
   /// Throws InputError (without a place) naming the offending part of the formula.
   explicit Expression(std::string formula);
 
-  /// The value at X (units of the scene) and t. It may be infinite or not a number.
+  /// The value at X (units of the scene) and t. Throws SolveError with place, formula, X and t if
+  /// that is infinite or not a number.
   Real operator()(const Eigen::Vector3d& X, Real t = 0) const;
+  /// The same for callers with a range of their own; it may be infinite or not a number.
+  Real unchecked(const Eigen::Vector3d& X, Real t = 0) const;
+  /// Where the formula stands, "file:line:column: key", to begin messages with.
+  void set_place(std::string place);
 
   /// The formula as given; the shortest decimal that reads back as the same number for a constant.
   const std::string& text() const { return text_; }
@@ -33,12 +38,14 @@ class Expression {
   bool constant() const { return parsed_ == nullptr; }
   /// The variable t occurs.
   bool depends_on_time() const { return depends_on_time_; }
+  /// x, y or z occurs.
+  bool depends_on_place() const { return depends_on_place_; }
 
  private:
   struct Parsed;
   std::string text_;
   Real value_ = 0;  ///< of a constant
-  bool depends_on_time_ = false;
+  bool depends_on_time_ = false, depends_on_place_ = false;
   std::shared_ptr<Parsed> parsed_;
 };
 

@@ -32,6 +32,9 @@ namespace range {
 inline constexpr Range any{}, positive{0, 1e300, true}, non_negative{0, 1e300};
 }
 
+/// What a formula of a key may depend on: the reference position x, y, z, the time t, or both.
+enum class Variables { place, time, place_and_time };
+
 /// One table of a scene. Reading never throws: a problem is noted in the scene's list and a
 /// harmless value (the fallback if there is one) is returned; SceneInput::check() throws the whole
 /// list. Every key asked for is ticked off, and done() notes those nobody asked for.
@@ -40,6 +43,7 @@ inline constexpr Range any{}, positive{0, 1e300, true}, non_negative{0, 1e300};
 /// required; ask has() first for one that may be absent without a default.
 class Block {
  public:
+  /// Whether the key is there. It counts as unknown to done() until it is read.
   bool has(std::string_view key) const;
   /// Name of the table, e.g. "body[0].material"; empty at the root.
   const std::string& path() const;
@@ -55,17 +59,22 @@ class Block {
   /// One of `allowed`, which must not be empty.
   std::string choice(std::string_view key, const std::vector<std::string>& allowed,
                      std::optional<std::string> fallback) const;
+  /// The choice on which the other keys of this table depend. Nothing after a problem; then neither
+  /// missing nor unknown keys of the table are noted, as nobody can know them.
+  std::optional<std::string> kind(std::string_view key,
+                                  const std::vector<std::string>& allowed) const;
   std::vector<std::string> texts(std::string_view key,
                                  std::optional<std::vector<std::string>> fallback) const;
   /// Exactly `count` numbers (count 0: any number of them).
   std::vector<Real> reals(std::string_view key, std::size_t count, Dimension, Range,
                           std::optional<std::vector<Real>> fallback) const;
-  /// A number, a quantity with unit, or a formula in x, y, z, t (both in units of the scene). The
-  /// range is checked here for constants only.
+  /// A number, a quantity with unit, or a formula of the variables (both in units of the scene).
+  /// The range is checked here for constants only.
   Expression expression(std::string_view key, Dimension, std::optional<Expression> fallback,
-                        Range allowed = {}) const;
+                        Range allowed = {}, Variables = Variables::place_and_time) const;
   std::vector<Expression> expressions(std::string_view key, std::size_t count, Dimension,
-                                      std::optional<std::vector<Expression>> fallback) const;
+                                      std::optional<std::vector<Expression>> fallback,
+                                      Variables = Variables::place_and_time) const;
 
   /// The table `key`; nothing (and a note, if `required`) when it is absent.
   std::optional<Block> table(std::string_view key, bool required = false) const;
@@ -73,12 +82,15 @@ class Block {
   Block table_or_defaults(std::string_view key) const;
   /// The array of tables `[[key]]`; empty when absent.
   std::vector<Block> tables(std::string_view key) const;
-  /// Sub-tables of this table in file order with their names (for [expect]); ticks them off.
+  /// All entries of this table in file order with their names, which are free (for [expect]). What
+  /// is not a table is noted.
   std::vector<std::pair<std::string, Block>> named_tables() const;
+  /// Nothing of this table was found wrong so far.
+  bool in_order() const;
 
   /// Notes a problem at `key` (at the table itself when `key` is empty): "what is wrong; allowed".
   void problem(std::string_view key, const std::string& what) const;
-  /// Notes every key that nobody asked for. Call when everything of this table was read.
+  /// Notes every key that nobody has read. Call when everything of this table was read.
   void done() const;
 
  private:

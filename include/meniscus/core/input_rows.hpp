@@ -264,7 +264,7 @@ template <class M>
 M Varying<M>::at(const Eigen::Vector3d& X) const {
   M m = base;
   for (const Formula& formula : formulas) {
-    const Real value = formula.value(X);
+    const Real value = formula.value.unchecked(X);
     if (!formula.allowed.contains(value))
       rows::throw_out_of_range(formula.place, value, formula.allowed, X);
     m.*formula.member = value;
@@ -283,10 +283,9 @@ Varying<M> read_varying(const Block& block) {
     const Range allowed = rows::in_scene_units(row.allowed, row.dimension, block);
     std::optional<Expression> fallback;
     if (row.number) fallback = rows::in_scene_units(*row.number, row.dimension, block);
-    const Expression value = block.expression(row.key, row.dimension, fallback, allowed);
-    varying.base.*row.member = value({0, 0, 0});
-    if (value.depends_on_time())
-      block.problem(row.key, "a material cannot change with time; allowed are x, y, z");
+    const Expression value =
+        block.expression(row.key, row.dimension, fallback, allowed, Variables::place);
+    varying.base.*row.member = value.unchecked({0, 0, 0});
     if (!value.constant())
       varying.formulas.push_back({block.place(row.key), row.member, value, allowed});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Suggestions for misspelt names.
+// Suggestions for names that are misspelt or those of other programs.
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,7 +14,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// letters.
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known);
 
-/// The end of a message about an unknown name: "allowed are a, b, c; did you mean 'b'?".
+/// The end of a message about an unknown name: "allowed are a, b, c; did you mean 'b'?", or
+/// where to find what another program calls so ("gravity", "dt", "sphere", "youngs_modulus").
 std::string allowed_names(std::string_view given, const std::vector<std::string>& known);
 
 }  // namespace meniscus

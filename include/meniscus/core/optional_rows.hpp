@@ -17,15 +17,17 @@ Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension d
   return row;
 }
 
-/// `count` formulas (0: any number of them); none if left out, which means zero.
+/// `count` formulas of these variables (0: any number of them); none if left out, which means zero.
 template <class M>
 Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*member,
-                                std::size_t count, Dimension dimension, std::string meaning) {
+                                std::size_t count, Dimension dimension, Variables variables,
+                                std::string meaning) {
   Row<M> row = expressions_row<M>(std::move(key), nullptr, count, dimension, std::move(meaning),
                                   std::vector<Expression>{});
   row.fallback = "0";
-  row.read = [key = row.key, member, count, dimension](M& m, const Block& block) {
-    if (block.has(key)) m.*member = block.expressions(key, count, dimension, std::nullopt);
+  row.read = [key = row.key, member, count, dimension, variables](M& m, const Block& block) {
+    if (block.has(key))
+      m.*member = block.expressions(key, count, dimension, std::nullopt, variables);
   };
   return row;
 }

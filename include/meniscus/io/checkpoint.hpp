@@ -44,14 +44,16 @@ class CheckpointWriter {
 struct ReadCheckpoint {
   Checkpoint checkpoint;
   std::filesystem::path file;
-  std::vector<std::string> warnings;  ///< damaged files that were passed over
+  /// Damaged files that were passed over; another program or build that wrote the state.
+  std::vector<std::string> warnings;
 };
 
 /// Reads the state to continue from. `path` is one of:
 /// - a checkpoint file;
 /// - the directory of a run: its newest valid checkpoint;
 /// - with `frame`, a result file or the directory of a run: that frame, if it holds the state.
-/// Every state is checked against its stored hash. Throws FileError if nothing valid is found.
+/// Every state is checked against its stored hash, and its numbers are finite. Throws FileError if
+/// nothing valid is found.
 ReadCheckpoint read_checkpoint(const std::filesystem::path& path,
                                std::optional<std::int64_t> frame = {});
 

@@ -3,6 +3,7 @@
 // reason of the operating system.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -15,8 +16,24 @@ namespace meniscus {
 /// The name under which a file is written before it takes the place of `path`.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
+/// Removes a file under its temporary name at the end of its life; after rename_file() there is
+/// none.
+class RemovedUnlessRenamed {
+ public:
+  explicit RemovedUnlessRenamed(std::filesystem::path temporary);
+  ~RemovedUnlessRenamed();
+  RemovedUnlessRenamed(const RemovedUnlessRenamed&) = delete;
+
+ private:
+  std::filesystem::path temporary_;
+};
+
 std::string read_file(const std::filesystem::path& path);
-void write_file(const std::filesystem::path& path, std::string_view content);
+/// Calls take(piece) for the bytes of a file, in order.
+void read_pieces(const std::filesystem::path& path,
+                 const std::function<void(std::string_view)>& take);
+/// Writes a file that is not there yet; never through a link.
+void write_new_file(const std::filesystem::path& path, std::string_view content);
 void overwrite_beginning(const std::filesystem::path& path, std::string_view content);
 /// Moves `from` over `to` in one step.
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);

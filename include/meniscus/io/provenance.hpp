@@ -14,9 +14,13 @@ struct Build {
   std::string git_hash;  ///< of the sources, "unknown" outside of a repository
   bool git_dirty;        ///< the sources differed from that commit
   std::string compiler;
+  std::string flags;  ///< those on which the bits of a result depend
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
 };
 Build build();
+
+/// "meniscus 0.1.0 (0123456789ab with changes), g++ 12.2.0, Release -march=x86-64-v3".
+std::string program_text(const Build&);
 
 /// What is stored under /meta of every file.
 struct Provenance {

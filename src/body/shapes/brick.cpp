@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "cell_count.hpp"
+
 namespace meniscus {
 
 namespace {
@@ -106,7 +108,7 @@ Geometry<D> Brick<D>::geometry() const {
     planes.push_back(SurfacePatch<D>::plane(-0.5 * e, -e));
     planes.push_back(SurfacePatch<D>::plane(0.5 * e, e));
   }
-  require_countable(total);
+  require_affordable<D>(total);
   return make_geometry<D>(unit_brick<D>(count), std::move(planes), false,
                           affine_map<D>(edges.asDiagonal(), middle));
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cell_count.hpp"
+
 namespace meniscus {
 
 namespace {
@@ -146,7 +148,7 @@ template <int D>
 Grid<D> cubed_ball(int core, int shells) {
   if (core < 1 || shells < 1)
     throw InputError("A ball, disk or cylinder needs at least one core cell and one shell.");
-  require_countable(std::pow(core, D) + 2.0 * D * shells * std::pow(core, D - 1));
+  require_affordable<D>(std::pow(core, D) + 2.0 * D * shells * std::pow(core, D - 1));
   const NodeNumbers<D> number(core);
   Grid<D> grid;
   add_nodes(grid, number, core, shells);

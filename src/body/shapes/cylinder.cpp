@@ -2,6 +2,7 @@
 // Cylinder: the disk repeated along z.
 #include "meniscus/body/shapes.hpp"
 
+#include "cell_count.hpp"
 #include "cubed.hpp"
 
 namespace meniscus {
@@ -13,7 +14,7 @@ constexpr Range count{1, 1000};
 /// Radius 1, -1/2 <= z <= 1/2.
 Grid<3> unit_cylinder(int core, int rings, int layers) {
   const Grid<2> disk = cubed_ball<2>(core, rings);
-  require_countable(Real(layers) * disk.cell_count());
+  require_affordable<3>(Real(layers) * disk.cell_count());
   Grid<3> grid;
   for (int layer = 0; layer <= layers; ++layer)
     for (const auto& X : disk.X) grid.X.emplace_back(X[0], X[1], Real(layer) / layers - 0.5);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cell_count.hpp"
 #include "cubed.hpp"
 
 namespace meniscus {
@@ -91,7 +92,7 @@ Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real
         thickness, meridian.smallest_radius));
   // A quarter of a great circle crosses as many cells as the edge of a face of the cube has.
   const Real cells = std::ceil(meridian.length / spacing - 1e-9);
-  require_countable(6 * cells * cells * layers);
+  require_affordable<3>(6 * cells * cells * layers);
   Geometry<3> geometry =
       make_geometry<3>(cubed_shell(static_cast<int>(cells), layers - 1, unit_wall_inside),
                        {SurfacePatch<3>::sphere(Vec<3>::Zero(), 1),

@@ -29,7 +29,7 @@ class FormulaMap {
     Eigen::Vector3d at_X = Eigen::Vector3d::Zero();
     at_X.head<D>() = X;
     Vec<D> x;
-    for (int i = 0; i < D; ++i) x[i] = at(formulas_, i)(at_X);
+    for (int i = 0; i < D; ++i) x[i] = at(formulas_, i).unchecked(at_X);
     return x;
   }
 
@@ -108,16 +108,14 @@ Maps map_from_file(const std::string& path) {
   const Block& file = input.root();
   std::vector<Expression> formulas;
   for (const char* key : {"x", "y", "z"})
-    if (key[0] != 'z' || file.has("z")) {
-      formulas.push_back(file.expression(key, dimension::none, {}));
-      if (formulas.back().depends_on_time())
-        file.problem(key, "a map cannot change with time; allowed are x, y, z");
-    }
-  file.done();
-  input.check();
-  const std::string name = path.substr(path.find_last_of('/') + 1);
-  if (formulas.size() == 3) return {{}, make_map<3>(std::move(formulas), name)};
-  return {make_map<2>(std::move(formulas), name), {}};
+    if (key[0] != 'z' || file.has("z"))
+      formulas.push_back(file.expression(key, dimension::none, {}, {}, Variables::place));
+}
+file.done();
+input.check();
+const std::string name = path.substr(path.find_last_of('/') + 1);
+if (formulas.size() == 3) return {{}, make_map<3>(std::move(formulas), name)};
+return {make_map<2>(std::move(formulas), name), {}};
 }
 
 }  // namespace meniscus::study

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Printing that never fails: a stream that is full or gone loses the text, not the run.
+#pragma once
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace meniscus {
+
+/// Makes closed standard streams lead to the null device, so that no file of a run gets their
+/// numbers and with them the messages; ignores signals about pipes and file sizes, whose errors are
+/// reported where they occur. To be called first.
+void secure_streams();
+
+/// Writes to stdout.
+void print_text(std::string_view text);
+/// Writes a line to stderr with control characters as '?'.
+void print_complaint(std::string_view text);
+template <class... T>
+void say(fmt::format_string<T...> format, T&&... arguments) {
+  print_text(fmt::vformat(format, fmt::make_format_args(arguments...)));
+}
+
+/// Throws FileError if something printed to stdout was lost: for commands that do nothing else.
+void require_printed();
+
+}  // namespace meniscus

@@ -1,0 +1,208 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Streams that are closed or full, disks that are full, signals at any time, and others at work in
+the same directory: the exit code says what happened, and nothing written before is lost.
+Usage: test_faults.py PROGRAM"""
+import itertools
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import time
+
+
+import program
+from program import BLOCK, ENVIRONMENT, SHEET, ProgramTest
+
+
+class FaultTest(ProgramTest):
+    def code(self, *arguments, closed=(), full=(), limit=None, ignored=()):
+        """The exit code with some of the streams 0, 1, 2 closed or full and files of limited size;
+        what it printed on stderr is kept."""
+        def prepare():
+            for number in ignored:
+                signal.signal(number, signal.SIG_IGN)
+            for stream in full:
+                os.dup2(os.open("/dev/full", os.O_RDWR), stream)
+            for stream in closed:
+                os.close(stream)
+            if limit is not None:
+                resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        done = subprocess.run([program.PROGRAM, *map(str, arguments)], cwd=self.directory, text=True,
+                              capture_output=True, env=ENVIRONMENT, timeout=100, preexec_fn=prepare)
+        self.stderr = done.stderr
+        return done.returncode
+
+    def names(self, output="out"):
+        return {path.name for path in (self.directory / output).iterdir()}
+
+
+class Streams(FaultTest):
+    def test_exit_codes_survive(self):
+        """Every combination of closed and full streams, for each kind of end."""
+        good = self.scene(SHEET.replace("end = 0.1", "end = 0.02"))
+        bad = self.scene(SHEET.replace("mu = 1e5", "mu = 0"), "bad")
+        broken = self.scene(BLOCK.replace("[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]'), "broken")
+        missed = self.scene(SHEET.replace("end = 0.1", "end = 0.02") + "[expect.step]\nvalue = 0\nwithin = 0\n",
+                            "missed")
+        for states in itertools.product(("open", "closed", "full"), repeat=2):
+            streams = {"closed": [], "full": [], "open": []}
+            for stream, state in zip((1, 2), states):
+                streams[state].append(stream)
+            for closed in ([], [0]):
+                how = {"closed": closed + streams["closed"], "full": streams["full"]}
+                with self.subTest(**how):
+                    self.assertEqual(self.code("walk", **how), 2)
+                    self.assertEqual(self.code("run", bad, **how), 3)
+                    self.assertEqual(self.code("run", "nowhere.toml", **how), 5)
+                    self.assertEqual(self.code("run", good, "--overwrite", **how), 0)
+            with self.subTest(**how):
+                self.assertEqual(self.code("run", broken, "--overwrite", **how), 4)
+                self.assertEqual(self.code("run", missed, "--overwrite", **how), 7)
+
+    def test_messages_stay_out_of_files(self):
+        """With closed streams the files of a run get their numbers."""
+        text = SHEET.replace("[[body]]", '[[body]]\nintegration = "nodal"\ngauss_points = 1')
+        file = self.scene(text)
+        self.code("run", file, "--output", "open")
+        for closed in ([2], [1, 2], [0, 1, 2]):
+            self.code("run", file, "--output", "out", "--overwrite", closed=closed)
+            self.assertEqual((self.directory / "out/history.csv").read_bytes(),
+                             (self.directory / "open/history.csv").read_bytes())
+            self.frames("out")
+
+    def test_lost_reports(self):
+        """Where printing is all there is to do, a full stream is an error of files."""
+        file = self.scene(SHEET)
+        self.call("run", file, "--output", "out")
+        for command in (["keys"], ["version"], ["info", "out"], ["check", file], ["study", "--list"]):
+            self.assertEqual(self.code(*command, full=[1]), 5, command)
+            self.assertIn("No space left", self.stderr)
+            self.assertEqual(self.code(*command, closed=[1]), 0, command)
+
+    def test_reader_that_goes(self):
+        """A run does not end with the program that reads its messages."""
+        file = self.scene(SHEET)
+        read, write = os.pipe()
+        os.close(read)
+        process = subprocess.run([program.PROGRAM, "run", file], cwd=self.directory, stdout=write,
+                                 stderr=write, env=ENVIRONMENT)
+        os.close(write)
+        self.assertEqual(process.returncode, 0)
+
+
+class Disk(FaultTest):
+    FIELDS = "frames_every = 0.01\n"
+
+    def test_file_size(self):
+        """Ten limits on the size of files: exit code 5 with the reason, also in the log where it
+        fits; what is there can be read, and a later run goes on from it."""
+        file = self.scene(BLOCK)
+        whole = program.state_of(self.call("run", file, "--output", "whole"))
+        largest = (self.directory / "whole/run.h5").stat().st_size
+        continued = 0
+        for limit in (0, 100, 1000, 5000, 20000, *(largest * k // 6 for k in range(1, 6))):
+            with self.subTest(limit=limit):
+                shutil.rmtree(self.directory / "out", ignore_errors=True)
+                self.assertEqual(self.code("run", file, "--output", "out", limit=limit), 5)
+                self.assertIn("File too large", self.stderr)
+                self.assertEqual(len(self.stderr.strip().splitlines()), 1, self.stderr)
+                self.assertFalse([name for name in self.names() if name.endswith(".new")])
+                if limit > 10000:
+                    self.assertIn("File too large", (self.directory / "out/run.log").read_text())
+                if limit > largest // 4:
+                    frames = len(self.frames("out"))
+                    self.assertGreater(frames, 0)
+                    done = self.call("run", file, "--restart", "out", "--frame", frames - 1, "--output", "out")
+                    self.assertEqual(program.state_of(done), whole)
+                    continued += 1
+        self.assertGreater(continued, 2)
+
+    def test_directory_removed(self):
+        process = self.start("run", self.scene(BLOCK.replace("end = 0.4", "end = 40")), "--output", "out")
+        while not (self.directory / "out/history.csv").exists():
+            self.assertIsNone(process.poll())
+        shutil.rmtree(self.directory / "out", ignore_errors=True)
+        shutil.rmtree(self.directory / "out", ignore_errors=True)
+        _, stderr = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 5, stderr)
+        self.assertIn("No such file", stderr)
+
+    def test_links_are_not_followed(self):
+        """A link under the temporary name of a file leads nowhere."""
+        file = self.scene(BLOCK)
+        out = self.directory / "out"
+        self.call("run", file, "--output", "out", "--until", "0.1")
+        precious = self.directory / "precious"
+        precious.write_text("precious")
+        for name in ("checkpoint-a.h5.new", "checkpoint-b.h5.new", "history.csv.new", "run.xdmf.new"):
+            (out / name).symlink_to(precious)
+        self.call("run", file, "--restart", "out")
+        self.assertEqual(precious.read_text(), "precious")
+        self.assertFalse([name for name in self.names() if name.endswith(".new")])
+
+    def test_two_writers(self):
+        file = self.scene(BLOCK.replace("end = 0.4", "end = 40"))
+        process = self.start("run", file, "--output", "out")
+        while not (self.directory / "out/history.csv").exists():
+            self.assertIsNone(process.poll())
+        for options in ([], ["--overwrite"], ["--restart", "out", "--frame", "0"]):
+            self.refused(["run", file, "--output", "out", *options], 5, "out")
+        process.terminate()
+        process.communicate()
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM)
+        self.frames("out")
+
+
+class Signals(FaultTest):
+    # Takes seconds to set up.
+    LARGE = BLOCK.replace("cells = [4, 4, 4]", "cells = [24, 24, 24]")
+
+    def test_checkpoint(self):
+        """Every signal that asks to stop leaves a checkpoint; the run goes on to the same end."""
+        file = self.scene(BLOCK)
+        whole = program.state_of(self.call("run", file, "--output", "whole"))
+        for number in (signal.SIGHUP, signal.SIGUSR1, signal.SIGXCPU, signal.SIGTERM, signal.SIGINT):
+            with self.subTest(signal=number):
+                output = f"out{number}"
+                process = self.start("run", file, "--output", output)
+                while process.poll() is None and not (self.directory / output / "run.xdmf").exists():
+                    time.sleep(0.001)
+                process.send_signal(number)
+                _, stderr = process.communicate()
+                if process.returncode != 0:  # it may have been at its end
+                    self.assertEqual(process.returncode, 128 + number, stderr)
+                done = self.call("run", file, "--restart", output)
+                self.assertEqual(program.state_of(done), whole)
+
+    def test_set_up(self):
+        """While nothing was written yet, a signal ends the program at once."""
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1, signal.SIGXCPU):
+            process = self.start("run", self.scene(self.LARGE), "--output", "out")
+            time.sleep(0.3)
+            self.assertIsNone(process.poll())
+            process.send_signal(number)
+            process.communicate(timeout=20)
+            self.assertEqual(process.returncode, -number)
+            self.assertFalse((self.directory / "out").exists())
+
+    def test_ignored(self):
+        """nohup stays in force."""
+        file = self.scene(BLOCK.replace("end = 0.4", "end = 40"))
+        process = subprocess.Popen([program.PROGRAM, "run", file, "--output", "out"], cwd=self.directory,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT,
+                                   preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        self.addCleanup(process.kill)
+        while not (self.directory / "out/run.xdmf").exists():
+            self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGHUP)
+        time.sleep(0.3)
+        self.assertIsNone(process.poll())
+        process.terminate()
+        process.communicate()
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM)
+
+
+if __name__ == "__main__":
+    program.main()
