@@ -86,11 +86,11 @@ void require_smooth(const FormulaMap<D>& map, const std::string& name) {
       size = std::max(size, at(narrow.G, i).norm());
     }
     if (difference > 1e-5 * size || !std::isfinite(difference))
-      throw InputError(fmt::format(
-          "{}: the map is not smooth enough near X = ({:.3g}): its second derivatives found with "
-          "two step widths differ by {:.2g}. Use formulas without kinks, jumps and poles that vary "
-          "over lengths of order one.",
-          name, fmt::join(X.data(), X.data() + D, ", "), difference));
+      throw InputError(
+          fmt::format("{}: the map is not smooth enough near X = ({:.3g}): its second derivatives "
+                      "found with two step widths differ by {:.2g}; use formulas without kinks, "
+                      "jumps and poles that vary over lengths of order one",
+                      name, fmt::join(X.data(), X.data() + D, ", "), difference));
   }
 }
 
