@@ -21,7 +21,7 @@ class WeakSurfaceTension final : public TensionForm<D> {
     windows_ = rule_.windows(body.size());
   }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     const Lanes* u = this->displacements(motion);
     windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, Lanes* f) {
       for (Index g = begin; g < end; ++g) {
@@ -42,6 +42,7 @@ class WeakSurfaceTension final : public TensionForm<D> {
                       f);
       }
     });
+    return {};
   }
 
   std::size_t bytes() const override {

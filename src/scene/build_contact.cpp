@@ -72,8 +72,7 @@ void report(const Plan<D>& plan, const ContactSettings& s, const ContactLaw& law
 template <int D>
 void require_gap(const std::string& place, ForceTerm& term, const Scene<D>& scene) {
   NodalVectors force(scene.initial.u.size(), Lanes::zero());
-  term.add_force(scene.initial.motion(), force);
-  if (const auto failure = term.failure())
+  if (const auto failure = term.add_force(scene.initial.motion(), force).failure)
     throw InputError(fmt::format("{}: {}; move the bodies apart", place, failure->cause));
 }
 

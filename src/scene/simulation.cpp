@@ -138,8 +138,15 @@ Snapshot Simulation<D>::snapshot() const {
   s.add_reals("velocity", packed<D>(state_.v), scene_.units.symbol(dimension::velocity));
   s.add_reals("force", packed<D>(state_.force), scene_.symbol_of_sum(dimension::force));
   const Real numbers[] = {
-      state_.time,           state_.dissipated, state_.external_work,    state_.dissipation_power,
-      state_.external_power, last_step_,        state_.demand.stiffness, state_.demand.longest};
+      state_.time,
+      state_.books.dissipated,
+      state_.books.external_work,
+      state_.books.heat,
+      state_.books.external_power,
+      last_step_,
+      state_.demand.stiffness,
+      state_.demand.longest,
+      state_.books.load_power};
   s.add_reals("numbers", numbers);
   const std::int64_t step[] = {state_.step};
   s.add_integers("step", step);
@@ -161,15 +168,16 @@ void Simulation<D>::restore(const Snapshot& s) {
   unpack<D>(s, "displacement", state_.u);
   unpack<D>(s, "velocity", state_.v);
   unpack<D>(s, "force", state_.force);
-  Real numbers[8];
+  Real numbers[9];
   s.copy_to("numbers", numbers);
   state_.time = numbers[0];
-  state_.dissipated = numbers[1];
-  state_.external_work = numbers[2];
-  state_.dissipation_power = numbers[3];
-  state_.external_power = numbers[4];
+  state_.books.dissipated = numbers[1];
+  state_.books.external_work = numbers[2];
+  state_.books.heat = numbers[3];
+  state_.books.external_power = numbers[4];
   last_step_ = numbers[5];
   state_.demand = {numbers[6], numbers[7]};
+  state_.books.load_power = numbers[8];
   state_.step = s.integer("step");
   controller_.restore(s);
   if (relaxation_) relaxation_->restore(s, state_);

@@ -55,8 +55,8 @@ Ledger take_ledger(const System<D>& system, const State& state) {
   for (const auto& term : system.terms)
     if (const auto energy = term->stored_energy(state.motion()))
       ledger.stored[std::string(term->energy_kind())] += *energy;
-  ledger.dissipated = state.dissipated;
-  ledger.external_work = state.external_work;
+  ledger.dissipated = state.books.dissipated;
+  ledger.external_work = state.books.external_work;
   const auto both = momenta(system, state);
   ledger.momentum = both.template head<3>();
   ledger.angular_momentum = both.template tail<3>();

@@ -67,15 +67,13 @@ void Relaxation<D>::damp(State& state, Real dt) {
   last_u_ = state.u;
   last_force_ = state.force;
   const Real factor = std::exp(-2 * damping_ratio * omega * dt);
-  state.dissipated += (1 - factor * factor) * kinetic_energy(system_, state);
+  state.books.dissipated += (1 - factor * factor) * kinetic_energy(system_, state);
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(state.v, A) *= factor;
   });
   // The powers of loads go with the velocity, those of viscous forces with its square.
-  state.external_power = 0;
-  for (const auto& term : system_.terms)
-    state.external_power += term->external_power(state.motion());
-  state.dissipation_power *= factor * factor;
+  state.books.load_power = system_.load_power(state.motion());
+  state.books.heat *= factor * factor;
   judge(state, dt);
 }
 

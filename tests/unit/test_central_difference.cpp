@@ -36,7 +36,7 @@ void expect_free_fall() {
     EXPECT_LT((vector_at<D>(one.state.v, A) - v).norm(), 1e-11);
   }
   // The trapezoid is exact for a power linear in time.
-  EXPECT_NEAR(one.state.external_work, mass * a.dot(u), 1e-11 * mass);
+  EXPECT_NEAR(one.state.books.external_work, mass * a.dot(u), 1e-11 * mass);
   EXPECT_NEAR(take_ledger(one.system, one.state).kinetic, 0.5 * mass * v.squaredNorm(),
               1e-10 * mass);
 }

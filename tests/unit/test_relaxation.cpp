@@ -46,10 +46,11 @@ class DeadLoad final : public ForceTerm {
  public:
   explicit DeadLoad(NodalVectors load) : load_(std::move(load)) {}
   std::string name() const override { return "dead load"; }
-  void add_force(const Motion&, std::span<Lanes> force) override {
+  Report add_force(const Motion&, Forces force) override {
     for (std::size_t A = 0; A < load_.size(); ++A) force[A] += load_[A];
+    return {};
   }
-  Real external_power(const Motion& motion) const override {
+  Real load_power(const Motion& motion) override {
     Real power = 0;
     for (std::size_t A = 0; A < load_.size(); ++A) power += sum(load_[A] * motion.v[A]);
     return power;

@@ -5,12 +5,14 @@
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/units.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace meniscus {
@@ -21,6 +23,9 @@ struct Motion {
   std::span<const Lanes> u, v;
 };
 
+/// Forces on the coefficients of the particles of all bodies.
+using Forces = std::span<Lanes>;
+
 /// Why a term could not compute a force that makes sense.
 struct Failure {
   Index particle;        ///< global number of the particle nearest to the failure
@@ -28,10 +33,36 @@ struct Failure {
   bool of_step = false;  ///< a shorter step may avoid it
 };
 
-/// What the next step has to respect before the stable step is estimated again.
+/// What the next step has to respect before the stable step is estimated again. Only terms whose
+/// stiffness grows by multiples within few steps have a demand.
 struct StepDemand {
   Real stiffness = 0;  ///< squared frequencies that the term adds at most within the step, 1/time^2
   Real longest = std::numeric_limits<Real>::max();  ///< longest step
+
+  StepDemand& operator+=(const StepDemand& other) {
+    stiffness += other.stiffness;
+    longest = std::min(longest, other.longest);
+    return *this;
+  }
+};
+
+/// What a force call says besides the forces, about the motion it was called with.
+struct Report {
+  Real heat = 0;  ///< power turned into heat
+  /// Power that the outside world puts in through what changes with time at fixed places:
+  /// ramps, partners that are moved. What a load does on the velocity is load_power().
+  Real external_power = 0;
+  StepDemand demand = {};
+  std::optional<Failure> failure = {};
+
+  /// Sums; the first failure stays.
+  Report& operator+=(Report other) {
+    heat += other.heat;
+    external_power += other.external_power;
+    demand += other.demand;
+    if (!failure) failure = std::move(other.failure);
+    return *this;
+  }
 };
 
 /// A result per particle that a term can compute for output.
@@ -60,8 +91,10 @@ class ForceTerm {
   virtual std::string name() const = 0;
 
   /// force[A] += ... over all particles. Same bits for any thread count. Called for any motion,
-  /// also trial ones; what dissipation() and failure() say is about the last call.
-  virtual void add_force(const Motion& motion, std::span<Lanes> force) = 0;
+  /// also trial ones: the history of the term stays as it is.
+  virtual Report add_force(const Motion& motion, Forces force) = 0;
+  /// The step to `motion` stands: a term with history makes this its past.
+  virtual void commit(const Motion&) {}
 
   /// Whether the force depends on the velocity.
   virtual bool viscous() const { return false; }
@@ -71,10 +104,9 @@ class ForceTerm {
   virtual std::optional<Real> stored_energy(const Motion&) const { return std::nullopt; }
   virtual std::string_view energy_kind() const { return ""; }
 
-  /// Power turned into heat at the last add_force().
-  virtual Real dissipation() const { return 0; }
-  /// Power that the outside world puts in.
-  virtual Real external_power(const Motion&) const { return 0; }
+  /// Power f.v of a load from outside on the velocity of the motion. Apart from the report: forces
+  /// are computed with the velocity of the half step, the books kept with that of the whole step.
+  virtual Real load_power(const Motion&) { return 0; }
 
   /// From when on the force depends on time through the motion only: the end of the last ramp;
   /// infinite for a load that never ceases to change.
@@ -83,10 +115,6 @@ class ForceTerm {
   /// residual by: integral of |P| / spacing for an internal force. Asked now and then only.
   virtual Real uncancelled_force(const Motion&) const { return 0; }
 
-  virtual std::optional<Failure> failure() const { return std::nullopt; }
-  /// About the last add_force(). Only terms whose stiffness grows by multiples within few steps
-  /// have a demand.
-  virtual StepDemand step_demand() const { return {}; }
   /// Doubtful but possible states, looked for at output times; one sentence.
   virtual std::optional<std::string> warning(const Motion&) const { return std::nullopt; }
 

@@ -15,16 +15,27 @@ struct StepRejected : SolveError {
   using SolveError::SolveError;
 };
 
+/// Heat and work so far, and the powers of now that go on into the next step.
+struct Books {
+  Real dissipated = 0;     ///< heat so far
+  Real external_work = 0;  ///< work of the outside world so far
+  Real heat = 0;           ///< power turned into heat
+  Real external_power = 0, load_power = 0;  ///< of Report and ForceTerm
+
+  /// The powers at the beginning of a run.
+  void begin(const Report& report, Real load_power);
+  /// A step of dt ended with these powers.
+  void add(const Report& report, Real load_power, Real dt);
+};
+
 /// What changes from step to step. A run continues bit for bit from a copy of it.
 struct State {
   Real time = 0;
   std::int64_t step = 0;
-  NodalVectors u, v;       ///< displacement and velocity coefficients at `time`
-  NodalVectors force;      ///< at u and the velocity of the last half step
-  Real dissipated = 0;     ///< heat so far
-  Real external_work = 0;  ///< work of the outside world so far
-  Real dissipation_power = 0, external_power = 0;  ///< at `time`
-  StepDemand demand;                               ///< of all terms on the next step
+  NodalVectors u, v;   ///< displacement and velocity coefficients at `time`
+  NodalVectors force;  ///< at u and the velocity of the last half step
+  Books books;
+  StepDemand demand;  ///< of all terms on the next step
 
   Motion motion() const { return {time, u, v}; }
 };
@@ -42,10 +53,14 @@ struct System {
   /// Forces of all terms. Throws SolveError naming body, particle, place and cause where a term
   /// cannot compute one (J <= 0) or a force is not a number, StepRejected if a shorter step may
   /// help; `force` is then not to be used.
-  void compute_forces(const Motion& motion, std::span<Lanes> force);
+  Report compute_forces(const Motion& motion, Forces force);
 
   /// Same, without the checks: for trial motions of the time-step estimate.
-  void add_up(const Motion& motion, std::span<Lanes> force);
+  Report add_up(const Motion& motion, Forces force);
+
+  /// Of all terms.
+  Real load_power(const Motion& motion);
+  void commit(const Motion& motion);
 
   /// The body that holds a particle.
   const Body<D>& body_of(Index particle) const;
