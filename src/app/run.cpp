@@ -112,7 +112,7 @@ void report_residuals(const Simulation<D>& simulation, RunLog& log) {
 }
 
 template <int D>
-std::string summarise(const Simulation<D>& simulation, std::int64_t first_step,
+std::string summarise(Simulation<D>& simulation, std::int64_t first_step,
                       double set_up_seconds, const Interruption& interruption) {
   const double seconds = interruption.elapsed_seconds() - set_up_seconds;
   const std::int64_t steps = simulation.state().step - first_step;

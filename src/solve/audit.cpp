@@ -71,6 +71,17 @@ void Audit::begin(const Ledger& ledger) {
   initial_angular_momentum = ledger.angular_momentum;
 }
 
+void Audit::archive(const Archive& a, int space_dimension) {
+  const auto sum = [&](Dimension d) { return of_sum(d, space_dimension); };
+  a("initial_balance", initial_balance, sum(dimension::energy));
+  a("initial_stored", initial_stored, sum(dimension::energy));
+  a("initial_momentum", initial_momentum, sum(dimension::momentum));
+  a("initial_angular_momentum", initial_angular_momentum, sum(dimension::angular_momentum));
+  a("energy_scale", energy_scale, sum(dimension::energy));
+  a("momentum_scale", momentum_scale, sum(dimension::momentum));
+  a("angular_momentum_scale", angular_momentum_scale, sum(dimension::angular_momentum));
+}
+
 template <int D>
 void Audit::follow(const System<D>& system, const State& state, const Ledger& ledger) {
   Real exchanged = ledger.kinetic + ledger.dissipated + std::abs(ledger.external_work);

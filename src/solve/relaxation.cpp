@@ -32,13 +32,6 @@ Real kinetic_energy(const System<D>& system, const State& state) {
   });
 }
 
-void add(Snapshot& snapshot, const char* name, const NodalVectors& field) {
-  snapshot.add_reals(name, {reinterpret_cast<const Real*>(field.data()), 4 * field.size()});
-}
-void copy(const Snapshot& snapshot, const char* name, NodalVectors& field) {
-  snapshot.copy_to(name, {reinterpret_cast<Real*>(field.data()), 4 * field.size()});
-}
-
 }  // namespace
 
 template <int D>
@@ -152,26 +145,14 @@ Real Relaxation<D>::force_residual(const State& state) const {
 }
 
 template <int D>
-void Relaxation<D>::save(Snapshot& snapshot) const {
-  add(snapshot, "relaxation/displacement", window_u_);
-  add(snapshot, "relaxation/force", window_force_);
-  const Real numbers[] = {window_begin_, window_length_, shape_change_};
-  snapshot.add_reals("relaxation/numbers", numbers);
-  snapshot.add_integers("relaxation/settled_windows", {&settled_windows_, 1});
-}
-
-template <int D>
-void Relaxation<D>::restore(const Snapshot& snapshot, const State& state) {
-  begin(state);
-  if (!snapshot.has("relaxation/numbers")) return;
-  copy(snapshot, "relaxation/displacement", window_u_);
-  copy(snapshot, "relaxation/force", window_force_);
-  Real numbers[3];
-  snapshot.copy_to("relaxation/numbers", numbers);
-  window_begin_ = numbers[0];
-  window_length_ = numbers[1];
-  shape_change_ = numbers[2];
-  settled_windows_ = snapshot.integer("relaxation/settled_windows");
+void Relaxation<D>::archive(const Archive& a, const State& state) {
+  if (a.is_reading()) begin(state);
+  a("displacement", window_u_, D, dimension::length);
+  a("force", window_force_, D, of_sum(dimension::force, D));
+  a("window_begin", window_begin_, dimension::time);
+  a("window_length", window_length_, dimension::time);
+  a("shape_change", shape_change_);
+  a("settled_windows", settled_windows_);
 }
 
 template class Relaxation<2>;

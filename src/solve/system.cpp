@@ -11,8 +11,10 @@
 namespace meniscus {
 namespace {
 
+/// A failure at a particle.
 template <int D>
-std::string place_of(const System<D>& system, const Motion& motion, Index particle) {
+StepFailure failure_at(const System<D>& system, const Motion& motion, Index particle,
+                       std::string cause) {
   const Body<D>& body = system.body_of(particle);
   const Index A = particle - body.first;
   const Vec<D>& X = at(body.particles.X(), A);
@@ -22,28 +24,15 @@ std::string place_of(const System<D>& system, const Motion& motion, Index partic
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
     current += fmt::format("{}{:.6g}", i ? ", " : "", X[i] + u[i]);
   }
-  return fmt::format("body '{}', particle {} at reference position ({}), now ({})", body.name,
-                     particle, reference, current);
+  StepFailure failure;
+  failure.cause = std::move(cause);
+  failure.body = body.name;
+  failure.particle = particle;
+  failure.place = fmt::format("({}), now ({})", reference, current);
+  return failure;
 }
 
 }  // namespace
-
-void Books::begin(const Report& report, Real power_of_loads) {
-  heat = report.heat;
-  external_power = report.external_power;
-  load_power = power_of_loads;
-}
-
-/// The heat is that of the half-step velocities: over a step the viscous force does the work
-/// dt/2 (f_n + f_n+1).v_n+1/2, of which f_n+1.v_n+1/2 is the power computed last and f_n.v_n+1/2
-/// lies half-way between the power before and that.
-void Books::add(const Report& report, Real power_of_loads, Real dt) {
-  dissipated += dt / 4 * heat;
-  external_work += dt / 2 * (external_power + load_power);
-  begin(report, power_of_loads);
-  dissipated += 3 * dt / 4 * heat;
-  external_work += dt / 2 * (external_power + load_power);
-}
 
 template <int D>
 bool System<D>::viscous() const {
@@ -72,7 +61,7 @@ Report System<D>::add_up(const Motion& motion, Forces force) {
   Report all;
   for (auto& term : terms) {
     Report report = term->add_force(motion, force);
-    if (report.failure) report.failure->cause += " (" + term->name() + ")";
+    if (report.failure) report.failure->term = term->name();
     all += std::move(report);
   }
   return all;
@@ -93,18 +82,19 @@ void System<D>::commit(const Motion& motion) {
 template <int D>
 Report System<D>::compute_forces(const Motion& motion, Forces force) {
   Report report = add_up(motion, force);
-  if (const auto& failure = report.failure) {
-    const std::string message =
-        fmt::format("{}: {}", place_of(*this, motion, failure->particle), failure->cause);
-    if (failure->of_step) throw StepRejected(message);
-    throw SolveError(message);
+  if (report.failure) {
+    StepFailure failure =
+        failure_at(*this, motion, report.failure->particle, report.failure->cause);
+    failure.term = report.failure->term;
+    failure.of_step = report.failure->of_step;
+    throw StepError(failure);
   }
   const Lanes total =
       parallel_sum(size(), Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
   if (std::isfinite(sum(total))) return report;
   for (Index A = 0; A < size(); ++A)
     if (!std::isfinite(sum(at(force, A) * at(force, A))))
-      throw SolveError(place_of(*this, motion, A) + ": the force is not a finite number");
+      throw StepError(failure_at(*this, motion, A, "the force is not a finite number"));
   return report;  // the squares overflowed
 }
 

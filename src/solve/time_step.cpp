@@ -29,6 +29,12 @@ NodalVectors rough_mode(Index n) {
 
 }  // namespace
 
+void StableStep::archive(const Archive& a) {
+  a("dt", dt, dimension::time);
+  a("stiffness", stiffness, dimension::rate);
+  a("viscosity", viscosity, dimension::rate);
+}
+
 template <int D>
 StableStepEstimator<D>::StableStepEstimator(System<D>& system)
     : system_(system), spacing_(1e300), mode_(rough_mode<D>(system.size())) {

@@ -2,8 +2,7 @@
 // The one interface of all physical effects. A scene's system is a list of terms; an effect that
 // the scene does not name is not in the list and costs nothing.
 #pragma once
-#include "meniscus/core/aligned.hpp"
-#include "meniscus/core/units.hpp"
+#include "meniscus/core/archive.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -31,6 +30,7 @@ struct Failure {
   Index particle;        ///< global number of the particle nearest to the failure
   std::string cause;     ///< e.g. "J = -0.3 at a stress point; F = [...]"
   bool of_step = false;  ///< a shorter step may avoid it
+  std::string term = {};  ///< name of the term; the system fills it in
 };
 
 /// What the next step has to respect before the stable step is estimated again. Only terms whose
@@ -95,6 +95,8 @@ class ForceTerm {
   virtual Report add_force(const Motion& motion, Forces force) = 0;
   /// The step to `motion` stands: a term with history makes this its past.
   virtual void commit(const Motion&) {}
+  /// Keeps the history; without one, nothing.
+  virtual void archive(const Archive&) {}
 
   /// Whether the force depends on the velocity.
   virtual bool viscous() const { return false; }

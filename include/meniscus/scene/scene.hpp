@@ -38,11 +38,8 @@ struct Scene {
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
 
-  /// How a sum over bodies (mass, force, energy) is written; in the plane it is per unit depth.
-  std::string symbol_of_sum(Dimension d) const {
-    if (D == 2) --d.length;
-    return units.symbol(d);
-  }
+  /// How a sum over bodies is written.
+  std::string symbol_of_sum(Dimension d) const { return units.symbol(of_sum(d, D)); }
 };
 
 /// 2 or 3. Throws InputError if the scene does not say.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene in motion: state, step control and audit, and their snapshot.
 #pragma once
-#include "meniscus/core/snapshot.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/solve/audit.hpp"
 #include "meniscus/solve/relaxation.hpp"
@@ -23,7 +22,7 @@ class Simulation {
   /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
   void begin();
   /// One step towards the end of the scene; one that is rejected is taken back and halved, a few
-  /// times. Throws SolveError naming step, time and dt; the state is then back at the places before
+  /// times. Throws StepError; the state is then back at the places before
   /// the step, but not complete.
   void advance();
 
@@ -42,13 +41,15 @@ class Simulation {
   Ledger audit_now();
 
   /// Everything that decides how the run goes on, bit for bit.
-  Snapshot snapshot() const;
+  Snapshot snapshot();
   /// Throws FileError if the snapshot is of another scene.
   void restore(const Snapshot& snapshot);
 
  private:
+  void archive(const Archive& a);
   void step(Real dt);
   void refuse_impossible_surfaces() const;
+  [[noreturn]] void give_up(StepFailure failure);
 
   Scene<D>& scene_;
   State state_;

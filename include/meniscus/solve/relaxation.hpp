@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dynamic relaxation: explicit dynamics with the damping that its motion asks for.
 #pragma once
-#include "meniscus/core/snapshot.hpp"
 #include "meniscus/solve/system.hpp"
 
 namespace meniscus {
@@ -45,9 +44,8 @@ class Relaxation {
   /// When the last ramp of the system ends.
   Real steady_after() const;
 
-  void save(Snapshot& snapshot) const;
-  /// Begins at `state` if the snapshot is not of a relaxation.
-  void restore(const Snapshot& snapshot, const State& state);
+  /// `state`: that of the archive.
+  void archive(const Archive& a, const State& state);
 
  private:
   void open_window(const State& state, Real length);

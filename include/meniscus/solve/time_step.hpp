@@ -14,6 +14,8 @@ struct StableStep {
   Real stiffness = 0;   ///< omega = sqrt(k) of the critical mode, 1/time
   Real viscosity = 0;   ///< c of the critical mode, 1/time
   int evaluations = 0;  ///< force evaluations spent
+
+  void archive(const Archive& a);
 };
 
 /// Finds the critical mode by power iteration on differences of the force, starting with the mode
@@ -26,9 +28,8 @@ class StableStepEstimator {
   /// Throws SolveError if no finite limit can be found.
   StableStep estimate(const State& state);
 
-  /// The mode found last: part of a checkpoint, since later estimates start from it.
-  const NodalVectors& mode() const { return mode_; }
-  void set_mode(NodalVectors mode) { mode_ = std::move(mode); }
+  /// Keeps the mode found last, from which later estimates start.
+  void archive(const Archive& a) { a("mode", mode_, D); }
 
  private:
   /// result = - (f(u + du mode, v + dv mode) - f(u, v)).
