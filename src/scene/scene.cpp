@@ -222,6 +222,7 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
   state.u.assign(static_cast<std::size_t>(scene.system.size()), Lanes::zero());
   state.v = state.u;
   state.force = state.u;
+  state.fields = scene.system.fields;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const Body<D>& body = scene.system.bodies[b];
     const BodySettings& settings = plan.bodies[b].settings;

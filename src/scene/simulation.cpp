@@ -110,7 +110,7 @@ void Simulation<D>::refuse_impossible_surfaces() const {
 template <int D>
 void Simulation<D>::give_up(StepFailure failure) {
   // The step left its broken forces; those of the places it was taken back to can be shown.
-  scene_.system.add_up(state_.motion(), state_.force);
+  scene_.system.add_up(state_.motion(), state_.forces());
   failure.step = state_.step + 1;
   failure.time = state_.time + last_step_;
   failure.dt = last_step_;

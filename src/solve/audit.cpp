@@ -52,6 +52,11 @@ Ledger take_ledger(const System<D>& system, const State& state) {
   ledger.kinetic = parallel_sum(system.size(), 0.0, [&](Index A) {
     return 0.5 * at(system.mass, A) * sum(at(state.v, A) * at(state.v, A));
   });
+  for (const Unknown& field : state.fields)
+    if (field.spec.evolution == Evolution::inertial)
+      ledger.kinetic += parallel_sum(system.size(), 0.0, [&](Index A) {
+        return 0.5 * at(field.capacity, A) * sum(at(field.rate, A) * at(field.rate, A));
+      });
   for (const auto& term : system.terms)
     if (const auto energy = term->stored_energy(state.motion()))
       ledger.stored[std::string(term->energy_kind())] += *energy;

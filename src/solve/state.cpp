@@ -37,6 +37,14 @@ void State::archive(const Archive& a, int space_dimension) {
   a("displacement", u, space_dimension, dimension::length);
   a("velocity", v, space_dimension, dimension::velocity);
   a("force", force, space_dimension, of_sum(dimension::force, space_dimension));
+  for (Unknown& field : fields) {
+    const Archive part = a.in("fields").in(field.spec.name);
+    Dimension rate = field.spec.dimension;
+    --rate.time;
+    part("value", field.x, field.spec.components, field.spec.dimension);
+    part("rate", field.rate, field.spec.components, rate);
+    part("force", field.f, field.spec.components);
+  }
   books.archive(a.in("books"), space_dimension);
   a("demand/stiffness", demand.stiffness, {0, -2, 0});
   a("demand/longest", demand.longest, dimension::time);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace meniscus {
 namespace {
@@ -35,6 +36,21 @@ StepFailure failure_at(const System<D>& system, const Motion& motion, Index part
 }  // namespace
 
 template <int D>
+std::size_t System<D>::add_field(const FieldSpec& spec, std::span<const Real> capacity) {
+  std::size_t k = 0;
+  while (k < fields.size() && fields[k].spec.name != spec.name) ++k;
+  if (k == fields.size()) {
+    const NodalVectors zero(mass.size(), Lanes::zero());
+    fields.push_back({spec, std::vector<Real>(mass.size(), 0.0), zero, zero, zero});
+  }
+  Unknown& field = fields[k];
+  if (!(field.spec == spec) || capacity.size() != field.capacity.size())
+    throw std::logic_error("the field '" + spec.name + "' is described in two ways");
+  for (std::size_t A = 0; A < capacity.size(); ++A) field.capacity[A] += capacity[A];
+  return k;
+}
+
+template <int D>
 bool System<D>::viscous() const {
   for (const auto& term : terms)
     if (term->viscous()) return true;
@@ -58,6 +74,7 @@ const Body<D>& System<D>::body_of(Index particle) const {
 template <int D>
 Report System<D>::add_up(const Motion& motion, Forces force) {
   std::fill(force.begin(), force.end(), Lanes::zero());
+  for (Unknown& field : force.fields) std::fill(field.f.begin(), field.f.end(), Lanes::zero());
   Report all;
   for (auto& term : terms) {
     Report report = term->add_force(motion, force);
@@ -91,6 +108,12 @@ Report System<D>::compute_forces(const Motion& motion, Forces force) {
   }
   const Lanes total =
       parallel_sum(size(), Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
+  for (const Unknown& field : force.fields)
+    for (Index A = 0; A < size(); ++A)
+      if (!std::isfinite(sum(at(field.f, A) * at(field.f, A))))
+        throw StepError(failure_at(*this, motion, A,
+                                   "the force on '" + field.spec.name +
+                                       "' is not a finite number"));
   if (std::isfinite(sum(total))) return report;
   for (Index A = 0; A < size(); ++A)
     if (!std::isfinite(sum(at(force, A) * at(force, A))))

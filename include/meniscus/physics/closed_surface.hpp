@@ -48,7 +48,7 @@ class ClosedSurface {
   void place(const Motion& motion, Placed& placed) const;
 
   /// force_A += factor dV/dd_A, over the particles of the body.
-  void add_volume_gradient(const Placed& placed, Real factor, Forces force);
+  void add_volume_gradient(const Placed& placed, Real factor, std::span<Lanes> force);
 
   const Body<D>& body() const { return body_; }
   const SurfacePoints<D>& reference() const { return reference_; }

@@ -74,7 +74,7 @@ class ContactPoints {
   /// dE/dV = S: f_A = - sum_s { N_A T + (S.V) g_A [constant density only] - (S.g_A) V } with
   /// g_A = F^-T grad N_A (CGCM note 4). Without S only the first.
   void add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
-                 std::span<const Lanes> T, std::span<const Lanes> S, Forces force);
+                 std::span<const Lanes> T, std::span<const Lanes> S, std::span<Lanes> force);
 
   std::size_t bytes() const;
   Offset pairs() const { return rule_.rows.entries(); }
@@ -86,7 +86,7 @@ class ContactPoints {
   static std::size_t offset(Index cluster, int count) {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);
   }
-  Forces own(Forces force) const {
+  std::span<Lanes> own(std::span<Lanes> force) const {
     return force.subspan(static_cast<std::size_t>(body_->first),
                          static_cast<std::size_t>(body_->size()));
   }

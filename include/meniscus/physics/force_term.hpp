@@ -3,6 +3,7 @@
 // the scene does not name is not in the list and costs nothing.
 #pragma once
 #include "meniscus/core/archive.hpp"
+#include "meniscus/physics/unknown.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -20,10 +21,18 @@ namespace meniscus {
 struct Motion {
   Real time;
   std::span<const Lanes> u, v;
+  std::span<const Unknown> fields = {};  ///< by the numbers of System::add_field
 };
 
-/// Forces on the coefficients of the particles of all bodies.
-using Forces = std::span<Lanes>;
+/// Forces on the coefficients of the displacement of all particles, and the fields that have forces
+/// of their own, Unknown::f.
+struct Forces : std::span<Lanes> {
+  Forces(std::span<Lanes> f, std::span<Unknown> unknowns = {})
+      : std::span<Lanes>(f), fields(unknowns) {}
+  Forces(NodalVectors& f) : std::span<Lanes>(f) {}
+
+  std::span<Unknown> fields;
+};
 
 /// Why a term could not compute a force that makes sense.
 struct Failure {
@@ -93,6 +102,11 @@ class ForceTerm {
   /// force[A] += ... over all particles. Same bits for any thread count. Called for any motion,
   /// also trial ones: the history of the term stays as it is.
   virtual Report add_force(const Motion& motion, Forces force) = 0;
+  /// force[A] += the derivative of the forces for a change of the motion by `change` (du, dv and
+  /// field changes; its time counts for nothing). Linear in `change`, which should be of the size of
+  /// a spacing: without an exact tangent it is the difference of the forces over a millionth of it.
+  virtual void add_tangent(const Motion& motion, const Motion& change, Forces force);
+
   /// The step to `motion` stands: a term with history makes this its past.
   virtual void commit(const Motion&) {}
   /// Keeps the history; without one, nothing.

@@ -28,7 +28,7 @@ class TensionForm : public ForceTerm {
 
   /// The displacements and forces of the body.
   const Lanes* displacements(const Motion& motion) const { return motion.u.data() + body_.first; }
-  Forces own_part(Forces force) const {
+  std::span<Lanes> own_part(std::span<Lanes> force) const {
     return force.subspan(static_cast<std::size_t>(body_.first),
                          static_cast<std::size_t>(body_.size()));
   }

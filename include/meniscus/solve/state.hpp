@@ -26,10 +26,12 @@ struct State {
   std::int64_t step = 0;
   NodalVectors u, v;   ///< displacement and velocity coefficients at `time`
   NodalVectors force;  ///< at u and the velocity of the last half step
+  std::vector<Unknown> fields;  ///< other unknowns
   Books books;
   StepDemand demand;  ///< of all terms on the next step
 
-  Motion motion() const { return {time, u, v}; }
+  Motion motion() const { return {time, u, v, fields}; }
+  Forces forces() { return {force, fields}; }
   /// In 2 or 3 dimensions; the sizes are those of the system already.
   void archive(const Archive& a, int dimension);
 };

@@ -15,8 +15,14 @@ struct System {
   std::deque<Body<D>> bodies;
   std::vector<std::unique_ptr<ForceTerm>> terms;
   std::vector<Real> mass;  ///< of all particles, bodies one after the other
+  std::vector<Unknown> fields;  ///< unknowns beside the displacement, as a run begins with them
 
   Index size() const { return static_cast<Index>(mass.size()); }
+  /// An unknown field that begins at zero; returns its number in Motion and Forces. One that is
+  /// asked for twice is the same field, with the sum of both capacities; throws std::logic_error if
+  /// it is not described in the same way.
+  std::size_t add_field(const FieldSpec& spec, std::span<const Real> capacity);
+
   bool viscous() const;
   std::size_t bytes() const;  ///< held by the terms
 

@@ -195,7 +195,7 @@ Tensor<Lanes> ContactPoints<D>::stress(const ContactPlaces<D>& places, Index clu
 template <int D>
 void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
                                  std::span<const Lanes> T, std::span<const Lanes> S,
-                                 Forces force) {
+                                 std::span<Lanes> force) {
   if (clusters.empty()) return;
   for (const Index c : clusters) at(pushed_, c) = 1;
   windows_.accumulate(own(force), [&](int, Index begin, Index end, Lanes* f) {
