@@ -55,10 +55,10 @@ class ContactList {
   AlignedVector<Lanes> built_first_, built_second_;  // places of the last build
   std::vector<Vec<D>> centre_;                       // of the clusters of the second cloud
   std::unique_ptr<NeighborSearch<D>> search_;        // over them
-  struct Found {                                     // of a fixed chunk of the first cloud
+  struct Found {                                     // of a chunk of the first cloud
     std::vector<Index> candidates, partner, count;
   };
-  std::array<Found, chunk_count> found_;
+  std::vector<Found> found_;
   Rows first_, second_;
 };
 

@@ -30,9 +30,8 @@ class InternalForce final : public StressPointForce<D, Rule> {
     const Lanes* u = motion.u.data() + this->body().first;
     [[maybe_unused]] const Lanes* v = motion.v.data() + this->body().first;
     if constexpr (EnclosedLaw<L>) laws.enclose(this->follow_enclosed(u));
-    std::array<Real, chunk_count> power{}, ramp_power{}, pull{};
-    std::array<Index, chunk_count> failed;
-    failed.fill(this->no_group);
+    PerChunk<Real> power(this->chunks(), 0), ramp_power(this->chunks(), 0), pull(this->chunks(), 0);
+    PerChunk<Index> failed(this->chunks(), this->no_group);
     this->accumulate(force, [&](int chunk, Index begin, Index end, Lanes* f) {
       Lanes::Mask folded{};
       Lanes heat = Lanes::zero();

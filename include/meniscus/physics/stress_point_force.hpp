@@ -40,6 +40,7 @@ class StressPointForce : public ForceTerm {
   const Body<D>& body() const { return body_; }
   const Rule& rule() const { return rule_; }
   PointLaws& laws() { return *laws_; }
+  int chunks() const { return windows_.chunks(); }
   /// Sums of the forces of this body's particles out of `all`.
   template <class F>
   void accumulate(std::span<Lanes> all, F&& work) {
