@@ -36,8 +36,7 @@ class BodyForce final : public ForceTerm {
   void evaluate(Real time) {
     if (time == evaluated_at_ || (steady_ && evaluated_at_ > never)) return;
     for (Index A = 0; A < body_.size(); ++A) {
-      Eigen::Vector3d X = Eigen::Vector3d::Zero();
-      X.head<D>() = at(body_.particles.X(), A);
+      const Eigen::Vector3d X = spatial<D>(at(body_.particles.X(), A));
       at(load_, A) = Lanes::zero();
       for (int i = 0; i < D; ++i)
         at(load_, A).set(i, at(body_.mass, A) * at(acceleration_, i)(X, time));
@@ -49,7 +48,7 @@ class BodyForce final : public ForceTerm {
   std::vector<Expression> acceleration_;
   NodalVectors load_;
   bool steady_ = true;
-  static constexpr Real never = -1e300;
+  static constexpr Real never = -unbounded;
   Real evaluated_at_ = never;
 };
 

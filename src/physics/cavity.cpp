@@ -34,10 +34,8 @@ class Cavity final : public ForceTerm {
     if (vented()) return report;
     const Real V = now_.size.volume;
     report.external_power = ramp_power(motion.time, V);
-    const Body<D>& body = surface_.body();
-    surface_.add_volume_gradient(
-        now_, pressure(motion.time, V),
-        force.subspan(static_cast<std::size_t>(body.first), static_cast<std::size_t>(body.size())));
+    surface_.add_volume_gradient(now_, pressure(motion.time, V),
+                                 surface_.body().part(std::span<Lanes>(force)));
     return report;
   }
 
@@ -62,11 +60,9 @@ class Cavity final : public ForceTerm {
         {"cavity_pressure", dimension::pressure, "pressure inside above that outside",
          [this](const Motion& motion) { return pressure(motion.time, volume(motion)); }}};
     if (gap_)
-      measures.push_back({"cavity_gap", dimension::length,
-                          "smallest distance of opposite inner faces",
-                          [this](const Motion& motion) {
-                            return gap_->smallest(surface_.placed(motion)).width;
-                          }});
+      measures.push_back(
+          {"cavity_gap", dimension::length, "smallest distance of opposite inner faces",
+           [this](const Motion& motion) { return gap_->smallest(surface_.placed(motion)).width; }});
     return measures;
   }
   std::size_t bytes() const override { return surface_.bytes() + now_.bytes(); }

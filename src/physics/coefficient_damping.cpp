@@ -39,8 +39,7 @@ class CoefficientDamping final : public ForceTerm {
       at(slip_, A) = at(rate_, A) * s;
       return at(rate_, A) * sum(s * s);
     });
-    const auto own = force.subspan(static_cast<std::size_t>(body_.first),
-                                   static_cast<std::size_t>(body_.size()));
+    const auto own = body_.part(std::span<Lanes>(force));
     windows_.accumulate(own, [&](int, Index begin, Index end, Lanes* f) {
       for (Index A = begin; A < end; ++A) scatter_value(body_.at_particles, A, at(slip_, A), f);
     });

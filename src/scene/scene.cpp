@@ -227,8 +227,7 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
     const Body<D>& body = scene.system.bodies[b];
     const BodySettings& settings = plan.bodies[b].settings;
     for (Index A = 0; A < body.size(); ++A) {
-      Eigen::Vector3d X = Eigen::Vector3d::Zero();
-      X.head<D>() = at(body.particles.X(), A);
+      const Eigen::Vector3d X = spatial<D>(at(body.particles.X(), A));
       for (int i = 0; i < D; ++i) {
         if (!settings.initial_displacement.empty())
           at(state.u, body.first + A).set(i, at(settings.initial_displacement, i)(X));

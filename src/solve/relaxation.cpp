@@ -14,6 +14,7 @@
 #include "meniscus/solve/relaxation.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/box.hpp"
 #include "meniscus/core/parallel.hpp"
 
 #include <algorithm>
@@ -120,16 +121,12 @@ Real Relaxation<D>::largest_change(const State& state) const {
     NodalVectors du(static_cast<std::size_t>(body.size()));
     for (Index A = 0; A < body.size(); ++A)
       at(du, A) = at(state.u, body.first + A) - at(window_u_, body.first + A);
-    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
     Real change = 0;
     for (Index A = 0; A < body.size(); ++A) {
-      const Vec<D>& X = at(body.particles.X(), A);
-      low = low.cwiseMin(X);
-      high = high.cwiseMax(X);
       const Lanes moved = value_at(body.at_particles, A, du.data());
       change = std::max(change, std::sqrt(sum(moved * moved)));
     }
-    largest = std::max(largest, change / (high - low).maxCoeff());
+    largest = std::max(largest, change / box_around<D>(body.particles.X()).extent().maxCoeff());
   }
   return largest;
 }

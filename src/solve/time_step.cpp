@@ -12,8 +12,8 @@ namespace {
 
 constexpr int most_iterations = 300;
 
-/// The limit falls from iteration to iteration, in the end as a geometric series: what is left of it
-/// is subtracted.
+/// The limit falls from iteration to iteration, in the end as a geometric series: what is left of
+/// it is subtracted.
 struct FallingLimit {
   Real dt = 0, last_fall = 0;
   Real scale = 1;  ///< limit / what it falls to
@@ -65,7 +65,7 @@ void StableStep::archive(const Archive& a) {
 
 template <int D>
 StableStepEstimator<D>::StableStepEstimator(System<D>& system)
-    : system_(system), spacing_(1e300), mode_(rough_mode(system.size(), D)) {
+    : system_(system), spacing_(unbounded), mode_(rough_mode(system.size(), D)) {
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A)
       spacing_ = std::min(

@@ -175,7 +175,7 @@ void converge(StudyRun& study) {
     }
   if (study.levels().size() > 1)
     study.require("order of the energy, 4 layers", study.overall_order("4 layers", "energy"),
-                  {1.5, 1e300});
+                  {1.5, unbounded});
 }
 
 /// The end state is a red blood cell: the bounds of red blood cell note 8.

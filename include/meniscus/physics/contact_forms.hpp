@@ -98,7 +98,7 @@ template <class Form, int D, class Law>
 Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes* V,
                         std::span<const Index> partners, const ContactPlaces<D>& others, Lanes* T,
                         Lanes* S) {
-  Lanes nearest = 1e300;
+  Lanes nearest = unbounded;
   for (const Index partner : partners) {
     const Lanes *y = others.x_of(partner), *weight = others.weight_of(partner);
     for (int lane = 0; lane < Lanes::width; ++lane) {

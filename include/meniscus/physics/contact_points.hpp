@@ -13,8 +13,8 @@ enum class SiteDensity { constant, referential };
 /// Where contact points are and what they weigh at a motion.
 template <int D>
 struct ContactPlaces {
-  Index size = 0;      ///< points
-  int components = 0;  ///< of a weight
+  Index size = 0;                  ///< points
+  int components = 0;              ///< of a weight
   AlignedVector<Lanes> x, weight;  ///< [cluster][i], [cluster][component]
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> inverse;  ///< [cluster] F^-1
 
@@ -61,8 +61,7 @@ class ContactPoints {
   /// Moves all points along with the body.
   void move(const Motion& motion, ContactPlaces<D>& places) const;
   /// Brings the weights of these clusters up to date.
-  void weigh(std::span<const Index> clusters, const Motion& motion,
-             ContactPlaces<D>& places) const;
+  void weigh(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places) const;
 
   /// The particle nearest to a point, counted over all bodies.
   Index particle_at(Index point) const { return body_->first + at(rule_.point_owner, point); }
@@ -86,10 +85,6 @@ class ContactPoints {
   static std::size_t offset(Index cluster, int count) {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);
   }
-  std::span<Lanes> own(std::span<Lanes> force) const {
-    return force.subspan(static_cast<std::size_t>(body_->first),
-                         static_cast<std::size_t>(body_->size()));
-  }
   Tensor<Lanes> stress(const ContactPlaces<D>& places, Index cluster, const Lanes* S) const;
 
   const Body<D>* body_;
@@ -99,7 +94,7 @@ class ContactPoints {
   ForceWindows windows_;
   Real spacing_ = 0, inertia_ = 0;
   AlignedVector<Lanes> X_, reference_;  // [cluster][i]: places, weights in the reference state
-  std::vector<std::uint8_t> pushed_;  // [cluster] 1 while its force is added
+  std::vector<std::uint8_t> pushed_;    // [cluster] 1 while its force is added
 };
 
 }  // namespace meniscus

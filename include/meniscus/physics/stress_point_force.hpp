@@ -44,7 +44,7 @@ class StressPointForce : public ForceTerm {
   /// Sums of the forces of this body's particles out of `all`.
   template <class F>
   void accumulate(std::span<Lanes> all, F&& work) {
-    windows_.accumulate(own(all), work);
+    windows_.accumulate(body_.part(all), work);
   }
 
   /// J_e - 1 of the surface at the displacements `u` of the body, whose gradient is remembered;
@@ -54,7 +54,7 @@ class StressPointForce : public ForceTerm {
   }
   /// Forces of the energy whose derivative with respect to J_e is `slope`.
   void pull_on_surface(Real slope, std::span<Lanes> all) {
-    if (surface_) surface_->add_gradient(-slope / surface_->reference(Size::volume), own(all));
+    if (surface_) surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
 
   static constexpr Index no_group = std::numeric_limits<Index>::max();
@@ -67,10 +67,6 @@ class StressPointForce : public ForceTerm {
  private:
   using Size = typename SurfacePatches<D>::Size;
 
-  std::span<Lanes> own(std::span<Lanes> all) const {
-    return all.subspan(static_cast<std::size_t>(body_.first),
-                       static_cast<std::size_t>(body_.size()));
-  }
   Real energy(const PointLaws& laws, const Motion& motion) const;
   /// H at the stress points of a group.
   [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const Lanes* u) const;

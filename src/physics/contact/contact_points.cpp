@@ -3,6 +3,7 @@
 #include "meniscus/physics/contact_points.hpp"
 
 #include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,10 @@ namespace {
 template <int D>
 void order_in_clusters(const std::vector<Vec<D>>& X, std::span<Index> order) {
   if (order.size() <= Lanes::width) return;
-  Vec<D> low = at(X, order[0]), high = low;
-  for (const Index q : order) {
-    low = low.cwiseMin(at(X, q));
-    high = high.cwiseMax(at(X, q));
-  }
+  Box<D> box;
+  for (const Index q : order) box.include(at(X, q));
   Eigen::Index axis = 0;
-  (high - low).maxCoeff(&axis);
+  box.extent().maxCoeff(&axis);
   const auto less = [&](Index a, Index b) {
     return at(X, a)[axis] != at(X, b)[axis] ? at(X, a)[axis] < at(X, b)[axis] : a < b;
   };
@@ -198,7 +196,7 @@ void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const
                                  std::span<Lanes> force) {
   if (clusters.empty()) return;
   for (const Index c : clusters) at(pushed_, c) = 1;
-  windows_.accumulate(own(force), [&](int, Index begin, Index end, Lanes* f) {
+  windows_.accumulate(body_->part(force), [&](int, Index begin, Index end, Lanes* f) {
     for (Index c = begin; c < end; ++c) {
       if (!at(pushed_, c)) continue;
       const Lanes* pull = T.data() + offset(c, D);

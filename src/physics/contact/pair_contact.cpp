@@ -153,9 +153,9 @@ class PairContact final : public ForceTerm {
     });
   }
 
-  /// Least squared distance between points within reach of the list; 1e300 if there are none.
+  /// Least squared distance between points within reach of the list; `unbounded` if there are none.
   static Real least_square(const PairPlaces<D>& places, const Rows& rows) {
-    Real least = 1e300;
+    Real least = unbounded;
     for (const Index c : rows.active)
       least = std::min(least, squares(places, c, rows.of(c)).minCoeff());
     return least;
@@ -163,7 +163,7 @@ class PairContact final : public ForceTerm {
   /// Squared distances of the four points of a cluster to the nearest points of the partners.
   static Eigen::Array4d squares(const PairPlaces<D>& places, Index cluster,
                                 std::span<const Index> partners) {
-    Eigen::Array4d nearest = Eigen::Array4d::Constant(1e300);
+    Eigen::Array4d nearest = Eigen::Array4d::Constant(unbounded);
     const Index begin = cluster * Lanes::width;
     const Index points = std::min<Index>(Lanes::width, places.first.size - begin);
     for (const Index partner : partners)
@@ -220,8 +220,7 @@ Failure PairContact<D, Form, K>::describe_overlap(Real gap) const {
   return {first_.particle_at(point),
           fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g} = {:.3g} sigma0, "
                       "least is {:.2g} sigma0",
-                      first_.body().name, second_.body().name, gap,
-                      gap / law_.sigma0, law_.guard),
+                      first_.body().name, second_.body().name, gap, gap / law_.sigma0, law_.guard),
           true};
 }
 

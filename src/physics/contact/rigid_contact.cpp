@@ -16,10 +16,7 @@ namespace {
 /// x cross y; in the plane the third component.
 template <int D>
 Eigen::Vector3d cross(const Vec<D>& x, const Vec<D>& y) {
-  Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = a;
-  a.head<D>() = x;
-  b.head<D>() = y;
-  return a.cross(b);
+  return spatial<D>(x).cross(spatial<D>(y));
 }
 
 template <int D>
@@ -182,7 +179,8 @@ Eigen::Vector3d RigidContact<D>::net_torque(const Felt& felt) const {
     for (int lane = 0; lane < points_.points_in(c); ++lane) {
       torque -= cross<D>(vector(felt.places.x_of(c), lane), vector(&at(felt.T, c * D), lane));
       if (form_ == ContactForm::energy)
-        torque -= cross<D>(vector(felt.places.weight_of(c), lane), vector(&at(felt.S, c * D), lane));
+        torque -=
+            cross<D>(vector(felt.places.weight_of(c), lane), vector(&at(felt.S, c * D), lane));
     }
   return torque;
 }

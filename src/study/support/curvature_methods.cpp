@@ -188,7 +188,7 @@ class Stage {
 template <class F>
 double shortest_time(F&& evaluate) {
   const Stopwatch all;
-  double shortest = 1e300;
+  double shortest = unbounded;
   do {
     const Stopwatch one;
     evaluate();
