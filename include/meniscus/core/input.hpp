@@ -129,6 +129,11 @@ class SceneInput {
   Block root_;
 };
 
+/// The keys, "body[0].radius", that two scenes given as TOML do not have in common: absent in one,
+/// or with another value. The order of keys and how numbers are written do not matter. Throws
+/// InputError on syntax errors.
+std::vector<std::string> differing_keys(const std::string& toml, const std::string& other);
+
 }  // namespace meniscus
 
 #include "meniscus/core/input_rows.hpp"
