@@ -64,7 +64,9 @@ std::vector<Index> spatial_order(std::span<const Vec<D>> points, Real spacing) {
   };
   std::vector<Key> keys;
   for (const auto& X : points) {
-    const auto level = [&](int k) { return static_cast<std::uint32_t>(scale * (X[k] - box.low[k])); };
+    const auto level = [&](int k) {
+      return static_cast<std::uint32_t>(scale * (X[k] - box.low[k]));
+    };
     // Half a spacing of shift keeps layers of a lattice away from slab borders.
     const Real slab = std::floor((X[axis] - box.low[axis]) / spacing + 0.5);
     keys.push_back({static_cast<std::int64_t>(slab),

@@ -113,7 +113,8 @@ void ClosedSurface<D>::place(const Motion& motion, Placed& placed) const {
 /// the columns f_K of F, x'.m = sum_K N_K x'.(f_K+1 x f_K+2), so that column L of the derivative is
 /// x' x (N_L+1 f_L+2 - N_L+2 f_L+1).
 template <int D>
-void ClosedSurface<D>::add_volume_gradient(const Placed& placed, Real factor, std::span<Lanes> force) {
+void ClosedSurface<D>::add_volume_gradient(const Placed& placed, Real factor,
+                                           std::span<Lanes> force) {
   windows_.accumulate(force, [&](int, Index begin, Index end, Lanes* f) {
     for (Index g = begin; g < end; ++g) {
       const Group& points = at(placed.groups, g);

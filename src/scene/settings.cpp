@@ -6,6 +6,7 @@
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/scene/contact_settings.hpp"
+#include "meniscus/solve/stepper.hpp"
 
 namespace meniscus {
 namespace {
@@ -53,7 +54,7 @@ Rows<TimeSettings> TimeSettings::rows() {
       integer_row("check_every", &S::check_every, {1, 1e9},
                   "most steps between two estimates of the stable step; fewer while it changes",
                   250),
-      choice_row("solver", &S::solver, {"dynamics", "relax"},
+      choice_row("solver", &S::solver, Registry<StepperEntry>::all().names(),
                  "motion as it is, or damped to the equilibrium: relax stops by itself, at the "
                  "latest at end, where a body that still moves is an error",
                  "dynamics"),

@@ -24,30 +24,23 @@ Simulation<D>::Simulation(Scene<D>& scene)
     : scene_(scene),
       state_(scene.initial),
       controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every,
-                                 scene.time.step_place}) {
-  if (scene.time.solver != "relax") return;
-  relaxation_.emplace(scene.system, typename Relaxation<D>::Tolerances{scene.time.force_tolerance,
-                                                                       scene.time.shape_tolerance});
-  for (const auto& term : scene.system.terms)
-    if (term->steady_after() >= scene.time.end)
-      throw InputError(
-          fmt::format("[time] solver = \"relax\": {} changes until t = {:.6g}, not before the end "
-                      "{:.6g} of the "
-                      "scene; there is no rest to be reached",
-                      term->name(), term->steady_after(), scene.time.end));
-}
+                                 scene.time.step_place}),
+      stepper_(Registry<StepperEntry>::all()
+                   .at(scene.time.solver)
+                   .make(scene.system, {scene.time.end, scene.time.force_tolerance,
+                                        scene.time.shape_tolerance})) {}
 
 template <int D>
 void Simulation<D>::begin() {
   start(scene_.system, state_);
   controller_.begin(state_);
   audit_.begin(take_ledger(scene_.system, state_));
-  if (relaxation_) relaxation_->begin(state_);
+  stepper_->begin(state_);
 }
 
 template <int D>
 bool Simulation<D>::finished() const {
-  return state_.time >= scene_.time.end || (relaxation_ && relaxation_->at_rest());
+  return state_.time >= scene_.time.end || stepper_->arrived();
 }
 
 /// A step of dt or, if that is rejected, of a half of it, and so on.
@@ -58,7 +51,7 @@ void Simulation<D>::step(Real dt) {
   for (int halvings = 0;; ++halvings) {
     last_step_ = dt;
     try {
-      meniscus::advance(scene_.system, state_, dt);
+      stepper_->step(state_, dt);
       if (halvings > 0) controller_.shorten(dt);
       return;
     } catch (StepError& e) {
@@ -77,8 +70,7 @@ void Simulation<D>::advance() {
     if (scene_.steps_may_be_rejected)
       step(last_step_);
     else
-      meniscus::advance(scene_.system, state_, last_step_);
-    if (relaxation_) relaxation_->damp(state_, last_step_);
+      stepper_->step(state_, last_step_);
   } catch (const StepError& e) {
     give_up(e.failure);
   } catch (const SolveError& e) {
@@ -130,12 +122,11 @@ void Simulation<D>::archive(const Archive& a) {
   state_.archive(a, D);
   a("last_step", last_step_, dimension::time);
   controller_.archive(a.in("step_control"));
-  if (relaxation_) {
-    if (a.is_reading() && !a.has("relaxation"))  // a motion goes on as a relaxation
-      relaxation_->begin(state_);
-    else
-      relaxation_->archive(a.in("relaxation"), state_);
-  }
+  const Archive stepper = a.in("stepper").in(scene_.time.solver);
+  if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's
+    stepper_->begin(state_);
+  else
+    stepper_->archive(stepper, state_);
   if (a.is_reading()) audit_.begin(take_ledger(scene_.system, state_));  // its kinds of energy
   audit_.archive(a.in("audit"), D);
   for (std::size_t k = 0; k < scene_.system.terms.size(); ++k) {

@@ -31,8 +31,8 @@ void drift(State& state, Real dt) {
   for (Unknown& field : state.fields) drift(field.x, field.rate, dt);
 }
 
-/// x' = f / c of the relaxational fields. The heat of the step of dt that ends: the work of the mean
-/// of both forces on the way that the old rate led.
+/// x' = f / c of the relaxational fields. The heat of the step of dt that ends: the work of the
+/// mean of both forces on the way that the old rate led.
 void settle(State& state, Real dt) {
   for (Unknown& field : state.fields) {
     if (field.spec.evolution != Evolution::relaxational) continue;

@@ -16,6 +16,9 @@
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/parallel.hpp"
+#include "meniscus/solve/central_difference.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +44,6 @@ Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances)
 
 template <int D>
 void Relaxation<D>::begin(const State& state) {
-  last_u_ = state.u;
-  last_force_ = state.force;
   settled_windows_ = 0;
   shape_change_ = 1;
   open_window(state, 0);
@@ -56,10 +57,16 @@ Real Relaxation<D>::steady_after() const {
 }
 
 template <int D>
-void Relaxation<D>::damp(State& state, Real dt) {
-  const Real omega = change_since(last_u_, last_force_, state).omega;
+void Relaxation<D>::step(State& state, Real dt) {
   last_u_ = state.u;
   last_force_ = state.force;
+  advance(system_, state, dt);
+  damp(state, dt);
+}
+
+template <int D>
+void Relaxation<D>::damp(State& state, Real dt) {
+  const Real omega = change_since(last_u_, last_force_, state).omega;
   const Real factor = std::exp(-2 * damping_ratio * omega * dt);
   state.books.dissipated += (1 - factor * factor) * kinetic_energy(system_, state);
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
@@ -143,14 +150,39 @@ Real Relaxation<D>::force_residual(const State& state) const {
 
 template <int D>
 void Relaxation<D>::archive(const Archive& a, const State& state) {
-  if (a.is_reading()) begin(state);
-  a("displacement", window_u_, D, dimension::length);
-  a("force", window_force_, D, of_sum(dimension::force, D));
+  if (a.is_reading()) begin(state);  // the sizes
+  a("window_displacement", window_u_, D, dimension::length);
+  a("window_force", window_force_, D, of_sum(dimension::force, D));
   a("window_begin", window_begin_, dimension::time);
   a("window_length", window_length_, dimension::time);
   a("shape_change", shape_change_);
   a("settled_windows", settled_windows_);
 }
+
+template <int D>
+std::vector<Residual> Relaxation<D>::residuals(const State& state) const {
+  return {{"force residual", force_residual(state), tolerances_.force},
+          {"change of shape that is left", shape_change_, tolerances_.shape}};
+}
+
+namespace {
+
+template <int D>
+std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
+  for (const auto& term : system.terms)
+    if (term->steady_after() >= choice.end)
+      throw InputError(
+          fmt::format("[time] solver = \"relax\": {} changes until t = {:.6g}, not before the end "
+                      "{:.6g} of the scene; there is no rest to be reached",
+                      term->name(), term->steady_after(), choice.end));
+  return std::make_unique<Relaxation<D>>(
+      system, typename Relaxation<D>::Tolerances{choice.force_tolerance, choice.shape_tolerance});
+}
+
+const bool registered =
+    register_entry(StepperEntry{"relax", {"force_residual", "shape_change"}, make<2>, make<3>});
+
+}  // namespace
 
 template class Relaxation<2>;
 template class Relaxation<3>;

@@ -111,9 +111,8 @@ Report System<D>::compute_forces(const Motion& motion, Forces force) {
   for (const Unknown& field : force.fields)
     for (Index A = 0; A < size(); ++A)
       if (!std::isfinite(sum(at(field.f, A) * at(field.f, A))))
-        throw StepError(failure_at(*this, motion, A,
-                                   "the force on '" + field.spec.name +
-                                       "' is not a finite number"));
+        throw StepError(failure_at(
+            *this, motion, A, "the force on '" + field.spec.name + "' is not a finite number"));
   if (std::isfinite(sum(total))) return report;
   for (Index A = 0; A < size(); ++A)
     if (!std::isfinite(sum(at(force, A) * at(force, A))))

@@ -2,7 +2,6 @@
 // What is written to an archive is read back, wherever something is kept; a run that is continued
 // in the middle goes on with the same bits.
 #include "meniscus/core/archive.hpp"
-
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/solve/central_difference.hpp"
@@ -45,16 +44,11 @@ struct Everything {
 };
 
 Everything filled() {
-  return {0.1,
-          -7,
-          true,
-          "drop",
-          2.5,
-          std::nullopt,
-          {1, -0.0, 3},
-          {{"strain", 4}, {"surface", 5}},
-          {6, 7, 8},
-          {Lanes(1, 2, 0, 0), Lanes(3, 4, 0, 0)}};
+  return {0.1,          -7,
+          true,         "drop",
+          2.5,          std::nullopt,
+          {1, -0.0, 3}, {{"strain", 4}, {"surface", 5}},
+          {6, 7, 8},    {Lanes(1, 2, 0, 0), Lanes(3, 4, 0, 0)}};
 }
 
 Snapshot snapshot_of(Everything object) {
@@ -96,8 +90,8 @@ TEST(Archive, NamesWhatIsAbsentOrOfAnotherSize) {
   EXPECT_FALSE(Archive::reading(s).has("par"));
 }
 
-/// A load that gives way for good: a force -k x on the coefficients along x whose centre follows to 0.05
-/// behind the farthest place it has seen.
+/// A load that gives way for good: a force -k x on the coefficients along x whose centre follows to
+/// 0.05 behind the farthest place it has seen.
 class Ratchet final : public ForceTerm {
  public:
   explicit Ratchet(Index size) : centre_(static_cast<std::size_t>(size), 0.0) {}
@@ -165,8 +159,7 @@ std::string body(int dimension, const std::string& name, Real x, const std::stri
          "material = { " + material + " }\n";
 }
 
-const std::string liquid =
-    "type = \"newtonian\", density = 1, bulk_modulus = 20, viscosity = 0.3";
+const std::string liquid = "type = \"newtonian\", density = 1, bulk_modulus = 20, viscosity = 0.3";
 const std::string solid = "type = \"neo_hookean\", density = 1, mu = 2, lambda = 3";
 
 std::string heading(int dimension, const std::string& time = "") {

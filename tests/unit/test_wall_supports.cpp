@@ -129,8 +129,7 @@ Deflated deflated(bool in_wall) {
   relaxation.begin(state);
   while (state.time < 9) {
     const Real dt = controller.next(state, 9);
-    advance(system, state, dt);
-    relaxation.damp(state, dt);
+    relaxation.step(state, dt);
   }
 
   const ClosedSurface<3> inner(body, SurfacePart::inner, 2);

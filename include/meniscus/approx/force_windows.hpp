@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adding up forces from rows on several threads with the same bits for any thread count: row
-// chunks, as many as their number asks for, each with its own window of particles, summed in ascending order
-// (performance note 5).
+// chunks, as many as their number asks for, each with its own window of particles, summed in
+// ascending order (performance note 5).
 #pragma once
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/parallel.hpp"

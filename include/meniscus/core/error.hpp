@@ -23,11 +23,11 @@ struct SolveError : std::runtime_error {
 /// A step that cannot be made. What is known grows on the way up: a force term says particle and
 /// cause, the system body and place, the run step and time. what() is the sentence of it all.
 struct StepFailure {
-  std::string cause;  ///< e.g. "J = -0.3 at a stress point; F = [...]"
-  std::string term;   ///< name of the force term; empty if there is none
-  std::string body;   ///< empty where the failure has no place
-  int particle = -1;  ///< over all bodies
-  std::string place;  ///< "(0, 1), now (0.1, 1.2)": in the reference state and at the time
+  std::string cause;     ///< e.g. "J = -0.3 at a stress point; F = [...]"
+  std::string term;      ///< name of the force term; empty if there is none
+  std::string body;      ///< empty where the failure has no place
+  int particle = -1;     ///< over all bodies
+  std::string place;     ///< "(0, 1), now (0.1, 1.2)": in the reference state and at the time
   bool of_step = false;  ///< a shorter step may avoid it
   int halvings = 0;      ///< of the step, before it was given up
   std::int64_t step = -1;

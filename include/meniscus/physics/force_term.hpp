@@ -36,9 +36,9 @@ struct Forces : std::span<Lanes> {
 
 /// Why a term could not compute a force that makes sense.
 struct Failure {
-  Index particle;        ///< global number of the particle nearest to the failure
-  std::string cause;     ///< e.g. "J = -0.3 at a stress point; F = [...]"
-  bool of_step = false;  ///< a shorter step may avoid it
+  Index particle;         ///< global number of the particle nearest to the failure
+  std::string cause;      ///< e.g. "J = -0.3 at a stress point; F = [...]"
+  bool of_step = false;   ///< a shorter step may avoid it
   std::string term = {};  ///< name of the term; the system fills it in
 };
 
@@ -103,8 +103,9 @@ class ForceTerm {
   /// also trial ones: the history of the term stays as it is.
   virtual Report add_force(const Motion& motion, Forces force) = 0;
   /// force[A] += the derivative of the forces for a change of the motion by `change` (du, dv and
-  /// field changes; its time counts for nothing). Linear in `change`, which should be of the size of
-  /// a spacing: without an exact tangent it is the difference of the forces over a millionth of it.
+  /// field changes; its time counts for nothing). Linear in `change`, which should be of the size
+  /// of a spacing: without an exact tangent it is the difference of the forces over a millionth of
+  /// it.
   virtual void add_tangent(const Motion& motion, const Motion& change, Forces force);
 
   /// The step to `motion` stands: a term with history makes this its past.

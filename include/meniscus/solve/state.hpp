@@ -8,9 +8,9 @@ namespace meniscus {
 
 /// Heat and work so far, and the powers of now that go on into the next step.
 struct Books {
-  Real dissipated = 0;     ///< heat so far
-  Real external_work = 0;  ///< work of the outside world so far
-  Real heat = 0;           ///< power turned into heat
+  Real dissipated = 0;                      ///< heat so far
+  Real external_work = 0;                   ///< work of the outside world so far
+  Real heat = 0;                            ///< power turned into heat
   Real external_power = 0, load_power = 0;  ///< of Report and ForceTerm
 
   /// The powers at the beginning of a run.
@@ -24,8 +24,8 @@ struct Books {
 struct State {
   Real time = 0;
   std::int64_t step = 0;
-  NodalVectors u, v;   ///< displacement and velocity coefficients at `time`
-  NodalVectors force;  ///< at u and the velocity of the last half step
+  NodalVectors u, v;            ///< displacement and velocity coefficients at `time`
+  NodalVectors force;           ///< at u and the velocity of the last half step
   std::vector<Unknown> fields;  ///< other unknowns
   Books books;
   StepDemand demand;  ///< of all terms on the next step

@@ -14,7 +14,7 @@ template <int D>
 struct System {
   std::deque<Body<D>> bodies;
   std::vector<std::unique_ptr<ForceTerm>> terms;
-  std::vector<Real> mass;  ///< of all particles, bodies one after the other
+  std::vector<Real> mass;       ///< of all particles, bodies one after the other
   std::vector<Unknown> fields;  ///< unknowns beside the displacement, as a run begins with them
 
   Index size() const { return static_cast<Index>(mass.size()); }

@@ -19,8 +19,8 @@ struct StableStep {
   void archive(const Archive& a);
 };
 
-/// Finds the critical mode of each unknown by power iteration on differences of the force, starting with the mode
-/// found before: a new estimate of a slowly changing body takes a few evaluations.
+/// Finds the critical mode of each unknown by power iteration on differences of the force, starting
+/// with the mode found before: a new estimate of a slowly changing body takes a few evaluations.
 template <int D>
 class StableStepEstimator {
  public:
