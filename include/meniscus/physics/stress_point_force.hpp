@@ -54,7 +54,8 @@ class StressPointForce : public ForceTerm {
   }
   /// Forces of the energy whose derivative with respect to J_e is `slope`.
   void pull_on_surface(Real slope, std::span<Lanes> all) {
-    if (surface_) surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
+    if (surface_)
+      surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
 
   static constexpr Index no_group = std::numeric_limits<Index>::max();
