@@ -110,12 +110,11 @@ Maps map_from_file(const std::string& path) {
   for (const char* key : {"x", "y", "z"})
     if (key[0] != 'z' || file.has("z"))
       formulas.push_back(file.expression(key, dimension::none, {}, {}, Variables::place));
-}
-file.done();
-input.check();
-const std::string name = path.substr(path.find_last_of('/') + 1);
-if (formulas.size() == 3) return {{}, make_map<3>(std::move(formulas), name)};
-return {make_map<2>(std::move(formulas), name), {}};
+  file.done();
+  input.check();
+  const std::string name = path.substr(path.find_last_of('/') + 1);
+  if (formulas.size() == 3) return {{}, make_map<3>(std::move(formulas), name)};
+  return {make_map<2>(std::move(formulas), name), {}};
 }
 
 }  // namespace meniscus::study
