@@ -4,6 +4,7 @@
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/app/print.hpp"
 #include "meniscus/app/set_up.hpp"
+#include "meniscus/core/box.hpp"
 #include "meniscus/scene/simulation.hpp"
 
 #include <fmt/format.h>
@@ -24,18 +25,16 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
   if (!scene.title.empty()) say("{}\n", scene.title);
   for (const auto& note : scene.notes) say("{}\n", note);
   for (const Body<D>& body : scene.system.bodies) {
-    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
-    Real least = 1e300, largest = 0;
+    const Box<D> box = box_around<D>(body.particles.X());
+    Real least = unbounded, largest = 0;
     for (Index A = 0; A < body.size(); ++A) {
-      low = low.cwiseMin(at(body.particles.X(), A));
-      high = high.cwiseMax(at(body.particles.X(), A));
       least = std::min(least, at(body.particles.support(), A));
       largest = std::max(largest, at(body.particles.support(), A));
     }
-    std::string box;
+    std::string ranges;
     for (int i = 0; i < D; ++i)
-      box += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", low[i], high[i]);
-    say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}\n", body.name, box,
+      ranges += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", box.low[i], box.high[i]);
+    say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}\n", body.name, ranges,
         unit(dimension::length), least, largest, unit(dimension::length));
   }
   for (const auto& term : scene.system.terms)

@@ -3,6 +3,7 @@
 #include "meniscus/app/outputs.hpp"
 
 #include "meniscus/core/names.hpp"
+#include "meniscus/solve/stepper.hpp"
 
 #include <fmt/format.h>
 
@@ -67,8 +68,8 @@ std::vector<HistoryColumn> history_columns(const Scene<D>& scene) {
     columns.push_back({name, energy});
   for (const char* name : {"energy_balance_error", "momentum_error", "angular_momentum_error"})
     columns.push_back({name, "1"});
-  if (scene.time.solver == "relax")
-    for (const char* name : {"force_residual", "shape_change"}) columns.push_back({name, "1"});
+  for (const std::string& name : Registry<StepperEntry>::all().at(scene.time.solver).residuals)
+    columns.push_back({name, "1"});
   for (const MeasureSource& m : chosen_measures(scene))
     columns.push_back({m.name, unit(m.dimension)});
   return columns;

@@ -44,7 +44,7 @@ void print_complaint(std::string_view text) {
 
 void require_printed() {
   if (std::fflush(stdout) != 0 && lost == 0) lost = errno;
-  if (lost != 0) throw FileError(fmt::format("Cannot print: {}.", std::strerror(lost)));
+  if (lost != 0) throw FileError(fmt::format("cannot print: {}", std::strerror(lost)));
 }
 
 }  // namespace meniscus

@@ -127,10 +127,8 @@ void Recorder<D>::write_row(const Ledger& ledger) {
        {ledger.dissipated, ledger.external_work, ledger.balance(), audit.balance_error(ledger),
         audit.momentum_error(ledger), audit.angular_momentum_error(ledger)})
     row.push_back(x);
-  if (const auto& relaxation = simulation_.relaxation()) {
-    row.push_back(relaxation->force_residual(state));
-    row.push_back(relaxation->shape_change());
-  }
+  for (const Residual& residual : simulation_.stepper().residuals(state))
+    row.push_back(residual.value);
   for (const MeasureSource& m : measures_) row.push_back(m.compute(state.motion()));
   history_.write(row);
 }

@@ -3,37 +3,33 @@
 #include "meniscus/app/restart.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/input.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <sstream>
+#include <algorithm>
+#include <iterator>
 
 namespace meniscus {
 namespace {
 
-/// The lines of a complete input that decide what is simulated: without title, [time], [output],
-/// [expect], and without comments (unit; whether a value is the default).
-std::string physics_of(const std::string& complete) {
-  std::istringstream lines(complete);
-  std::string line, kept;
-  bool keep = true;
-  while (std::getline(lines, line)) {
-    if (line.starts_with("["))
-      keep = !line.starts_with("[time") && !line.starts_with("[output") &&
-             !line.starts_with("[expect");
-    if (keep && !line.empty() && !line.starts_with("title = "))
-      kept += line.substr(0, line.rfind("  # ")) + "\n";
-  }
-  return kept;
+/// Whether a key decides what is simulated.
+bool is_physics(const std::string& key) {
+  for (const std::string_view table : {"title", "time", "output", "expect"})
+    if (key == table || key.starts_with(std::string(table) + ".")) return false;
+  return true;
 }
 
-/// The lines of a complete input that decide what a frame consists of.
-std::string frame_layout_of(const std::string& complete) {
-  std::istringstream lines(complete);
-  std::string line, kept;
-  while (std::getline(lines, line))
-    if (line.starts_with("fields = ") || line.starts_with("precision = "))
-      kept += line.substr(0, line.rfind("  # ")) + "\n";
+/// Whether a key decides what a frame consists of.
+bool is_frame_layout(const std::string& key) {
+  return key.starts_with("output.fields") || key == "output.precision";
+}
+
+std::vector<std::string> filtered(const std::vector<std::string>& keys,
+                                  bool (*keep)(const std::string&)) {
+  std::vector<std::string> kept;
+  std::copy_if(keys.begin(), keys.end(), std::back_inserter(kept), keep);
   return kept;
 }
 
@@ -58,18 +54,17 @@ std::optional<Restart> read_restart(const RunRequest& request, const std::string
   Restart restart{read_checkpoint(request.restart, request.frame),
                   std::filesystem::exists(output) &&
                       std::filesystem::equivalent(run_of(request.restart), output)};
-  if (physics_of(restart.from.checkpoint.input) != physics_of(input))
+  const std::vector<std::string> changed = differing_keys(restart.from.checkpoint.input, input);
+  if (const auto keys = filtered(changed, is_physics); !keys.empty())
     throw InputError(fmt::format(
-        "'{}' was written by another scene: bodies, materials or loads differ. Continue it with "
-        "the "
-        "scene it was written by; only [time], [output], [expect] and the title may change.",
-        restart.from.file.string()));
-  if (restart.in_place && frame_layout_of(restart.from.checkpoint.input) != frame_layout_of(input))
-    throw FileError(
-        fmt::format("Cannot continue the run in '{}': its frames have other fields or another "
-                    "precision. Choose "
-                    "the same ones, or another directory with --output.",
-                    output.string()));
+        "'{}' was written by another scene: {} differ{}. Continue it with the scene it was written "
+        "by; only [time], [output], [expect] and the title may change.",
+        restart.from.file.string(), fmt::join(keys, ", "), keys.size() == 1 ? "s" : ""));
+  if (const auto keys = filtered(changed, is_frame_layout); restart.in_place && !keys.empty())
+    throw FileError(fmt::format(
+        "Cannot continue the run in '{}': its frames have another {}. Choose the same, or another "
+        "directory with --output.",
+        output.string(), fmt::join(keys, ", ")));
   return restart;
 }
 

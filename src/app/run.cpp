@@ -112,8 +112,8 @@ void report_residuals(const Simulation<D>& simulation, RunLog& log) {
 }
 
 template <int D>
-std::string summarise(const Simulation<D>& simulation, std::int64_t first_step,
-                      double set_up_seconds, const Interruption& interruption) {
+std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double set_up_seconds,
+                      const Interruption& interruption) {
   const double seconds = interruption.elapsed_seconds() - set_up_seconds;
   const std::int64_t steps = simulation.state().step - first_step;
   const Real particle_steps =
@@ -126,24 +126,24 @@ std::string summarise(const Simulation<D>& simulation, std::int64_t first_step,
 /// Says whether the bodies are at rest; false if they should be, but are not.
 template <int D>
 bool report_rest(const Simulation<D>& simulation, RunLog& log) {
-  const auto& relaxation = simulation.relaxation();
-  if (!relaxation || !simulation.finished()) return true;
-  const Scene<D>& scene = simulation.scene();
-  const std::string measures = fmt::format(
-      "force residual {:.3g} (allowed {:.3g}), change of shape that is left {:.3g} (allowed "
-      "{:.3g})",
-      relaxation->force_residual(simulation.state()), scene.time.force_tolerance,
-      relaxation->shape_change(), scene.time.shape_tolerance);
+  const State& state = simulation.state();
+  const std::vector<Residual> residuals = simulation.stepper().residuals(state);
+  if (residuals.empty() || !simulation.finished()) return true;
+  std::string measures;
+  for (const Residual& r : residuals)
+    measures += fmt::format("{}{} {:.3g} (allowed {:.3g})", measures.empty() ? "" : ", ", r.meaning,
+                            r.value, r.allowed);
   const std::string time =
-      fmt::format("t = {:.6g} {}", simulation.state().time, scene.units.symbol(dimension::time));
-  if (relaxation->at_rest())
+      fmt::format("t = {:.6g} {}", state.time, simulation.scene().units.symbol(dimension::time));
+  const bool rest = simulation.stepper().arrived();
+  if (rest)
     log.info(fmt::format("at rest at {}: {}", time, measures));
   else
     log.error(
         fmt::format("not at rest at {}: {}; a later time.end gives more time, if there is an "
                     "equilibrium",
                     time, measures));
-  return relaxation->at_rest();
+  return rest;
 }
 
 template <int D>

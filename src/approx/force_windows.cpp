@@ -7,7 +7,7 @@ namespace meniscus {
 ForceWindows::ForceWindows(std::span<const Offset> start, std::span<const Index> particle,
                            Index particles) {
   const auto rows = static_cast<Index>(start.size()) - 1;
-  for (int c = 0; c < chunk_count; ++c) {
+  for (int c = 0; c < chunk_count(rows); ++c) {
     Chunk chunk{c, chunk_begin(rows, c), chunk_begin(rows, c + 1), particles, 0, {}};
     if (chunk.begin == chunk.end) continue;
     for (Offset e = at(start, chunk.begin); e < at(start, chunk.end); ++e) {

@@ -77,9 +77,8 @@ void find_boundary(Grid<D>& grid) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].key == sides[i].key) ++end;
     if (end - i > 2)
-      throw InputError(
-          fmt::format("The grid is not conforming: cells {}, {} and {} share one side.",
-                      sides[i].cell, sides[i + 1].cell, sides[i + 2].cell));
+      throw InputError(fmt::format("the grid is not conforming: cells {}, {} and {} share one side",
+                                   sides[i].cell, sides[i + 1].cell, sides[i + 2].cell));
     if (end - i == 1) {
       Facet<D> facet;
       facet.cell = sides[i].cell;
@@ -114,7 +113,7 @@ void check_jacobians(const Grid<D>& grid, const std::string& cause) {
   for (Index e = 0; e < grid.cell_count(); ++e)
     if (const auto fold = find_fold(grid, e))
       throw InputError(
-          fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive.",
+          fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive",
                       cause, e, place<D>(fold->X), fold->J.determinant()));
 }
 

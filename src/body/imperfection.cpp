@@ -2,6 +2,9 @@
 // Shape imperfections: random smooth displacements.
 #include "meniscus/body/imperfection.hpp"
 
+#include "meniscus/core/box.hpp"
+#include "meniscus/core/random.hpp"
+
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
@@ -19,17 +22,12 @@ struct Wave {
   Real phase;
 };
 
-/// From the top 53 bits, the same with every standard library.
-Real uniform(std::mt19937_64& bits) {
-  return static_cast<Real>(bits() >> 11) * 0x1p-53;
-}
-
 /// A direction by rejection from the cube.
 template <int D>
 Vec<D> random_direction(std::mt19937_64& bits) {
   while (true) {
     Vec<D> x;
-    for (int k = 0; k < D; ++k) x[k] = 2 * uniform(bits) - 1;
+    for (int k = 0; k < D; ++k) x[k] = symmetric_uniform(bits);
     const Real r = x.norm();
     if (r > 0.1 && r < 1) return x / r;
   }
@@ -74,12 +72,8 @@ SmoothMap<D> map_of(std::vector<Wave<D>> waves) {
 
 template <int D>
 Geometry<D> with_imperfection(Geometry<D> geometry, Real rms, std::uint64_t seed) {
-  Vec<D> low = geometry.grid.X.front(), high = low;
-  for (const Vec<D>& X : geometry.grid.X) {
-    low = low.cwiseMin(X);
-    high = high.cwiseMax(X);
-  }
-  std::vector<Wave<D>> waves = random_waves<D>((high - low).maxCoeff(), seed);
+  std::vector<Wave<D>> waves =
+      random_waves<D>(box_around<D>(geometry.grid.X).extent().maxCoeff(), seed);
   Real square = 0;
   for (const Vec<D>& X : geometry.grid.X) square += displacement(waves, X).squaredNorm();
   const Real factor = rms / std::sqrt(square / static_cast<Real>(geometry.grid.X.size()));

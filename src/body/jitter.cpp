@@ -2,6 +2,7 @@
 // Random displacement of interior nodes.
 #include "meniscus/body/grid.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/random.hpp"
 
 #include <fmt/format.h>
 
@@ -12,11 +13,6 @@
 namespace meniscus {
 
 namespace {
-
-/// Uniform in [-1, 1) from the top 53 bits, the same with every standard library.
-Real symmetric_uniform(std::mt19937_64& bits) {
-  return 2 * (static_cast<Real>(bits() >> 11) * 0x1p-53) - 1;
-}
 
 /// Per node, before anything moved.
 template <int D>

@@ -2,6 +2,7 @@
 // Slab-and-Morton order, and renumbering of grids.
 #include "meniscus/body/ordering.hpp"
 
+#include "meniscus/core/box.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <algorithm>
@@ -49,13 +50,9 @@ std::vector<Index> spatial_order(std::span<const Vec<D>> points, Real spacing) {
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   if (points.empty()) return order;
-  Vec<D> low = points[0], high = points[0];
-  for (const auto& X : points) {
-    low = low.cwiseMin(X);
-    high = high.cwiseMax(X);
-  }
+  const Box<D> box = box_around<D>(points);
   int axis = 0;
-  const Vec<D> extent = high - low;
+  const Vec<D> extent = box.extent();
   extent.maxCoeff(&axis);
 
   // Morton codes of 24 bits per direction, in units of the longest extent.
@@ -67,9 +64,11 @@ std::vector<Index> spatial_order(std::span<const Vec<D>> points, Real spacing) {
   };
   std::vector<Key> keys;
   for (const auto& X : points) {
-    const auto level = [&](int k) { return static_cast<std::uint32_t>(scale * (X[k] - low[k])); };
+    const auto level = [&](int k) {
+      return static_cast<std::uint32_t>(scale * (X[k] - box.low[k]));
+    };
     // Half a spacing of shift keeps layers of a lattice away from slab borders.
-    const Real slab = std::floor((X[axis] - low[axis]) / spacing + 0.5);
+    const Real slab = std::floor((X[axis] - box.low[axis]) / spacing + 0.5);
     keys.push_back({static_cast<std::int64_t>(slab),
                     interleave(level((axis + 1) % D), D == 3 ? level((axis + 2) % D) : 0u)});
   }

@@ -163,7 +163,7 @@ PointRule<D> make_point_rule(const Body<D>& body, std::span<const Vec<D>> points
   rule.point_weight = std::move(weight);
   rule.point_owner.resize(points.size());
   parallel_for(static_cast<Index>(points.size()), [&](Index q) {
-    Real nearest = 1e300;
+    Real nearest = unbounded;
     for (Offset e = at(rule.rows.start, q); e < at(rule.rows.start, q + 1); ++e) {
       const Index A = at(rule.rows.particle, e);
       const Real distance = (at(body.particles.X(), A) - at(points, q)).squaredNorm();

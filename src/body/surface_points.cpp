@@ -106,7 +106,7 @@ SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k, SurfacePart 
         const Real area = area_normal<D>(foot.derivative * p.J).norm();
         append<D>(points, foot.X, foot.N, foot.grad_N, w * area, i);
       });
-  carry(points, geometry.map);
+  deform(points, geometry.map);
   return points;
 }
 
@@ -117,7 +117,7 @@ Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const V
 }
 
 template <int D>
-void carry(SurfacePoints<D>& points, const SmoothMap<D>& map) {
+void deform(SurfacePoints<D>& points, const SmoothMap<D>& map) {
   for (Index q = 0; q < points.size(); ++q) {
     const MapPoint<D> m = map(at(points.X, q));
     const SurfaceFrame<Real> frame = surface_frame(embed<D>(m.F, 1), embed<D>(at(points.N, q)));
@@ -138,7 +138,7 @@ void carry(SurfacePoints<D>& points, const SmoothMap<D>& map) {
   template SurfacePoints<D> surface_points(const Geometry<D>&, int, SurfacePart);        \
   template Vec<D> surface_point(const Geometry<D>&, const Facet<D>&, const Vec<D - 1>&); \
   template SurfacePoints<D> facet_points(const Grid<D>&, int);                           \
-  template void carry(SurfacePoints<D>&, const SmoothMap<D>&);
+  template void deform(SurfacePoints<D>&, const SmoothMap<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

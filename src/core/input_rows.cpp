@@ -11,9 +11,7 @@
 
 namespace meniscus {
 
-namespace {
-constexpr Real unbounded = 1e300;
-}
+namespace {}
 
 bool Range::contains(Real value) const {
   if (!std::isfinite(value)) return false;

@@ -67,7 +67,7 @@ std::optional<Header> valid_header(const std::filesystem::path& file) {
 }
 
 std::string damaged(const std::filesystem::path& file) {
-  return fmt::format("'{}' is damaged or not a checkpoint.", file.string());
+  return fmt::format("'{}' is damaged or not a checkpoint", file.string());
 }
 
 ReadCheckpoint read_state_and_input(const hdf5::Group& holder, const hdf5::Group& root,
@@ -78,7 +78,7 @@ ReadCheckpoint read_state_and_input(const hdf5::Group& holder, const hdf5::Group
       {}};
   const Checkpoint& c = read.checkpoint;
   if (c.step < 0 || !std::isfinite(c.time) || c.time < 0)
-    throw FileError(fmt::format("'{}' holds step {} at time {}, which no run has.", path.string(),
+    throw FileError(fmt::format("'{}' holds step {} at time {}, which no run has", path.string(),
                                 c.step, c.time));
   if (const std::string now = program_text(build()), then = read_program(root); then != now)
     read.warnings.push_back(
@@ -90,7 +90,7 @@ ReadCheckpoint read_state_and_input(const hdf5::Group& holder, const hdf5::Group
 
 ReadCheckpoint read_file_of_checkpoint(const std::filesystem::path& path) {
   if (!valid_header(path))
-    throw FileError(damaged(path) + " To continue from a frame of a result file, name the frame.");
+    throw FileError(damaged(path) + "; to continue from a frame of a result file, name the frame");
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group root = file.root();
   return read_state_and_input(root, root, path);
@@ -121,10 +121,10 @@ ReadCheckpoint read_newest(const std::filesystem::path& directory) {
   if (newest.file.empty()) {
     std::string found = newest.warnings.empty() ? "there is none" : "";
     for (const std::string& warning : newest.warnings)
-      found += (found.empty() ? "" : " ") + warning;
+      found += (found.empty() ? "" : "; ") + warning;
     throw FileError(fmt::format(
-        "Found no checkpoint to continue from in '{}': {}{}", directory.string(), found,
-        newest.warnings.empty() ? "." : " Continue from a frame of run.h5 that holds the state."));
+        "found no checkpoint to continue from in '{}': {}{}", directory.string(), found,
+        newest.warnings.empty() ? "" : "; continue from a frame of run.h5 that holds the state"));
   }
   ReadCheckpoint read = read_file_of_checkpoint(newest.file);
   read.warnings.insert(read.warnings.begin(), newest.warnings.begin(), newest.warnings.end());
@@ -135,21 +135,21 @@ std::string frames_with_state(const hdf5::Group& steps) {
   std::int64_t frames = 0, last = -1;
   for (; steps.has(fmt::format("{}", frames)); ++frames)
     if (steps.group(fmt::format("{}", frames)).has("state")) last = frames;
-  if (frames == 0) return "It has no frames.";
-  const std::string all = fmt::format("It has the frames 0 to {}", frames - 1);
-  return last < 0 ? all + ", all without the state."
-                  : fmt::format("{}; the last one with the state is {}.", all, last);
+  if (frames == 0) return "it has no frames";
+  const std::string all = fmt::format("it has the frames 0 to {}", frames - 1);
+  return last < 0 ? all + ", all without the state"
+                  : fmt::format("{}; the last one with the state is {}", all, last);
 }
 
 ReadCheckpoint read_frame(const std::filesystem::path& path, std::int64_t frame) {
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group root = file.root();
   if (!root.has("steps"))
-    throw FileError(fmt::format("'{}' has no frames: it is not a result file.", path.string()));
+    throw FileError(fmt::format("'{}' has no frames: it is not a result file", path.string()));
   const hdf5::Group steps = root.group("steps");
   const std::string name = fmt::format("{}", frame);
   if (!steps.has(name) || !steps.group(name).has("state"))
-    throw FileError(fmt::format("Cannot continue from frame {} of '{}'. {}", frame, path.string(),
+    throw FileError(fmt::format("cannot continue from frame {} of '{}': {}", frame, path.string(),
                                 frames_with_state(steps)));
   return read_state_and_input(steps.group(name), root, path);
 }

@@ -30,7 +30,7 @@ void write_to(const std::filesystem::path& path, int flags, std::string_view con
 
 void throw_file_error(std::string_view doing, const std::filesystem::path& path, int error_number) {
   throw FileError(
-      fmt::format("Cannot {} '{}': {}.", doing, path.string(), std::strerror(error_number)));
+      fmt::format("cannot {} '{}': {}", doing, path.string(), std::strerror(error_number)));
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {

@@ -62,7 +62,7 @@ std::size_t stored_count(const Handle& array, std::size_t size, const std::strin
                     H5Pget_external_count(properties) == 0 &&
                     bytes / size == static_cast<hsize_t>(count) && bytes % size == 0 &&
                     (bytes == 0 || (begin <= end && bytes <= end - begin));
-  if (!here) throw FileError(fmt::format("Cannot {}: it is not stored as a whole.", doing));
+  if (!here) throw FileError(fmt::format("cannot {}: it is not stored as a whole", doing));
   return static_cast<std::size_t>(count);
 }
 
@@ -72,7 +72,7 @@ std::vector<T> read_numbers(const Handle& array, const std::string& doing) {
   const bool real = std::is_same_v<T, double>;
   if (H5Tequal(type, file_type(real ? Type::float64 : Type::int64)) <= 0)
     throw FileError(
-        fmt::format("Cannot {}: it does not hold {}.", doing, real ? "numbers" : "integers"));
+        fmt::format("cannot {}: it does not hold {}", doing, real ? "numbers" : "integers"));
   std::vector<T> values(stored_count(array, sizeof(T), doing));
   check(H5Dread(array, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), doing);
   return values;
@@ -83,7 +83,7 @@ Type type_of(std::int64_t array, const std::string& doing) {
   if (H5Tget_class(type) == H5T_STRING) return Type::text;
   for (const Type known : {Type::float32, Type::float64, Type::int32, Type::int64})
     if (H5Tequal(type, file_type(known)) > 0) return known;
-  throw FileError(fmt::format("Cannot {}: it is neither numbers nor text.", doing));
+  throw FileError(fmt::format("cannot {}: it is neither numbers nor text", doing));
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ ArrayInfo Group::info(const std::string& name) const {
   if (rank <= 2) check(H5Sget_simple_extent_dims(space, size, nullptr), what);
   constexpr hsize_t most = 1'000'000'000'000;
   if (rank > 2 || size[0] > most || size[1] > 100)
-    throw FileError(fmt::format("Cannot {}: it is no table of a row per particle.", what));
+    throw FileError(fmt::format("cannot {}: it is no table of a row per particle", what));
   ArrayInfo info;
   info.type = type_of(array, what);
   info.shape = {static_cast<std::int64_t>(size[0]), rank == 2 ? static_cast<int>(size[1]) : 1};
@@ -150,7 +150,7 @@ std::string Group::text(const std::string& name) const {
   const std::size_t size = H5Tget_size(type);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
       stored_count(array, size, what) != 1)
-    throw FileError(fmt::format("Cannot {}: it is not one text.", what));
+    throw FileError(fmt::format("cannot {}: it is not one text", what));
   std::string text(size, '\0');
   check(H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), what);
   text.resize(text.find_last_not_of('\0') + 1);

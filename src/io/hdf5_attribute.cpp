@@ -47,7 +47,7 @@ T read_number(std::int64_t object, const std::string& name) {
   const Handle attribute = open(object, name), type(H5Aget_type(attribute), "read an attribute");
   const hid_t written = file_type(std::is_same_v<T, double> ? Type::float64 : Type::int64);
   if (!one_value(attribute) || H5Tequal(type, written) <= 0)
-    throw FileError(fmt::format("Cannot read the attribute '{}': it is not one {}.", name,
+    throw FileError(fmt::format("cannot read the attribute '{}': it is not one {}", name,
                                 std::is_same_v<T, double> ? "number" : "integer"));
   T value{};
   check(H5Aread(attribute, memory_type<T>(), &value), fmt::format("read the attribute '{}'", name));
@@ -92,7 +92,7 @@ void write_text_attribute(std::int64_t object, const std::string& name, const st
 std::string read_text_attribute(std::int64_t object, const std::string& name) {
   const Handle attribute = open(object, name), type(H5Aget_type(attribute), "read an attribute");
   if (!one_value(attribute) || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
-    throw FileError(fmt::format("Cannot read the attribute '{}': it is not a text.", name));
+    throw FileError(fmt::format("cannot read the attribute '{}': it is not a text", name));
   std::string text(H5Tget_size(type), '\0');
   check(H5Aread(attribute, type, text.data()), fmt::format("read the attribute '{}'", name));
   text.resize(text.find_last_not_of('\0') + 1);

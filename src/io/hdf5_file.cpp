@@ -60,9 +60,9 @@ Handle access_properties(bool writing) {
 Handle open_file(const std::filesystem::path& path, unsigned mode) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
-    throw FileError(fmt::format("Cannot open '{}': there is no such file.", path.string()));
+    throw FileError(fmt::format("cannot open '{}': there is no such file", path.string()));
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw FileError(fmt::format("Cannot open '{}': it is not a file.", path.string()));
+    throw FileError(fmt::format("cannot open '{}': it is not a file", path.string()));
   const Handle access = access_properties(mode == H5F_ACC_RDWR);
   return {H5Fopen(path.c_str(), mode, access), fmt::format("open '{}'", path.string())};
 }
@@ -70,7 +70,7 @@ Handle open_file(const std::filesystem::path& path, unsigned mode) {
 }  // namespace
 
 void check(std::int64_t status, std::string_view doing) {
-  if (status < 0) throw FileError(fmt::format("Cannot {}: {}.", doing, reason()));
+  if (status < 0) throw FileError(fmt::format("cannot {}: {}", doing, reason()));
 }
 
 Handle::Handle(std::int64_t id, std::string_view doing) : id_(id) {
@@ -119,7 +119,7 @@ void Group::for_each_array(
   const std::function<void(const Group&, const std::string&, int)> walk =
       [&](const Group& group, const std::string& prefix, int depth) {
         if (depth > deepest)
-          throw FileError(fmt::format("Cannot {}: groups are nested deeper than {} levels.",
+          throw FileError(fmt::format("cannot {}: groups are nested deeper than {} levels",
                                       doing("read", prefix), deepest));
         for (const std::string& name : group.names()) {
           require_few(++members);
@@ -135,7 +135,7 @@ void Group::for_each_array(
 void Group::require_few(std::size_t members) const {
   if (members > most_members)
     throw FileError(
-        fmt::format("Cannot {}: it has more than {} members.", doing("list", ""), most_members));
+        fmt::format("cannot {}: it has more than {} members", doing("list", ""), most_members));
 }
 
 void Group::require_own(const std::string& name, const std::string& what) const {
@@ -145,7 +145,7 @@ void Group::require_own(const std::string& name, const std::string& what) const 
     H5L_info_t info;
     check(H5Lget_info(handle_, step.c_str(), &info, H5P_DEFAULT), what);
     if (info.type != H5L_TYPE_HARD)
-      throw FileError(fmt::format("Cannot {}: '{}' is a link by name.", what, step));
+      throw FileError(fmt::format("cannot {}: '{}' is a link by name", what, step));
   }
 }
 

@@ -19,7 +19,7 @@ namespace meniscus::hdf5 {
 /// An open HDF5 object, closed with its owner.
 class Handle {
  public:
-  /// Throws FileError "Cannot <doing>: <reason HDF5 gives>." if `id` is negative.
+  /// Throws FileError "cannot <doing>: <reason HDF5 gives>" if `id` is negative.
   Handle(std::int64_t id, std::string_view doing);
   Handle(Handle&& other) noexcept : id_(other.id_) { other.id_ = -1; }
   Handle& operator=(Handle&& other) noexcept;

@@ -110,7 +110,7 @@ std::string describe_file(const std::filesystem::path& path) {
     describe_checkpoint(root, out);
   else
     throw FileError(
-        fmt::format("'{}' is neither a result file nor a checkpoint.", file_path.string()));
+        fmt::format("'{}' is neither a result file nor a checkpoint", file_path.string()));
   // Texts of a file are not to command the terminal.
   std::replace_if(
       text.begin(), text.end(),

@@ -39,7 +39,7 @@ Snapshot read_arrays(const hdf5::Group& group) {
     Snapshot::Values values = read_values(group, name, info.type);
     bytes += bytes_of(values);
     if (bytes > most)
-      throw FileError(fmt::format("The saved state is larger than its file: '{}'.", name));
+      throw FileError(fmt::format("the saved state is larger than its file: '{}'", name));
     state.add(name, {std::move(values), info.unit});
   });
   return state;
@@ -67,7 +67,7 @@ std::string read_input(const hdf5::Group& root) {
   const hdf5::Group meta = root.group("meta");
   std::string input = meta.text("input");
   if (sha256(input) != meta.attribute_text("input_sha256"))
-    throw FileError("The input text in the file does not agree with its SHA-256: it was damaged.");
+    throw FileError("the input text in the file does not agree with its SHA-256: it was damaged");
   return input;
 }
 
@@ -100,7 +100,7 @@ Snapshot read_state(const hdf5::Group& parent) {
   const hdf5::Group group = parent.group("state");
   Snapshot state = read_arrays(group);
   if (hash_text(state) != group.attribute_text("hash"))
-    throw FileError("The saved state does not agree with its hash: it was damaged.");
+    throw FileError("the saved state does not agree with its hash: it was damaged");
   try {
     state.require_finite();
   } catch (const SolveError& error) {

@@ -24,8 +24,8 @@ void refuse_existing_run(const std::filesystem::path& directory) {
   for (int i = 0; i < telling_files; ++i)
     if (std::filesystem::exists(directory / run_files[i]))
       throw FileError(
-          fmt::format("'{}' already holds a run ({}). Choose another directory with --output, "
-                      "replace the run with --overwrite, or continue it with --restart.",
+          fmt::format("'{}' already holds a run ({}); choose another directory with --output, "
+                      "replace the run with --overwrite, or continue it with --restart",
                       directory.string(), run_files[i]));
 }
 
@@ -74,8 +74,8 @@ void RunDirectory::lock() {
   if (error_number == EWOULDBLOCK) {
     close(lock_);
     throw FileError(
-        fmt::format("Another run is writing its results to '{}'. Wait for it, or choose "
-                    "another directory with --output.",
+        fmt::format("another run is writing its results to '{}'; wait for it, or choose another "
+                    "directory with --output",
                     path_.string()));
   }
   // A file system without locks: nothing can be known, and nothing is refused.

@@ -27,7 +27,7 @@ spdlog::sink_ptr file_sink(const std::filesystem::path& file) {
         "%Y-%m-%dT%H:%M:%SZ %l: %v", spdlog::pattern_time_type::utc));
     return sink;
   } catch (const spdlog::spdlog_ex& failure) {
-    throw FileError(fmt::format("Cannot write '{}': {}.", file.string(), failure.what()));
+    throw FileError(fmt::format("cannot write '{}': {}", file.string(), failure.what()));
   }
 }
 

@@ -162,8 +162,7 @@ std::unique_ptr<ForceTerm> Contact<D>::term(const Assembly<D>& assembly) const {
 template <int D>
 void Contact<D>::require_gap(ForceTerm& term, const State& initial) const {
   NodalVectors force(initial.u.size(), Lanes::zero());
-  term.add_force(initial.motion(), force);
-  if (const auto failure = term.failure())
+  if (const auto failure = term.add_force(initial.motion(), force).failure)
     throw InputError(fmt::format("{}: {}; move the bodies apart", this->place, failure->cause));
 }
 

@@ -29,7 +29,7 @@ struct Newtonian {
         parameter_row<L>("bulk_modulus", &L::bulk_modulus, dimension::pressure, range::positive,
                          "kappa of the equation of state; density c^2", 2.5),
         equation_row(),
-        parameter_row<L>("exponent", &L::exponent, dimension::none, {1, 1e300, true},
+        parameter_row<L>("exponent", &L::exponent, dimension::none, {1, unbounded, true},
                          "n of the equation of state tait, about 7 for water", 7, 7),
         parameter_row<L>("viscosity", &L::viscosity, dimension::viscosity, range::non_negative,
                          "shear viscosity mu", 0.5),

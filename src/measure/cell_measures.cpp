@@ -30,10 +30,10 @@ class CellShape {
 
   MeanMeridian meridian(const Motion& m) { return built(meridians_, body_).mean(m); }
   ClosedSurface<3>::Size outer(const Motion& m) {
-    return built(outer_, body_, SurfacePart::outer, 2).follow(m);
+    return built(outer_, body_, SurfacePart::outer, 2).placed(m).size;
   }
   ClosedSurface<3>::Size inner(const Motion& m) {
-    return built(inner_, body_, SurfacePart::inner, 2).follow(m);
+    return built(inner_, body_, SurfacePart::inner, 2).placed(m).size;
   }
   struct Thickest {
     Real thickness, x;
@@ -50,7 +50,7 @@ class CellShape {
   /// How far the middle surface is from a plane, relative to the largest thickness. The rim itself
   /// is left out: its middle is ill-defined.
   static Real asymmetry(const MeanMeridian& meridian) {
-    Real low = 1e300, high = -1e300;
+    Real low = unbounded, high = -unbounded;
     for (int k = 0; k <= 95; ++k) {
       const Real middle = 0.5 * (meridian.upper(0.01 * k) + meridian.lower(0.01 * k));
       low = std::min(low, middle);

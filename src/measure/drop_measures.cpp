@@ -21,7 +21,7 @@ class FineSurface {
   explicit FineSurface(const Body<D>& body) : body_(body) {}
 
   Real isoperimetric(const Motion& motion) {
-    const auto size = fine().follow(motion);
+    const auto size = fine().placed(motion).size;
     return isoperimetric_ratio<D>(size.area, size.volume);
   }
   Real least_area_ratio(const Motion& motion) {
@@ -46,7 +46,7 @@ class FineSurface {
   }
 
  private:
-  ClosedSurface<D>& fine() {
+  const ClosedSurface<D>& fine() {
     constexpr int points = 8;
     if (!surface_) surface_.emplace(body_, SurfacePart::outer, points);
     return *surface_;
@@ -54,11 +54,11 @@ class FineSurface {
   /// Calls f(x, da/dA, da).
   template <class F>
   void for_points(const Motion& motion, F&& f) {
-    ClosedSurface<D>& surface = fine();
-    surface.follow(motion);
-    for (Index q = 0; q < surface.reference().size(); ++q) {
-      const Real ratio = surface.area_vector(q).norm();
-      f(surface.place(q), ratio, ratio * at(surface.reference().area, q));
+    const auto surface = fine().placed(motion);
+    const std::vector<Real>& area = fine().reference().area;
+    for (std::size_t q = 0; q < area.size(); ++q) {
+      const Real ratio = surface.area_vector(static_cast<Index>(q)).norm();
+      f(surface.place(static_cast<Index>(q)), ratio, ratio * area[q]);
     }
   }
 

@@ -55,7 +55,7 @@ Real MeanMeridian::lower(Real x) const {
 
 Real MeanMeridian::distance(Real at_r, Real at_z) const {
   const Vec<2> place(at_r, at_z);
-  Real nearest = 1e300;
+  Real nearest = unbounded;
   for (std::size_t k = 0; k + 1 < r.size(); ++k) {
     const Vec<2> a(r[k], z[k]), edge = Vec<2>(r[k + 1], z[k + 1]) - a;
     const Real s = std::clamp((place - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);

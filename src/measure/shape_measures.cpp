@@ -4,6 +4,7 @@
 #include "meniscus/measure/shape_measures.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/box.hpp"
 #include "meniscus/measure/measure_registry.hpp"
 
 #include <Eigen/Dense>
@@ -20,12 +21,9 @@ class SurfacePlaces {
  public:
   explicit SurfacePlaces(const Body<D>& body)
       : body_(body), particles_(boundary_nodes(body.geometry.grid)) {
-    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
-    for (const Index A : particles_) {
-      low = low.cwiseMin(at(body.particles.X(), A));
-      high = high.cwiseMax(at(body.particles.X(), A));
-    }
-    (high - low).maxCoeff(&axis_);
+    Box<D> box;
+    for (const Index A : particles_) box.include(at(body.particles.X(), A));
+    box.extent().maxCoeff(&axis_);
   }
 
   std::vector<Vec<D>> places(const Motion& motion) const {
@@ -40,25 +38,13 @@ class SurfacePlaces {
     return x;
   }
 
-  Vec<D> extents(const Motion& motion) const {
-    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
-    for (const Vec<D>& x : places(motion)) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-    return high - low;
-  }
+  Vec<D> extents(const Motion& motion) const { return box_around<D>(places(motion)).extent(); }
 
   /// Least-squares fit r = r0 + r2 P2 + r4 P4 of the distance from the centre (2D: cos 2 phi,
   /// cos 4 phi) about the long reference axis: (r0, r2, r4).
   Eigen::Vector3d legendre_fit(const Motion& motion) const {
     const std::vector<Vec<D>> x = places(motion);
-    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
-    for (const Vec<D>& p : x) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    const Vec<D> centre = 0.5 * (low + high);
+    const Vec<D> centre = box_around<D>(x).centre();
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Vec<D>& p : x) {
@@ -114,8 +100,7 @@ MeasureSource state_error(const Body<D>& body, ExactSolution exact) {
     const Lanes *u = m.u.data() + body.first, *v = m.v.data() + body.first;
     Real error = 0, size = 0;
     for (Index A = 0; A < body.size(); ++A) {
-      Eigen::Vector3d X = Eigen::Vector3d::Zero();
-      X.head<D>() = at(body.particles.X(), A);
+      const Eigen::Vector3d X = spatial<D>(at(body.particles.X(), A));
       const Lanes u_A = value_at(body.at_particles, A, u), v_A = value_at(body.at_particles, A, v);
       const Real V = body.cells.volume(A);
       for (int i = 0; i < D; ++i) {

@@ -22,9 +22,10 @@ class BalancedSurfaceTension final : public TensionForm<D> {
     correction_ = exact / patches_.reference(Size::area);
   }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     patches_.follow(Size::area, this->displacements(motion));
     patches_.add_gradient(-this->gamma_ * correction_, this->own_part(force));
+    return {};
   }
   std::size_t bytes() const override { return patches_.bytes(); }
   Offset pairs() const override { return patches_.pairs(); }

@@ -17,12 +17,14 @@ class BodyForce final : public ForceTerm {
 
   std::string name() const override { return "body force on '" + body_.name + "'"; }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     evaluate(motion.time);
     for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += at(load_, A);
+    return {};
   }
   Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
-  Real external_power(const Motion& motion) const override {
+  Real load_power(const Motion& motion) override {
+    evaluate(motion.time);
     return parallel_sum(body_.size(), 0.0,
                         [&](Index A) { return sum(at(load_, A) * at(motion.v, body_.first + A)); });
   }
@@ -30,11 +32,11 @@ class BodyForce final : public ForceTerm {
   Offset pairs() const override { return 0; }
 
  private:
+  /// load_ at a time, which is that of the call before as a rule.
   void evaluate(Real time) {
     if (time == evaluated_at_ || (steady_ && evaluated_at_ > never)) return;
     for (Index A = 0; A < body_.size(); ++A) {
-      Eigen::Vector3d X = Eigen::Vector3d::Zero();
-      X.head<D>() = at(body_.particles.X(), A);
+      const Eigen::Vector3d X = spatial<D>(at(body_.particles.X(), A));
       at(load_, A) = Lanes::zero();
       for (int i = 0; i < D; ++i)
         at(load_, A).set(i, at(body_.mass, A) * at(acceleration_, i)(X, time));
@@ -46,7 +48,7 @@ class BodyForce final : public ForceTerm {
   std::vector<Expression> acceleration_;
   NodalVectors load_;
   bool steady_ = true;
-  static constexpr Real never = -1e300;
+  static constexpr Real never = -unbounded;
   Real evaluated_at_ = never;
 };
 

@@ -18,21 +18,25 @@ class Cavity final : public ForceTerm {
   Cavity(const Body<D>& body, SurfacePart part, const CavityFilling& filling, int points)
       : surface_(body, part, points), filling_(filling) {
     const NodalVectors rest(static_cast<std::size_t>(body.first + body.size()), Lanes::zero());
-    reference_volume_ = surface_.follow({0, rest, rest}).volume;
+    now_ = surface_.placed({0, rest, rest});
+    reference_volume_ = now_.size.volume;
     if (part == SurfacePart::inner) gap_.emplace(surface_.reference());
   }
 
   std::string name() const override { return "cavity of '" + surface_.body().name + "'"; }
   std::string_view energy_kind() const override { return vented() ? "" : "cavity"; }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
-    const auto size = surface_.follow(motion);
-    note_crossing();
-    if (vented()) return;
-    const Body<D>& body = surface_.body();
-    surface_.add_volume_gradient(
-        pressure(motion.time, size.volume),
-        force.subspan(static_cast<std::size_t>(body.first), static_cast<std::size_t>(body.size())));
+  Report add_force(const Motion& motion, Forces force) override {
+    Report report;
+    if (vented() && !gap_) return report;
+    surface_.place(motion, now_);
+    report.failure = crossing();
+    if (vented()) return report;
+    const Real V = now_.size.volume;
+    report.external_power = ramp_power(motion.time, V);
+    surface_.add_volume_gradient(now_, pressure(motion.time, V),
+                                 surface_.body().part(std::span<Lanes>(force)));
+    return report;
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
@@ -42,24 +46,12 @@ class Cavity final : public ForceTerm {
       return -*filling_.pressure * filling_.ramp.fraction(motion.time) * (V - reference_volume_);
     return 0.5 * filling_.penalty * reference_volume_ * std::pow(excess(motion.time, V), 2);
   }
-  /// dE/dt at constant volume.
-  Real external_power(const Motion& motion) const override {
-    const Real rate = filling_.ramp.rate(motion.time);
-    if (vented() || rate == 0) return 0;
-    const Real V = volume(motion);
-    if (filling_.pressure) return -*filling_.pressure * rate * (V - reference_volume_);
-    return filling_.penalty * reference_volume_ * excess(motion.time, V) *
-           (1 - *filling_.volume_target) * rate;
-  }
-
   Real steady_after() const override { return vented() ? 0 : filling_.ramp.end; }
   /// Pressure times area.
   Real uncancelled_force(const Motion& motion) const override {
-    const auto size = surface_.follow(motion);
+    const auto size = surface_.placed(motion).size;
     return std::abs(pressure(motion.time, size.volume)) * size.area;
   }
-
-  std::optional<Failure> failure() const override { return failure_; }
 
   std::vector<MeasureSource> measures() const override {
     std::vector<MeasureSource> measures{
@@ -68,20 +60,17 @@ class Cavity final : public ForceTerm {
         {"cavity_pressure", dimension::pressure, "pressure inside above that outside",
          [this](const Motion& motion) { return pressure(motion.time, volume(motion)); }}};
     if (gap_)
-      measures.push_back({"cavity_gap", dimension::length,
-                          "smallest distance of opposite inner faces",
-                          [this](const Motion& motion) {
-                            surface_.follow(motion);
-                            return gap_->smallest(surface_).width;
-                          }});
+      measures.push_back(
+          {"cavity_gap", dimension::length, "smallest distance of opposite inner faces",
+           [this](const Motion& motion) { return gap_->smallest(surface_.placed(motion)).width; }});
     return measures;
   }
-  std::size_t bytes() const override { return surface_.bytes(); }
+  std::size_t bytes() const override { return surface_.bytes() + now_.bytes(); }
   Offset pairs() const override { return surface_.pairs(); }
 
  private:
   bool vented() const { return !filling_.pressure && !filling_.volume_target; }
-  Real volume(const Motion& motion) const { return surface_.follow(motion).volume; }
+  Real volume(const Motion& motion) const { return surface_.placed(motion).size.volume; }
   /// V/V0 - target.
   Real excess(Real time, Real volume) const {
     const Real target = 1 + (*filling_.volume_target - 1) * filling_.ramp.fraction(time);
@@ -92,22 +81,31 @@ class Cavity final : public ForceTerm {
     return filling_.volume_target ? -filling_.penalty * excess(time, volume) : 0;
   }
 
-  void note_crossing() {
-    failure_.reset();
-    if (!gap_) return;
-    const auto gap = gap_->smallest(surface_);
-    if (gap.width > 0) return;
-    failure_ = {surface_.body().first + surface_.owner(gap.point),
-                fmt::format("opposite inner faces of the cavity touch: their distance is {:.4g}. "
-                            "Deflate the cavity less, or make it higher",
-                            gap.width)};
+  /// dE/dt at constant volume.
+  Real ramp_power(Real time, Real volume) const {
+    const Real rate = filling_.ramp.rate(time);
+    if (rate == 0) return 0;
+    if (filling_.pressure) return -*filling_.pressure * rate * (volume - reference_volume_);
+    return filling_.penalty * reference_volume_ * excess(time, volume) *
+           (1 - *filling_.volume_target) * rate;
+  }
+  /// Opposite inner faces that touch, as now_ has them.
+  std::optional<Failure> crossing() const {
+    if (!gap_) return std::nullopt;
+    const auto gap = gap_->smallest(now_);
+    if (gap.width > 0) return std::nullopt;
+    return Failure{
+        surface_.body().first + surface_.owner(gap.point),
+        fmt::format("opposite inner faces of the cavity touch: their distance is {:.4g}. "
+                    "Deflate the cavity less, or make it higher",
+                    gap.width)};
   }
 
-  mutable ClosedSurface<D> surface_;  // remembers the motion followed last
+  ClosedSurface<D> surface_;
+  typename ClosedSurface<D>::Placed now_;  // at the motion of a force
   CavityFilling filling_;
   Real reference_volume_ = 0;
   std::optional<CavityGap<D>> gap_;
-  std::optional<Failure> failure_;
 };
 
 }  // namespace

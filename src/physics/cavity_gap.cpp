@@ -42,7 +42,8 @@ CavityGap<D>::CavityGap(const SurfacePoints<D>& reference) {
 }
 
 template <int D>
-typename CavityGap<D>::Gap CavityGap<D>::smallest(const ClosedSurface<D>& surface) const {
+typename CavityGap<D>::Gap CavityGap<D>::smallest(
+    const typename ClosedSurface<D>::Placed& surface) const {
   Gap gap{std::numeric_limits<Real>::infinity(), -1};
   for (const Pair& pair : pairs_) {
     const Vec<D> n = surface.area_vector(pair.point).normalized();

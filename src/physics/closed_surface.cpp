@@ -62,7 +62,6 @@ ClosedSurface<D>::ClosedSurface(const Body<D>& body, SurfacePart part, int point
       at(X_, q / 4 * D + k).set(q % 4, at(reference_.X, q)[k] - origin_[k]);
       at(N_, q / 4 * D + k).set(q % 4, at(reference_.N, q)[k]);
     }
-  now_.resize(groups);
 }
 
 template <int D>
@@ -86,35 +85,45 @@ typename ClosedSurface<D>::Group ClosedSurface<D>::evaluate(Index group, const L
 }
 
 template <int D>
-typename ClosedSurface<D>::Size ClosedSurface<D>::follow(const Motion& motion) {
+typename ClosedSurface<D>::Placed ClosedSurface<D>::placed(const Motion& motion) const {
+  Placed points;
+  points.groups.resize(static_cast<std::size_t>(rule_.groups()));
+  points.origin = origin_;
+  place(motion, points);
+  return points;
+}
+
+template <int D>
+void ClosedSurface<D>::place(const Motion& motion, Placed& placed) const {
   const Lanes* u = motion.u.data() + body_.first;
   const Sums sums = parallel_sum(rule_.groups(), Sums{}, [&](Index g) {
-    const Group& points = at(now_, g) = evaluate(g, u);
+    const Group& points = at(placed.groups, g) = evaluate(g, u);
     const Lanes w = rule_.weight(g);
     return Sums{sum(w * dot(points.x, points.m)), sum(w * sqrt(dot(points.m, points.m))),
                 weighted_sums(w, points.x), weighted_sums(w, points.m)};
   });
   Real total = 0;
   for (const Real w : rule_.point_weight) total += w;
-  mean_x_ = each_lane(sums.x, 1 / total);
-  mean_m_ = each_lane(sums.m, 1 / total);
-  return {share_ * (sums.x_dot_m - sum(sums.x * sums.m) / total), sums.area};
+  placed.mean_x = each_lane(sums.x, 1 / total);
+  placed.mean_m = each_lane(sums.m, 1 / total);
+  placed.size = {share_ * (sums.x_dot_m - sum(sums.x * sums.m) / total), sums.area};
 }
 
 /// dV/dd_A = +-1/D sum_q w_q [(m_q - mean m) N_A + d(x'.m)/dF grad N_A] with x' = x - mean x. With
 /// the columns f_K of F, x'.m = sum_K N_K x'.(f_K+1 x f_K+2), so that column L of the derivative is
 /// x' x (N_L+1 f_L+2 - N_L+2 f_L+1).
 template <int D>
-void ClosedSurface<D>::add_volume_gradient(Real factor, std::span<Lanes> force) {
+void ClosedSurface<D>::add_volume_gradient(const Placed& placed, Real factor,
+                                           std::span<Lanes> force) {
   windows_.accumulate(force, [&](int, Index begin, Index end, Lanes* f) {
     for (Index g = begin; g < end; ++g) {
-      const Group& points = at(now_, g);
+      const Group& points = at(placed.groups, g);
       const Lanes w = factor * share_ * rule_.weight(g);
       Vector N{Lanes::zero(), Lanes::zero(), Lanes::zero()}, x, m;
       for (int k = 0; k < D; ++k) at(N, k) = at(N_, g * D + k);
       for (int i = 0; i < 3; ++i) {
-        at(x, i) = at(points.x, i) - at(mean_x_, i);
-        at(m, i) = w * (at(points.m, i) - at(mean_m_, i));
+        at(x, i) = at(points.x, i) - at(placed.mean_x, i);
+        at(m, i) = w * (at(points.m, i) - at(placed.mean_m, i));
       }
       std::array<Vector, 3> column;
       for (int L = 0; L < 3; ++L) {
@@ -133,16 +142,16 @@ void ClosedSurface<D>::add_volume_gradient(Real factor, std::span<Lanes> force) 
 }
 
 template <int D>
-Vec<D> ClosedSurface<D>::place(Index point) const {
-  Vec<D> x = origin_;
-  for (int k = 0; k < D; ++k) x[k] += at(at(now_, point / 4).x, k)[point % 4];
+Vec<D> ClosedSurface<D>::Placed::place(Index point) const {
+  Vec<D> x = origin;
+  for (int k = 0; k < D; ++k) x[k] += at(at(groups, point / 4).x, k)[point % 4];
   return x;
 }
 
 template <int D>
-Vec<D> ClosedSurface<D>::area_vector(Index point) const {
+Vec<D> ClosedSurface<D>::Placed::area_vector(Index point) const {
   Vec<D> m;
-  for (int k = 0; k < D; ++k) m[k] = at(at(now_, point / 4).m, k)[point % 4];
+  for (int k = 0; k < D; ++k) m[k] = at(at(groups, point / 4).m, k)[point % 4];
   return m;
 }
 
@@ -157,8 +166,7 @@ Index ClosedSurface<D>::owner(Index point) const {
 
 template <int D>
 std::size_t ClosedSurface<D>::bytes() const {
-  return rule_.bytes() + windows_.bytes() + (X_.size() + N_.size()) * sizeof(Lanes) +
-         now_.size() * sizeof(Group);
+  return rule_.bytes() + windows_.bytes() + (X_.size() + N_.size()) * sizeof(Lanes);
 }
 
 template class ClosedSurface<2>;

@@ -29,24 +29,24 @@ class CoefficientDamping final : public ForceTerm {
   std::string name() const override { return "coefficient damping of '" + body_.name + "'"; }
   bool viscous() const override { return true; }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     const Rotation sums = take_off_places(motion);
     const Eigen::Vector3d w = sums.rate();
-    heat_ = parallel_sum(body_.size(), 0.0, [&](Index A) {
+    Report report;
+    report.heat = parallel_sum(body_.size(), 0.0, [&](Index A) {
       const Eigen::Vector3d turned = w.cross(spatial(at(offset_, A)));
       const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
       at(slip_, A) = at(rate_, A) * s;
       return at(rate_, A) * sum(s * s);
     });
-    const auto own = force.subspan(static_cast<std::size_t>(body_.first),
-                                   static_cast<std::size_t>(body_.size()));
+    const auto own = body_.part(std::span<Lanes>(force));
     windows_.accumulate(own, [&](int, Index begin, Index end, Lanes* f) {
       for (Index A = begin; A < end; ++A) scatter_value(body_.at_particles, A, at(slip_, A), f);
     });
     for (Index A = 0; A < body_.size(); ++A) at(own, A) -= at(slip_, A);
+    return report;
   }
 
-  Real dissipation() const override { return heat_; }
   std::size_t bytes() const override {
     return windows_.bytes() + rate_.size() * sizeof(Real) +
            (slip_.size() + offset_.size()) * sizeof(Lanes);
@@ -95,7 +95,6 @@ class CoefficientDamping final : public ForceTerm {
   ForceWindows windows_;
   std::vector<Real> rate_;  // c, [particle]
   NodalVectors slip_, offset_;
-  Real heat_ = 0;
 };
 
 }  // namespace

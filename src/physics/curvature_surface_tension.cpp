@@ -28,7 +28,7 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
     windows_ = {rows_.start, rows_.particle, body.size()};
   }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     const Lanes* u = this->displacements(motion);
     windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, Lanes* f) {
       for (Index q = begin; q < end; ++q) {
@@ -38,6 +38,7 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
         scatter_value(rows_, q, Lanes(t * frame.n[0], t * frame.n[1], t * frame.n[2], 0.0), f);
       }
     });
+    return {};
   }
 
   std::vector<MeasureSource> measures() const override {

@@ -26,8 +26,8 @@ bool ReferenceDirector::uniform() const {
 
 template <int D>
 Eigen::Vector3d ReferenceDirector::at(const Vec<D>& X, const Geometry<D>& geometry) const {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero(), h = place;
-  place.head<D>() = X;
+  const Eigen::Vector3d place = spatial<D>(X);
+  Eigen::Vector3d h = Eigen::Vector3d::Zero();
   if (!formulas_.empty()) {
     for (int i = 0; i < D; ++i) h[i] = meniscus::at(formulas_, i).unchecked(place);
   } else if (geometry.director) {

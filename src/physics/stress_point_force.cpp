@@ -46,40 +46,28 @@ Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
 }
 
 template <int D, class Rule>
-void StressPointForce<D, Rule>::note_failure(Index begin, Index end, const Lanes* u) {
+Index StressPointForce<D, Rule>::first_folded(Index begin, Index end, const Lanes* u) const {
   for (Index g = begin; g < end; ++g) {
     const Tensor<Lanes> H = gradients(g, u);
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
-      if (!(1 + volume_change(lane_of(H, lane)) > 0)) {
-#pragma omp critical(meniscus_internal_force_failure)
-        failed_group_ = std::min(failed_group_, g);
-        return;
-      }
+      if (!(1 + volume_change(lane_of(H, lane)) > 0)) return g;
   }
+  return no_group;
 }
 
 template <int D, class Rule>
-void StressPointForce<D, Rule>::describe_failure(const Lanes* u) {
-  if (failed_group_ == no_group) return;
-  const Tensor<Lanes> H = gradients(failed_group_, u);
-  for (int lane = 0; lane < rule_.points_per_group(); ++lane) {
-    const Tensor<Real> H_point = lane_of(H, lane), F = deformation_gradient(H_point);
-    const Real J = 1 + volume_change(H_point);
-    if (J > 0) continue;
-    failure_ = {
-        body_.first + rule_.owner(failed_group_, lane),
-        fmt::format("J = det F = {:.6g} at a stress point, F = [{:.4g} {:.4g} {:.4g}; {:.4g} "
-                    "{:.4g} {:.4g}; {:.4g} {:.4g} {:.4g}]",
-                    J, F(0, 0), F(0, 1), F(0, 2), F(1, 0), F(1, 1), F(1, 2), F(2, 0), F(2, 1),
-                    F(2, 2))};
-    return;
-  }
-}
-
-template <int D, class Rule>
-std::optional<Failure> StressPointForce<D, Rule>::failure() const {
-  if (failed_group_ == no_group) return std::nullopt;
-  return failure_;
+std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group, const Lanes* u) const {
+  if (group == no_group) return std::nullopt;
+  const Tensor<Lanes> H = gradients(group, u);
+  int lane = 0;
+  while (1 + volume_change(lane_of(H, lane)) > 0) ++lane;
+  const Tensor<Real> F = deformation_gradient(lane_of(H, lane));
+  return Failure{
+      body_.first + rule_.owner(group, lane),
+      fmt::format("J = det F = {:.6g} at a stress point, F = [{:.4g} {:.4g} {:.4g}; {:.4g} {:.4g} "
+                  "{:.4g}; {:.4g} {:.4g} {:.4g}]",
+                  1 + volume_change(lane_of(H, lane)), F(0, 0), F(0, 1), F(0, 2), F(1, 0), F(1, 1),
+                  F(1, 2), F(2, 0), F(2, 1), F(2, 2))};
 }
 
 template <int D, class Rule>

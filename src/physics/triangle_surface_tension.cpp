@@ -47,7 +47,7 @@ class TriangleSurfaceTension final : public TensionForm<D> {
     load_.resize(X_.size());
   }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     find_places(motion, x_);
     std::fill(pull_.begin(), pull_.end(), Vec<D>::Zero());
     for (const auto& simplex : simplices_) {
@@ -58,6 +58,7 @@ class TriangleSurfaceTension final : public TensionForm<D> {
     windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, Lanes* f) {
       for (Index B = begin; B < end; ++B) scatter_value(rows_, B, at(load_, B), f);
     });
+    return {};
   }
 
   std::size_t bytes() const override {
@@ -98,7 +99,7 @@ class TriangleSurfaceTension final : public TensionForm<D> {
   std::vector<std::array<Index, D>> simplices_;  // numbers in nodes_
   PointRows<D> rows_;
   ForceWindows windows_;
-  // Of the last force: places of the boundary particles and the pull on them.
+  // Work space of a force: places of the boundary particles and the pull on them.
   std::vector<Vec<D>> x_, pull_;
   NodalVectors load_;
 };

@@ -17,12 +17,12 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
   state.u.assign(static_cast<std::size_t>(scene.system.size()), Lanes::zero());
   state.v = state.u;
   state.force = state.u;
+  state.fields = scene.system.fields;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const Body<D>& body = scene.system.bodies[b];
     const BodySettings& settings = plan.bodies[b].settings;
     for (Index A = 0; A < body.size(); ++A) {
-      Eigen::Vector3d X = Eigen::Vector3d::Zero();
-      X.head<D>() = at(body.particles.X(), A);
+      const Eigen::Vector3d X = spatial<D>(at(body.particles.X(), A));
       for (int i = 0; i < D; ++i) {
         if (!settings.initial_displacement.empty())
           at(state.u, body.first + A).set(i, at(settings.initial_displacement, i)(X));

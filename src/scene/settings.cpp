@@ -7,6 +7,7 @@
 #include "meniscus/core/optional_rows.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/scene/load.hpp"
+#include "meniscus/solve/stepper.hpp"
 
 #include <iterator>
 
@@ -30,7 +31,7 @@ Rows<TimeSettings> TimeSettings::rows() {
       integer_row("check_every", &S::check_every, {1, 1e9},
                   "most steps between two estimates of the stable step; fewer while it changes",
                   250),
-      choice_row("solver", &S::solver, {"dynamics", "relax"},
+      choice_row("solver", &S::solver, Registry<StepperEntry>::all().names(),
                  "motion as it is, or damped to the equilibrium: relax stops by itself, at the "
                  "latest at end, where a body that still moves is an error",
                  "dynamics"),

@@ -11,23 +11,6 @@
 #include <algorithm>
 
 namespace meniscus {
-namespace {
-
-template <int D>
-void unpack(const Snapshot& snapshot, const char* name, NodalVectors& field) {
-  std::vector<Real> values(field.size() * D);
-  snapshot.copy_to(name, values);
-  for (std::size_t A = 0; A < field.size(); ++A) {
-    field[A] = Lanes::zero();
-    for (int i = 0; i < D; ++i) field[A].set(i, values[A * D + static_cast<std::size_t>(i)]);
-  }
-}
-
-std::span<const Real> three(const Eigen::Vector3d& x) {
-  return {x.data(), 3};
-}
-
-}  // namespace
 
 template <int D>
 std::vector<Real> packed(const NodalVectors& field) {
@@ -46,30 +29,23 @@ Simulation<D>::Simulation(Scene<D>& scene)
           scene.system.terms.begin(), scene.system.terms.end(),
           [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
       controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every,
-                                 scene.time.step_place}) {
-  if (scene.time.solver != "relax") return;
-  relaxation_.emplace(scene.system, typename Relaxation<D>::Tolerances{scene.time.force_tolerance,
-                                                                       scene.time.shape_tolerance});
-  for (const auto& term : scene.system.terms)
-    if (term->steady_after() >= scene.time.end)
-      throw InputError(
-          fmt::format("[time] solver = \"relax\": {} changes until t = {:.6g}, not before the end "
-                      "{:.6g} of the "
-                      "scene; there is no rest to be reached",
-                      term->name(), term->steady_after(), scene.time.end));
-}
+                                 scene.time.step_place}),
+      stepper_(Registry<StepperEntry>::all()
+                   .at(scene.time.solver)
+                   .make(scene.system, {scene.time.end, scene.time.force_tolerance,
+                                        scene.time.shape_tolerance})) {}
 
 template <int D>
 void Simulation<D>::begin() {
   start(scene_.system, state_);
   controller_.begin(state_);
   audit_.begin(take_ledger(scene_.system, state_));
-  if (relaxation_) relaxation_->begin(state_);
+  stepper_->begin(state_);
 }
 
 template <int D>
 bool Simulation<D>::finished() const {
-  return state_.time >= scene_.time.end || (relaxation_ && relaxation_->at_rest());
+  return state_.time >= scene_.time.end || stepper_->arrived();
 }
 
 /// A step of dt or, if that is rejected, of a half of it, and so on.
@@ -80,12 +56,12 @@ void Simulation<D>::step(Real dt) {
   for (int halvings = 0;; ++halvings) {
     last_step_ = dt;
     try {
-      meniscus::advance(scene_.system, state_, dt);
+      stepper_->step(state_, dt);
       if (halvings > 0) controller_.shorten(dt);
       return;
-    } catch (const StepRejected& e) {
-      if (halvings == most_halvings)
-        throw SolveError(fmt::format("{}; the step was halved {} times", e.what(), halvings));
+    } catch (StepError& e) {
+      e.failure.halvings = halvings;
+      if (!e.failure.of_step || halvings == most_halvings) throw;
       state_ = before_;
       dt /= 2;
     }
@@ -99,13 +75,13 @@ void Simulation<D>::advance() {
     if (keeps_state_before_)
       step(last_step_);
     else
-      meniscus::advance(scene_.system, state_, last_step_);
-    if (relaxation_) relaxation_->damp(state_, last_step_);
+      stepper_->step(state_, last_step_);
+  } catch (const StepError& e) {
+    give_up(e.failure);
   } catch (const SolveError& e) {
-    // The step left its broken forces; those of the places it was taken back to can be shown.
-    scene_.system.add_up(state_.motion(), state_.force);
-    throw SolveError(fmt::format("step {}, t = {:.9g}, dt = {:.4g}: {}", state_.step + 1,
-                                 state_.time + last_step_, last_step_, e.what()));
+    StepFailure failure;
+    failure.cause = e.what();
+    give_up(failure);
   }
 }
 
@@ -129,6 +105,16 @@ void Simulation<D>::refuse_impossible_surfaces() const {
 }
 
 template <int D>
+void Simulation<D>::give_up(StepFailure failure) {
+  // The step left its broken forces; those of the places it was taken back to can be shown.
+  scene_.system.add_up(state_.motion(), state_.forces());
+  failure.step = state_.step + 1;
+  failure.time = state_.time + last_step_;
+  failure.dt = last_step_;
+  throw StepError(failure);
+}
+
+template <int D>
 Ledger Simulation<D>::audit_now() {
   refuse_impossible_surfaces();
   const Ledger ledger = take_ledger(scene_.system, state_);
@@ -137,59 +123,33 @@ Ledger Simulation<D>::audit_now() {
 }
 
 template <int D>
-Snapshot Simulation<D>::snapshot() const {
-  Snapshot s;
-  s.add_reals("displacement", packed<D>(state_.u), scene_.units.symbol(dimension::length));
-  s.add_reals("velocity", packed<D>(state_.v), scene_.units.symbol(dimension::velocity));
-  s.add_reals("force", packed<D>(state_.force), scene_.symbol_of_sum(dimension::force));
-  const Real numbers[] = {
-      state_.time,           state_.dissipated, state_.external_work,    state_.dissipation_power,
-      state_.external_power, last_step_,        state_.demand.stiffness, state_.demand.longest};
-  s.add_reals("numbers", numbers);
-  const std::int64_t step[] = {state_.step};
-  s.add_integers("step", step);
-  controller_.save(s);
-  if (relaxation_) relaxation_->save(s);
-
-  const Real scales[] = {audit_.initial_balance, audit_.energy_scale, audit_.momentum_scale,
-                         audit_.angular_momentum_scale};
-  s.add_reals("audit/scales", scales);
-  s.add_reals("audit/momentum", three(audit_.initial_momentum));
-  s.add_reals("audit/angular_momentum", three(audit_.initial_angular_momentum));
-  for (const auto& [kind, energy] : audit_.initial_stored)
-    s.add_reals("audit/stored/" + kind, {&energy, 1});
-  return s;
+void Simulation<D>::archive(const Archive& a) {
+  state_.archive(a, D);
+  a("last_step", last_step_, dimension::time);
+  controller_.archive(a.in("step_control"));
+  const Archive stepper = a.in("stepper").in(scene_.time.solver);
+  if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's
+    stepper_->begin(state_);
+  else
+    stepper_->archive(stepper, state_);
+  if (a.is_reading()) audit_.begin(take_ledger(scene_.system, state_));  // its kinds of energy
+  audit_.archive(a.in("audit"), D);
+  for (std::size_t k = 0; k < scene_.system.terms.size(); ++k) {
+    ForceTerm& term = *scene_.system.terms[k];
+    term.archive(a.in(fmt::format("terms/{} {}", k, term.name())));
+  }
 }
 
 template <int D>
-void Simulation<D>::restore(const Snapshot& s) {
-  unpack<D>(s, "displacement", state_.u);
-  unpack<D>(s, "velocity", state_.v);
-  unpack<D>(s, "force", state_.force);
-  Real numbers[8];
-  s.copy_to("numbers", numbers);
-  state_.time = numbers[0];
-  state_.dissipated = numbers[1];
-  state_.external_work = numbers[2];
-  state_.dissipation_power = numbers[3];
-  state_.external_power = numbers[4];
-  last_step_ = numbers[5];
-  state_.demand = {numbers[6], numbers[7]};
-  state_.step = s.integer("step");
-  controller_.restore(s);
-  if (relaxation_) relaxation_->restore(s, state_);
+Snapshot Simulation<D>::snapshot() {
+  Snapshot snapshot;
+  archive(Archive::writing(snapshot, [this](Dimension d) { return scene_.units.symbol(d); }));
+  return snapshot;
+}
 
-  Real scales[4];
-  s.copy_to("audit/scales", scales);
-  audit_.initial_balance = scales[0];
-  audit_.energy_scale = scales[1];
-  audit_.momentum_scale = scales[2];
-  audit_.angular_momentum_scale = scales[3];
-  s.copy_to("audit/momentum", {audit_.initial_momentum.data(), 3});
-  s.copy_to("audit/angular_momentum", {audit_.initial_angular_momentum.data(), 3});
-  audit_.initial_stored.clear();
-  for (const auto& [kind, energy] : take_ledger(scene_.system, state_).stored)
-    audit_.initial_stored[kind] = s.real("audit/stored/" + kind);
+template <int D>
+void Simulation<D>::restore(const Snapshot& snapshot) {
+  archive(Archive::reading(snapshot));
 }
 
 template std::vector<Real> packed<2>(const NodalVectors&);

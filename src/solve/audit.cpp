@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-Eigen::Vector3d spatial(Lanes x) {
+Eigen::Vector3d vector_of(Lanes x) {
   return {x[0], x[1], x[2]};
 }
 
@@ -23,9 +23,9 @@ Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
     zero += parallel_sum(body.size(), Eigen::Matrix<Real, 6, 1>(Eigen::Matrix<Real, 6, 1>::Zero()),
                          [&](Index A) {
                            const Index I = body.first + A;
-                           Eigen::Vector3d x = spatial(at(state.u, I));
+                           Eigen::Vector3d x = vector_of(at(state.u, I));
                            x.head<D>() += at(body.particles.X(), A);
-                           const Eigen::Vector3d p = at(system.mass, I) * spatial(at(state.v, I));
+                           const Eigen::Vector3d p = at(system.mass, I) * vector_of(at(state.v, I));
                            Eigen::Matrix<Real, 6, 1> both;
                            both.head<3>() = p;
                            both.tail<3>() = x.cross(p);
@@ -52,11 +52,16 @@ Ledger take_ledger(const System<D>& system, const State& state) {
   ledger.kinetic = parallel_sum(system.size(), 0.0, [&](Index A) {
     return 0.5 * at(system.mass, A) * sum(at(state.v, A) * at(state.v, A));
   });
+  for (const Unknown& field : state.fields)
+    if (field.spec.evolution == Evolution::inertial)
+      ledger.kinetic += parallel_sum(system.size(), 0.0, [&](Index A) {
+        return 0.5 * at(field.capacity, A) * sum(at(field.rate, A) * at(field.rate, A));
+      });
   for (const auto& term : system.terms)
     if (const auto energy = term->stored_energy(state.motion()))
       ledger.stored[std::string(term->energy_kind())] += *energy;
-  ledger.dissipated = state.dissipated;
-  ledger.external_work = state.external_work;
+  ledger.dissipated = state.books.dissipated;
+  ledger.external_work = state.books.external_work;
   const auto both = momenta(system, state);
   ledger.momentum = both.template head<3>();
   ledger.angular_momentum = both.template tail<3>();
@@ -71,6 +76,17 @@ void Audit::begin(const Ledger& ledger) {
   initial_angular_momentum = ledger.angular_momentum;
 }
 
+void Audit::archive(const Archive& a, int space_dimension) {
+  const auto sum = [&](Dimension d) { return of_sum(d, space_dimension); };
+  a("initial_balance", initial_balance, sum(dimension::energy));
+  a("initial_stored", initial_stored, sum(dimension::energy));
+  a("initial_momentum", initial_momentum, sum(dimension::momentum));
+  a("initial_angular_momentum", initial_angular_momentum, sum(dimension::angular_momentum));
+  a("energy_scale", energy_scale, sum(dimension::energy));
+  a("momentum_scale", momentum_scale, sum(dimension::momentum));
+  a("angular_momentum_scale", angular_momentum_scale, sum(dimension::angular_momentum));
+}
+
 template <int D>
 void Audit::follow(const System<D>& system, const State& state, const Ledger& ledger) {
   Real exchanged = ledger.kinetic + ledger.dissipated + std::abs(ledger.external_work);
@@ -83,7 +99,7 @@ void Audit::follow(const System<D>& system, const State& state, const Ledger& le
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A) {
       const Index I = body.first + A;
-      Eigen::Vector3d x = spatial(at(state.u, I));
+      Eigen::Vector3d x = vector_of(at(state.u, I));
       x.template head<D>() += at(body.particles.X(), A);
       mass += at(system.mass, I);
       first += at(system.mass, I) * x;

@@ -8,45 +8,43 @@ namespace meniscus {
 namespace {
 
 /// v += dt f / m
+void kick(NodalVectors& v, const NodalVectors& f, const std::vector<Real>& mass, Real dt) {
+  for_chunks(static_cast<Index>(v.size()), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(v, A) += (dt / at(mass, A)) * at(f, A);
+  });
+}
 template <int D>
 void kick(const System<D>& system, State& state, Real dt) {
-  for_chunks(system.size(), [&](Index, Index begin, Index end) {
-    for (Index A = begin; A < end; ++A)
-      at(state.v, A) += (dt / at(system.mass, A)) * at(state.force, A);
-  });
+  kick(state.v, state.force, system.mass, dt);
+  for (Unknown& field : state.fields)
+    if (field.spec.evolution == Evolution::inertial) kick(field.rate, field.f, field.capacity, dt);
 }
 
 /// x += dt v
-void drift(State& state, Real dt) {
-  for_chunks(static_cast<Index>(state.u.size()), [&](Index, Index begin, Index end) {
-    for (Index A = begin; A < end; ++A) at(state.u, A) += dt * at(state.v, A);
+void drift(NodalVectors& x, const NodalVectors& v, Real dt) {
+  for_chunks(static_cast<Index>(x.size()), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(x, A) += dt * at(v, A);
   });
 }
-
-/// What the terms say about the state besides their forces.
-template <int D>
-void note_terms(const System<D>& system, State& state) {
-  state.dissipation_power = state.external_power = 0;
-  state.demand = {};
-  for (const auto& term : system.terms) {
-    state.dissipation_power += term->dissipation();
-    state.external_power += term->external_power(state.motion());
-    const StepDemand demand = term->step_demand();
-    state.demand.stiffness += demand.stiffness;
-    state.demand.longest = std::min(state.demand.longest, demand.longest);
-  }
+void drift(State& state, Real dt) {
+  drift(state.u, state.v, dt);
+  for (Unknown& field : state.fields) drift(field.x, field.rate, dt);
 }
 
-/// Sums of heat and external work. The heat is that of the half-step velocities: over a step the
-/// viscous force does the work dt/2 (f_n + f_n+1).v_n+1/2, of which f_n+1.v_n+1/2 is the power
-/// computed last and f_n.v_n+1/2 lies half-way between the power before and that.
-template <int D>
-void book_energy(const System<D>& system, State& state, Real dt) {
-  state.dissipated += dt / 4 * state.dissipation_power;
-  state.external_work += dt / 2 * state.external_power;
-  note_terms(system, state);
-  state.dissipated += 3 * dt / 4 * state.dissipation_power;
-  state.external_work += dt / 2 * state.external_power;
+/// x' = f / c of the relaxational fields. The heat of the step of dt that ends: the work of the
+/// mean of both forces on the way that the old rate led.
+void settle(State& state, Real dt) {
+  for (Unknown& field : state.fields) {
+    if (field.spec.evolution != Evolution::relaxational) continue;
+    state.books.dissipated +=
+        dt / 2 * parallel_sum(static_cast<Index>(field.x.size()), 0.0, [&](Index A) {
+          Lanes& rate = at(field.rate, A);
+          const Real c = at(field.capacity, A);
+          const Real power = sum((at(field.f, A) + c * rate) * rate);
+          rate = at(field.f, A) / c;
+          return power;
+        });
+  }
 }
 
 }  // namespace
@@ -54,8 +52,10 @@ void book_energy(const System<D>& system, State& state, Real dt) {
 template <int D>
 void start(System<D>& system, State& state) {
   state.force.resize(state.u.size());
-  system.compute_forces(state.motion(), state.force);
-  note_terms(system, state);
+  const Report report = system.compute_forces(state.motion(), state.forces());
+  settle(state, 0);
+  state.books.begin(report, system.load_power(state.motion()));
+  state.demand = report.demand;
 }
 
 template <int D>
@@ -63,16 +63,20 @@ void advance(System<D>& system, State& state, Real dt) {
   kick(system, state, dt / 2);
   drift(state, dt);
   state.time += dt;
+  Report report;
   try {
-    system.compute_forces(state.motion(), state.force);
+    report = system.compute_forces(state.motion(), state.forces());
   } catch (const SolveError&) {
     drift(state, -dt);
     state.time -= dt;
     throw;
   }
+  settle(state, dt);
   kick(system, state, dt / 2);
   ++state.step;
-  book_energy(system, state, dt);
+  system.commit(state.motion());
+  state.books.add(report, system.load_power(state.motion()), dt);
+  state.demand = report.demand;
 }
 
 template void start(System<2>&, State&);

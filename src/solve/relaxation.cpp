@@ -14,7 +14,11 @@
 #include "meniscus/solve/relaxation.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/box.hpp"
 #include "meniscus/core/parallel.hpp"
+#include "meniscus/solve/central_difference.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,13 +36,6 @@ Real kinetic_energy(const System<D>& system, const State& state) {
   });
 }
 
-void add(Snapshot& snapshot, const char* name, const NodalVectors& field) {
-  snapshot.add_reals(name, {reinterpret_cast<const Real*>(field.data()), 4 * field.size()});
-}
-void copy(const Snapshot& snapshot, const char* name, NodalVectors& field) {
-  snapshot.copy_to(name, {reinterpret_cast<Real*>(field.data()), 4 * field.size()});
-}
-
 }  // namespace
 
 template <int D>
@@ -47,8 +44,6 @@ Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances)
 
 template <int D>
 void Relaxation<D>::begin(const State& state) {
-  last_u_ = state.u;
-  last_force_ = state.force;
   settled_windows_ = 0;
   shape_change_ = 1;
   open_window(state, 0);
@@ -62,20 +57,24 @@ Real Relaxation<D>::steady_after() const {
 }
 
 template <int D>
-void Relaxation<D>::damp(State& state, Real dt) {
-  const Real omega = change_since(last_u_, last_force_, state).omega;
+void Relaxation<D>::step(State& state, Real dt) {
   last_u_ = state.u;
   last_force_ = state.force;
+  advance(system_, state, dt);
+  damp(state, dt);
+}
+
+template <int D>
+void Relaxation<D>::damp(State& state, Real dt) {
+  const Real omega = change_since(last_u_, last_force_, state).omega;
   const Real factor = std::exp(-2 * damping_ratio * omega * dt);
-  state.dissipated += (1 - factor * factor) * kinetic_energy(system_, state);
+  state.books.dissipated += (1 - factor * factor) * kinetic_energy(system_, state);
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(state.v, A) *= factor;
   });
   // The powers of loads go with the velocity, those of viscous forces with its square.
-  state.external_power = 0;
-  for (const auto& term : system_.terms)
-    state.external_power += term->external_power(state.motion());
-  state.dissipation_power *= factor * factor;
+  state.books.load_power = system_.load_power(state.motion());
+  state.books.heat *= factor * factor;
   judge(state, dt);
 }
 
@@ -129,16 +128,12 @@ Real Relaxation<D>::largest_change(const State& state) const {
     NodalVectors du(static_cast<std::size_t>(body.size()));
     for (Index A = 0; A < body.size(); ++A)
       at(du, A) = at(state.u, body.first + A) - at(window_u_, body.first + A);
-    Vec<D> low = Vec<D>::Constant(1e300), high = -low;
     Real change = 0;
     for (Index A = 0; A < body.size(); ++A) {
-      const Vec<D>& X = at(body.particles.X(), A);
-      low = low.cwiseMin(X);
-      high = high.cwiseMax(X);
       const Lanes moved = value_at(body.at_particles, A, du.data());
       change = std::max(change, std::sqrt(sum(moved * moved)));
     }
-    largest = std::max(largest, change / (high - low).maxCoeff());
+    largest = std::max(largest, change / box_around<D>(body.particles.X()).extent().maxCoeff());
   }
   return largest;
 }
@@ -154,27 +149,40 @@ Real Relaxation<D>::force_residual(const State& state) const {
 }
 
 template <int D>
-void Relaxation<D>::save(Snapshot& snapshot) const {
-  add(snapshot, "relaxation/displacement", window_u_);
-  add(snapshot, "relaxation/force", window_force_);
-  const Real numbers[] = {window_begin_, window_length_, shape_change_};
-  snapshot.add_reals("relaxation/numbers", numbers);
-  snapshot.add_integers("relaxation/settled_windows", {&settled_windows_, 1});
+void Relaxation<D>::archive(const Archive& a, const State& state) {
+  if (a.is_reading()) begin(state);  // the sizes
+  a("window_displacement", window_u_, D, dimension::length);
+  a("window_force", window_force_, D, of_sum(dimension::force, D));
+  a("window_begin", window_begin_, dimension::time);
+  a("window_length", window_length_, dimension::time);
+  a("shape_change", shape_change_);
+  a("settled_windows", settled_windows_);
 }
 
 template <int D>
-void Relaxation<D>::restore(const Snapshot& snapshot, const State& state) {
-  begin(state);
-  if (!snapshot.has("relaxation/numbers")) return;
-  copy(snapshot, "relaxation/displacement", window_u_);
-  copy(snapshot, "relaxation/force", window_force_);
-  Real numbers[3];
-  snapshot.copy_to("relaxation/numbers", numbers);
-  window_begin_ = numbers[0];
-  window_length_ = numbers[1];
-  shape_change_ = numbers[2];
-  settled_windows_ = snapshot.integer("relaxation/settled_windows");
+std::vector<Residual> Relaxation<D>::residuals(const State& state) const {
+  return {{"force residual", force_residual(state), tolerances_.force},
+          {"change of shape that is left", shape_change_, tolerances_.shape}};
 }
+
+namespace {
+
+template <int D>
+std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
+  for (const auto& term : system.terms)
+    if (term->steady_after() >= choice.end)
+      throw InputError(
+          fmt::format("[time] solver = \"relax\": {} changes until t = {:.6g}, not before the end "
+                      "{:.6g} of the scene; there is no rest to be reached",
+                      term->name(), term->steady_after(), choice.end));
+  return std::make_unique<Relaxation<D>>(
+      system, typename Relaxation<D>::Tolerances{choice.force_tolerance, choice.shape_tolerance});
+}
+
+const bool registered =
+    register_entry(StepperEntry{"relax", {"force_residual", "shape_change"}, make<2>, make<3>});
+
+}  // namespace
 
 template class Relaxation<2>;
 template class Relaxation<3>;

@@ -77,7 +77,8 @@ template <int D>
 Real StepController<D>::allowed_step(const State& state) const {
   const Real come = std::max(0.0, state.demand.stiffness - known_stiffness_);
   const Real k = stable_.stiffness * stable_.stiffness + come, c = stable_.viscosity;
-  const Real stable = come > 0 ? 4 / (c + std::sqrt(c * c + 4 * k)) : stable_.dt;
+  const Real stable =
+      come > 0 ? std::min(4 / (c + std::sqrt(c * c + 4 * k)), stable_.of_fields) : stable_.dt;
   return std::min(choice_.safety * stable, state.demand.longest);
 }
 
@@ -103,42 +104,21 @@ Real StepController<D>::next(const State& state, Real end) {
 }
 
 template <int D>
-void StepController<D>::save(Snapshot& snapshot) const {
-  const NodalVectors& mode = estimator_.mode();
-  snapshot.add_reals("step_control/mode",
-                     {reinterpret_cast<const Real*>(mode.data()), 4 * mode.size()});
-  const Real numbers[] = {step_,
-                          first_limit_,
-                          stable_.dt,
-                          stable_.stiffness,
-                          stable_.viscosity,
-                          choice_.fixed.value_or(0),
-                          choice_.safety,
-                          interval_,
-                          known_stiffness_};
-  snapshot.add_reals("step_control/numbers", numbers);
-  const std::int64_t warned = warned_;
-  snapshot.add_integers("step_control/next_check", {&next_check_, 1});
-  snapshot.add_integers("step_control/last_check", {&last_check_, 1});
-  snapshot.add_integers("step_control/warned", {&warned, 1});
-}
-
-template <int D>
-void StepController<D>::restore(const Snapshot& snapshot) {
-  NodalVectors mode(estimator_.mode().size());
-  snapshot.copy_to("step_control/mode", {reinterpret_cast<Real*>(mode.data()), 4 * mode.size()});
-  estimator_.set_mode(std::move(mode));
-  Real numbers[9];
-  snapshot.copy_to("step_control/numbers", numbers);
-  step_ = numbers[0];
-  first_limit_ = numbers[1];
-  stable_ = {numbers[2], numbers[3], numbers[4], 0};
-  interval_ = numbers[7];
-  known_stiffness_ = numbers[8];
-  next_check_ = snapshot.integer("step_control/next_check");
-  last_check_ = snapshot.integer("step_control/last_check");
-  warned_ = snapshot.integer("step_control/warned") != 0;
-  if (choice_.fixed.value_or(0) != numbers[5] || choice_.safety != numbers[6]) choose_step();
+void StepController<D>::archive(const Archive& a) {
+  estimator_.archive(a);
+  stable_.archive(a.in("stable"));
+  a("step", step_, dimension::time);
+  a("first_limit", first_limit_, dimension::time);
+  a("interval", interval_);
+  a("next_check", next_check_);
+  a("last_check", last_check_);
+  a("known_stiffness", known_stiffness_, {0, -2, 0});
+  a("warned", warned_);
+  std::optional<Real> fixed = choice_.fixed;
+  Real safety = choice_.safety;
+  a("fixed", fixed, dimension::time);
+  a("safety", safety);
+  if (fixed != choice_.fixed || safety != choice_.safety) choose_step();
 }
 
 template class StepController<2>;

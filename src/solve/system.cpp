@@ -7,12 +7,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace meniscus {
 namespace {
 
+/// A failure at a particle.
 template <int D>
-std::string place_of(const System<D>& system, const Motion& motion, Index particle) {
+StepFailure failure_at(const System<D>& system, const Motion& motion, Index particle,
+                       std::string cause) {
   const Body<D>& body = system.body_of(particle);
   const Index A = particle - body.first;
   const Vec<D>& X = at(body.particles.X(), A);
@@ -22,11 +25,30 @@ std::string place_of(const System<D>& system, const Motion& motion, Index partic
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
     current += fmt::format("{}{:.6g}", i ? ", " : "", X[i] + u[i]);
   }
-  return fmt::format("body '{}', particle {} at reference position ({}), now ({})", body.name,
-                     particle, reference, current);
+  StepFailure failure;
+  failure.cause = std::move(cause);
+  failure.body = body.name;
+  failure.particle = particle;
+  failure.place = fmt::format("({}), now ({})", reference, current);
+  return failure;
 }
 
 }  // namespace
+
+template <int D>
+std::size_t System<D>::add_field(const FieldSpec& spec, std::span<const Real> capacity) {
+  std::size_t k = 0;
+  while (k < fields.size() && fields[k].spec.name != spec.name) ++k;
+  if (k == fields.size()) {
+    const NodalVectors zero(mass.size(), Lanes::zero());
+    fields.push_back({spec, std::vector<Real>(mass.size(), 0.0), zero, zero, zero});
+  }
+  Unknown& field = fields[k];
+  if (!(field.spec == spec) || capacity.size() != field.capacity.size())
+    throw std::logic_error("the field '" + spec.name + "' is described in two ways");
+  for (std::size_t A = 0; A < capacity.size(); ++A) field.capacity[A] += capacity[A];
+  return k;
+}
 
 template <int D>
 bool System<D>::viscous() const {
@@ -50,27 +72,52 @@ const Body<D>& System<D>::body_of(Index particle) const {
 }
 
 template <int D>
-void System<D>::add_up(const Motion& motion, std::span<Lanes> force) {
+Report System<D>::add_up(const Motion& motion, Forces force) {
   std::fill(force.begin(), force.end(), Lanes::zero());
-  for (auto& term : terms) term->add_force(motion, force);
+  for (Unknown& field : force.fields) std::fill(field.f.begin(), field.f.end(), Lanes::zero());
+  Report all;
+  for (auto& term : terms) {
+    Report report = term->add_force(motion, force);
+    if (report.failure) report.failure->term = term->name();
+    all += std::move(report);
+  }
+  return all;
 }
 
 template <int D>
-void System<D>::compute_forces(const Motion& motion, std::span<Lanes> force) {
-  add_up(motion, force);
-  for (const auto& term : terms)
-    if (const auto failure = term->failure()) {
-      const std::string message = fmt::format(
-          "{}: {} ({})", place_of(*this, motion, failure->particle), failure->cause, term->name());
-      if (failure->of_step) throw StepRejected(message);
-      throw SolveError(message);
-    }
+Real System<D>::load_power(const Motion& motion) {
+  Real power = 0;
+  for (auto& term : terms) power += term->load_power(motion);
+  return power;
+}
+
+template <int D>
+void System<D>::commit(const Motion& motion) {
+  for (auto& term : terms) term->commit(motion);
+}
+
+template <int D>
+Report System<D>::compute_forces(const Motion& motion, Forces force) {
+  Report report = add_up(motion, force);
+  if (report.failure) {
+    StepFailure failure =
+        failure_at(*this, motion, report.failure->particle, report.failure->cause);
+    failure.term = report.failure->term;
+    failure.of_step = report.failure->of_step;
+    throw StepError(failure);
+  }
   const Lanes total =
       parallel_sum(size(), Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
-  if (std::isfinite(sum(total))) return;
+  for (const Unknown& field : force.fields)
+    for (Index A = 0; A < size(); ++A)
+      if (!std::isfinite(sum(at(field.f, A) * at(field.f, A))))
+        throw StepError(failure_at(
+            *this, motion, A, "the force on '" + field.spec.name + "' is not a finite number"));
+  if (std::isfinite(sum(total))) return report;
   for (Index A = 0; A < size(); ++A)
     if (!std::isfinite(sum(at(force, A) * at(force, A))))
-      throw SolveError(place_of(*this, motion, A) + ": the force is not a finite number");
+      throw StepError(failure_at(*this, motion, A, "the force is not a finite number"));
+  return report;  // the squares overflowed
 }
 
 template struct System<2>;

@@ -10,14 +10,41 @@
 namespace meniscus {
 namespace {
 
+constexpr int most_iterations = 300;
+
+/// The limit falls from iteration to iteration, in the end as a geometric series: what is left of
+/// it is subtracted.
+struct FallingLimit {
+  Real dt = 0, last_fall = 0;
+  Real scale = 1;  ///< limit / what it falls to
+  int settled = 0;
+
+  void add(Real limit) {
+    constexpr Real tolerance = 2e-3;
+    const Real fall = dt - limit, slope = last_fall - fall;
+    const Real left =
+        fall > 0 && slope > 0 ? std::min(fall * fall / slope, 0.1 * limit) : std::abs(fall);
+    settled = left < tolerance * limit ? settled + 1 : 0;
+    last_fall = fall;
+    dt = limit;
+    scale = limit / (limit - std::min(left, 0.1 * limit));
+  }
+  bool found() const { return settled >= 4; }
+};
+
+Real largest_of(const NodalVectors& mode) {
+  Real largest = 0;
+  for (const Lanes& w : mode) largest = std::max(largest, std::sqrt(sum(w * w)));
+  return largest;
+}
+
 /// A start with all wave lengths in it, the same on every machine.
-template <int D>
-NodalVectors rough_mode(Index n) {
+NodalVectors rough_mode(Index n, int components) {
   NodalVectors mode(static_cast<std::size_t>(n));
   std::uint64_t bits = 0x9e3779b97f4a7c15;
   for (Lanes& w : mode) {
     w = Lanes::zero();
-    for (int i = 0; i < D; ++i) {
+    for (int i = 0; i < components; ++i) {
       bits ^= bits << 13;
       bits ^= bits >> 7;
       bits ^= bits << 17;
@@ -29,13 +56,30 @@ NodalVectors rough_mode(Index n) {
 
 }  // namespace
 
+void StableStep::archive(const Archive& a) {
+  a("dt", dt, dimension::time);
+  a("stiffness", stiffness, dimension::rate);
+  a("viscosity", viscosity, dimension::rate);
+  a("of_fields", of_fields, dimension::time);
+}
+
 template <int D>
 StableStepEstimator<D>::StableStepEstimator(System<D>& system)
-    : system_(system), spacing_(1e300), mode_(rough_mode<D>(system.size())) {
+    : system_(system), spacing_(unbounded), mode_(rough_mode(system.size(), D)) {
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A)
       spacing_ = std::min(
           spacing_, body.particles.search().distance_of_nearest(at(body.particles.X(), A), 2));
+  for (const Unknown& field : system.fields)
+    field_modes_.push_back(rough_mode(system.size(), field.spec.components));
+}
+
+template <int D>
+void StableStepEstimator<D>::archive(const Archive& a) {
+  a("mode", mode_, D);
+  for (std::size_t k = 0; k < field_modes_.size(); ++k)
+    a.in("field_modes")(system_.fields[k].spec.name, field_modes_[k],
+                        system_.fields[k].spec.components);
 }
 
 template <int D>
@@ -55,7 +99,7 @@ void StableStepEstimator<D>::force_change(const State& state, Real du, Real dv,
       at(v_, A) = at(state.v, A) + dv * at(mode_, A);
     }
   });
-  system_.add_up({state.time, u_, v_}, result);
+  system_.add_up({state.time, u_, v_, state.fields}, {result, trial_});
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(result, A) = at(base_, A) - at(result, A);
   });
@@ -63,24 +107,21 @@ void StableStepEstimator<D>::force_change(const State& state, Real du, Real dv,
 
 template <int D>
 StableStep StableStepEstimator<D>::estimate(const State& state) {
-  constexpr int most_iterations = 300;
-  constexpr int settled_for = 4;
-  constexpr Real tolerance = 2e-3;
-
   // Every iteration lengthens the mode a little: in a long run it would overflow.
   const Real length = std::sqrt(dot(mode_, mode_));
   for (Lanes& w : mode_) w /= length;
 
   base_.resize(mode_.size());
-  system_.add_up(state.motion(), base_);
+  trial_ = state.fields;
+  system_.add_up(state.motion(), {base_, trial_});
+  base_fields_.resize(trial_.size());
+  for (std::size_t k = 0; k < trial_.size(); ++k) base_fields_[k] = trial_[k].f;
   const bool viscous = system_.viscous();
   StableStep best{0, 0, 0, 1};
-  Real dt = 0;  // balances stiffness and viscosity; known after the first iteration
-  Real last_fall = 0;
-  for (int iteration = 0, settled = 0; iteration < most_iterations; ++iteration) {
-    Real largest = 0, mass_norm = 0;
-    for (const Lanes& w : mode_) largest = std::max(largest, std::sqrt(sum(w * w)));
-    mass_norm = parallel_sum(system_.size(), 0.0, [&](Index A) {
+  FallingLimit falling;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Real largest = largest_of(mode_);
+    const Real mass_norm = parallel_sum(system_.size(), 0.0, [&](Index A) {
       return at(system_.mass, A) * sum(at(mode_, A) * at(mode_, A));
     });
     if (!(largest > 0) || !std::isfinite(mass_norm)) break;
@@ -98,17 +139,10 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
     }
     best.evaluations += viscous ? 2 : 1;
     const Real limit = 4 / (c + std::sqrt(c * c + 4 * k));
-    // The limit falls from iteration to iteration, in the end as a geometric series: what is left
-    // of it is subtracted.
-    const Real fall = dt - limit, slope = last_fall - fall;
-    const Real left =
-        fall > 0 && slope > 0 ? std::min(fall * fall / slope, 0.1 * limit) : std::abs(fall);
-    settled = left < tolerance * limit ? settled + 1 : 0;
-    last_fall = fall;
-    dt = limit;
-    const Real scale = limit / (limit - std::min(left, 0.1 * limit));
+    falling.add(limit);
+    const Real dt = falling.dt, scale = falling.scale;
     best = {dt / scale, scale * std::sqrt(k), scale * c, best.evaluations};
-    if (settled >= settled_for) break;
+    if (falling.found()) break;
 
     // mode <- M^-1 (dt^2/4 K + dt/2 C) mode
     for_chunks(system_.size(), [&](Index, Index begin, Index end) {
@@ -119,13 +153,45 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
       }
     });
   }
+  for (std::size_t k = 0; k < field_modes_.size(); ++k)
+    best.of_fields = std::min(best.of_fields, field_limit(state, k));
+  best.dt = std::min(best.dt, best.of_fields);
   if (!(best.dt > 0) || !std::isfinite(best.dt)) {
-    system_.compute_forces(state.motion(), base_);  // names the place if a cell is folded
+    // Names the place if a cell is folded.
+    system_.compute_forces(state.motion(), {base_, trial_});
     throw SolveError(
         "no stable time step can be found: the forces at the current state do not make "
         "sense (are all moduli positive and all cells unfolded?)");
   }
   return best;
+}
+
+/// 2 / the largest rate of c x' = f, or 2 / the largest frequency of c x'' = f.
+template <int D>
+Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number) {
+  NodalVectors& mode = field_modes_[number];
+  const Unknown& field = state.fields[number];
+  Unknown& trial = trial_[number];
+  const Real length = std::sqrt(dot(mode, mode));
+  for (Lanes& w : mode) w /= length;
+  FallingLimit falling;
+  for (int iteration = 0; iteration < most_iterations && !falling.found(); ++iteration) {
+    const Real h = 1e-6 * field.spec.scale / largest_of(mode);
+    for (Index A = 0; A < system_.size(); ++A) at(trial.x, A) = at(field.x, A) + h * at(mode, A);
+    system_.add_up({state.time, state.u, state.v, trial_}, {elastic_, trial_});
+    Real restoring = 0, weight = 0;
+    for (Index A = 0; A < system_.size(); ++A) {
+      const Lanes change = at(base_fields_[number], A) - at(trial.f, A);
+      restoring += sum(at(mode, A) * change) / h;
+      weight += at(field.capacity, A) * sum(at(mode, A) * at(mode, A));
+      at(mode, A) = change / (h * at(field.capacity, A));
+    }
+    const Real k = std::abs(restoring) / weight;
+    if (!(k > 0)) break;  // nothing brings it back: no limit
+    falling.add(field.spec.evolution == Evolution::inertial ? 2 / std::sqrt(k) : 2 / k);
+  }
+  trial.x = field.x;
+  return falling.dt > 0 ? falling.dt / falling.scale : std::numeric_limits<Real>::max();
 }
 
 template class StableStepEstimator<2>;

@@ -133,11 +133,12 @@ ContactPoints<D> points_of(const Body<D>& body, const Method& method) {
 
 /// Pairs of points in the list, and their spacing.
 std::pair<Real, Real> count_pairs(const Balls& balls, const Method& method, const NodalVectors& u) {
-  ContactPoints<3> a = points_of(*balls.first, method), b = points_of(*balls.second, method);
-  a.move({0, u, u});
-  b.move({0, u, u});
+  const ContactPoints<3> a = points_of(*balls.first, method), b = points_of(*balls.second, method);
+  ContactPlaces<3> x = a.at_rest(), y = b.at_rest();
+  a.move({0, u, u}, x);
+  b.move({0, u, u}, y);
   ContactList<3> list(cutoff, 0.4);
-  list.update(a.x(), b.x());
+  list.update(x.x, y.x);
   return {16 * static_cast<Real>(list.pairs()), a.spacing()};
 }
 

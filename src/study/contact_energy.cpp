@@ -45,7 +45,7 @@ partner = {{ type = "half_space", point = [0, -1.5], normal = [0, 1] }}
 
 struct Outcome {
   Real error = 0;  ///< largest change of the balance / largest energy exchanged
-  Real least_gap = 1e300;
+  Real least_gap = unbounded;
 };
 
 Outcome bounce(Scene<2>& scene, Real step) {

@@ -175,7 +175,7 @@ void require_targets(StudyRun& study) {
   if (study.levels().front() > 6 || study.levels().back() < 2 * study.levels().front()) return;
   const auto order = [&](const std::string& method, Real least) {
     const Real found = study.overall_order(method, "L2");
-    if (!std::isnan(found)) study.require("order of L2, " + method, found, {least, 1e300});
+    if (!std::isnan(found)) study.require("order of L2, " + method, found, {least, unbounded});
   };
   order(map + "cubic_spline, points: " + line, 1);
   order(map + "bases: " + cubic, 2.3);

@@ -82,9 +82,9 @@ void measure_all(StudyRun& study, const std::vector<Rule>& rules) {
     if (clouds.size() < 2) continue;
     const std::string method = name(rules.front());
     study.require("order of L2, " + method, study.overall_order(method, "L2"),
-                  {least_L2_order, 1e300});
+                  {least_L2_order, unbounded});
     study.require("order of H1, " + method, study.overall_order(method, "H1"),
-                  {least_H1_order, 1e300});
+                  {least_H1_order, unbounded});
   }
 }
 

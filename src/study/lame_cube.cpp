@@ -136,7 +136,7 @@ void run(StudyRun& study) {
 
   if (study.levels().size() > 1)
     study.require("order of the state error, q_scni", study.overall_order("q_scni", "state"),
-                  {3, 1e300});
+                  {3, unbounded});
   if (const Measurement* m = study.find("q_scni", 12))
     study.require("state error of q_scni, 12 cells per edge", m->error("state"), {0, 0.01});
   for (const Method& method : methods) compare(study, method.name);

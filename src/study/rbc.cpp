@@ -32,10 +32,11 @@ class Push final : public ForceTerm {
  public:
   explicit Push(const Body<3>& body) : body_(body) {}
   std::string name() const override { return "push"; }
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += load(A, motion.time);
+    return {};
   }
-  Real external_power(const Motion& motion) const override {
+  Real load_power(const Motion& motion) override {
     Real power = 0;
     for (Index A = 0; A < body_.size(); ++A)
       power += sum(load(A, motion.time) * at(motion.v, body_.first + A));
@@ -174,7 +175,7 @@ void converge(StudyRun& study) {
     }
   if (study.levels().size() > 1)
     study.require("order of the energy, 4 layers", study.overall_order("4 layers", "energy"),
-                  {1.5, 1e300});
+                  {1.5, unbounded});
 }
 
 /// The end state is a red blood cell: the bounds of red blood cell note 8.

@@ -172,7 +172,7 @@ void run(StudyRun& study) {
     if (!f.drop.stretched || f.drop.Oh != 0.93 || std::string(f.drop.form) != "balanced") continue;
     for (const std::string error : {"Ca", "roughness"})
       if (const Real order = study.overall_order(name, error); !std::isnan(order))
-        study.require(name + ": order of " + error, order, {1.5, 1e300});
+        study.require(name + ": order of " + error, order, {1.5, unbounded});
   }
 }
 

@@ -52,7 +52,7 @@ double time_of_force(ForceTerm& term, const ForceCase& c) {
   const NodalVectors v(c.u.size(), Lanes::zero());
   NodalVectors force = v;
   const Stopwatch all;
-  double shortest = 1e300;
+  double shortest = unbounded;
   do {
     const Stopwatch one;
     term.add_force({0, c.u, v}, force);
@@ -113,7 +113,7 @@ void require_noted(StudyRun& study) {
     const auto require = [&](const std::string& error, Real target) {
       if (target > 0)
         study.require(fmt::format("{} over the table of RKPM note 4, {}", error, n.form),
-                      m->error(error) / target, {-1e300, 1.2});
+                      m->error(error) / target, {-unbounded, 1.2});
     };
     require("nodal force", n.nodal_force);
     require("work of dilation", n.dilation);
@@ -135,13 +135,13 @@ void require_laws(StudyRun& study) {
 void require_orders(StudyRun& study) {
   if (study.levels().size() < 2) return;
   study.require("order of nodal forces, curvature 3x3",
-                study.overall_order("curvature 3x3", "nodal force"), {1.5, 1e300});
+                study.overall_order("curvature 3x3", "nodal force"), {1.5, unbounded});
   study.require("order of nodal forces, triangles", study.overall_order("triangles", "nodal force"),
-                {0.8, 1e300});
+                {0.8, unbounded});
   study.require("order of the work of dilation, triangles",
-                study.overall_order("triangles", "work of dilation"), {1.8, 1e300});
+                study.overall_order("triangles", "work of dilation"), {1.8, unbounded});
   study.require("order of the work of dilation, weak 3x3",
-                study.overall_order("weak 3x3", "work of dilation"), {2, 1e300});
+                study.overall_order("weak 3x3", "work of dilation"), {2, unbounded});
 }
 
 void run(StudyRun& study) {

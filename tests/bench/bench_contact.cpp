@@ -82,7 +82,7 @@ Real pairs_of(const Scene<3>& scene, bool volume) {
                   : ContactPoints<3>::on_surface(body, 1, SiteDensity::constant, 2);
   };
   ContactList<3> list(4, 0.4);
-  list.update(points(0).x(), points(1).x());
+  list.update(points(0).at_rest().x, points(1).at_rest().x);
   return Lanes::width * Lanes::width * static_cast<Real>(list.pairs());
 }
 

@@ -16,9 +16,10 @@ class Springs final : public ForceTerm {
 
   std::string name() const override { return "springs of '" + body_.name + "'"; }
   std::string_view energy_kind() const override { return "springs"; }
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     for (Index A = 0; A < body_.size(); ++A)
       at(force, body_.first + A) -= stiffness_ * at(body_.mass, A) * at(motion.u, body_.first + A);
+    return {};
   }
   std::optional<Real> stored_energy(const Motion& motion) const override {
     return parallel_sum(body_.size(), 0.0, [&](Index A) {

@@ -156,6 +156,14 @@ inline Real norm(const NodalVectors& a) {
 inline NodalVectors zeros(const NodalVectors& like) {
   return NodalVectors(like.size(), Lanes::zero());
 }
+/// What a force at the time 0 reports.
+inline Report report_of(ForceTerm& term, const NodalVectors& u, const NodalVectors& v) {
+  NodalVectors force = zeros(u);
+  return term.add_force({0, u, v}, force);
+}
+inline Report report_of(ForceTerm& term, const NodalVectors& u) {
+  return report_of(term, u, zeros(u));
+}
 inline NodalVectors force_of(ForceTerm& term, const NodalVectors& u, const NodalVectors& v) {
   NodalVectors force = zeros(u);
   term.add_force({0, u, v}, force);

@@ -21,8 +21,8 @@ TEST(Audit, LedgerOfASpinningBall) {
   one.state.u = test::field_on<3>(one.body(), [&](const Vec<3>&) { return shift; });
   one.state.v = test::field_on<3>(
       one.body(), [&](const Vec<3>& X) { return Vec<3>(drift + spin.cross(X + shift)); });
-  one.state.dissipated = 0.25;
-  one.state.external_work = 1.5;
+  one.state.books.dissipated = 0.25;
+  one.state.books.external_work = 1.5;
   const Ledger ledger = take_ledger(one.system, one.state);
 
   Real kinetic = 0;

@@ -36,7 +36,7 @@ void expect_free_fall() {
     EXPECT_LT((vector_at<D>(one.state.v, A) - v).norm(), 1e-11);
   }
   // The trapezoid is exact for a power linear in time.
-  EXPECT_NEAR(one.state.external_work, mass * a.dot(u), 1e-11 * mass);
+  EXPECT_NEAR(one.state.books.external_work, mass * a.dot(u), 1e-11 * mass);
   EXPECT_NEAR(take_ledger(one.system, one.state).kinetic, 0.5 * mass * v.squaredNorm(),
               1e-10 * mass);
 }
@@ -154,9 +154,10 @@ class NoNumber final : public ForceTerm {
  public:
   explicit NoNumber(const Body<2>& body) : body_(body) {}
   std::string name() const override { return "no number"; }
-  void add_force(const Motion&, std::span<Lanes> force) override {
+  Report add_force(const Motion&, Forces force) override {
     for (Index A = 0; A < body_.size(); ++A)
       if (at(body_.particles.X(), A)[0] > 1.5) at(force, A).set(0, std::nan(""));
+    return {};
   }
   std::size_t bytes() const override { return 0; }
   Offset pairs() const override { return 0; }

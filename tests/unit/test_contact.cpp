@@ -129,7 +129,7 @@ void expect_rigid_gradients() {
       moving.beta = 0.7;
       const auto term = rigid_contact<D>({*body, 1.2}, std::move(moving), law, choice);
       expect_gradient<D>(*term, body->size(), 1e-7);
-      EXPECT_FALSE(term->failure());
+      EXPECT_FALSE(test::report_of(*term, NodalVectors(body->mass.size(), Lanes::zero())).failure);
     }
   }
 }
@@ -174,8 +174,7 @@ TEST(Contact, OverlapIsAFailureOfTheStep) {
   for (const auto* pair : {&close, &far}) {
     const auto term = test::contact_of<3>(*pair, test::law<3>(), ContactForm::energy);
     const NodalVectors still = test::zeros(pair->random(1, 1));
-    test::force_of(*term, still);
-    const auto failure = term->failure();
+    const auto failure = test::report_of(*term, still).failure;
     EXPECT_EQ(failure.has_value(), pair == &close);
     if (!failure) continue;
     EXPECT_TRUE(failure->of_step);
@@ -191,8 +190,7 @@ TEST(Contact, DemandsFollowGapAndSpeed) {
     const NodalVectors still = test::zeros(pair.random(1, 1));
     NodalVectors v = still;
     for (Index A = 0; A < pair.first->size(); ++A) at(v, A) = Lanes(speed, 0, 0, 0);
-    test::force_of(*term, still, v);
-    return term->step_demand();
+    return test::report_of(*term, still, v).demand;
   };
   const StepDemand wide = demand_of(0.4, 1), narrow = demand_of(0.2, 1), fast = demand_of(0.4, 10);
   EXPECT_GT(narrow.stiffness, 100 * wide.stiffness);

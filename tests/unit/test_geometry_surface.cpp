@@ -176,8 +176,8 @@ TEST(SurfacePoints, CarriedInStagesEqualsOneMap) {
   unit.layers = 2;
   const Geometry<3> ball = unit.geometry();
   auto stages = surface_points(ball, 2);
-  carry(stages, twist_ellipsoid());
-  carry(stages, bent<3>());
+  deform(stages, twist_ellipsoid());
+  deform(stages, bent<3>());
   const auto once = surface_points(apply_map(compose<3>(bent<3>(), twist_ellipsoid()), ball), 2);
   for (Index q = 0; q < once.size(); ++q) {
     EXPECT_LT((at(stages.X, q) - at(once.X, q)).norm(), 1e-13);

@@ -161,7 +161,7 @@ TEST_F(Checkpoints, BothDamagedIsAnError) {
 
 TEST_F(Checkpoints, NoneIsAnError) {
   EXPECT_THROW_WITH(read_checkpoint(path()), FileError, "there is none");
-  EXPECT_THROW_WITH(read_checkpoint(path() / "checkpoint-a.h5"), FileError, "Cannot read");
+  EXPECT_THROW_WITH(read_checkpoint(path() / "checkpoint-a.h5"), FileError, "cannot read");
 }
 
 TEST_F(Checkpoints, AStateThatIsNotFiniteIsRefusedAndTheLastOneStays) {

@@ -71,7 +71,7 @@ TEST_F(Histories, DamagedFilesAreNamedByLine) {
   EXPECT_THROW_WITH(History::read(file()), FileError, ":3: 'x' is not a number");
   std::ofstream(file()) << "0,1\n";
   EXPECT_THROW_WITH(History::read(file()), FileError, "not a history");
-  EXPECT_THROW_WITH(History::read(path() / "absent"), FileError, "Cannot read");
+  EXPECT_THROW_WITH(History::read(path() / "absent"), FileError, "cannot read");
 }
 
 TEST_F(Histories, NotANumberIsKept) {
@@ -92,7 +92,7 @@ TEST_F(Histories, LogGoesToFileAndWarningsToStderr) {
   const std::string text = content(path() / "run.log");
   EXPECT_NE(text.find("Z info: step {} of 10\n"), text.npos) << text;
   EXPECT_NE(text.find("Z error: J <= 0\n"), text.npos) << text;
-  EXPECT_THROW_WITH(RunLog(path() / "run.log" / "below a file"), FileError, "Cannot write");
+  EXPECT_THROW_WITH(RunLog(path() / "run.log" / "below a file"), FileError, "cannot write");
 }
 
 }  // namespace

@@ -55,14 +55,14 @@ TEST_F(Results, DirectoryThatHoldsARunIsRefusedUnlessItIsToBeReplaced) {
 
 TEST_F(Results, TwoRunsCannotWriteToOneDirectory) {
   const RunDirectory directory(path(), ExistingRun::refuse);
-  EXPECT_THROW_WITH(RunDirectory(path(), ExistingRun::replace), FileError, "Another run");
+  EXPECT_THROW_WITH(RunDirectory(path(), ExistingRun::replace), FileError, "another run");
 }
 
 TEST_F(Results, ImpossibleDirectoriesAreNamed) {
   std::ofstream(path()) << "a file";
   EXPECT_THROW_WITH(RunDirectory(path(), ExistingRun::refuse), FileError, path().string());
   EXPECT_THROW_WITH(RunDirectory("/proc/nowhere/results", ExistingRun::refuse), FileError,
-                    "Cannot make the directory '/proc/nowhere/results'");
+                    "cannot make the directory '/proc/nowhere/results'");
 }
 
 TEST_F(Results, BadNumbersAreRefusedByFieldAndParticle) {

@@ -342,7 +342,7 @@ TEST(LiquidCrystalElastomerBody, KeepsEnergyAndMomenta) {
       EXPECT_LT(audit.momentum_error(ledger), 1e-13);
       EXPECT_LT(audit.angular_momentum_error(ledger), 1e-13);
     }
-    EXPECT_GT(std::abs(one.state.external_work), 1e-3);
+    EXPECT_GT(std::abs(one.state.books.external_work), 1e-3);
     return worst;
   };
   for (const std::string rule : {"normal", "convected"}) {

@@ -310,5 +310,30 @@ TEST(Describe, PrintsAnAlignedTable) {
 )toml");
 }
 
+TEST(Scenes, AreComparedKeyByKey) {
+  const std::string scene =
+      "title = \"a\"\n[units]\nsystem = \"SI\"\n[[body]]\nname = \"one\"\nsize = [1, 2]\n"
+      "[body.material]\nmu = 1\n[[body]]\nname = \"two\"\n";
+  EXPECT_TRUE(differing_keys(scene, scene).empty());
+  // Order, spelling of numbers, comments and white space say nothing.
+  EXPECT_TRUE(differing_keys(scene,
+                             "# a copy\nbody = [{ material = { mu = 1.0 }, size = [1.0, 2e0], "
+                             "name = 'one' }, { name = \"two\" }]\nunits.system = \"SI\"\n"
+                             "title = \"a\"\n")
+                  .empty());
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string other = scene;
+    other.replace(other.find(from), from.size(), to);
+    return differing_keys(scene, other);
+  };
+  using Keys = std::vector<std::string>;
+  EXPECT_EQ(changed("mu = 1", "mu = 2"), Keys{"body[0].material.mu"});
+  EXPECT_EQ(changed("mu = 1", "mu = \"1\""), Keys{"body[0].material.mu"});
+  EXPECT_EQ(changed("[1, 2]", "[1, 3]"), Keys{"body[0].size[1]"});
+  EXPECT_EQ(changed("[1, 2]", "[1]"), Keys{"body[0].size[1]"});
+  EXPECT_EQ(changed("[[body]]\nname = \"two\"\n", ""), Keys{"body[1]"});
+  EXPECT_EQ(changed("title = \"a\"", "title = \"b\"\ndimension = 2"), (Keys{"dimension", "title"}));
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -124,7 +124,7 @@ void expect_exact_curvature(Geometry<D> geometry, Real tolerance) {
 
   const SurfacePoints<D> reference = surface_points(body->geometry, 3);
   SurfacePoints<D> current = reference;
-  carry(current, map);
+  deform(current, map);
   const auto rows = build_point_rows<D>(body->particles, reference.X, {.value = true}, "body");
   NodalVectors expected = test::zeros(u);
   Real integral = 0, area = 0, largest = 0;

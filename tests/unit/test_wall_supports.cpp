@@ -129,16 +129,15 @@ Deflated deflated(bool in_wall) {
   relaxation.begin(state);
   while (state.time < 9) {
     const Real dt = controller.next(state, 9);
-    advance(system, state, dt);
-    relaxation.damp(state, dt);
+    relaxation.step(state, dt);
   }
 
-  ClosedSurface<3> inner(body, SurfacePart::inner, 2);
+  const ClosedSurface<3> inner(body, SurfacePart::inner, 2);
   const NodalVectors still(state.u.size(), Lanes::zero());
-  const Real reference = inner.follow({0, still, still}).volume;
+  const Real reference = inner.placed({0, still, still}).size.volume;
   Deflated result;
   result.energy = *system.terms.front()->stored_energy(state.motion()) /
-                  finite_element_energy(inner.follow(state.motion()).volume / reference);
+                  finite_element_energy(inner.placed(state.motion()).size.volume / reference);
   result.crossing = crossing_kernels(body.particles, body.geometry);
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adding up forces from rows on several threads with the same bits for any thread count: a fixed
-// number of row chunks, each with its own window of particles, summed in ascending order
-// (performance note 5).
+// Adding up forces from rows on several threads with the same bits for any thread count: row
+// chunks, as many as their number asks for, each with its own window of particles, summed in
+// ascending order (performance note 5).
 #pragma once
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/parallel.hpp"
@@ -32,6 +32,8 @@ class ForceWindows {
     add_to(force);
   }
 
+  /// All chunk numbers are below this.
+  int chunks() const { return chunks_.empty() ? 0 : chunks_.back().number + 1; }
   std::size_t bytes() const;
 
  private:

@@ -23,6 +23,11 @@ struct Body {
   PointRows<D> at_particles;
 
   Index size() const { return particles.size(); }
+  /// Its own part of an array over the particles of all bodies.
+  template <class T>
+  std::span<T> part(std::span<T> all) const {
+    return all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(size()));
+  }
   Body(const Body&) = delete;
   Body(Body&&) = delete;
   Body(std::string body_name, Geometry<D> body_geometry, ParticleSet<D> body_particles)

@@ -42,9 +42,9 @@ Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const V
 template <int D>
 SurfacePoints<D> facet_points(const Grid<D>& grid, int k);
 
-/// Surface points are material points. Those of the surface carried by a map are X' = x, N' = n,
+/// Surface points are material points. Those of the surface deformed by a map are X' = x, N' = n,
 /// grad N' = grad_s n and area' = da (RKPM note 6).
 template <int D>
-void carry(SurfacePoints<D>& points, const SmoothMap<D>& map);
+void deform(SurfacePoints<D>& points, const SmoothMap<D>& map);
 
 }  // namespace meniscus

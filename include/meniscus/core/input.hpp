@@ -17,9 +17,10 @@
 
 namespace meniscus {
 
-/// An interval of numbers. A bound of 1e300 or more means none; NaN and infinity never pass.
+/// An interval of numbers. A bound of 1e300 (`unbounded`) or more means none; NaN and infinity
+/// never pass.
 struct Range {
-  Real low = -1e300, high = 1e300;
+  Real low = -unbounded, high = unbounded;
   bool low_open = false, high_open = false;
 
   bool contains(Real value) const;
@@ -29,7 +30,7 @@ struct Range {
   std::string refusal(Real value, const std::string& unit = "") const;
 };
 namespace range {
-inline constexpr Range any{}, positive{0, 1e300, true}, non_negative{0, 1e300};
+inline constexpr Range any{}, positive{0, unbounded, true}, non_negative{0, unbounded};
 }
 
 /// What a formula of a key may depend on: the reference position x, y, z, the time t, or both.
@@ -127,6 +128,11 @@ class SceneInput {
   SceneInput() = default;
   Block root_;
 };
+
+/// The keys, "body[0].radius", that two scenes given as TOML do not have in common: absent in one,
+/// or with another value. The order of keys and how numbers are written do not matter. Throws
+/// InputError on syntax errors.
+std::vector<std::string> differing_keys(const std::string& toml, const std::string& other);
 
 }  // namespace meniscus
 

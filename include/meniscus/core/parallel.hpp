@@ -4,18 +4,25 @@
 #include "meniscus/core/types.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <exception>
+#include <memory>
+#include <type_traits>
 
 namespace meniscus {
 
-/// Number of row chunks of every force sum. Fixed, never the thread count: it decides the order of
-/// summation, and so the last bits of every result.
-inline constexpr int chunk_count = 16;
+inline constexpr int most_chunks = 4096;
+
+/// Number of chunks of n rows. From the size alone, never the number of threads: it decides the
+/// order of summation, and so the last bits of every result.
+inline constexpr int chunk_count(Index n) {
+  constexpr Index rows_per_chunk = 2048, least = 16;
+  return std::clamp<Index>(n / rows_per_chunk, least, most_chunks);
+}
 
 /// Row number at which chunk c of n rows begins.
 inline Index chunk_begin(Index n, int c) {
-  return static_cast<Index>(static_cast<Offset>(n) * c / chunk_count);
+  return static_cast<Index>(static_cast<Offset>(n) * c / chunk_count(n));
 }
 
 /// Calls f(i) for i in [0, n) on all threads, `grain` neighbouring i at a time. The first exception
@@ -35,18 +42,34 @@ void parallel_for(Index n, F&& f, [[maybe_unused]] int grain = 64) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Calls f(chunk, begin, end) for the fixed chunks of n rows on all threads.
+/// Calls f(chunk, begin, end) for the chunks of n rows on all threads.
 template <class F>
 void for_chunks(Index n, F&& f) {
   parallel_for(
-      chunk_count, [&](Index c) { f(c, chunk_begin(n, c), chunk_begin(n, c + 1)); }, 1);
+      chunk_count(n), [&](Index c) { f(c, chunk_begin(n, c), chunk_begin(n, c + 1)); }, 1);
 }
 
-/// Sum of f(i) over [0, n), added in the order of the fixed chunks.
+/// A value per chunk on the stack; memory that no chunk needs is not touched.
+template <class T>
+class PerChunk {
+ public:
+  PerChunk(int chunks, const T& value) : size_(static_cast<std::size_t>(chunks)) {
+    static_assert(std::is_trivially_destructible_v<T>);
+    std::uninitialized_fill_n(begin(), size_, value);
+  }
+  T& operator[](std::size_t c) { return begin()[c]; }
+  T* begin() { return reinterpret_cast<T*>(memory_); }
+  T* end() { return begin() + size_; }
+
+ private:
+  std::size_t size_;
+  alignas(T) std::byte memory_[most_chunks * sizeof(T)];
+};
+
+/// Sum of f(i) over [0, n), added in the order of the chunks.
 template <class T, class F>
 T parallel_sum(Index n, T zero, F&& f) {
-  std::array<T, chunk_count> partial;
-  partial.fill(zero);
+  PerChunk<T> partial(chunk_count(n), zero);
   for_chunks(n, [&](Index c, Index begin, Index end) {
     T s = zero;
     for (Index i = begin; i < end; ++i) s = s + f(i);

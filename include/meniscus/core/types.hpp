@@ -20,6 +20,18 @@ using Vec = Eigen::Matrix<Real, D, 1>;
 template <int D>
 using Mat = Eigen::Matrix<Real, D, D>;
 
+/// X in space; in the plane z = 0.
+template <int D>
+Eigen::Vector3d spatial(const Vec<D>& X) {
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  x.template head<D>() = X;
+  return x;
+}
+
+/// More than any number of a scene, but finite: no bound, or the beginning of a search for the
+/// least.
+inline constexpr Real unbounded = 1e300;
+
 /// Array element access without sign-conversion noise: at(v, i) is v[i].
 template <class Container>
 decltype(auto) at(Container&& c, std::integral auto i) {

@@ -22,6 +22,12 @@ inline constexpr Dimension none{}, length{1, 0, 0}, area{2, 0, 0}, volume{3, 0, 
     power{2, -3, 1}, momentum{1, -1, 1}, angular_momentum{2, -1, 1};
 }
 
+/// The dimension of a sum over bodies (mass, force, energy): in the plane it is per unit depth.
+constexpr Dimension of_sum(Dimension d, int space_dimension) {
+  if (space_dimension == 2) --d.length;
+  return d;
+}
+
 /// The system in which plain numbers of a scene, all results, and all sums inside the program are
 /// written: "SI" (m, s, kg) or a length-time-mass triple such as "nm-ps-ag".
 ///

@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// "Cannot <doing> '<path>': <reason of errno>."
+/// "cannot <doing> '<path>': <reason of errno>"
 [[noreturn]] void throw_file_error(std::string_view doing, const std::filesystem::path& path,
                                    int error_number);
 

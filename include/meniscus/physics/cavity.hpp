@@ -19,7 +19,7 @@ struct CavityFilling {
 
 /// Pressure: stored energy E = -p (V - V0). Content: E = penalty V0 (V/V0 - target)^2 / 2, that is
 /// p = -penalty (V/V0 - target). The force is p dV/dd, the exact gradient; what changes with time
-/// is work of the outside world. When opposite places of an inner surface touch, failure() says so.
+/// is work of the outside world. When opposite places of an inner surface touch, that is a failure.
 template <int D>
 std::unique_ptr<ForceTerm> cavity(const Body<D>& body, SurfacePart part,
                                   const CavityFilling& filling, int points);

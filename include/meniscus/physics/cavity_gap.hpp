@@ -18,8 +18,8 @@ class CavityGap {
     Real width;   ///< distance of the opposite place along the normal; negative once faces crossed
     Index point;  ///< where it is smallest
   };
-  /// The narrowest place at the motion that `surface` follows; infinite without any pair.
-  Gap smallest(const ClosedSurface<D>& surface) const;
+  /// The narrowest place; infinite without any pair.
+  Gap smallest(const typename ClosedSurface<D>::Placed& surface) const;
 
  private:
   struct Pair {

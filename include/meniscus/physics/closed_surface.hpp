@@ -23,14 +23,32 @@ class ClosedSurface {
   struct Size {
     Real volume = 0, area = 0;  ///< enclosed volume, area of the surface; 2D: area, length
   };
-  /// The sizes at a motion, which is remembered for what follows.
-  Size follow(const Motion& motion);
+  /// The points at a motion.
+  struct Placed {
+    Size size;
+    /// Place and area vector m of a point.
+    Vec<D> place(Index point) const;
+    Vec<D> area_vector(Index point) const;
+    std::size_t bytes() const { return groups.size() * sizeof(Group); }
 
-  /// force_A += factor dV/dd_A at the remembered motion, over the particles of the body.
-  void add_volume_gradient(Real factor, std::span<Lanes> force);
-  /// Place and area vector m of a point at the remembered motion.
-  Vec<D> place(Index point) const;
-  Vec<D> area_vector(Index point) const;
+   private:
+    friend class ClosedSurface;
+    using Vector = std::array<Lanes, 3>;
+    /// Four quadrature points.
+    struct Group {
+      Tensor<Lanes> F;
+      Vector x, m;  // x from the origin
+    };
+    AlignedVector<Group> groups;
+    Vec<D> origin;
+    Vector mean_x, mean_m;
+  };
+  Placed placed(const Motion& motion) const;
+  /// The same without taking memory: `placed` comes from this surface.
+  void place(const Motion& motion, Placed& placed) const;
+
+  /// force_A += factor dV/dd_A, over the particles of the body.
+  void add_volume_gradient(const Placed& placed, Real factor, std::span<Lanes> force);
 
   const Body<D>& body() const { return body_; }
   const SurfacePoints<D>& reference() const { return reference_; }
@@ -40,12 +58,7 @@ class ClosedSurface {
   Offset pairs() const { return rule_.pairs(); }
 
  private:
-  using Vector = std::array<Lanes, 3>;
-  /// Four quadrature points.
-  struct Group {
-    Tensor<Lanes> F;
-    Vector x, m;  // x from origin_
-  };
+  using Group = typename Placed::Group;
   Group evaluate(Index group, const Lanes* u) const;
 
   const Body<D>& body_;
@@ -55,8 +68,6 @@ class ClosedSurface {
   PointRule<D> rule_;
   ForceWindows windows_;
   AlignedVector<Lanes> X_, N_;  // [group][k], X from origin_
-  AlignedVector<Group> now_;
-  Vector mean_x_, mean_m_;
 };
 
 }  // namespace meniscus

@@ -9,9 +9,9 @@
 
 namespace meniscus {
 
-/// Smallest distance between the points of two bodies at their present places.
+/// Smallest distance between the points of two bodies.
 template <int D>
-Real gap_between(const ContactPoints<D>& first, const ContactPoints<D>& second);
+Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second);
 
 /// A bound of the speed at which active points of a body and of `other` approach: largest
 /// deviations from the mean velocity of the other's. Without another body its points move with

@@ -96,11 +96,11 @@ struct Potential {
 /// squared distance of each. Points beyond `reach`, where the law is cut off, add exactly zero.
 template <class Form, int D, class Law>
 Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes* V,
-                        std::span<const Index> partners, const ContactPoints<D>& others, Lanes* T,
+                        std::span<const Index> partners, const ContactPlaces<D>& others, Lanes* T,
                         Lanes* S) {
-  Lanes nearest = 1e300;
+  Lanes nearest = unbounded;
   for (const Index partner : partners) {
-    const Lanes *y = others.x(partner), *weight = others.weight(partner);
+    const Lanes *y = others.x_of(partner), *weight = others.weight_of(partner);
     for (int lane = 0; lane < Lanes::width; ++lane) {
       Lanes r[D], W[Form::components];
       for (int i = 0; i < D; ++i) r[i] = x[i] - detail::components(y[i])[lane];

@@ -35,7 +35,7 @@ constexpr int dimension_of(PairKernel kernel) {
   return kernel == PairKernel::space ? 3 : 2;
 }
 
-/// Pairs, plates and walls nearer than this, in sigma0, are a failure of the time step unless a law
+/// Pairs and partners nearer than this, in sigma0, are a failure of the time step unless a law
 /// says otherwise: the stiffness of half spaces there is 2800 times that at rest.
 inline constexpr Real least_gap = 0.3;
 /// The switch begins at this part of the cut-off.

@@ -23,6 +23,9 @@ class ContactList {
   /// what they need.
   bool update(std::span<const Lanes> first, std::span<const Lanes> second);
 
+  /// Whether the list still holds for these places.
+  bool valid(std::span<const Lanes> first, std::span<const Lanes> second) const;
+
   /// Rows of one cloud: partners of cluster c are partner[start[c]] ... partner[start[c + 1] - 1].
   struct Rows {
     std::vector<Offset> start;
@@ -38,11 +41,11 @@ class ContactList {
   /// Pairs of clusters.
   Offset pairs() const { return first_.start.empty() ? 0 : first_.start.back(); }
   Real reach() const { return reach_; }
+  Real skin() const { return skin_; }
   std::int64_t builds() const { return builds_; }
   std::size_t bytes() const;
 
  private:
-  bool valid(std::span<const Lanes> first, std::span<const Lanes> second) const;
   void build(std::span<const Lanes> first, std::span<const Lanes> second);
   void find_partners(std::span<const Lanes> first, std::span<const Lanes> second);
   void transpose(Index second_clusters);
@@ -52,10 +55,10 @@ class ContactList {
   AlignedVector<Lanes> built_first_, built_second_;  // places of the last build
   std::vector<Vec<D>> centre_;                       // of the clusters of the second cloud
   std::unique_ptr<NeighborSearch<D>> search_;        // over them
-  struct Found {                                     // of a fixed chunk of the first cloud
+  struct Found {                                     // of a chunk of the first cloud
     std::vector<Index> candidates, partner, count;
   };
-  std::array<Found, chunk_count> found_;
+  std::vector<Found> found_;
   Rows first_, second_;
 };
 

@@ -10,6 +10,26 @@ namespace meniscus {
 /// (b/J per current volume) (CGCM note 2).
 enum class SiteDensity { constant, referential };
 
+/// Where contact points are and what they weigh at a motion.
+template <int D>
+struct ContactPlaces {
+  Index size = 0;                  ///< points
+  int components = 0;              ///< of a weight
+  AlignedVector<Lanes> x, weight;  ///< [cluster][i], [cluster][component]
+  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> inverse;  ///< [cluster] F^-1
+
+  const Lanes* x_of(Index cluster) const { return &at(x, cluster * D); }
+  const Lanes* weight_of(Index cluster) const { return &at(weight, cluster * components); }
+  Vec<D> place(Index point) const {
+    Vec<D> y;
+    for (int i = 0; i < D; ++i) y[i] = x_of(point / Lanes::width)[i][point % Lanes::width];
+    return y;
+  }
+  std::size_t bytes() const {
+    return (x.size() + weight.size()) * sizeof(Lanes) + inverse.size() * sizeof(Tensor<Lanes>);
+  }
+};
+
 /// Material points in clusters of four that are neighbours in space, a lane per point. What a point
 /// weighs is
 /// - on the surface the area vector V = b cof(F) N dA (constant density) or b F^-T N dA
@@ -36,17 +56,13 @@ class ContactPoints {
   /// points and something at rest has frequencies up to sqrt(k / inertia).
   Real inertia() const { return inertia_; }
 
+  /// All points in the reference state.
+  ContactPlaces<D> at_rest() const;
   /// Moves all points along with the body.
-  void move(const Motion& motion);
+  void move(const Motion& motion, ContactPlaces<D>& places) const;
   /// Brings the weights of these clusters up to date.
-  void weigh(std::span<const Index> clusters, const Motion& motion);
+  void weigh(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places) const;
 
-  /// Places after move(), [cluster][i], and weights after weigh(), [cluster][component].
-  std::span<const Lanes> x() const { return x_; }
-  std::span<const Lanes> weights() const { return weight_; }
-  const Lanes* x(Index cluster) const { return x_.data() + offset(cluster, D); }
-  const Lanes* weight(Index cluster) const { return weight_.data() + offset(cluster, components_); }
-  Vec<D> place(Index point) const;
   /// The particle nearest to a point, counted over all bodies.
   Index particle_at(Index point) const { return body_->first + at(rule_.point_owner, point); }
 
@@ -56,8 +72,8 @@ class ContactPoints {
   /// Adds the forces -dE/du of these clusters, given dE/dx = T ([cluster][i]) and, on the surface,
   /// dE/dV = S: f_A = - sum_s { N_A T + (S.V) g_A [constant density only] - (S.g_A) V } with
   /// g_A = F^-T grad N_A (CGCM note 4). Without S only the first.
-  void add_force(std::span<const Index> clusters, std::span<const Lanes> T,
-                 std::span<const Lanes> S, std::span<Lanes> force);
+  void add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
+                 std::span<const Lanes> T, std::span<const Lanes> S, std::span<Lanes> force);
 
   std::size_t bytes() const;
   Offset pairs() const { return rule_.rows.entries(); }
@@ -69,11 +85,7 @@ class ContactPoints {
   static std::size_t offset(Index cluster, int count) {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);
   }
-  std::span<Lanes> own(std::span<Lanes> force) const {
-    return force.subspan(static_cast<std::size_t>(body_->first),
-                         static_cast<std::size_t>(body_->size()));
-  }
-  Tensor<Lanes> stress(Index cluster, const Lanes* S) const;
+  Tensor<Lanes> stress(const ContactPlaces<D>& places, Index cluster, const Lanes* S) const;
 
   const Body<D>* body_;
   int components_;  // of a weight: D on the surface, 1 in the volume
@@ -82,9 +94,7 @@ class ContactPoints {
   ForceWindows windows_;
   Real spacing_ = 0, inertia_ = 0;
   AlignedVector<Lanes> X_, reference_;  // [cluster][i]: places, weights in the reference state
-  AlignedVector<Lanes> x_, weight_;
-  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> inverse_;  // [cluster] F^-1
-  std::vector<std::uint8_t> pushed_;  // [cluster] 1 while its force is added
+  std::vector<std::uint8_t> pushed_;    // [cluster] 1 while its force is added
 };
 
 }  // namespace meniscus

@@ -2,15 +2,17 @@
 // The one interface of all physical effects. A scene's system is a list of terms; an effect that
 // the scene does not name is not in the list and costs nothing.
 #pragma once
-#include "meniscus/core/aligned.hpp"
-#include "meniscus/core/units.hpp"
+#include "meniscus/core/archive.hpp"
+#include "meniscus/physics/unknown.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace meniscus {
@@ -19,19 +21,57 @@ namespace meniscus {
 struct Motion {
   Real time;
   std::span<const Lanes> u, v;
+  std::span<const Unknown> fields = {};  ///< by the numbers of System::add_field
+};
+
+/// Forces on the coefficients of the displacement of all particles, and the fields that have forces
+/// of their own, Unknown::f.
+struct Forces : std::span<Lanes> {
+  Forces(std::span<Lanes> f, std::span<Unknown> unknowns = {})
+      : std::span<Lanes>(f), fields(unknowns) {}
+  Forces(NodalVectors& f) : std::span<Lanes>(f) {}
+
+  std::span<Unknown> fields;
 };
 
 /// Why a term could not compute a force that makes sense.
 struct Failure {
-  Index particle;        ///< global number of the particle nearest to the failure
-  std::string cause;     ///< e.g. "J = -0.3 at a stress point; F = [...]"
-  bool of_step = false;  ///< a shorter step may avoid it
+  Index particle;         ///< global number of the particle nearest to the failure
+  std::string cause;      ///< e.g. "J = -0.3 at a stress point; F = [...]"
+  bool of_step = false;   ///< a shorter step may avoid it
+  std::string term = {};  ///< name of the term; the system fills it in
 };
 
-/// What the next step has to respect before the stable step is estimated again.
+/// What the next step has to respect before the stable step is estimated again. Only terms whose
+/// stiffness grows by multiples within few steps have a demand.
 struct StepDemand {
   Real stiffness = 0;  ///< squared frequencies that the term adds at most within the step, 1/time^2
   Real longest = std::numeric_limits<Real>::max();  ///< longest step
+
+  StepDemand& operator+=(const StepDemand& other) {
+    stiffness += other.stiffness;
+    longest = std::min(longest, other.longest);
+    return *this;
+  }
+};
+
+/// What a force call says besides the forces, about the motion it was called with.
+struct Report {
+  Real heat = 0;  ///< power turned into heat
+  /// Power that the outside world puts in through what changes with time at fixed places:
+  /// ramps, partners that are moved. What a load does on the velocity is load_power().
+  Real external_power = 0;
+  StepDemand demand = {};
+  std::optional<Failure> failure = {};
+
+  /// Sums; the first failure stays.
+  Report& operator+=(Report other) {
+    heat += other.heat;
+    external_power += other.external_power;
+    demand += other.demand;
+    if (!failure) failure = std::move(other.failure);
+    return *this;
+  }
 };
 
 /// A result per particle that a term can compute for output.
@@ -60,8 +100,18 @@ class ForceTerm {
   virtual std::string name() const = 0;
 
   /// force[A] += ... over all particles. Same bits for any thread count. Called for any motion,
-  /// also trial ones; what dissipation() and failure() say is about the last call.
-  virtual void add_force(const Motion& motion, std::span<Lanes> force) = 0;
+  /// also trial ones: the history of the term stays as it is.
+  virtual Report add_force(const Motion& motion, Forces force) = 0;
+  /// force[A] += the derivative of the forces for a change of the motion by `change` (du, dv and
+  /// field changes; its time counts for nothing). Linear in `change`, which should be of the size
+  /// of a spacing: without an exact tangent it is the difference of the forces over a millionth of
+  /// it.
+  virtual void add_tangent(const Motion& motion, const Motion& change, Forces force);
+
+  /// The step to `motion` stands: a term with history makes this its past.
+  virtual void commit(const Motion&) {}
+  /// Keeps the history; without one, nothing.
+  virtual void archive(const Archive&) {}
 
   /// Whether the force depends on the velocity.
   virtual bool viscous() const { return false; }
@@ -71,10 +121,9 @@ class ForceTerm {
   virtual std::optional<Real> stored_energy(const Motion&) const { return std::nullopt; }
   virtual std::string_view energy_kind() const { return ""; }
 
-  /// Power turned into heat at the last add_force().
-  virtual Real dissipation() const { return 0; }
-  /// Power that the outside world puts in.
-  virtual Real external_power(const Motion&) const { return 0; }
+  /// Power f.v of a load from outside on the velocity of the motion. Apart from the report: forces
+  /// are computed with the velocity of the half step, the books kept with that of the whole step.
+  virtual Real load_power(const Motion&) { return 0; }
 
   /// From when on the force depends on time through the motion only: the end of the last ramp;
   /// infinite for a load that never ceases to change.
@@ -83,12 +132,9 @@ class ForceTerm {
   /// residual by: integral of |P| / spacing for an internal force. Asked now and then only.
   virtual Real uncancelled_force(const Motion&) const { return 0; }
 
-  virtual std::optional<Failure> failure() const { return std::nullopt; }
   /// Whether a failure may be one `of_step`, so that the state before a step has to be kept.
   virtual bool may_reject_steps() const { return false; }
-  /// About the last add_force(). Only terms whose stiffness grows by multiples within few steps
-  /// have a demand.
-  virtual StepDemand step_demand() const { return {}; }
+
   /// Doubtful but possible states, looked for at output times; one sentence.
   virtual std::optional<std::string> warning(const Motion&) const { return std::nullopt; }
 

@@ -24,14 +24,14 @@ class InternalForce final : public StressPointForce<D, Rule> {
 
   bool viscous() const override { return L::viscous; }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     auto& laws = static_cast<PointLawsOf<L>&>(this->laws());
     const Rule& rule = this->rule();
     const Lanes* u = motion.u.data() + this->body().first;
     [[maybe_unused]] const Lanes* v = motion.v.data() + this->body().first;
-    this->clear_failure();
     if constexpr (EnclosedLaw<L>) laws.enclose(this->follow_enclosed(u));
-    std::array<Real, chunk_count> power{}, ramp_power{}, pull{};
+    PerChunk<Real> power(this->chunks(), 0), ramp_power(this->chunks(), 0), pull(this->chunks(), 0);
+    PerChunk<Index> failed(this->chunks(), this->no_group);
     this->accumulate(force, [&](int chunk, Index begin, Index end, Lanes* f) {
       Lanes::Mask folded{};
       Lanes heat = Lanes::zero();
@@ -57,22 +57,18 @@ class InternalForce final : public StressPointForce<D, Rule> {
       at(power, chunk) = sum(heat);
       at(ramp_power, chunk) = sum(work);
       at(pull, chunk) = sum(on_enclosed);
-      if (folded[0] | folded[1] | folded[2] | folded[3]) this->note_failure(begin, end, u);
+      if (folded[0] | folded[1] | folded[2] | folded[3])
+        at(failed, chunk) = this->first_folded(begin, end, u);
     });
-    dissipation_ = ramp_power_ = 0;
-    for (const Real p : power) dissipation_ += p;
-    for (const Real p : ramp_power) ramp_power_ += p;
     if constexpr (EnclosedLaw<L>)
       this->pull_on_surface(std::accumulate(pull.begin(), pull.end(), 0.0), force);
-    this->describe_failure(u);
+    Report report;
+    for (const Real p : power) report.heat += p;
+    // What it takes to change the numbers of the law.
+    for (const Real p : ramp_power) report.external_power += p;
+    report.failure = this->failure_of(*std::min_element(failed.begin(), failed.end()), u);
+    return report;
   }
-
-  Real dissipation() const override { return dissipation_; }
-  /// What it takes to change the numbers of the law, as of the last add_force().
-  Real external_power(const Motion&) const override { return ramp_power_; }
-
- private:
-  Real dissipation_ = 0, ramp_power_ = 0;
 };
 
 }  // namespace meniscus

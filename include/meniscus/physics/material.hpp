@@ -78,9 +78,7 @@ class MaterialOf final : public Material<D> {
   bool uniform() const { return law_.uniform() && (!director_ || director_->uniform()); }
 
   L law_at(const Vec<D>& X, const Geometry<D>& geometry) const {
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    place.template head<D>() = X;
-    L law = law_.at(place);
+    L law = law_.at(spatial<D>(X));
     if (const auto wrong = check(law); wrong && !law_.uniform())
       throw InputError(law_.formulas.front().place + ": " + *wrong);
     if constexpr (DirectedLaw<L>) {

@@ -66,7 +66,7 @@ std::unique_ptr<RigidPartner<D>> rigid_cavity(const ContactLaw& law, Real beta,
 std::unique_ptr<RigidPartner<2>> rigid_polygons(const ContactLaw& law, Real beta,
                                                 const std::vector<std::vector<Vec<2>>>& polygons);
 
-/// The walls around the rectangle between the corners `low` and `high`, of a thickness that may be
+/// A frame around the rectangle between the corners `low` and `high`, of a thickness that may be
 /// infinite.
 std::unique_ptr<RigidPartner<2>> rigid_frame(
     const ContactLaw& law, Real beta, const Vec<2>& low, const Vec<2>& high,

@@ -20,7 +20,6 @@ class StressPointForce : public ForceTerm {
   Real steady_after() const final { return laws_->steady_after(); }
   std::optional<Real> stored_energy(const Motion& motion) const final;
   Real uncancelled_force(const Motion& motion) const final;
-  std::optional<Failure> failure() const final;
   std::optional<std::string> warning(const Motion& motion) const final;
   std::vector<FieldSource> fields() const final;
   std::vector<MeasureSource> measures() const final;
@@ -41,10 +40,11 @@ class StressPointForce : public ForceTerm {
   const Body<D>& body() const { return body_; }
   const Rule& rule() const { return rule_; }
   PointLaws& laws() { return *laws_; }
+  int chunks() const { return windows_.chunks(); }
   /// Sums of the forces of this body's particles out of `all`.
   template <class F>
   void accumulate(std::span<Lanes> all, F&& work) {
-    windows_.accumulate(own(all), work);
+    windows_.accumulate(body_.part(all), work);
   }
 
   /// J_e - 1 of the surface at the displacements `u` of the body, whose gradient is remembered;
@@ -54,25 +54,20 @@ class StressPointForce : public ForceTerm {
   }
   /// Forces of the energy whose derivative with respect to J_e is `slope`.
   void pull_on_surface(Real slope, std::span<Lanes> all) {
-    if (surface_) surface_->add_gradient(-slope / surface_->reference(Size::volume), own(all));
+    if (surface_)
+      surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
 
-  /// Forgets the failure of the last force.
-  void clear_failure() { failed_group_ = no_group; }
-  /// Looks for a point with J <= 0 in these groups. Keeps the smallest group number, whatever the
-  /// order of the threads.
-  void note_failure(Index begin, Index end, const Lanes* u);
-  /// Puts what was noted into words. `u` is that of the body.
-  void describe_failure(const Lanes* u);
+  static constexpr Index no_group = std::numeric_limits<Index>::max();
+  /// The first of these groups with a point where J <= 0 or not a number; no_group if there is
+  /// none. `u` is that of the body.
+  Index first_folded(Index begin, Index end, const Lanes* u) const;
+  /// Puts the failure of a group into words.
+  std::optional<Failure> failure_of(Index group, const Lanes* u) const;
 
  private:
   using Size = typename SurfacePatches<D>::Size;
-  static constexpr Index no_group = std::numeric_limits<Index>::max();
 
-  std::span<Lanes> own(std::span<Lanes> all) const {
-    return all.subspan(static_cast<std::size_t>(body_.first),
-                       static_cast<std::size_t>(body_.size()));
-  }
   Real energy(const PointLaws& laws, const Motion& motion) const;
   /// H at the stress points of a group.
   [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const Lanes* u) const;
@@ -84,8 +79,6 @@ class StressPointForce : public ForceTerm {
   ForceWindows windows_;
   std::unique_ptr<PointLaws> laws_;
   std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
-  Index failed_group_ = no_group;
-  Failure failure_;
 };
 
 extern template class StressPointForce<2, CellRule<2>>;

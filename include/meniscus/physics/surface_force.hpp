@@ -29,7 +29,7 @@ class SurfaceForce final : public ForceTerm {
   }
   std::string_view energy_kind() const override { return "surface"; }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
+  Report add_force(const Motion& motion, Forces force) override {
     const Lanes* u = displacements(motion);
     const auto own_part = force.subspan(static_cast<std::size_t>(body_.first),
                                         static_cast<std::size_t>(body_.size()));
@@ -37,6 +37,7 @@ class SurfaceForce final : public ForceTerm {
       for (Index g = begin; g < end; ++g)
         rule_.scatter(g, law_.stress(state(g, u), -rule_.weight(g)), f);
     });
+    return {};
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {

@@ -28,10 +28,7 @@ class TensionForm : public ForceTerm {
 
   /// The displacements and forces of the body.
   const Lanes* displacements(const Motion& motion) const { return motion.u.data() + body_.first; }
-  std::span<Lanes> own_part(std::span<Lanes> force) const {
-    return force.subspan(static_cast<std::size_t>(body_.first),
-                         static_cast<std::size_t>(body_.size()));
-  }
+  std::span<Lanes> own_part(std::span<Lanes> force) const { return body_.part(force); }
 
   const Body<D>& body_;
   Real gamma_;

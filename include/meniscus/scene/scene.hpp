@@ -37,11 +37,8 @@ struct Scene : RunSettings {
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
 
-  /// How a sum over bodies (mass, force, energy) is written; in the plane it is per unit depth.
-  std::string symbol_of_sum(Dimension d) const {
-    if (D == 2) --d.length;
-    return units.symbol(d);
-  }
+  /// How a sum over bodies is written.
+  std::string symbol_of_sum(Dimension d) const { return units.symbol(of_sum(d, D)); }
 };
 
 /// A field of any body by its name. Throws std::logic_error if no body has it.

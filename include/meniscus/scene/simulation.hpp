@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene in motion: state, step control and audit, and their snapshot.
 #pragma once
-#include "meniscus/core/snapshot.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/solve/audit.hpp"
-#include "meniscus/solve/relaxation.hpp"
 #include "meniscus/solve/step_controller.hpp"
+#include "meniscus/solve/stepper.hpp"
 
 namespace meniscus {
 
@@ -16,15 +15,14 @@ std::vector<Real> packed(const NodalVectors& field);
 template <int D>
 class Simulation {
  public:
-  /// `scene` must outlive the simulation. Throws InputError if it is to be relaxed, but its loads
-  /// change until its end.
+  /// `scene` must outlive the simulation. Throws InputError if its stepper cannot do what it asks.
   explicit Simulation(Scene<D>& scene);
 
   /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
   void begin();
   /// One step towards the end of the scene; one that is rejected is taken back and halved, a few
-  /// times. Throws SolveError naming step, time and dt; the state is then back at the places before
-  /// the step, but not complete.
+  /// times. Throws StepError; the state is then back at the places before the step, but not
+  /// complete.
   void advance();
 
   /// Whether the end of the scene, or the rest that it asks for, is reached.
@@ -35,27 +33,28 @@ class Simulation {
   Real last_step() const { return last_step_; }
   StepController<D>& controller() { return controller_; }
   const Audit& audit() const { return audit_; }
-  /// Nothing if the scene is not relaxed.
-  const std::optional<Relaxation<D>>& relaxation() const { return relaxation_; }
+  const Stepper<D>& stepper() const { return *stepper_; }
   /// The ledger of now; widens the scales of the audit. Throws SolveError if a drop has lost its
   /// shape: an isoperimetric ratio below 1 - 1e-3.
   Ledger audit_now();
 
   /// Everything that decides how the run goes on, bit for bit.
-  Snapshot snapshot() const;
+  Snapshot snapshot();
   /// Throws FileError if the snapshot is of another scene.
   void restore(const Snapshot& snapshot);
 
  private:
+  void archive(const Archive& a);
   void step(Real dt);
   void refuse_impossible_surfaces() const;
+  [[noreturn]] void give_up(StepFailure failure);
 
   Scene<D>& scene_;
   State state_;
   State before_;  // the step, where a term may reject it
   bool keeps_state_before_;
   StepController<D> controller_;
-  std::optional<Relaxation<D>> relaxation_;
+  std::unique_ptr<Stepper<D>> stepper_;
   Audit audit_;
   Real last_step_ = 0;
 };

@@ -33,6 +33,8 @@ struct Audit {
   Real angular_momentum_scale = 0;  ///< the same times the radius of gyration
 
   void begin(const Ledger& ledger);
+  /// `dimension`: 2 or 3.
+  void archive(const Archive& a, int dimension);
   /// Widens the scales.
   template <int D>
   void follow(const System<D>& system, const State& state, const Ledger& ledger);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Explicit dynamics: central differences with the viscous force taken at the velocity of the half
-// step before (as velocity Verlet, so that the state is complete at whole steps).
+// step before (as velocity Verlet, so that the state is complete at whole steps). Relaxational
+// fields follow by explicit Euler steps, of first order.
 #pragma once
 #include "meniscus/solve/system.hpp"
 

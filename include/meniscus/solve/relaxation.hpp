@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dynamic relaxation: explicit dynamics with the damping that its motion asks for.
 #pragma once
-#include "meniscus/core/snapshot.hpp"
-#include "meniscus/solve/system.hpp"
+#include "meniscus/solve/stepper.hpp"
 
 namespace meniscus {
 
@@ -17,7 +16,7 @@ namespace meniscus {
 /// the end of two in a row. Neither momentum nor angular momentum comes into bodies that have none,
 /// so that they do not drift.
 template <int D>
-class Relaxation {
+class Relaxation final : public Stepper<D> {
  public:
   struct Tolerances {
     /// Of sum |f_A| over the particles, relative to the forces before they cancel
@@ -30,14 +29,14 @@ class Relaxation {
 
   Relaxation(System<D>& system, const Tolerances& tolerances);
 
-  /// Begins to observe at `state`, which has its forces.
-  void begin(const State& state);
+  /// Begins to observe.
+  void begin(const State& state) override;
+  void step(State& state, Real dt) override;
+  /// Whether the bodies are at rest.
+  bool arrived() const override { return settled_windows_ >= 2; }
+  std::vector<Residual> residuals(const State& state) const override;
+  void archive(const Archive& a, const State& state) override;
 
-  /// To be called after every step: damps the velocities, books what that takes from the kinetic
-  /// energy as dissipated, and judges the state at the end of a window.
-  void damp(State& state, Real dt);
-
-  bool at_rest() const { return settled_windows_ >= 2; }
   /// Of the present state.
   Real force_residual(const State& state) const;
   /// Left to go, as extrapolated from the last window; 1 before there was one.
@@ -45,11 +44,10 @@ class Relaxation {
   /// When the last ramp of the system ends.
   Real steady_after() const;
 
-  void save(Snapshot& snapshot) const;
-  /// Begins at `state` if the snapshot is not of a relaxation.
-  void restore(const Snapshot& snapshot, const State& state);
-
  private:
+  /// Damps the velocities, books what that takes from the kinetic energy as dissipated, and judges
+  /// the state at the end of a window.
+  void damp(State& state, Real dt);
   void open_window(const State& state, Real length);
   void judge(const State& state, Real dt);
   struct Change {
@@ -62,7 +60,7 @@ class Relaxation {
 
   System<D>& system_;
   Tolerances tolerances_;
-  NodalVectors last_u_, last_force_;      ///< after the step before
+  NodalVectors last_u_, last_force_;      ///< before the step
   NodalVectors window_u_, window_force_;  ///< at the beginning of the window
   Real window_begin_ = 0, window_length_ = 0;
   Real shape_change_ = 1;

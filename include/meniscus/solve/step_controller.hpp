@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Step control: a fraction of the stable step, or the step that was asked for.
 #pragma once
-#include "meniscus/core/snapshot.hpp"
 #include "meniscus/solve/time_step.hpp"
 
 #include <optional>
@@ -36,10 +35,9 @@ class StepController {
   /// Said once when a fixed step has come close to the stable one, or above it.
   std::optional<std::string> take_warning() { return std::exchange(warning_, std::nullopt); }
 
-  void save(Snapshot& snapshot) const;
-  /// Goes on as before, or, if step or safety were chosen differently then, by the new choice.
-  /// Throws as begin().
-  void restore(const Snapshot& snapshot);
+  /// A run goes on as before, or, if step or safety were chosen differently then, by the new
+  /// choice: throws as begin().
+  void archive(const Archive& a);
 
  private:
   void choose_step();

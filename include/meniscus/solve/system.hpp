@@ -1,51 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// System: bodies, force terms, and the state that changes in time.
+// System: all that moves and all that acts, bodies and force terms.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/error.hpp"
-#include "meniscus/physics/force_term.hpp"
+#include "meniscus/solve/state.hpp"
 
 #include <deque>
 #include <memory>
 
 namespace meniscus {
 
-/// A step ended where forces make no sense but those of a shorter step may.
-struct StepRejected : SolveError {
-  using SolveError::SolveError;
-};
-
-/// What changes from step to step. A run continues bit for bit from a copy of it.
-struct State {
-  Real time = 0;
-  std::int64_t step = 0;
-  NodalVectors u, v;       ///< displacement and velocity coefficients at `time`
-  NodalVectors force;      ///< at u and the velocity of the last half step
-  Real dissipated = 0;     ///< heat so far
-  Real external_work = 0;  ///< work of the outside world so far
-  Real dissipation_power = 0, external_power = 0;  ///< at `time`
-  StepDemand demand;                               ///< of all terms on the next step
-
-  Motion motion() const { return {time, u, v}; }
-};
-
 template <int D>
 struct System {
   std::deque<Body<D>> bodies;
   std::vector<std::unique_ptr<ForceTerm>> terms;
-  std::vector<Real> mass;  ///< of all particles, bodies one after the other
+  std::vector<Real> mass;       ///< of all particles, bodies one after the other
+  std::vector<Unknown> fields;  ///< unknowns beside the displacement, as a run begins with them
 
   Index size() const { return static_cast<Index>(mass.size()); }
+  /// An unknown field that begins at zero; returns its number in Motion and Forces. One that is
+  /// asked for twice is the same field, with the sum of both capacities; throws std::logic_error if
+  /// it is not described in the same way.
+  std::size_t add_field(const FieldSpec& spec, std::span<const Real> capacity);
+
   bool viscous() const;
   std::size_t bytes() const;  ///< held by the terms
 
-  /// Forces of all terms. Throws SolveError naming body, particle, place and cause where a term
-  /// cannot compute one (J <= 0) or a force is not a number, StepRejected if a shorter step may
-  /// help; `force` is then not to be used.
-  void compute_forces(const Motion& motion, std::span<Lanes> force);
+  /// Forces of all terms. Throws StepError with body, particle, place and cause where a term cannot
+  /// compute one (J <= 0) or a force is not a number; `force` is then not to be used.
+  Report compute_forces(const Motion& motion, Forces force);
 
   /// Same, without the checks: for trial motions of the time-step estimate.
-  void add_up(const Motion& motion, std::span<Lanes> force);
+  Report add_up(const Motion& motion, Forces force);
+
+  /// Of all terms.
+  Real load_power(const Motion& motion);
+  void commit(const Motion& motion);
 
   /// The body that holds a particle.
   const Body<D>& body_of(Index particle) const;

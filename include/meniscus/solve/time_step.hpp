@@ -14,10 +14,13 @@ struct StableStep {
   Real stiffness = 0;   ///< omega = sqrt(k) of the critical mode, 1/time
   Real viscosity = 0;   ///< c of the critical mode, 1/time
   int evaluations = 0;  ///< force evaluations spent
+  Real of_fields = std::numeric_limits<Real>::max();  ///< the limit of the other unknown fields
+
+  void archive(const Archive& a);
 };
 
-/// Finds the critical mode by power iteration on differences of the force, starting with the mode
-/// found before: a new estimate of a slowly changing body takes a few evaluations.
+/// Finds the critical mode of each unknown by power iteration on differences of the force, starting
+/// with the mode found before: a new estimate of a slowly changing body takes a few evaluations.
 template <int D>
 class StableStepEstimator {
  public:
@@ -26,18 +29,21 @@ class StableStepEstimator {
   /// Throws SolveError if no finite limit can be found.
   StableStep estimate(const State& state);
 
-  /// The mode found last: part of a checkpoint, since later estimates start from it.
-  const NodalVectors& mode() const { return mode_; }
-  void set_mode(NodalVectors mode) { mode_ = std::move(mode); }
+  /// Keeps the modes found last, from which later estimates start.
+  void archive(const Archive& a);
 
  private:
   /// result = - (f(u + du mode, v + dv mode) - f(u, v)).
   void force_change(const State& state, Real du, Real dv, NodalVectors& result);
+  Real field_limit(const State& state, std::size_t number);
   Real dot(const NodalVectors& a, const NodalVectors& b) const;
 
   System<D>& system_;
   Real spacing_;  ///< smallest particle distance: scale of the trial displacements
   NodalVectors mode_, u_, v_, base_, elastic_, viscous_;
+  // Of the unknown fields.
+  std::vector<NodalVectors> field_modes_, base_fields_;
+  std::vector<Unknown> trial_;
 };
 
 }  // namespace meniscus

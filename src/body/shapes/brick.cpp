@@ -87,9 +87,9 @@ Rows<Brick<D>> Brick<D>::rows() {
 template <int D>
 Geometry<D> Brick<D>::geometry() const {
   if (cells.empty() == (spacing <= 0))
-    throw InputError("Give either the cells per direction or the spacing.");
+    throw InputError("give either the cells per direction or the spacing");
   if (!corner.empty() && !centre.empty())
-    throw InputError("Give either the corner or the centre, not both.");
+    throw InputError("give either the corner or the centre, not both");
   std::array<Index, D> count;
   Vec<D> edges, middle;
   Real total = 1;
@@ -99,7 +99,7 @@ Geometry<D> Brick<D>::geometry() const {
     // The tolerance keeps a spacing that divides the edge from yielding one cell more.
     const Real wanted = cells.empty() ? std::ceil(at(size, k) / spacing - 1e-9) : at(cells, k);
     if (!(wanted >= 1 && wanted <= 1e6) || wanted != std::floor(wanted))
-      throw InputError("The number of cells per direction must be whole, from 1 to 1e6.");
+      throw InputError("the number of cells per direction must be whole, from 1 to 1e6");
     at(count, k) = static_cast<Index>(wanted);
     middle[k] = centre.empty() ? 0 : at(centre, k);
     if (!corner.empty()) middle[k] = at(corner, k) + 0.5 * edges[k];

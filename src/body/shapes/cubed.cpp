@@ -147,7 +147,7 @@ void add_shell_cells(Grid<D>& grid, const Number& number, int core, int shells, 
 template <int D>
 Grid<D> cubed_ball(int core, int shells) {
   if (core < 1 || shells < 1)
-    throw InputError("A ball, disk or cylinder needs at least one core cell and one shell.");
+    throw InputError("a ball, disk or cylinder needs at least one core cell and one shell");
   require_affordable<D>(std::pow(core, D) + 2.0 * D * shells * std::pow(core, D - 1));
   const NodeNumbers<D> number(core);
   Grid<D> grid;

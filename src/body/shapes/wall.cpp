@@ -86,10 +86,10 @@ SmoothMap<3> wall_map(Meridian meridian, Real thickness, const Vec<3>& centre) {
 Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real spacing,
                       const Vec<3>& centre) {
   if (!(thickness < meridian.smallest_radius))
-    throw InputError(fmt::format(
-        "A wall {:g} thick has no smooth inner surface: the outer one is bent to a radius of {:g}, "
-        "which must be larger than the thickness.",
-        thickness, meridian.smallest_radius));
+    throw InputError(
+        fmt::format("a wall {:g} thick has no smooth inner surface: the outer one is bent to a "
+                    "radius of {:g}, which must be larger than the thickness",
+                    thickness, meridian.smallest_radius));
   // A quarter of a great circle crosses as many cells as the edge of a face of the cube has.
   const Real cells = std::ceil(meridian.length / spacing - 1e-9);
   require_affordable<3>(6 * cells * cells * layers);

@@ -13,9 +13,9 @@ namespace meniscus {
 namespace {
 
 template <int D>
-std::vector<Vec<D>> places(const ContactPoints<D>& points) {
+std::vector<Vec<D>> places(const ContactPlaces<D>& points) {
   std::vector<Vec<D>> x;
-  for (Index q = 0; q < points.size(); ++q) x.push_back(points.place(q));
+  for (Index q = 0; q < points.size; ++q) x.push_back(points.place(q));
   return x;
 }
 
@@ -47,7 +47,7 @@ Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> ac
 }  // namespace
 
 template <int D>
-Real gap_between(const ContactPoints<D>& first, const ContactPoints<D>& second) {
+Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second) {
   const std::vector<Vec<D>> x = places(first), y = places(second);
   const NeighborSearch<D> search(y);
   Real gap = std::numeric_limits<Real>::max();
@@ -89,8 +89,8 @@ std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, 
       contact, gap, spacing);
 }
 
-template Real gap_between(const ContactPoints<2>&, const ContactPoints<2>&);
-template Real gap_between(const ContactPoints<3>&, const ContactPoints<3>&);
+template Real gap_between(const ContactPlaces<2>&, const ContactPlaces<2>&);
+template Real gap_between(const ContactPlaces<3>&, const ContactPlaces<3>&);
 template Real closing_speed(const ContactPoints<2>&, std::span<const Index>,
                             const ContactPoints<2>*, std::span<const Index>, const Vec<2>&,
                             const Motion&);

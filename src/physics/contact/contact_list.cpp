@@ -20,7 +20,7 @@ Index clusters_of(std::span<const Lanes> x) {
 /// Largest distance that a point has moved.
 template <int D>
 Real largest_move(std::span<const Lanes> from, std::span<const Lanes> to) {
-  std::array<Lanes, chunk_count> most;
+  PerChunk<Lanes> most(chunk_count(clusters_of<D>(to)), Lanes::zero());
   for_chunks(clusters_of<D>(to), [&](Index chunk, Index begin, Index end) {
     Lanes largest_square = Lanes::zero();
     for (Index c = begin; c < end; ++c) {
@@ -120,6 +120,7 @@ void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const
     search_ = std::make_unique<NeighborSearch<D>>(centre_);
 
   const Index clusters = clusters_of<D>(first);
+  found_.resize(static_cast<std::size_t>(chunk_count(clusters)));
   for_chunks(clusters, [&](Index chunk, Index begin, Index end) {
     Found& found = at(found_, chunk);
     found.partner.clear();

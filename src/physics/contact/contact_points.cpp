@@ -3,6 +3,7 @@
 #include "meniscus/physics/contact_points.hpp"
 
 #include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,10 @@ namespace {
 template <int D>
 void order_in_clusters(const std::vector<Vec<D>>& X, std::span<Index> order) {
   if (order.size() <= Lanes::width) return;
-  Vec<D> low = at(X, order[0]), high = low;
-  for (const Index q : order) {
-    low = low.cwiseMin(at(X, q));
-    high = high.cwiseMax(at(X, q));
-  }
+  Box<D> box;
+  for (const Index q : order) box.include(at(X, q));
   Eigen::Index axis = 0;
-  (high - low).maxCoeff(&axis);
+  box.extent().maxCoeff(&axis);
   const auto less = [&](Index a, Index b) {
     return at(X, a)[axis] != at(X, b)[axis] ? at(X, a)[axis] < at(X, b)[axis] : a < b;
   };
@@ -87,9 +85,7 @@ void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vec
       for (int i = 0; i < D; ++i)
         at(X_, c * D + i)
             .set(lane, at(places, c * Lanes::width + std::min(lane, points_in(c) - 1))[i]);
-  x_ = X_;
   reference_.assign(offset(clusters(), components_), Lanes::zero());
-  weight_ = reference_;
   pushed_.assign(static_cast<std::size_t>(clusters()), 0);
 }
 
@@ -106,7 +102,6 @@ ContactPoints<D> ContactPoints<D>::on_surface(const Body<D>& body, Real beta, Si
       at(contact.reference_, q / Lanes::width * D + i)
           .set(q % Lanes::width,
                beta * at(surface.area, at(order, q)) * at(surface.N, at(order, q))[i]);
-  contact.inverse_.assign(static_cast<std::size_t>(contact.clusters()), Tensor<Lanes>::identity());
   return contact;
 }
 
@@ -119,25 +114,34 @@ ContactPoints<D> ContactPoints<D>::in_volume(const Body<D>& body, Real beta, int
   for (Index q = 0; q < contact.size(); ++q)
     at(contact.reference_, q / Lanes::width)
         .set(q % Lanes::width, beta * at(cells.weight, at(order, q)));
-  contact.weight_ = contact.reference_;
   return contact;
 }
 
 template <int D>
-void ContactPoints<D>::move(const Motion& motion) {
+ContactPlaces<D> ContactPoints<D>::at_rest() const {
+  ContactPlaces<D> places{size(), components_, X_, reference_, {}};
+  if (components_ == D)
+    places.inverse.assign(static_cast<std::size_t>(clusters()), Tensor<Lanes>::identity());
+  return places;
+}
+
+template <int D>
+void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places) const {
   const Lanes* u = motion.u.data() + body_->first;
   for_chunks(clusters(), [&](Index, Index begin, Index end) {
     for (Index c = begin; c < end; ++c)
       for (Index lane = 0; lane < Lanes::width; ++lane) {
         const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
         const Lanes moved = value_at(rule_.rows, q, u);
-        for (int i = 0; i < D; ++i) at(x_, c * D + i).set(lane, at(X_, c * D + i)[lane] + moved[i]);
+        for (int i = 0; i < D; ++i)
+          at(places.x, c * D + i).set(lane, at(X_, c * D + i)[lane] + moved[i]);
       }
   });
 }
 
 template <int D>
-void ContactPoints<D>::weigh(std::span<const Index> clusters, const Motion& motion) {
+void ContactPoints<D>::weigh(std::span<const Index> clusters, const Motion& motion,
+                             ContactPlaces<D>& places) const {
   if (components_ == 1) return;
   const Lanes* u = motion.u.data() + body_->first;
   parallel_for(
@@ -148,23 +152,16 @@ void ContactPoints<D>::weigh(std::span<const Index> clusters, const Motion& moti
         rule_.gather(c, u, H);
         Tensor<Lanes> cof = cofactor_of_deformation(H);
         const Lanes one_over_J = 1.0 / (1.0 + volume_change(H));
-        at(inverse_, c) = one_over_J * transpose(cof);
+        at(places.inverse, c) = one_over_J * transpose(cof);
         if (density_ == SiteDensity::referential) cof = one_over_J * cof;
         const Lanes* N = reference_.data() + offset(c, D);
         for (int i = 0; i < D; ++i) {
           Lanes V = cof(i, 0) * N[0];
           for (int K = 1; K < D; ++K) V += cof(i, K) * N[K];
-          at(weight_, c * D + i) = V;
+          at(places.weight, c * D + i) = V;
         }
       },
       16);
-}
-
-template <int D>
-Vec<D> ContactPoints<D>::place(Index point) const {
-  Vec<D> x_point;
-  for (int i = 0; i < D; ++i) x_point[i] = x(point / Lanes::width)[i][point % Lanes::width];
-  return x_point;
 }
 
 template <int D>
@@ -179,9 +176,10 @@ void ContactPoints<D>::velocity(Index cluster, const Motion& motion, Lanes* v) c
 
 /// The first Piola stress (S.V) F^-T [constant density only] - V (F^-1 S)^T of a cluster.
 template <int D>
-Tensor<Lanes> ContactPoints<D>::stress(Index cluster, const Lanes* S) const {
-  const Tensor<Lanes>& inverse = at(inverse_, cluster);
-  const Lanes* V = weight(cluster);
+Tensor<Lanes> ContactPoints<D>::stress(const ContactPlaces<D>& places, Index cluster,
+                                       const Lanes* S) const {
+  const Tensor<Lanes>& inverse = at(places.inverse, cluster);
+  const Lanes* V = places.weight_of(cluster);
   Lanes SV = Lanes::zero(), pulled[3], area[3];
   for (int K = 0; K < 3; ++K) pulled[K] = area[K] = Lanes::zero();
   for (int i = 0; i < D; ++i) {
@@ -193,18 +191,19 @@ Tensor<Lanes> ContactPoints<D>::stress(Index cluster, const Lanes* S) const {
 }
 
 template <int D>
-void ContactPoints<D>::add_force(std::span<const Index> clusters, std::span<const Lanes> T,
-                                 std::span<const Lanes> S, std::span<Lanes> force) {
+void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
+                                 std::span<const Lanes> T, std::span<const Lanes> S,
+                                 std::span<Lanes> force) {
   if (clusters.empty()) return;
   for (const Index c : clusters) at(pushed_, c) = 1;
-  windows_.accumulate(own(force), [&](int, Index begin, Index end, Lanes* f) {
+  windows_.accumulate(body_->part(force), [&](int, Index begin, Index end, Lanes* f) {
     for (Index c = begin; c < end; ++c) {
       if (!at(pushed_, c)) continue;
       const Lanes* pull = T.data() + offset(c, D);
       const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
       for (Index lane = 0; lane < points_in(c); ++lane)
         scatter_value(rule_.rows, c * Lanes::width + lane, -at(by_point, lane), f);
-      if (!S.empty()) rule_.scatter(c, -1.0 * stress(c, S.data() + offset(c, D)), f);
+      if (!S.empty()) rule_.scatter(c, -1.0 * stress(places, c, S.data() + offset(c, D)), f);
     }
   });
   for (const Index c : clusters) at(pushed_, c) = 0;
@@ -212,8 +211,7 @@ void ContactPoints<D>::add_force(std::span<const Index> clusters, std::span<cons
 
 template <int D>
 std::size_t ContactPoints<D>::bytes() const {
-  return rule_.bytes() + windows_.bytes() + inverse_.size() * sizeof(Tensor<Lanes>) +
-         (X_.size() + reference_.size() + x_.size() + weight_.size()) * sizeof(Lanes);
+  return rule_.bytes() + windows_.bytes() + (X_.size() + reference_.size()) * sizeof(Lanes);
 }
 
 template class ContactPoints<2>;

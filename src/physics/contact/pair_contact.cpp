@@ -15,18 +15,23 @@
 namespace meniscus {
 namespace {
 
-/// One of the two bodies while forces are added up.
+/// What the points of one body feel.
 template <int D>
-struct Side {
-  ContactPoints<D> points;
+struct Felt {
   AlignedVector<Lanes> T, S;  ///< [cluster][i], as in contact_forms.hpp
   std::vector<Real> nearest;  ///< [active cluster] least squared distance to the other body
 
-  explicit Side(ContactPoints<D> contact_points, bool moment) : points(std::move(contact_points)) {
-    T.assign(static_cast<std::size_t>(points.clusters()) * D, Lanes::zero());
+  Felt(Index clusters, bool moment) {
+    T.assign(static_cast<std::size_t>(clusters) * D, Lanes::zero());
     if (moment) S = T;
-    nearest.reserve(static_cast<std::size_t>(points.clusters()));
+    nearest.reserve(static_cast<std::size_t>(clusters));
   }
+};
+
+/// Where the points of both bodies are.
+template <int D>
+struct PairPlaces {
+  ContactPlaces<D> first, second;
 };
 
 template <int D>
@@ -45,189 +50,200 @@ class PairContact final : public ForceTerm {
         law_(law),
         pair_law_(law),
         interaction_(law, first.beta * second.beta),
-        now_(std::make_unique<Configuration>(
-            Configuration{Side<D>(points_of(first, choice), Form::moment),
-                          Side<D>(points_of(second, choice), Form::moment),
-                          ContactList<D>(law.reach(), choice.skin * law.sigma0)})) {}
+        first_(points_of(first, choice)),
+        second_(points_of(second, choice)),
+        list_(law.reach(), choice.skin * law.sigma0),
+        now_{first_.at_rest(), second_.at_rest()},
+        first_felt_(first_.clusters(), Form::moment),
+        second_felt_(second_.clusters(), Form::moment) {}
 
   std::string name() const override { return "contact '" + name_ + "'"; }
   std::string_view energy_kind() const override { return "contact"; }
 
-  void add_force(const Motion& motion, std::span<Lanes> force) override {
-    Configuration& now = *now_;
-    bring_up(motion);
-    sum_all<Form>(now.first, now.list.of_first(), now.second.points);
-    sum_all<Form>(now.second, now.list.of_second(), now.first.points);
-    now.first.points.add_force(now.list.of_first().active, now.first.T, now.first.S, force);
-    now.second.points.add_force(now.list.of_second().active, now.second.T, now.second.S, force);
-    note_closeness(motion);
+  Report add_force(const Motion& motion, Forces force) override {
+    move(motion, now_);
+    list_.update(now_.first.x, now_.second.x);
+    weigh(motion, list_, now_);
+    sum_all(now_.first, list_.of_first(), now_.second, first_felt_);
+    sum_all(now_.second, list_.of_second(), now_.first, second_felt_);
+    first_.add_force(now_.first, list_.of_first().active, first_felt_.T, first_felt_.S, force);
+    second_.add_force(now_.second, list_.of_second().active, second_felt_.T, second_felt_.S, force);
+    return report(motion);
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
-    bring_up(motion);
-    return energy();
+    return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
+      return energy(places, list.of_first());
+    });
   }
 
-  std::optional<Failure> failure() const override { return failure_; }
   bool may_reject_steps() const override { return true; }
-  StepDemand step_demand() const override { return demand_; }
 
   std::optional<std::string> warning(const Motion& motion) const override {
-    bring_up(motion);
-    return unresolved_gap(name_, std::sqrt(least_square()), spacing(), interaction_.range());
+    return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
+      return unresolved_gap(name_, std::sqrt(least_square(places, list.of_first())), spacing(),
+                            interaction_.range());
+    });
   }
 
   std::vector<MeasureSource> measures() const override;
 
   std::size_t bytes() const override {
-    const Side<D>&a = now_->first, &b = now_->second;
-    return a.points.bytes() + b.points.bytes() + now_->list.bytes() +
-           (a.T.size() + a.S.size() + b.T.size() + b.S.size()) * sizeof(Lanes);
+    const Felt<D>&a = first_felt_, &b = second_felt_;
+    return first_.bytes() + second_.bytes() + now_.first.bytes() + now_.second.bytes() +
+           list_.bytes() + (a.T.size() + a.S.size() + b.T.size() + b.S.size()) * sizeof(Lanes);
   }
   Offset pairs() const override {
-    return now_->first.points.pairs() + now_->second.points.pairs() +
-           2 * now_->list.pairs() * Lanes::width * Lanes::width;
+    return first_.pairs() + second_.pairs() + 2 * list_.pairs() * Lanes::width * Lanes::width;
   }
 
  private:
-  /// Places, weights and list of the motion looked at last.
-  struct Configuration {
-    Side<D> first, second;
-    ContactList<D> list;
-  };
   using Rows = typename ContactList<D>::Rows;
 
-  void bring_up(const Motion& motion) const {
-    Configuration& now = *now_;
-    now.first.points.move(motion);
-    now.second.points.move(motion);
-    now.list.update(now.first.points.x(), now.second.points.x());
-    now.first.points.weigh(now.list.of_first().active, motion);
-    now.second.points.weigh(now.list.of_second().active, motion);
+  void move(const Motion& motion, PairPlaces<D>& places) const {
+    first_.move(motion, places.first);
+    second_.move(motion, places.second);
+  }
+  void weigh(const Motion& motion, const ContactList<D>& list, PairPlaces<D>& places) const {
+    first_.weigh(list.of_first().active, motion, places.first);
+    second_.weigh(list.of_second().active, motion, places.second);
   }
 
-  template <class AnyForm>
-  void sum_all(Side<D>& side, const Rows& rows, const ContactPoints<D>& others) const {
-    side.nearest.resize(rows.active.size());
+  /// f(places, list) at any motion; takes memory. The list of the forces serves where it holds.
+  template <class F>
+  auto look_at(const Motion& motion, F&& f) const {
+    PairPlaces<D> places{first_.at_rest(), second_.at_rest()};
+    move(motion, places);
+    std::optional<ContactList<D>> own;
+    if (!list_.valid(places.first.x, places.second.x))
+      own.emplace(list_.reach(), list_.skin()).update(places.first.x, places.second.x);
+    const ContactList<D>& list = own ? *own : list_;
+    weigh(motion, list, places);
+    return f(places, list);
+  }
+
+  void sum_all(const ContactPlaces<D>& points, const Rows& rows, const ContactPlaces<D>& others,
+               Felt<D>& felt) const {
+    felt.nearest.resize(rows.active.size());
     parallel_for(
         static_cast<Index>(rows.active.size()),
         [&](Index k) {
           const Index c = at(rows.active, k);
           Lanes T[D], S[D];
           for (int i = 0; i < D; ++i) T[i] = S[i] = Lanes::zero();
-          const Lanes nearest = contact::sum_over_partners<AnyForm, D>(
-              pair_law_, law_.reach(), side.points.x(c), side.points.weight(c), rows.of(c), others,
-              T, S);
-          at(side.nearest, k) =
+          const Lanes nearest =
+              contact::sum_over_partners<Form, D>(pair_law_, law_.reach(), points.x_of(c),
+                                                  points.weight_of(c), rows.of(c), others, T, S);
+          at(felt.nearest, k) =
               std::min(std::min(nearest[0], nearest[1]), std::min(nearest[2], nearest[3]));
           for (int i = 0; i < D; ++i) {
-            at(side.T, c * D + i) = T[i];
-            if (AnyForm::moment) at(side.S, c * D + i) = S[i];
+            at(felt.T, c * D + i) = T[i];
+            if (Form::moment) at(felt.S, c * D + i) = S[i];
           }
         },
         4);
   }
 
-  Real energy() const {
-    const Side<D>& side = now_->first;
-    const Rows& rows = now_->list.of_first();
+  Real energy(const PairPlaces<D>& places, const Rows& rows) const {
     // Over all clusters: the order of summation must not depend on which are active.
-    return parallel_sum(side.points.clusters(), 0.0, [&](Index c) {
+    return parallel_sum(first_.clusters(), 0.0, [&](Index c) {
       Lanes T[D], S[1];
       T[0] = Lanes::zero();
       contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
-          pair_law_, law_.reach(), side.points.x(c), side.points.weight(c), rows.of(c),
-          now_->second.points, T, S);
+          pair_law_, law_.reach(), places.first.x_of(c), places.first.weight_of(c), rows.of(c),
+          places.second, T, S);
       return sum(T[0]);
     });
   }
 
-  /// Least squared distance between points within reach of the list; 1e300 if there are none.
-  Real least_square() const {
-    const Rows& rows = now_->list.of_first();
-    Real least = 1e300;
-    for (const Index c : rows.active) least = std::min(least, squares(c, rows.of(c)).minCoeff());
+  /// Least squared distance between points within reach of the list; `unbounded` if there are none.
+  static Real least_square(const PairPlaces<D>& places, const Rows& rows) {
+    Real least = unbounded;
+    for (const Index c : rows.active)
+      least = std::min(least, squares(places, c, rows.of(c)).minCoeff());
     return least;
   }
   /// Squared distances of the four points of a cluster to the nearest points of the partners.
-  Eigen::Array4d squares(Index cluster, std::span<const Index> partners) const {
-    Eigen::Array4d nearest = Eigen::Array4d::Constant(1e300);
-    const ContactPoints<D>& others = now_->second.points;
+  static Eigen::Array4d squares(const PairPlaces<D>& places, Index cluster,
+                                std::span<const Index> partners) {
+    Eigen::Array4d nearest = Eigen::Array4d::Constant(unbounded);
+    const Index begin = cluster * Lanes::width;
+    const Index points = std::min<Index>(Lanes::width, places.first.size - begin);
     for (const Index partner : partners)
       for (int lane = 0; lane < Lanes::width; ++lane) {
-        const Vec<D> y = others.place(std::min(partner * Lanes::width + lane, others.size() - 1));
-        for (int own = 0; own < now_->first.points.points_in(cluster); ++own)
-          nearest[own] =
-              std::min(nearest[own],
-                       (now_->first.points.place(cluster * Lanes::width + own) - y).squaredNorm());
+        const Vec<D> y =
+            places.second.place(std::min(partner * Lanes::width + lane, places.second.size - 1));
+        for (Index k = 0; k < points; ++k)
+          nearest[k] = std::min(nearest[k], (places.first.place(begin + k) - y).squaredNorm());
       }
     return nearest;
   }
 
-  void note_closeness(const Motion& motion);
+  Report report(const Motion& motion) const;
   Failure describe_overlap(Real gap) const;
-  Real spacing() const {
-    return std::max(now_->first.points.spacing(), now_->second.points.spacing());
-  }
+  Real spacing() const { return std::max(first_.spacing(), second_.spacing()); }
   Vec<D> force_on_first(const Motion& motion) const;
 
   std::string name_;
   ContactLaw law_;
   PairLaw<K> pair_law_;
   LennardJones interaction_;
-  std::unique_ptr<Configuration> now_;
-  std::optional<Failure> failure_;
-  StepDemand demand_;
+  ContactPoints<D> first_, second_;
+  ContactList<D> list_;
+  // Work space of a force.
+  PairPlaces<D> now_;
+  Felt<D> first_felt_, second_felt_;
 };
 
-/// What the places and velocities of the last add_force() mean for the step.
+/// What the places and velocities of a force mean for the step.
 template <int D, class Form, PairKernel K>
-void PairContact<D, Form, K>::note_closeness(const Motion& motion) {
-  failure_.reset();
-  demand_ = {};
-  const std::vector<Real>& nearest = now_->first.nearest;
-  if (nearest.empty()) return;
+Report PairContact<D, Form, K>::report(const Motion& motion) const {
+  Report report;
+  const std::vector<Real>& nearest = first_felt_.nearest;
+  if (nearest.empty()) return report;
   const Real gap = std::sqrt(*std::min_element(nearest.begin(), nearest.end()));
-  if (gap < interaction_.least_gap()) failure_ = describe_overlap(gap);
-  const ContactPoints<D>&a = now_->first.points, &b = now_->second.points;
-  const Real speed = closing_speed<D>(a, now_->list.of_first().active, &b,
-                                      now_->list.of_second().active, Vec<D>::Zero(), motion);
-  demand_ =
-      contact_demand({interaction_, 1 / a.inertia() + 1 / b.inertia(), spacing(), D}, gap, speed);
+  if (gap < interaction_.least_gap()) report.failure = describe_overlap(gap);
+  const Real speed = closing_speed<D>(first_, list_.of_first().active, &second_,
+                                      list_.of_second().active, Vec<D>::Zero(), motion);
+  report.demand = contact_demand(
+      {interaction_, 1 / first_.inertia() + 1 / second_.inertia(), spacing(), D}, gap, speed);
+  return report;
 }
 
 template <int D, class Form, PairKernel K>
 Failure PairContact<D, Form, K>::describe_overlap(Real gap) const {
-  const auto& active = now_->list.of_first().active;
-  const auto k = std::min_element(now_->first.nearest.begin(), now_->first.nearest.end()) -
-                 now_->first.nearest.begin();
+  const auto& active = list_.of_first().active;
+  const std::vector<Real>& nearest = first_felt_.nearest;
+  const auto k = std::min_element(nearest.begin(), nearest.end()) - nearest.begin();
   const Index cluster = at(active, k);
   Eigen::Index lane = 0;
-  squares(cluster, now_->list.of_first().of(cluster)).minCoeff(&lane);
+  squares(now_, cluster, list_.of_first().of(cluster)).minCoeff(&lane);
   const Index point = cluster * Lanes::width + static_cast<Index>(lane);
-  return {now_->first.points.particle_at(point),
+  return {first_.particle_at(point),
           fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g} = {:.3g} sigma0, "
                       "least is {:.2g} sigma0",
-                      now_->first.points.body().name, now_->second.points.body().name, gap,
-                      gap / law_.sigma0, law_.guard),
+                      first_.body().name, second_.body().name, gap, gap / law_.sigma0, law_.guard),
           true};
 }
 
 template <int D, class Form, PairKernel K>
 Vec<D> PairContact<D, Form, K>::force_on_first(const Motion& motion) const {
-  bring_up(motion);
-  sum_all<Form>(now_->first, now_->list.of_first(), now_->second.points);
-  Vec<D> force = Vec<D>::Zero();
-  for (const Index c : now_->list.of_first().active)
-    for (int i = 0; i < D; ++i) force[i] -= sum(at(now_->first.T, c * D + i));
-  return force;
+  return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
+    Felt<D> felt(first_.clusters(), Form::moment);
+    sum_all(places.first, list.of_first(), places.second, felt);
+    Vec<D> force = Vec<D>::Zero();
+    for (const Index c : list.of_first().active)
+      for (int i = 0; i < D; ++i) force[i] -= sum(at(felt.T, c * D + i));
+    return force;
+  });
 }
 
 template <int D, class Form, PairKernel K>
 std::vector<MeasureSource> PairContact<D, Form, K>::measures() const {
   const auto gap = [this](const Motion& motion) {
-    bring_up(motion);
-    return gap_between(now_->first.points, now_->second.points);
+    PairPlaces<D> places{first_.at_rest(), second_.at_rest()};
+    move(motion, places);
+    return gap_between(places.first, places.second);
   };
   std::vector<MeasureSource> all{
       {"energy", dimension::energy, "energy of the interaction",

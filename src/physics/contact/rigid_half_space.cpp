@@ -12,16 +12,16 @@ template <int D>
 class HalfSpace final : public RigidPartner<D> {
  public:
   HalfSpace(const ContactLaw& law, Real beta, const Vec<D>& point, const Vec<D>& normal)
-      : wall_(law), beta_(beta), point_(point), normal_(normal.normalized()) {}
+      : plane_(law), beta_(beta), point_(point), normal_(normal.normalized()) {}
 
   RigidField<D> field(const Vec<D>& x) const override {
-    const Real a = distance(x), U = beta_ * wall_.U(a);
-    return {U, beta_ * wall_.S(a) * normal_, U * normal_ * normal_.transpose()};
+    const Real a = distance(x), U = beta_ * plane_.U(a);
+    return {U, beta_ * plane_.S(a) * normal_, U * normal_ * normal_.transpose()};
   }
   Real distance(const Vec<D>& x) const override { return normal_.dot(x - point_); }
 
  private:
-  GuardedPlane wall_;
+  GuardedPlane plane_;
   Real beta_;
   Vec<D> point_, normal_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid bodies with straight edges in plane strain, walls and frames: the sum over their edges.
+// Rigid bodies with straight edges in plane strain, polygons and frames: the sum over their edges.
 #include "meniscus/physics/rigid_partner.hpp"
 #include "meniscus/physics/segment_field.hpp"
 
@@ -53,7 +53,7 @@ struct Foot {
 class Polygons final : public RigidPartner<2> {
  public:
   Polygons(const ContactLaw& law, Real beta, const std::vector<std::vector<Point>>& polygons)
-      : law_(law), beta_(beta), wall_(law), core_(law.guard * law.sigma0) {
+      : law_(law), beta_(beta), plane_(law), core_(law.guard * law.sigma0) {
     for (const std::vector<Point>& polygon : polygons) {
       const std::vector<Edge> edges = edges_of(polygon);
       edges_.insert(edges_.end(), edges.begin(), edges.end());
@@ -89,10 +89,10 @@ class Polygons final : public RigidPartner<2> {
   /// exact over straight edges and approximate around corners.
   RigidField<2> continued(const Foot& f) const {
     RigidField<2> sum = exact(f.place + core_ * f.normal);
-    const Real d = f.distance - core_, U = wall_.U(core_);
+    const Real d = f.distance - core_, U = plane_.U(core_);
     sum.S += d * (sum.grad_S * f.normal) +
-             beta_ * (wall_.S(f.distance) - wall_.S(core_) - U * d) * f.normal;
-    sum.grad_S += beta_ * (wall_.U(f.distance) - U) * f.normal * f.normal.transpose();
+             beta_ * (plane_.S(f.distance) - plane_.S(core_) - U * d) * f.normal;
+    sum.grad_S += beta_ * (plane_.U(f.distance) - U) * f.normal * f.normal.transpose();
     sum.U = sum.grad_S.trace();
     return sum;
   }
@@ -126,7 +126,7 @@ class Polygons final : public RigidPartner<2> {
 
   ContactLaw law_;
   Real beta_;
-  GuardedPlane wall_;
+  GuardedPlane plane_;
   Real core_;
   std::vector<Edge> edges_;
 };

@@ -188,7 +188,7 @@ class Stage {
 template <class F>
 double shortest_time(F&& evaluate) {
   const Stopwatch all;
-  double shortest = 1e300;
+  double shortest = unbounded;
   do {
     const Stopwatch one;
     evaluate();
@@ -249,7 +249,7 @@ Measurement CurvatureProblem<D>::measure(const CurvatureMethod<D>& method) const
   std::vector<MapPoint<D>> map;
   const SmoothMap<D> whole = map_.path(method.stages, method.stages);
   for (const Vec<D>& X : surface.X) map.push_back(whole(X));
-  carry(exact, whole);
+  deform(exact, whole);
 
   Measurement result{.method = fmt::format("{}, {}: {}", map_.name, method.panel, method.line),
                      .particles = static_cast<Index>(X_.size()),

@@ -5,6 +5,7 @@
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/ordering.hpp"
 #include "meniscus/body/shapes.hpp"
+#include "meniscus/core/random.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <fmt/format.h>
@@ -134,9 +135,6 @@ template <int D>
 void jitter(Grid<D>& grid, Real reach, std::uint64_t seed) {
   const NodeCells cells = cells_of_nodes(grid);
   std::mt19937_64 bits(seed);
-  const auto symmetric_uniform = [&] {
-    return 2 * (static_cast<Real>(bits() >> 11) * 0x1p-53) - 1;
-  };
   for (Index i = 0; i < grid.node_count(); ++i) {
     const Vec<D> place = at(grid.X, i);
     const auto folds = [&](const NodeCells::Entry& e) {
@@ -146,7 +144,7 @@ void jitter(Grid<D>& grid, Real reach, std::uint64_t seed) {
     do {
       for (int k = 0; k < D; ++k) {
         const bool free = place[k] > 0.5 * reach && place[k] < 1 - 0.5 * reach;
-        if (free) at(grid.X, i)[k] = place[k] + reach * symmetric_uniform();
+        if (free) at(grid.X, i)[k] = place[k] + reach * symmetric_uniform(bits);
       }
     } while (std::any_of(around.begin(), around.end(), folds));
   }

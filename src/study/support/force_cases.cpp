@@ -24,7 +24,7 @@ std::unique_ptr<Body<3>> make_body(Geometry<3> geometry, Real factor) {
 void add_exact_forces(ForceCase& c, const SmoothMap<3>& map) {
   const SurfacePoints<3> reference = surface_points(c.body->geometry, fine_points);
   SurfacePoints<3> current = reference;
-  carry(current, map);
+  deform(current, map);
   c.exact.assign(c.u.size(), Lanes::zero());
   c.dilation = c.stretching = 0;
   constexpr Index some = 8192;

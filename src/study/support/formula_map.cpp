@@ -86,11 +86,11 @@ void require_smooth(const FormulaMap<D>& map, const std::string& name) {
       size = std::max(size, at(narrow.G, i).norm());
     }
     if (difference > 1e-5 * size || !std::isfinite(difference))
-      throw InputError(fmt::format(
-          "{}: the map is not smooth enough near X = ({:.3g}): its second derivatives found with "
-          "two step widths differ by {:.2g}. Use formulas without kinks, jumps and poles that vary "
-          "over lengths of order one.",
-          name, fmt::join(X.data(), X.data() + D, ", "), difference));
+      throw InputError(
+          fmt::format("{}: the map is not smooth enough near X = ({:.3g}): its second derivatives "
+                      "found with two step widths differ by {:.2g}; use formulas without kinks, "
+                      "jumps and poles that vary over lengths of order one",
+                      name, fmt::join(X.data(), X.data() + D, ", "), difference));
   }
 }
 
@@ -110,12 +110,11 @@ Maps map_from_file(const std::string& path) {
   for (const char* key : {"x", "y", "z"})
     if (key[0] != 'z' || file.has("z"))
       formulas.push_back(file.expression(key, dimension::none, {}, {}, Variables::place));
-}
-file.done();
-input.check();
-const std::string name = path.substr(path.find_last_of('/') + 1);
-if (formulas.size() == 3) return {{}, make_map<3>(std::move(formulas), name)};
-return {make_map<2>(std::move(formulas), name), {}};
+  file.done();
+  input.check();
+  const std::string name = path.substr(path.find_last_of('/') + 1);
+  if (formulas.size() == 3) return {{}, make_map<3>(std::move(formulas), name)};
+  return {make_map<2>(std::move(formulas), name), {}};
 }
 
 }  // namespace meniscus::study

@@ -17,7 +17,7 @@ struct HardOutcome {
   Real final_energy_error = 0;
   Real angular_momentum_error = 0;  ///< largest
   Real first_step = 0,
-       least_step = 1e300;            ///< lengths; of the last two steps, which fit the end, not
+       least_step = unbounded;        ///< lengths; of the last two steps, which fit the end, not
   std::map<std::string, Real> least;  ///< smallest so far of the measures that are watched
   std::string stopped;                ///< message of the failure; empty if it ran to its end
   std::string remarks;                ///< notes and warnings of the set-up
@@ -29,7 +29,7 @@ struct HardOutcome {
 
 /// How to follow a run.
 struct HardRun {
-  Real largest_step_number = 1e300;
+  Real largest_step_number = unbounded;
   std::vector<std::string> watched = {};  ///< measures looked at after every step
 };
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The box around points, its faces along the axes.
+#pragma once
+#include "meniscus/core/types.hpp"
+
+namespace meniscus {
+
+template <int D>
+struct Box {
+  Vec<D> low = Vec<D>::Constant(unbounded), high = -low;
+
+  void include(const Vec<D>& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  Vec<D> extent() const { return high - low; }
+  Vec<D> centre() const { return 0.5 * (low + high); }
+};
+
+/// Around a range of Vec<D>.
+template <int D, class Points>
+Box<D> box_around(const Points& points) {
+  Box<D> box;
+  for (const Vec<D>& x : points) box.include(x);
+  return box;
+}
+
+}  // namespace meniscus

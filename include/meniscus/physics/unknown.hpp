@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Unknown fields beside the displacement: a concentration, a director, a temperature.
+#pragma once
+#include "meniscus/core/aligned.hpp"
+#include "meniscus/core/units.hpp"
+
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// How the values x of a field follow from the forces f = -dE/dx on them.
+enum class Evolution {
+  inertial,     ///< c x'' = f
+  relaxational  ///< c x' = f
+};
+
+struct FieldSpec {
+  std::string name;    ///< e.g. "director"
+  int components = 1;  ///< at most four
+  Dimension dimension = {};
+  Evolution evolution = Evolution::relaxational;
+  Real scale = 1;  ///< a change of the values that matters: trial changes are small against it
+
+  friend bool operator==(const FieldSpec&, const FieldSpec&) = default;
+};
+
+/// A field on the particles of all bodies. It exists only if something asked for it.
+struct Unknown {
+  FieldSpec spec;
+  std::vector<Real> capacity;  ///< c, per particle
+  NodalVectors x, rate, f;     ///< values, x', forces
+};
+
+}  // namespace meniscus

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a system in motion: what changes from step to step.
+#pragma once
+#include "meniscus/core/archive.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+namespace meniscus {
+
+/// Heat and work so far, and the powers of now that go on into the next step.
+struct Books {
+  Real dissipated = 0;                      ///< heat so far
+  Real external_work = 0;                   ///< work of the outside world so far
+  Real heat = 0;                            ///< power turned into heat
+  Real external_power = 0, load_power = 0;  ///< of Report and ForceTerm
+
+  /// The powers at the beginning of a run.
+  void begin(const Report& report, Real load_power);
+  /// A step of dt ended with these powers.
+  void add(const Report& report, Real load_power, Real dt);
+  void archive(const Archive& a, int dimension);
+};
+
+/// A run continues bit for bit from a copy of its state.
+struct State {
+  Real time = 0;
+  std::int64_t step = 0;
+  NodalVectors u, v;            ///< displacement and velocity coefficients at `time`
+  NodalVectors force;           ///< at u and the velocity of the last half step
+  std::vector<Unknown> fields;  ///< other unknowns
+  Books books;
+  StepDemand demand;  ///< of all terms on the next step
+
+  Motion motion() const { return {time, u, v, fields}; }
+  Forces forces() { return {force, fields}; }
+  /// In 2 or 3 dimensions; the sizes are those of the system already.
+  void archive(const Archive& a, int dimension);
+};
+
+}  // namespace meniscus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steppers: the ways in which a state goes on from step to step. Each is one file that registers
+// itself under the name by which [time] solver chooses it.
+#pragma once
+#include "meniscus/core/registry.hpp"
+#include "meniscus/solve/system.hpp"
+
+#include <memory>
+
+namespace meniscus {
+
+/// How far a state is from what a stepper looks for.
+struct Residual {
+  std::string meaning;  ///< e.g. "force residual"
+  Real value, allowed;
+};
+
+template <int D>
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  /// A run begins, or a run of another stepper goes on, at `state`, which has its forces.
+  virtual void begin(const State&) {}
+  /// From state.time to state.time + dt. Throws as advance().
+  virtual void step(State& state, Real dt) = 0;
+
+  /// Whether the state that the stepper looks for is reached, so that the run ends.
+  virtual bool arrived() const { return false; }
+  /// Of the present state, in the order of StepperEntry::residuals; none if it looks for nothing.
+  virtual std::vector<Residual> residuals(const State&) const { return {}; }
+
+  /// Keeps what decides how the run goes on; `state` is that of the archive.
+  virtual void archive(const Archive&, const State&) {}
+};
+
+/// What a scene says to its stepper.
+struct StepperChoice {
+  Real end = 0;                                   ///< of the run
+  Real force_tolerance = 0, shape_tolerance = 0;  ///< of Relaxation
+};
+
+struct StepperEntry {
+  static constexpr const char* kind = "solver";
+  std::string name;
+  std::vector<std::string> residuals;  ///< their columns in the history
+  // Throw InputError if the stepper cannot do what the system asks.
+  std::unique_ptr<Stepper<2>> (*make_2d)(System<2>&, const StepperChoice&);
+  std::unique_ptr<Stepper<3>> (*make_3d)(System<3>&, const StepperChoice&);
+
+  template <int D>
+  std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) const {
+    if constexpr (D == 2)
+      return make_2d(system, choice);
+    else
+      return make_3d(system, choice);
+  }
+};
+
+}  // namespace meniscus

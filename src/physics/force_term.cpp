@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tangent of a force that has no exact one.
+#include "meniscus/physics/force_term.hpp"
+
+namespace meniscus {
+namespace {
+
+/// x + h dx
+NodalVectors moved(std::span<const Lanes> x, Real h, std::span<const Lanes> dx) {
+  NodalVectors sum(x.begin(), x.end());
+  for (std::size_t A = 0; A < sum.size(); ++A) sum[A] += h * dx[A];
+  return sum;
+}
+
+/// Forces at the motion + h change.
+struct Trial {
+  NodalVectors force;
+  std::vector<Unknown> fields;
+
+  Trial(ForceTerm& term, const Motion& motion, Real h, const Motion& change)
+      : force(motion.u.size(), Lanes::zero()), fields(motion.fields.begin(), motion.fields.end()) {
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      fields[k].x = moved(fields[k].x, h, change.fields[k].x);
+      fields[k].rate = moved(fields[k].rate, h, change.fields[k].rate);
+      fields[k].f.assign(fields[k].x.size(), Lanes::zero());
+    }
+    const NodalVectors u = moved(motion.u, h, change.u), v = moved(motion.v, h, change.v);
+    term.add_force({motion.time, u, v, fields}, {force, fields});
+  }
+};
+
+}  // namespace
+
+void ForceTerm::add_tangent(const Motion& motion, const Motion& change, Forces force) {
+  constexpr Real h = 1e-6;
+  const auto add = [](const NodalVectors& plus, const NodalVectors& minus, std::span<Lanes> sum) {
+    for (std::size_t A = 0; A < plus.size(); ++A) sum[A] += (plus[A] - minus[A]) / (2 * h);
+  };
+  const Trial plus(*this, motion, h, change), minus(*this, motion, -h, change);
+  add(plus.force, minus.force, force);
+  for (std::size_t k = 0; k < force.fields.size(); ++k)
+    add(plus.fields[k].f, minus.fields[k].f, force.fields[k].f);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The books of energy, and what is kept of a state.
+#include "meniscus/solve/state.hpp"
+
+namespace meniscus {
+
+void Books::begin(const Report& report, Real power_of_loads) {
+  heat = report.heat;
+  external_power = report.external_power;
+  load_power = power_of_loads;
+}
+
+/// The heat is that of the half-step velocities: over a step the viscous force does the work
+/// dt/2 (f_n + f_n+1).v_n+1/2, of which f_n+1.v_n+1/2 is the power computed last and f_n.v_n+1/2
+/// lies half-way between the power before and that.
+void Books::add(const Report& report, Real power_of_loads, Real dt) {
+  dissipated += dt / 4 * heat;
+  external_work += dt / 2 * (external_power + load_power);
+  begin(report, power_of_loads);
+  dissipated += 3 * dt / 4 * heat;
+  external_work += dt / 2 * (external_power + load_power);
+}
+
+void Books::archive(const Archive& a, int space_dimension) {
+  const Dimension energy = of_sum(dimension::energy, space_dimension);
+  const Dimension power = of_sum(dimension::power, space_dimension);
+  a("dissipated", dissipated, energy);
+  a("external_work", external_work, energy);
+  a("heat", heat, power);
+  a("external_power", external_power, power);
+  a("load_power", load_power, power);
+}
+
+void State::archive(const Archive& a, int space_dimension) {
+  a("time", time, dimension::time);
+  a("step", step);
+  a("displacement", u, space_dimension, dimension::length);
+  a("velocity", v, space_dimension, dimension::velocity);
+  a("force", force, space_dimension, of_sum(dimension::force, space_dimension));
+  for (Unknown& field : fields) {
+    const Archive part = a.in("fields").in(field.spec.name);
+    Dimension rate = field.spec.dimension;
+    --rate.time;
+    part("value", field.x, field.spec.components, field.spec.dimension);
+    part("rate", field.rate, field.spec.components, rate);
+    part("force", field.f, field.spec.components);
+  }
+  books.archive(a.in("books"), space_dimension);
+  a("demand/stiffness", demand.stiffness, {0, -2, 0});
+  a("demand/longest", demand.longest, dimension::time);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Chunks of rows cover all rows once, as many as the size asks for, whatever the threads.
+#include "meniscus/core/parallel.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+TEST(Chunks, FollowFromTheSizeAlone) {
+  EXPECT_EQ(chunk_count(0), 16);
+  EXPECT_EQ(chunk_count(16 * 2048), 16);
+  EXPECT_EQ(chunk_count(100 * 2048), 100);
+  EXPECT_EQ(chunk_count(std::numeric_limits<Index>::max()), 4096);
+  for (const Index n : {0, 1, 15, 16, 1000, 40000, 1 << 27}) {
+    EXPECT_EQ(chunk_begin(n, 0), 0);
+    EXPECT_EQ(chunk_begin(n, chunk_count(n)), n);
+    for (int c = 0; c < chunk_count(n); ++c) EXPECT_LE(chunk_begin(n, c), chunk_begin(n, c + 1));
+  }
+}
+
+/// A body so large that it has more than the least number of chunks.
+TEST(Chunks, SumsHaveTheSameBitsForAnyThreads) {
+  constexpr Index n = 50 * 2048 + 77;
+  const auto sum = [&] {
+    return parallel_sum(n, 0.0, [](Index i) { return std::sin(static_cast<Real>(i)); });
+  };
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const Real one = sum();
+  for (const int threads : {2, 3, 5}) {
+    omp_set_num_threads(threads);
+    EXPECT_EQ(sum(), one) << threads;
+  }
+  omp_set_num_threads(before);
+  // sum of sin i = sin(n/2) sin((n - 1)/2) / sin(1/2)
+  EXPECT_NEAR(one, std::sin(n / 2.0) * std::sin((n - 1) / 2.0) / std::sin(0.5), 1e-9);
+}
+
+}  // namespace
+}  // namespace meniscus
