@@ -290,6 +290,11 @@ class Failures(ProgramTest):
         text = BLOCK.replace("[[body]]", '[[body]]\ninitial_displacement = ["-2*x", 0, 0]')
         self.refused(["run", self.scene(text)], 3, "body[0]", "body 'block'", "J = det F")
 
+    def test_impossible_area(self):
+        text = DROP.replace("gamma =", 'form = "weak"\npoints = 2\ngamma =')
+        text = text.replace("core = 3\nlayers = 2", "core = 2\nlayers = 1").replace("60 ps", "400 ps")
+        self.assert_fails(text, "body 'drop' has the isoperimetric ratio 0.99", "least possible")
+
     def test_not_at_rest(self):
         text = RELAXING_SHEET.replace("end = 20", "end = 0.1")
         self.assert_fails(text, "not at rest at t = 0.1 s", "force residual", "allowed 1e-05",
