@@ -3,8 +3,8 @@
 // Laplace pressure, and started as an ellipsoid (ellipse) 1.5 : 1 that relaxes first, whose
 // particles keep that deformation (static-drop note 3).
 #include "meniscus/approx/row_sums.hpp"
-#include "meniscus/scene/simulation.hpp"
 #include "meniscus/measure/drop_measures.hpp"
+#include "meniscus/scene/simulation.hpp"
 #include "meniscus/study/study.hpp"
 
 #include <fmt/format.h>
@@ -177,12 +177,12 @@ void run(StudyRun& study) {
 }
 
 const bool registered =
-    register_study({"static_drop",
-                    "a drop left alone: residual force, parasitic currents and shape",
-                    "cells per edge of the core of the ball; twice as many of the disk",
-                    {4, 6, 8, 10, 14},
-                    {4, 6},
-                    run});
+    register_entry(StudyEntry{"static_drop",
+                              "a drop left alone: residual force, parasitic currents and shape",
+                              "cells per edge of the core of the ball; twice as many of the disk",
+                              {4, 6, 8, 10, 14},
+                              {4, 6},
+                              run});
 
 }  // namespace
 }  // namespace meniscus
