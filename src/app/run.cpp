@@ -11,8 +11,8 @@
 #include "meniscus/app/warnings.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/run_log.hpp"
-#include "meniscus/scene/expectations.hpp"
 #include "meniscus/measure/drop_measures.hpp"
+#include "meniscus/scene/expectations.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>

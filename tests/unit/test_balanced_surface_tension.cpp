@@ -3,10 +3,10 @@
 // of coefficients, and what drops report.
 #include "meniscus/body/surface_patches.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/measure/drop_measures.hpp"
 #include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/scene/simulation.hpp"
-#include "meniscus/measure/drop_measures.hpp"
 
 #include <gtest/gtest.h>
 
