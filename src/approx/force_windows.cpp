@@ -19,7 +19,7 @@ ForceWindows::ForceWindows(std::span<const Offset> start, std::span<const Index>
   }
 }
 
-void ForceWindows::add_to(std::span<Lanes> force) const {
+void ForceWindows::add_to(std::span<NodalVector> force) const {
   for_chunks(static_cast<Index>(force.size()), [&](Index, Index begin, Index end) {
     for (const Chunk& chunk : chunks_) {
       const Index first = std::max(begin, chunk.low), last = std::min(end, chunk.high);

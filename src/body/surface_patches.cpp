@@ -125,7 +125,7 @@ void SurfacePatches<D>::list_shares() {
 }
 
 template <int D>
-void SurfacePatches<D>::place(const Lanes* u, NodalVectors& x) const {
+void SurfacePatches<D>::place(const NodalVector* u, NodalVectors& x) const {
   parallel_for(point_count(), [&](Index q) {
     Lanes& place = at(x, q) = value_at(rows_, q, u);
     for (int i = 0; i < D; ++i) place.set(i, place[i] + at(X_, q)[i]);
@@ -188,7 +188,7 @@ Real SurfacePatches<D>::group_size(Size size, Index group, const NodalVectors& x
 }
 
 template <int D>
-Real SurfacePatches<D>::measure(Size size, const Lanes* u) const {
+Real SurfacePatches<D>::measure(Size size, const NodalVector* u) const {
   NodalVectors x(X_.size());
   place(u, x);
   return size_of_all(size, x);
@@ -200,7 +200,7 @@ Real SurfacePatches<D>::size_of_all(Size size, const NodalVectors& x) const {
 }
 
 template <int D>
-Real SurfacePatches<D>::follow(Size size, const Lanes* u) {
+Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
   place(u, x_);
   return parallel_sum(groups(), 0.0, [&](Index g) {
     return group_size(size, g, x_, gradient_.data() + static_cast<std::size_t>(g) * nodes * D);
@@ -208,8 +208,8 @@ Real SurfacePatches<D>::follow(Size size, const Lanes* u) {
 }
 
 template <int D>
-void SurfacePatches<D>::add_gradient(Real factor, std::span<Lanes> force) {
-  windows_.accumulate(force, [&](int, Index begin, Index end, Lanes* f) {
+void SurfacePatches<D>::add_gradient(Real factor, std::span<NodalVector> force) {
+  windows_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index q = begin; q < end; ++q) {
       Lanes sum = Lanes::zero();
       for (Index s = at(share_begin_, q); s < at(share_begin_, q + 1); ++s) {

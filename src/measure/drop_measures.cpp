@@ -105,11 +105,11 @@ Real isoperimetric_ratio(Real area, Real volume) {
 }
 
 template <int D>
-Real capillary_residual(std::span<const Lanes> force, Real gamma, Real area, Real volume) {
+Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real area, Real volume) {
   const Real radius = D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
                              : std::sqrt(volume / std::numbers::pi);
   Real left = 0;
-  for (const Lanes& f : force) left += std::sqrt(sum(f * f));
+  for (const NodalVector& f : force) left += std::sqrt(sum(f * f));
   return left / ((D - 1) * gamma * area / radius);
 }
 
@@ -141,8 +141,8 @@ std::vector<MeasureSource> drop_measures(const Body<D>& body, std::span<const Re
 
 template Real isoperimetric_ratio<2>(Real, Real);
 template Real isoperimetric_ratio<3>(Real, Real);
-template Real capillary_residual<2>(std::span<const Lanes>, Real, Real, Real);
-template Real capillary_residual<3>(std::span<const Lanes>, Real, Real, Real);
+template Real capillary_residual<2>(std::span<const NodalVector>, Real, Real, Real);
+template Real capillary_residual<3>(std::span<const NodalVector>, Real, Real, Real);
 template std::vector<MeasureSource> drop_measures(const Body<2>&, std::span<const Real>, Real);
 template std::vector<MeasureSource> drop_measures(const Body<3>&, std::span<const Real>, Real);
 

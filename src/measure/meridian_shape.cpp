@@ -88,7 +88,7 @@ Meridians::Meridians(const Body<3>& body) : body_(body), centre_(Vec<3>::Zero())
 }
 
 MeanMeridian Meridians::mean(const Motion& motion) const {
-  const Lanes* u = motion.u.data() + body_.first;
+  const NodalVector* u = motion.u.data() + body_.first;
   std::vector<Vec<3>> x(X_.size());
   parallel_for(static_cast<Index>(x.size()), [&](Index q) {
     const Lanes displacement = value_at(rows_, q, u);

@@ -27,7 +27,7 @@ class SurfacePlaces {
   }
 
   std::vector<Vec<D>> places(const Motion& motion) const {
-    const Lanes* u = motion.u.data() + body_.first;
+    const NodalVector* u = motion.u.data() + body_.first;
     std::vector<Vec<D>> x(particles_.size());
     parallel_for(static_cast<Index>(particles_.size()), [&](Index k) {
       const Index A = at(particles_, k);

@@ -65,7 +65,8 @@ ClosedSurface<D>::ClosedSurface(const Body<D>& body, SurfacePart part, int point
 }
 
 template <int D>
-typename ClosedSurface<D>::Group ClosedSurface<D>::evaluate(Index group, const Lanes* u) const {
+typename ClosedSurface<D>::Group ClosedSurface<D>::evaluate(Index group,
+                                                            const NodalVector* u) const {
   Group points;
   Tensor<Lanes> H;
   rule_.gather(group, u, H);
@@ -95,7 +96,7 @@ typename ClosedSurface<D>::Placed ClosedSurface<D>::placed(const Motion& motion)
 
 template <int D>
 void ClosedSurface<D>::place(const Motion& motion, Placed& placed) const {
-  const Lanes* u = motion.u.data() + body_.first;
+  const NodalVector* u = motion.u.data() + body_.first;
   const Sums sums = parallel_sum(rule_.groups(), Sums{}, [&](Index g) {
     const Group& points = at(placed.groups, g) = evaluate(g, u);
     const Lanes w = rule_.weight(g);
@@ -114,8 +115,8 @@ void ClosedSurface<D>::place(const Motion& motion, Placed& placed) const {
 /// x' x (N_L+1 f_L+2 - N_L+2 f_L+1).
 template <int D>
 void ClosedSurface<D>::add_volume_gradient(const Placed& placed, Real factor,
-                                           std::span<Lanes> force) {
-  windows_.accumulate(force, [&](int, Index begin, Index end, Lanes* f) {
+                                           std::span<NodalVector> force) {
+  windows_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index g = begin; g < end; ++g) {
       const Group& points = at(placed.groups, g);
       const Lanes w = factor * share_ * rule_.weight(g);

@@ -39,8 +39,8 @@ class CoefficientDamping final : public ForceTerm {
       at(slip_, A) = at(rate_, A) * s;
       return at(rate_, A) * sum(s * s);
     });
-    const auto own = body_.part(std::span<Lanes>(force));
-    windows_.accumulate(own, [&](int, Index begin, Index end, Lanes* f) {
+    const auto own = body_.part(std::span<NodalVector>(force));
+    windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* f) {
       for (Index A = begin; A < end; ++A) scatter_value(body_.at_particles, A, at(slip_, A), f);
     });
     for (Index A = 0; A < body_.size(); ++A) at(own, A) -= at(slip_, A);

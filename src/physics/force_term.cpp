@@ -6,7 +6,7 @@ namespace meniscus {
 namespace {
 
 /// x + h dx
-NodalVectors moved(std::span<const Lanes> x, Real h, std::span<const Lanes> dx) {
+NodalVectors moved(std::span<const NodalVector> x, Real h, std::span<const NodalVector> dx) {
   NodalVectors sum(x.begin(), x.end());
   for (std::size_t A = 0; A < sum.size(); ++A) sum[A] += h * dx[A];
   return sum;
@@ -33,7 +33,8 @@ struct Trial {
 
 void ForceTerm::add_tangent(const Motion& motion, const Motion& change, Forces force) {
   constexpr Real h = 1e-6;
-  const auto add = [](const NodalVectors& plus, const NodalVectors& minus, std::span<Lanes> sum) {
+  const auto add = [](const NodalVectors& plus, const NodalVectors& minus,
+                      std::span<NodalVector> sum) {
     for (std::size_t A = 0; A < plus.size(); ++A) sum[A] += (plus[A] - minus[A]) / (2 * h);
   };
   const Trial plus(*this, motion, h, change), minus(*this, motion, -h, change);

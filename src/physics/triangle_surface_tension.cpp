@@ -55,7 +55,7 @@ class TriangleSurfaceTension final : public TensionForm<D> {
       for (std::size_t k = 0; k < D; ++k) at(pull_, simplex[k]) += gamma_ * pull.force[k];
     }
     for (Index B = 0; B < rows_.size(); ++B) set_vector<D>(load_, B, at(pull_, B));
-    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, Lanes* f) {
+    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index B = begin; B < end; ++B) scatter_value(rows_, B, at(load_, B), f);
     });
     return {};
@@ -73,7 +73,7 @@ class TriangleSurfaceTension final : public TensionForm<D> {
 
   /// x = places x(X_B) of the boundary particles.
   void find_places(const Motion& motion, std::vector<Vec<D>>& x) const {
-    const Lanes* u = this->displacements(motion);
+    const NodalVector* u = this->displacements(motion);
     x.resize(X_.size());
     parallel_for(rows_.size(), [&](Index B) {
       const Lanes displacement = value_at(rows_, B, u);

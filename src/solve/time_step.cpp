@@ -34,7 +34,7 @@ struct FallingLimit {
 
 Real largest_of(const NodalVectors& mode) {
   Real largest = 0;
-  for (const Lanes& w : mode) largest = std::max(largest, std::sqrt(sum(w * w)));
+  for (const NodalVector& w : mode) largest = std::max(largest, std::sqrt(sum(w * w)));
   return largest;
 }
 
@@ -42,7 +42,7 @@ Real largest_of(const NodalVectors& mode) {
 NodalVectors rough_mode(Index n, int components) {
   NodalVectors mode(static_cast<std::size_t>(n));
   std::uint64_t bits = 0x9e3779b97f4a7c15;
-  for (Lanes& w : mode) {
+  for (NodalVector& w : mode) {
     w = Lanes::zero();
     for (int i = 0; i < components; ++i) {
       bits ^= bits << 13;
@@ -109,7 +109,7 @@ template <int D>
 StableStep StableStepEstimator<D>::estimate(const State& state) {
   // Every iteration lengthens the mode a little: in a long run it would overflow.
   const Real length = std::sqrt(dot(mode_, mode_));
-  for (Lanes& w : mode_) w /= length;
+  for (NodalVector& w : mode_) w /= length;
 
   base_.resize(mode_.size());
   trial_ = state.fields;
@@ -173,7 +173,7 @@ Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number)
   const Unknown& field = state.fields[number];
   Unknown& trial = trial_[number];
   const Real length = std::sqrt(dot(mode, mode));
-  for (Lanes& w : mode) w /= length;
+  for (NodalVector& w : mode) w /= length;
   FallingLimit falling;
   for (int iteration = 0; iteration < most_iterations && !falling.found(); ++iteration) {
     const Real h = 1e-6 * field.spec.scale / largest_of(mode);

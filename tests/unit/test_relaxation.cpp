@@ -77,7 +77,7 @@ void expect_loaded_brick(const std::string& law) {
     return u;
   });
   NodalVectors load = test::force_of(*one.system.terms.front(), target);
-  for (Lanes& f : load) f = -f;
+  for (NodalVector& f : load) f = -f;
   one.system.terms.push_back(std::make_unique<DeadLoad>(load));
 
   start(one.system, one.state);

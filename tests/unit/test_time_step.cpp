@@ -28,7 +28,7 @@ Matrix scaled_derivative(OneBody<D>& one, NodalVectors State::*field) {
   Matrix K(n * D, n * D);
   for (Index B = 0; B < n; ++B)
     for (int j = 0; j < D; ++j) {
-      Lanes& x = at(state.*field, B);
+      NodalVector& x = at(state.*field, B);
       const Real here = x[j];
       x.set(j, here + h);
       one.system.add_up(state.motion(), plus);

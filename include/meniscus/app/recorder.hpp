@@ -8,6 +8,7 @@
 
 namespace meniscus {
 
+/// Writes what is due after each step of a run.
 template <int D>
 class Recorder {
  public:

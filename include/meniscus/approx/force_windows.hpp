@@ -11,6 +11,7 @@
 
 namespace meniscus {
 
+/// The chunks of a set of rows, each with the sums of the particles that its rows touch.
 class ForceWindows {
  public:
   ForceWindows() = default;
@@ -20,7 +21,7 @@ class ForceWindows {
   /// Calls work(chunk, begin row, end row, window) for each chunk; window[A] += ... is allowed for
   /// the particles A of those rows. Then adds all windows to `force`.
   template <class F>
-  void accumulate(std::span<Lanes> force, F&& work) {
+  void accumulate(std::span<NodalVector> force, F&& work) {
     parallel_for(
         static_cast<Index>(chunks_.size()),
         [&](Index c) {
@@ -43,7 +44,7 @@ class ForceWindows {
     Index low, high;   // particles
     NodalVectors sum;  // [particle - low]
   };
-  void add_to(std::span<Lanes> force) const;
+  void add_to(std::span<NodalVector> force) const;
 
   std::vector<Chunk> chunks_;
 };

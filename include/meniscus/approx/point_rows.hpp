@@ -16,6 +16,7 @@ struct RowContent {
   bool value = false, gradient = false, hessian = false;
 };
 
+/// Values, gradients and Hessians of shape functions in compressed rows.
 template <int D>
 struct PointRows {
   std::vector<Offset> start{0};  ///< [point + 1]

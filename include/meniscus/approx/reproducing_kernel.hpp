@@ -11,6 +11,7 @@
 
 namespace meniscus {
 
+/// The highest order of derivatives to be computed.
 enum class Derivatives { none, first, second };
 
 /// A particle that may reach an evaluation point.

@@ -7,7 +7,7 @@ namespace meniscus {
 
 /// sum_A N_A f_A at point q.
 template <int D>
-Lanes value_at(const PointRows<D>& rows, Index q, const Lanes* field) {
+NodalVector value_at(const PointRows<D>& rows, Index q, const NodalVector* field) {
   Lanes sum = Lanes::zero();
   for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
     sum += at(rows.value, e) * field[at(rows.particle, e)];
@@ -17,7 +17,7 @@ Lanes value_at(const PointRows<D>& rows, Index q, const Lanes* field) {
 /// Column K: sum_A f_A N_A,K at point q.
 template <int D>
 [[gnu::always_inline]] inline std::array<Lanes, D> gradient_at(const PointRows<D>& rows, Index q,
-                                                               const Lanes* field) {
+                                                               const NodalVector* field) {
   Lanes even[D], odd[D];  // two chains hide the latency
   for (int K = 0; K < D; ++K) even[K] = odd[K] = Lanes::zero();
   const Real* g = rows.gradient.data() + at(rows.start, q) * D;
@@ -38,7 +38,7 @@ template <int D>
 /// sum_A (direction . f_A) N_A,KL at point q, packed as in hessian_index().
 template <int D>
 std::array<Real, static_cast<std::size_t>(hessian_count(D))> hessian_along(
-    const PointRows<D>& rows, Index q, const Lanes* field, const Vec<D>& direction) {
+    const PointRows<D>& rows, Index q, const NodalVector* field, const Vec<D>& direction) {
   std::array<Real, static_cast<std::size_t>(hessian_count(D))> sum{};
   for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
     const Lanes& f = field[at(rows.particle, e)];
@@ -52,7 +52,7 @@ std::array<Real, static_cast<std::size_t>(hessian_count(D))> hessian_along(
 
 /// field_A += N_A x.
 template <int D>
-void scatter_value(const PointRows<D>& rows, Index q, Lanes x, Lanes* field) {
+void scatter_value(const PointRows<D>& rows, Index q, NodalVector x, NodalVector* field) {
   for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
     field[at(rows.particle, e)] += at(rows.value, e) * x;
 }

@@ -41,7 +41,7 @@ struct CellRule {
   }
 
   /// H_iK = f_i,K at the stress points of a cell.
-  [[gnu::always_inline]] void gather(Index cell, const Lanes* field, Tensor<Lanes>& H) const {
+  [[gnu::always_inline]] void gather(Index cell, const NodalVector* field, Tensor<Lanes>& H) const {
     Lanes moment[D][D];
     for (auto& row : moment)
       for (auto& m : row) m = Lanes::zero();
@@ -66,7 +66,8 @@ struct CellRule {
   }
 
   /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM).
-  [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P, Lanes* force) const {
+  [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P,
+                                      NodalVector* force) const {
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     Lanes moment[D][D + 1];  // [K][0] = sum P_.K, [K][1 + M] = sum P_.K xi_M; a lane per i
     for (int K = 0; K < D; ++K) {
@@ -131,7 +132,8 @@ struct PointRule {
     return w;
   }
 
-  [[gnu::always_inline]] void gather(Index group, const Lanes* field, Tensor<Lanes>& H) const {
+  [[gnu::always_inline]] void gather(Index group, const NodalVector* field,
+                                     Tensor<Lanes>& H) const {
     H = Tensor<Lanes>::zero();
     for (int lane = 0; lane < count(group); ++lane) {
       const auto column = gradient_at(rows, group * per_group + lane, field);
@@ -140,7 +142,8 @@ struct PointRule {
     }
   }
 
-  [[gnu::always_inline]] void scatter(Index group, const Tensor<Lanes>& P, Lanes* force) const {
+  [[gnu::always_inline]] void scatter(Index group, const Tensor<Lanes>& P,
+                                      NodalVector* force) const {
     std::array<Lanes, 4> column[D];
     for (int K = 0; K < D; ++K) column[K] = by_lane(P(0, K), P(1, K), P(2, K));
     const std::ptrdiff_t ahead = distance_to_next(group);

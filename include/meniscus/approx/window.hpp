@@ -8,6 +8,7 @@
 
 namespace meniscus {
 
+/// The window functions by their names in scenes.
 enum class Window { cubic_spline, quintic_spline, wendland_c2, wendland_c4, quartic_spline };
 
 inline constexpr std::array<std::string_view, 5> window_names{

@@ -10,6 +10,7 @@
 
 namespace meniscus {
 
+/// The particles first ... first + size() - 1 of all, with their grid, nodal cells and masses.
 template <int D>
 struct Body {
   std::string name;
@@ -44,6 +45,8 @@ struct CellOperator {
   CellRule<D> rule;
   std::vector<Real> shape_integral;  ///< [particle] integral of N_A over the body
 };
+
+/// Throws SolveError where shape functions cannot be determined.
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body);
 
@@ -65,6 +68,8 @@ struct MassReport {
   Index raised = 0;  ///< particles at the floor
   Real added = 0;    ///< relative change of the total mass
 };
+
+/// Sets body.mass; `shape_integral` per particle.
 template <int D>
 MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
                      const std::vector<Real>& shape_integral);

@@ -8,6 +8,7 @@
 
 namespace meniscus {
 
+/// Points x in (-1, 1) and weights w, which sum to 2.
 struct GaussRule {
   std::vector<Real> x, w;  ///< ascending points, weights that sum to 2
 };

@@ -26,6 +26,7 @@ struct CellQuadrature {
   std::size_t body_facets_begin = 0;
 };
 
+/// Volumes, centroids, covariances and quadratures of the nodal cells of a grid, by node.
 template <int D>
 class NodalCells {
  public:

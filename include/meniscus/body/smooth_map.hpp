@@ -19,6 +19,7 @@ struct MapPoint {
   std::array<Mat<D>, D> G;
 };
 
+/// A map with its derivatives as a function of X.
 template <int D>
 using SmoothMap = std::function<MapPoint<D>(const Vec<D>& X)>;
 

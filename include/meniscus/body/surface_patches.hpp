@@ -30,11 +30,11 @@ class SurfacePatches {
   /// A size in the reference configuration.
   Real reference(Size size) const { return size == Size::area ? area_ : volume_; }
   /// A size at the displacement coefficients `u` of the body.
-  Real measure(Size size, const Lanes* u) const;
+  Real measure(Size size, const NodalVector* u) const;
   /// The same, and its gradient is remembered. Allocates nothing.
-  Real follow(Size size, const Lanes* u);
+  Real follow(Size size, const NodalVector* u);
   /// force_A += factor d(size)/du_A of what was followed last, over the particles of the body.
-  void add_gradient(Real factor, std::span<Lanes> force);
+  void add_gradient(Real factor, std::span<NodalVector> force);
 
   Index point_count() const { return static_cast<Index>(X_.size()); }
   Index patch_count() const { return patches_; }
@@ -58,7 +58,7 @@ class SurfacePatches {
 
   void number_points(const Geometry<D>& geometry);
   void list_shares();
-  void place(const Lanes* u, NodalVectors& x) const;
+  void place(const NodalVector* u, NodalVectors& x) const;
   Real size_of_all(Size size, const NodalVectors& x) const;
   /// Size of four patches; its gradient with respect to their nodes, [a][i], if asked for.
   Real group_size(Size size, Index group, const NodalVectors& x, Lanes* gradient) const;

@@ -27,25 +27,30 @@ struct CacheLineAllocator {
   }
 };
 
+/// A vector whose first element starts a cache line.
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
-/// One vector per particle, padded to four doubles (2D and 3D alike): a particle is one register.
-/// Unused components are zero and stay zero.
-using NodalVectors = AlignedVector<Lanes>;
+/// A vector of one particle, padded to four doubles (2D and 3D alike), so that it is one register.
+/// Components beyond D are zero and stay zero.
+using NodalVector = Lanes;
+/// One vector per particle.
+using NodalVectors = AlignedVector<NodalVector>;
 
+/// The first D components of entry i.
 template <int D>
-Vec<D> vector_at(std::span<const Lanes> field, Index i) {
+Vec<D> vector_at(std::span<const NodalVector> field, Index i) {
   Vec<D> x;
   for (int k = 0; k < D; ++k) x[k] = at(field, i)[k];
   return x;
 }
 
+/// Sets entry i to x, and the components beyond D to zero.
 template <int D>
-void set_vector(std::span<Lanes> field, Index i, const Vec<D>& x) {
-  Lanes lanes = Lanes::zero();
-  for (int k = 0; k < D; ++k) lanes.set(k, x[k]);
-  at(field, i) = lanes;
+void set_vector(std::span<NodalVector> field, Index i, const Vec<D>& x) {
+  NodalVector vector = NodalVector::zero();
+  for (int k = 0; k < D; ++k) vector.set(k, x[k]);
+  at(field, i) = vector;
 }
 
 }  // namespace meniscus

@@ -13,6 +13,7 @@
 
 namespace meniscus {
 
+/// The scalar of complex-step derivatives.
 using Complex = std::complex<Real>;
 
 // Series that are exact to rounding near zero, and for Lanes the reduction of any argument to them:

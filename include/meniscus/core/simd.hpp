@@ -15,6 +15,7 @@
 
 namespace meniscus {
 
+/// Four numbers; operators work lane by lane.
 struct Lanes {
   static constexpr int width = 4;
   using Native = Real __attribute__((vector_size(32)));
@@ -70,6 +71,8 @@ struct Lanes {
 inline Lanes select(Lanes::Mask mask, Lanes yes, Lanes no) {
   return mask ? yes.v : no.v;
 }
+
+/// Lane by lane; b where either is not a number.
 inline Lanes min(Lanes a, Lanes b) {
   return select(a.v < b.v, a, b);
 }
@@ -82,6 +85,7 @@ inline Real sum(Lanes a) {
   return (a[0] + a[1]) + (a[2] + a[3]);
 }
 
+/// Lane by lane.
 inline Lanes sqrt(Lanes a) {
 #ifdef __AVX__
   return Lanes::Native(_mm256_sqrt_pd(a.v));

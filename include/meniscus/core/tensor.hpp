@@ -10,6 +10,7 @@
 
 namespace meniscus {
 
+/// Components a[i][j] of a 3x3 tensor, by rows.
 template <class T>
 struct Tensor {
   T a[3][3];

@@ -12,11 +12,15 @@ using Real = double;
 using Index = std::int32_t;   ///< particle, point, cell number
 using Offset = std::int64_t;  ///< position inside a compressed-row value array
 
+/// The dimensions of a scene.
 template <int D>
 concept SpaceDim = (D == 2 || D == 3);
 
+/// A point or a vector in D dimensions.
 template <int D>
 using Vec = Eigen::Matrix<Real, D, 1>;
+
+/// A tensor of second order in D dimensions.
 template <int D>
 using Mat = Eigen::Matrix<Real, D, D>;
 

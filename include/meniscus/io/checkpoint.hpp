@@ -24,6 +24,7 @@ struct Checkpoint {
   std::string input;  ///< the complete input of the run that wrote it
 };
 
+/// Writes the checkpoints of a run, in turn.
 class CheckpointWriter {
  public:
   /// Later checkpoints count as newer than those already in the directory, whatever their step.

@@ -27,6 +27,7 @@ struct HistoryColumn {
   friend bool operator==(const HistoryColumn&, const HistoryColumn&) = default;
 };
 
+/// Writes or continues history.csv.
 class HistoryWriter {
  public:
   /// Begins a new file. With `continue_after`, an existing file is continued: its rows up to that

@@ -59,6 +59,7 @@ struct ResultOptions {
   std::optional<std::int64_t> continue_after{};
 };
 
+/// Writes or continues the frames of a run.
 class ResultFile {
  public:
   /// Throws FileError if the file cannot be made, or if the run to be continued has other bodies,

@@ -7,6 +7,7 @@
 
 namespace meniscus {
 
+/// The log of a run in its results directory.
 class RunLog {
  public:
   /// A log on stderr alone (for what happens before there is a directory, and for tests).

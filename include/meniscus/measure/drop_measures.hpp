@@ -15,7 +15,7 @@ Real isoperimetric_ratio(Real area, Real volume);
 /// Forces on the particles of a body that are left: sum |f_A| over the sum of the capillary forces
 /// (D - 1) gamma area / R, R the radius of the ball of the same volume.
 template <int D>
-Real capillary_residual(std::span<const Lanes> force, Real gamma, Real area, Real volume);
+Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real area, Real volume);
 
 /// Of a body under the surface tension `gamma`; `viscosity` of each particle, none of a solid:
 ///   isoperimetric, roughness (rms of the distance of the surface from its centre, relative),

@@ -48,7 +48,7 @@ class ClosedSurface {
   void place(const Motion& motion, Placed& placed) const;
 
   /// force_A += factor dV/dd_A, over the particles of the body.
-  void add_volume_gradient(const Placed& placed, Real factor, std::span<Lanes> force);
+  void add_volume_gradient(const Placed& placed, Real factor, std::span<NodalVector> force);
 
   const Body<D>& body() const { return body_; }
   const SurfacePoints<D>& reference() const { return reference_; }
@@ -59,7 +59,7 @@ class ClosedSurface {
 
  private:
   using Group = typename Placed::Group;
-  Group evaluate(Index group, const Lanes* u) const;
+  Group evaluate(Index group, const NodalVector* u) const;
 
   const Body<D>& body_;
   SurfacePoints<D> reference_;

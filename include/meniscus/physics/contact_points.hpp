@@ -73,7 +73,7 @@ class ContactPoints {
   /// dE/dV = S: f_A = - sum_s { N_A T + (S.V) g_A [constant density only] - (S.g_A) V } with
   /// g_A = F^-T grad N_A (CGCM note 4). Without S only the first.
   void add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
-                 std::span<const Lanes> T, std::span<const Lanes> S, std::span<Lanes> force);
+                 std::span<const Lanes> T, std::span<const Lanes> S, std::span<NodalVector> force);
 
   std::size_t bytes() const;
   Offset pairs() const { return rule_.rows.entries(); }

@@ -27,12 +27,12 @@ class InternalForce final : public StressPointForce<D, Rule> {
   Report add_force(const Motion& motion, Forces force) override {
     auto& laws = static_cast<PointLawsOf<L>&>(this->laws());
     const Rule& rule = this->rule();
-    const Lanes* u = motion.u.data() + this->body().first;
-    [[maybe_unused]] const Lanes* v = motion.v.data() + this->body().first;
+    const NodalVector* u = motion.u.data() + this->body().first;
+    [[maybe_unused]] const NodalVector* v = motion.v.data() + this->body().first;
     if constexpr (EnclosedLaw<L>) laws.enclose(this->follow_enclosed(u));
     PerChunk<Real> power(this->chunks(), 0), ramp_power(this->chunks(), 0), pull(this->chunks(), 0);
     PerChunk<Index> failed(this->chunks(), this->no_group);
-    this->accumulate(force, [&](int chunk, Index begin, Index end, Lanes* f) {
+    this->accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
       Lanes::Mask folded{};
       Lanes heat = Lanes::zero();
       [[maybe_unused]] Lanes work = Lanes::zero(), on_enclosed = Lanes::zero();

@@ -46,6 +46,7 @@ class Material {
   virtual bool fluid() const = 0;
 };
 
+/// A material with the law L.
 template <int D, Law L>
 class MaterialOf final : public Material<D> {
  public:

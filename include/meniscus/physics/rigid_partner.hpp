@@ -27,6 +27,7 @@ struct RigidField {
   Mat<D> grad_S;  ///< (i, j): dS_i/dx_j
 };
 
+/// A rigid body as a field: what it does to a point outside of it.
 template <int D>
 class RigidPartner {
  public:

@@ -43,17 +43,17 @@ class StressPointForce : public ForceTerm {
   int chunks() const { return windows_.chunks(); }
   /// Sums of the forces of this body's particles out of `all`.
   template <class F>
-  void accumulate(std::span<Lanes> all, F&& work) {
+  void accumulate(std::span<NodalVector> all, F&& work) {
     windows_.accumulate(body_.part(all), work);
   }
 
   /// J_e - 1 of the surface at the displacements `u` of the body, whose gradient is remembered;
   /// zero without a surface.
-  Real follow_enclosed(const Lanes* u) {
+  Real follow_enclosed(const NodalVector* u) {
     return surface_ ? surface_->follow(Size::volume, u) / surface_->reference(Size::volume) - 1 : 0;
   }
   /// Forces of the energy whose derivative with respect to J_e is `slope`.
-  void pull_on_surface(Real slope, std::span<Lanes> all) {
+  void pull_on_surface(Real slope, std::span<NodalVector> all) {
     if (surface_)
       surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
@@ -61,16 +61,16 @@ class StressPointForce : public ForceTerm {
   static constexpr Index no_group = std::numeric_limits<Index>::max();
   /// The first of these groups with a point where J <= 0 or not a number; no_group if there is
   /// none. `u` is that of the body.
-  Index first_folded(Index begin, Index end, const Lanes* u) const;
+  Index first_folded(Index begin, Index end, const NodalVector* u) const;
   /// Puts the failure of a group into words.
-  std::optional<Failure> failure_of(Index group, const Lanes* u) const;
+  std::optional<Failure> failure_of(Index group, const NodalVector* u) const;
 
  private:
   using Size = typename SurfacePatches<D>::Size;
 
   Real energy(const PointLaws& laws, const Motion& motion) const;
   /// H at the stress points of a group.
-  [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const Lanes* u) const;
+  [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const NodalVector* u) const;
   void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
   VisitStressPoints visitor() const;
 

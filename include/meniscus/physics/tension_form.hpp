@@ -28,7 +28,7 @@ class TensionForm : public ForceTerm {
 
   /// The displacements and forces of the body.
   const Lanes* displacements(const Motion& motion) const { return motion.u.data() + body_.first; }
-  std::span<Lanes> own_part(std::span<Lanes> force) const { return body_.part(force); }
+  std::span<NodalVector> own_part(std::span<NodalVector> force) const { return body_.part(force); }
 
   const Body<D>& body_;
   Real gamma_;

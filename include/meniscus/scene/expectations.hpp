@@ -13,6 +13,7 @@ namespace meniscus {
 /// The history by column; throws FileError for a name it does not have.
 using HistoryColumns = std::function<const std::vector<Real>&(const std::string&)>;
 
+/// What became of an expectation.
 struct ExpectationResult {
   std::string name;
   Real obtained = 0;                 ///< not a number if the history holds too few rows to tell

@@ -8,6 +8,7 @@
 
 namespace meniscus {
 
+/// Energies and momenta of a state, over all bodies.
 struct Ledger {
   Real kinetic = 0;
   std::map<std::string, Real> stored;  ///< by kind of energy: "strain", "surface", ...
@@ -19,6 +20,7 @@ struct Ledger {
   Real balance() const;
 };
 
+/// The ledger of a state.
 template <int D>
 Ledger take_ledger(const System<D>& system, const State& state);
 

@@ -10,6 +10,7 @@
 
 namespace meniscus {
 
+/// Bodies, the terms that act on them, and the masses of all particles.
 template <int D>
 struct System {
   std::deque<Body<D>> bodies;

@@ -127,7 +127,7 @@ ContactPlaces<D> ContactPoints<D>::at_rest() const {
 
 template <int D>
 void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places) const {
-  const Lanes* u = motion.u.data() + body_->first;
+  const NodalVector* u = motion.u.data() + body_->first;
   for_chunks(clusters(), [&](Index, Index begin, Index end) {
     for (Index c = begin; c < end; ++c)
       for (Index lane = 0; lane < Lanes::width; ++lane) {
@@ -143,7 +143,7 @@ template <int D>
 void ContactPoints<D>::weigh(std::span<const Index> clusters, const Motion& motion,
                              ContactPlaces<D>& places) const {
   if (components_ == 1) return;
-  const Lanes* u = motion.u.data() + body_->first;
+  const NodalVector* u = motion.u.data() + body_->first;
   parallel_for(
       static_cast<Index>(clusters.size()),
       [&](Index k) {
@@ -166,7 +166,7 @@ void ContactPoints<D>::weigh(std::span<const Index> clusters, const Motion& moti
 
 template <int D>
 void ContactPoints<D>::velocity(Index cluster, const Motion& motion, Lanes* v) const {
-  const Lanes* field = motion.v.data() + body_->first;
+  const NodalVector* field = motion.v.data() + body_->first;
   for (Index lane = 0; lane < Lanes::width; ++lane) {
     const Index q = cluster * Lanes::width + std::min(lane, points_in(cluster) - 1);
     const Lanes rate = value_at(rule_.rows, q, field);
@@ -193,10 +193,10 @@ Tensor<Lanes> ContactPoints<D>::stress(const ContactPlaces<D>& places, Index clu
 template <int D>
 void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
                                  std::span<const Lanes> T, std::span<const Lanes> S,
-                                 std::span<Lanes> force) {
+                                 std::span<NodalVector> force) {
   if (clusters.empty()) return;
   for (const Index c : clusters) at(pushed_, c) = 1;
-  windows_.accumulate(body_->part(force), [&](int, Index begin, Index end, Lanes* f) {
+  windows_.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
     for (Index c = begin; c < end; ++c) {
       if (!at(pushed_, c)) continue;
       const Lanes* pull = T.data() + offset(c, D);
