@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the words of a request mean.
+// Requests of the command line: what their words mean.
 #include "meniscus/app/commands.hpp"
 
 #include "meniscus/core/error.hpp"

@@ -102,7 +102,7 @@ void report_residuals(const Simulation<D>& simulation, RunLog& log) {
   for (const Drop<D>& drop : simulation.scene().drops) {
     const Body<D>& body = *drop.body;
     const auto force =
-        std::span<const Lanes>(state.force)
+        std::span<const NodalVector>(state.force)
             .subspan(static_cast<std::size_t>(body.first), static_cast<std::size_t>(body.size()));
     log.info(fmt::format("body '{}': residual force of the start: {:.2g} of the capillary force",
                          body.name,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fills a closed surface.
+// Cavity load: what fills a closed surface.
 #include "meniscus/physics/cavity.hpp"
 
 #include "meniscus/body/wall_supports.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid walls around a rectangle.
+// Rigid frame around a rectangle.
 #include "meniscus/physics/partner_registry.hpp"
 
 #include <limits>

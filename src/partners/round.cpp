@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid ball, and rigid walls around a spherical cavity.
+// Rigid ball, and the rigid solid around a spherical cavity.
 #include "meniscus/physics/partner_registry.hpp"
 
 namespace meniscus {

@@ -35,7 +35,7 @@ class Cavity final : public ForceTerm {
     const Real V = now_.size.volume;
     report.external_power = ramp_power(motion.time, V);
     surface_.add_volume_gradient(now_, pressure(motion.time, V),
-                                 surface_.body().part(std::span<Lanes>(force)));
+                                 surface_.body().part(std::span<NodalVector>(force)));
     return report;
   }
 

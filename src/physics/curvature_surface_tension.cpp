@@ -29,8 +29,8 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
   }
 
   Report add_force(const Motion& motion, Forces force) override {
-    const Lanes* u = this->displacements(motion);
-    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, Lanes* f) {
+    const NodalVector* u = this->displacements(motion);
+    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index q = begin; q < end; ++q) {
         const auto frame = frame_at(q, u);
         const Real da = at(surface_.area, q) * frame.area_ratio;
@@ -58,14 +58,14 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
   using TensionForm<D>::body_;
   using TensionForm<D>::gamma_;
 
-  SurfaceFrame<Real> frame_at(Index q, const Lanes* u) const {
+  SurfaceFrame<Real> frame_at(Index q, const NodalVector* u) const {
     const auto column = gradient_at(rows_, q, u);
     Tensor<Real> F = Tensor<Real>::identity();
     for (int i = 0; i < D; ++i)
       for (int K = 0; K < D; ++K) F(i, K) += at(column, K)[i];
     return surface_frame(F, embed<D>(at(surface_.N, q)));
   }
-  Real curvature_at(Index q, const Lanes* u, const SurfaceFrame<Real>& frame) const {
+  Real curvature_at(Index q, const NodalVector* u, const SurfaceFrame<Real>& frame) const {
     Vec<D> n;
     for (int i = 0; i < D; ++i) n[i] = at(frame.n, i);
     const auto packed = hessian_along<D>(rows_, q, u, n);
@@ -75,12 +75,12 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
     return twice_mean_curvature(frame, embed<D>(nG, 0), embed<D>(at(surface_.grad_N, q), 0));
   }
   Real area(const Motion& motion) const override {
-    const Lanes* u = this->displacements(motion);
+    const NodalVector* u = this->displacements(motion);
     return parallel_sum(rows_.size(), 0.0,
                         [&](Index q) { return at(surface_.area, q) * frame_at(q, u).area_ratio; });
   }
   Real mean_curvature(const Motion& motion) const {
-    const Lanes* u = this->displacements(motion);
+    const NodalVector* u = this->displacements(motion);
     const Real integral = parallel_sum(rows_.size(), 0.0, [&](Index q) {
       const auto frame = frame_at(q, u);
       return at(surface_.area, q) * frame.area_ratio * curvature_at(q, u, frame);

@@ -15,7 +15,7 @@ Tensor<Real> lane_of(const Tensor<Lanes>& H, int lane) {
 }  // namespace
 
 template <int D, class Rule>
-Tensor<Lanes> StressPointForce<D, Rule>::gradients(Index group, const Lanes* u) const {
+Tensor<Lanes> StressPointForce<D, Rule>::gradients(Index group, const NodalVector* u) const {
   Tensor<Lanes> H;
   rule_.gather(group, u, H);
   return H;
@@ -23,7 +23,7 @@ Tensor<Lanes> StressPointForce<D, Rule>::gradients(Index group, const Lanes* u) 
 
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
-  const Lanes* u = motion.u.data() + body_.first;
+  const NodalVector* u = motion.u.data() + body_.first;
   return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws.energy_density(g, motion.time, gradients(g, u)));
   });
@@ -38,7 +38,7 @@ std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motio
 
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
-  const Lanes* u = motion.u.data() + body_.first;
+  const NodalVector* u = motion.u.data() + body_.first;
   const Real force = parallel_sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
   });
@@ -46,7 +46,7 @@ Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
 }
 
 template <int D, class Rule>
-Index StressPointForce<D, Rule>::first_folded(Index begin, Index end, const Lanes* u) const {
+Index StressPointForce<D, Rule>::first_folded(Index begin, Index end, const NodalVector* u) const {
   for (Index g = begin; g < end; ++g) {
     const Tensor<Lanes> H = gradients(g, u);
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
@@ -56,7 +56,8 @@ Index StressPointForce<D, Rule>::first_folded(Index begin, Index end, const Lane
 }
 
 template <int D, class Rule>
-std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group, const Lanes* u) const {
+std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
+                                                             const NodalVector* u) const {
   if (group == no_group) return std::nullopt;
   const Tensor<Lanes> H = gradients(group, u);
   int lane = 0;
@@ -73,7 +74,7 @@ std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group, const 
 template <int D, class Rule>
 std::optional<std::string> StressPointForce<D, Rule>::warning(const Motion& motion) const {
   if (!laws_->warns()) return {};
-  const Lanes* u = motion.u.data() + body_.first;
+  const NodalVector* u = motion.u.data() + body_.first;
   for (Index g = 0; g < rule_.groups(); ++g) {
     const Tensor<Lanes> H = gradients(g, u);
     const Lanes w = rule_.weight(g);
@@ -89,7 +90,7 @@ std::optional<std::string> StressPointForce<D, Rule>::warning(const Motion& moti
 template <int D, class Rule>
 void StressPointForce<D, Rule>::visit(const Motion& motion,
                                       const std::function<void(const StressPoint&)>& f) const {
-  const Lanes* u = motion.u.data() + body_.first;
+  const NodalVector* u = motion.u.data() + body_.first;
   for (Index g = 0; g < rule_.groups(); ++g) {
     const Tensor<Lanes> H = gradients(g, u), P = laws_->stress(g, motion.time, H);
     const Lanes w = rule_.weight(g);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What loads add to a scene.
+// Assembly: what loads add to a scene.
 #include "meniscus/scene/assembly.hpp"
 
 #include "meniscus/core/error.hpp"

@@ -16,7 +16,7 @@ template <int D>
 std::vector<Real> packed(const NodalVectors& field) {
   std::vector<Real> values;
   values.reserve(field.size() * D);
-  for (const Lanes& x : field)
+  for (const NodalVector& x : field)
     for (int i = 0; i < D; ++i) values.push_back(x[i]);
   return values;
 }

@@ -240,7 +240,7 @@ void expect_no_force_at_rest() {
       const NodalVectors u(static_cast<std::size_t>(body->size()), Lanes::zero());
       NodalVectors force = u;
       term->add_force({0, u, u}, force);
-      for (const Lanes& f : force) EXPECT_EQ(sum(f * f), 0);
+      for (const NodalVector& f : force) EXPECT_EQ(sum(f * f), 0);
       EXPECT_EQ(term->stored_energy({0, u, u}), 0);
     }
 }

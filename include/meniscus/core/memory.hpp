@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much memory is left.
+// Memory that is left to the program.
 #pragma once
 #include "meniscus/core/types.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a drop is from rest and from a sphere.
+// Measures of drops: how far they are from rest and from a sphere.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"

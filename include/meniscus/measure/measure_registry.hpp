@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry of what every body is measured by.
+// Registry of the measures of bodies.
 //
 // Measures live in a file of their own, which ends with
 //   const bool registered = register_measures("name", my_measures<2>, my_measures<3>);

@@ -20,16 +20,16 @@ namespace meniscus {
 /// What forces depend on. Displacement and velocity coefficients of the particles of all bodies.
 struct Motion {
   Real time;
-  std::span<const Lanes> u, v;
+  std::span<const NodalVector> u, v;
   std::span<const Unknown> fields = {};  ///< by the numbers of System::add_field
 };
 
 /// Forces on the coefficients of the displacement of all particles, and the fields that have forces
 /// of their own, Unknown::f.
-struct Forces : std::span<Lanes> {
-  Forces(std::span<Lanes> f, std::span<Unknown> unknowns = {})
-      : std::span<Lanes>(f), fields(unknowns) {}
-  Forces(NodalVectors& f) : std::span<Lanes>(f) {}
+struct Forces : std::span<NodalVector> {
+  Forces(std::span<NodalVector> f, std::span<Unknown> unknowns = {})
+      : std::span<NodalVector>(f), fields(unknowns) {}
+  Forces(NodalVectors& f) : std::span<NodalVector>(f) {}
 
   std::span<Unknown> fields;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an interaction of two surfaces is, whatever its origin: energy, pressure and stiffness per
-// area as functions of the gap between them.
+// Interactions of two surfaces, whatever their origin: energy, pressure and stiffness per area as
+// functions of the gap between them.
 #pragma once
 #include "meniscus/core/types.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry of interactions: what a [[contact]] can be by.
+// The registry of interactions by which a [[contact]] acts.
 //
 // A law of the gap is a struct derived from Interaction in its own file in src/interactions, with
 // rows(), which ends with

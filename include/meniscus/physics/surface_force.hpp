@@ -30,10 +30,10 @@ class SurfaceForce final : public ForceTerm {
   std::string_view energy_kind() const override { return "surface"; }
 
   Report add_force(const Motion& motion, Forces force) override {
-    const Lanes* u = displacements(motion);
+    const NodalVector* u = displacements(motion);
     const auto own_part = force.subspan(static_cast<std::size_t>(body_.first),
                                         static_cast<std::size_t>(body_.size()));
-    windows_.accumulate(own_part, [&](int, Index begin, Index end, Lanes* f) {
+    windows_.accumulate(own_part, [&](int, Index begin, Index end, NodalVector* f) {
       for (Index g = begin; g < end; ++g)
         rule_.scatter(g, law_.stress(state(g, u), -rule_.weight(g)), f);
     });
@@ -41,7 +41,7 @@ class SurfaceForce final : public ForceTerm {
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
-    const Lanes* u = displacements(motion);
+    const NodalVector* u = displacements(motion);
     return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
       return sum(rule_.weight(g) * law_.energy_density(state(g, u)));
     });
@@ -50,7 +50,7 @@ class SurfaceForce final : public ForceTerm {
   std::vector<MeasureSource> measures() const override {
     return {{"area", D == 3 ? dimension::area : dimension::length,
              "current area of the surface (2D: length)", [this](const Motion& motion) {
-               const Lanes* u = displacements(motion);
+               const NodalVector* u = displacements(motion);
                return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
                  return sum(rule_.weight(g) * state(g, u).stretch);
                });
@@ -66,7 +66,7 @@ class SurfaceForce final : public ForceTerm {
   const Lanes* displacements(const Motion& motion) const { return motion.u.data() + body_.first; }
 
   /// Four points. Lanes without a point have N = 0; their stretch is set to 1.
-  [[gnu::always_inline]] SurfaceState<Lanes> state(Index group, const Lanes* u) const {
+  [[gnu::always_inline]] SurfaceState<Lanes> state(Index group, const NodalVector* u) const {
     SurfaceState<Lanes> s;
     rule_.gather(group, u, s.H);
     s.cofactor = cofactor(deformation_gradient(s.H));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a surface law is: a plain struct of numbers with pure functions of how a surface deforms,
-// which gives the surface of a body an energy per area.
+// Surface laws: plain structs of numbers with pure functions of how a surface deforms, which give
+// the surface of a body an energy per area.
 //
 // A law lives in its own file in src/surfaces, in an anonymous namespace, and ends with
 //   const bool registered = register_surface_law<MyLaw>("what it is");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scene while it is built: where loads add what they are made of.
+// Assembly: the scene while it is built, to which loads add what they are made of.
 #pragma once
 #include "meniscus/scene/scene.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene says, read and checked before anything large is built.
+// Plan of a scene: its input, read and checked before anything large is built.
 #pragma once
 #include "meniscus/scene/load.hpp"
 #include "meniscus/scene/settings.hpp"

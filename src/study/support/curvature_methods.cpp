@@ -55,7 +55,7 @@ NodalVectors coefficients(const SmoothMap<D>& map, const std::vector<Vec<D>>& X)
 }
 
 template <int D>
-Mat<D> gradient_matrix(const PointRows<D>& rows, Index q, const Lanes* field) {
+Mat<D> gradient_matrix(const PointRows<D>& rows, Index q, const NodalVector* field) {
   const auto column = gradient_at(rows, q, field);
   Mat<D> F;
   for (int i = 0; i < D; ++i)

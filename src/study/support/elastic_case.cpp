@@ -210,9 +210,9 @@ LinearBody<D>::LinearBody(Body<D>& body, const Integration& integration, Moduli 
 template <int D>
 NodalVectors LinearBody<D>::stiffness_times(const NodalVectors& u) {
   NodalVectors scaled = u;
-  for (Lanes& x : scaled) x *= small;
+  for (NodalVector& x : scaled) x *= small;
   NodalVectors result = force_of(*term_, scaled);
-  for (Lanes& x : result) x *= -1 / small;
+  for (NodalVector& x : result) x *= -1 / small;
   return result;
 }
 
@@ -231,7 +231,7 @@ std::vector<NodalVectors> rigid_modes(const Body<D>& body) {
       set_vector<D>(mode, A, fields.value(m, at(body.particles.X(), A) - Vec<D>::Constant(0.5)));
     remove_modes<D>(modes, mode);
     const Real length = norm(mode);
-    for (Lanes& x : mode) x /= length;
+    for (NodalVector& x : mode) x /= length;
     modes.push_back(std::move(mode));
   }
   return modes;
