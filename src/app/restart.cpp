@@ -57,14 +57,14 @@ std::optional<Restart> read_restart(const RunRequest& request, const std::string
   const std::vector<std::string> changed = differing_keys(restart.from.checkpoint.input, input);
   if (const auto keys = filtered(changed, is_physics); !keys.empty())
     throw InputError(fmt::format(
-        "'{}' was written by another scene: {} differ{}. Continue it with the scene it was written "
-        "by; only [time], [output], [expect] and the title may change.",
+        "'{}' was written by another scene: {} differ{}; continue it with the scene it was written "
+        "by; only [time], [output], [expect] and the title may change",
         restart.from.file.string(), fmt::join(keys, ", "), keys.size() == 1 ? "s" : ""));
   if (const auto keys = filtered(changed, is_frame_layout); restart.in_place && !keys.empty())
-    throw FileError(fmt::format(
-        "Cannot continue the run in '{}': its frames have another {}. Choose the same, or another "
-        "directory with --output.",
-        output.string(), fmt::join(keys, ", ")));
+    throw FileError(
+        fmt::format("cannot continue the run in '{}': its frames have another {}; choose the same, "
+                    "or another directory with --output",
+                    output.string(), fmt::join(keys, ", ")));
   return restart;
 }
 

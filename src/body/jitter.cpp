@@ -48,7 +48,7 @@ bool move_node(Grid<D>& grid, Index i, Real reach, std::span<const NodeCells::En
 template <int D>
 void jitter_interior(Grid<D>& grid, Real fraction, std::uint64_t seed) {
   if (!(fraction >= 0))
-    throw InputError(fmt::format("The jitter must not be negative, but is {:g}.", fraction));
+    throw InputError(fmt::format("the jitter must not be negative, but is {:g}", fraction));
   const std::vector<Real> edge = shortest_edges(grid);
   const NodeCells cells = cells_of_nodes(grid);
   std::vector<char> fixed(grid.X.size(), 0);
@@ -57,7 +57,7 @@ void jitter_interior(Grid<D>& grid, Real fraction, std::uint64_t seed) {
   for (Index i = 0; i < grid.node_count(); ++i)
     if (!at(fixed, i) && !move_node(grid, i, fraction * at(edge, i), cells.of(i), bits))
       throw InputError(fmt::format(
-          "A jitter of {:g} folds the cells at node {} in 100 of 100 draws; use a smaller one.",
+          "a jitter of {:g} folds the cells at node {} in 100 of 100 draws; use a smaller one",
           fraction, i));
 }
 

@@ -37,7 +37,7 @@ std::vector<Index> inverse(std::span<const Index> order) {
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Index old = order[i];
     if (old < 0 || old >= static_cast<Index>(order.size()) || at(number, old) >= 0)
-      throw InputError("The new order of the nodes is not a permutation of their numbers.");
+      throw InputError("the new order of the nodes is not a permutation of their numbers");
     at(number, old) = static_cast<Index>(i);
   }
   return number;
@@ -80,7 +80,7 @@ std::vector<Index> spatial_order(std::span<const Vec<D>> points, Real spacing) {
 template <int D>
 void renumber(Grid<D>& grid, std::span<const Index> order) {
   if (order.size() != grid.X.size())
-    throw InputError("The new order of the nodes is not a permutation of their numbers.");
+    throw InputError("the new order of the nodes is not a permutation of their numbers");
   const std::vector<Index> number = inverse(order);
   grid.X = permuted(grid.X, order);
   for (auto& cell : grid.cells)

@@ -96,7 +96,7 @@ void Simulation<D>::refuse_impossible_surfaces() const {
     if (drop.inscribed || ratio >= 1 - bearable) continue;
     throw SolveError(fmt::format(
         "step {}, t = {:.9g}: body '{}' has the isoperimetric ratio {:.6f}: the {} {:.6g} of its "
-        "surface tension is below the least possible {:.6g} for its {}. The surface is no longer "
+        "surface tension is below the least possible {:.6g} for its {}; the surface is no longer "
         "resolved; use form = \"balanced\", finer particles, or a reference shape nearer to the "
         "present one",
         state_.step, state_.time, drop.body->name, ratio, D == 3 ? "area" : "circumference", area,

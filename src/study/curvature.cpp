@@ -70,10 +70,8 @@ Settings read_settings(const StudyRun& study) {
   if (is_shape<3>(shape)) settings.maps.plane.clear();
   if (is_shape<2>(shape)) settings.maps.space.clear();
   if (settings.maps.space.empty() && settings.maps.plane.empty())
-    throw InputError(
-        fmt::format("The map '{}' is not one of the {}; leave out one of map and "
-                    "shape.",
-                    map, shape));
+    throw InputError(fmt::format(
+        "the map '{}' is not one of the {}; leave out one of map and shape", map, shape));
   return settings;
 }
 

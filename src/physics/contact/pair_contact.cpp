@@ -279,9 +279,9 @@ std::unique_ptr<ForceTerm> with_form(const ContactBody<D>& first, const ContactB
 template <int D>
 std::unique_ptr<ForceTerm> contact_pair(const ContactBody<D>& first, const ContactBody<D>& second,
                                         const ContactLaw& law, const ContactChoice& choice) {
-  if (!law.cut()) throw InputError("The contact of two deformable bodies needs a cut-off.");
+  if (!law.cut()) throw InputError("the contact of two deformable bodies needs a cut-off");
   if (dimension_of(law.kernel) != D)
-    throw InputError("The kernel of the contact has another dimension than the bodies.");
+    throw InputError("the kernel of the contact has another dimension than the bodies");
   if constexpr (D == 3)
     return with_form<D, PairKernel::space>(first, second, law, choice);
   else if (law.kernel == PairKernel::planar)
