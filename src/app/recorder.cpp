@@ -5,7 +5,7 @@
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/approx/row_sums.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@ from program import DROP, RELAXING_SHEET, ProgramTest, state_of
 CONTACT = """
 dimension = 2
 [time]
-end = 40
+end = 16
 [output]
 history_every = 0.2
 frames_every = 2
@@ -52,15 +52,18 @@ class Kill(ProgramTest):
         random.seed(2)
         file = self.scene(text)
         longer = [*longer, "--set", "output.checkpoint_minutes=0.0003"]
-        begin = time.monotonic()
         whole = state_of(self.call("run", file, "--output", "whole", *longer))
-        longest = (time.monotonic() - begin) / (1.5 * kills)  # the kills end before the run does
+        size = (self.directory / "whole/history.csv").stat().st_size
         options = []
         for _ in range(kills):
             process = self.start("run", file, "--output", "out", *longer, *options)
             while not (self.directory / "out/history.csv").exists():
                 self.assertIsNone(process.poll())
-            time.sleep(random.uniform(0.0, longest))
+            # After some more rows, however fast it runs; all kills come before the end.
+            history = self.directory / "out/history.csv"
+            enough = history.stat().st_size + random.uniform(0, 0.5 * size / kills)
+            while process.poll() is None and history.stat().st_size < enough:
+                time.sleep(random.uniform(0, 0.003))
             process.kill()
             process.communicate()
             self.assertEqual(process.returncode, -signal.SIGKILL, "ended before it was killed")
