@@ -22,6 +22,7 @@ MAY_INCLUDE = {
     "measure": ["core", "approx", "body", "physics"],
     "io": ["core"],
     "scene": ["core", "approx", "body", "physics", "solve", "measure", "io"],
+    "run": ["core", "approx", "body", "physics", "solve", "measure", "io", "scene"],
     "study": ["core", "approx", "body", "physics", "solve", "measure", "scene"],
     "app": ["core", "approx", "body", "physics", "solve", "measure", "io", "scene", "study"],
 }
@@ -38,7 +39,7 @@ CONFINED = {
     "toml++": (r"toml\+\+/|toml\.hpp", None),
     "muParser": (r"muParser", None),
     "nanoflann": (r"nanoflann", None),
-    "CLI11": (r"CLI/", None),
+    "CLI11": (r"CLI/", "src/app/*main*"),
     "spdlog": (r"spdlog/", None),
     "HDF5": (r"hdf5|H5", "src/io/hdf5*"),
 }
@@ -48,11 +49,11 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def layer_of(path):
-    """Layer of a file in include/meniscus/<layer>/ or src/<layer>/; None if it is in none."""
-    if path.parts[0] == "src":
-        layer = LEAVES.get(path.parts[1], path.parts[1])
-    else:
-        layer = path.parts[2] if len(path.parts) > 3 else None
+    """Layer of a file in include/meniscus/<layer>/ or src/<layer>/, or of one that is a layer by
+    itself (run.hpp, run.cpp); None if it is in none.
+    """
+    layer = pathlib.PurePath(path.parts[1 if path.parts[0] == "src" else 2]).stem
+    layer = LEAVES.get(layer, layer)
     return layer if layer in MAY_INCLUDE else None
 
 

@@ -2,7 +2,8 @@
 # shellcheck disable=SC2034  # the variables are for the scripts that source this
 # Sourced by the other tools. Gives them $root (top of the source tree), $cores, and the functions
 #   need SECTION...         install the packages of these sections of packages.txt if any is missing
-#   quietly LOG COMMAND...  run with all output into LOG; show its end only on failure
+#   quietly LOG COMMAND...  run with all output into LOG; show its end only on failure, and on a
+#                           terminal how far it is: "building 61/120"
 #   configure DIR OPTION... configure the build tree DIR (relative to $root)
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -42,11 +43,27 @@ need() {
     fail "could not install them. By hand: apt-get install $missing"
 }
 
+# Copies its input to the file LOG; on a terminal one line follows the counts of ninja and ctest.
+follow() {
+  local line terminal=
+  [[ -t 2 ]] && terminal=1
+  while IFS= read -r line; do
+    printf '%s\n' "$line"
+    [[ $terminal ]] || continue
+    if [[ $line =~ ^\[([0-9]+/[0-9]+)\]\  ]]; then
+      printf '\r\e[Kbuilding %s ' "${BASH_REMATCH[1]}" >&2
+    elif [[ $line =~ ^\ *([0-9]+/[0-9]+)\ Test\  ]]; then
+      printf '\r\e[Ktesting %s ' "${BASH_REMATCH[1]}" >&2
+    fi
+  done >"$1"
+  [[ ! $terminal ]] || printf '\r\e[K' >&2
+}
+
 quietly() {
   local log=$1
   shift
   mkdir -p "$(dirname "$log")"
-  "$@" </dev/null >"$log" 2>&1 && return
+  "$@" </dev/null 2>&1 | follow "$log" && return
   tail -n 100 "$log" >&2
   echo "The whole output is in $log" >&2
   return 1

@@ -7,7 +7,7 @@
 #include "meniscus/core/box.hpp"
 #include "meniscus/scene/simulation.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <omp.h>
 
 #include <chrono>

@@ -4,7 +4,8 @@
 
 #include <csignal>
 #include <limits>
-#include <regex>
+#include <string_view>
+#include <vector>
 
 namespace meniscus {
 namespace {
@@ -24,6 +25,11 @@ void handle_by(void (*handler)(int)) {
 void note(int signal) {
   caught = signal;
   handle_by(SIG_DFL);  // a second one is not waited for
+}
+
+/// Whether the text is one to `most` digits.
+bool digits(std::string_view text, std::size_t most) {
+  return !text.empty() && text.size() <= most && text.find_first_not_of("0123456789") == text.npos;
 }
 
 }  // namespace
@@ -53,11 +59,21 @@ double Interruption::elapsed_seconds() const {
 }
 
 std::optional<double> parse_duration(const std::string& text) {
-  static const std::regex form(R"((?:(?:(\d{1,6}):)?(\d{1,6}):)?(\d{1,9}(?:\.\d{1,9})?))");
-  std::smatch parts;
-  if (!std::regex_match(text, parts, form)) return std::nullopt;
-  const auto number = [&](std::size_t k) { return parts[k].matched ? std::stod(parts[k]) : 0.0; };
-  const double seconds = 3600 * number(1) + 60 * number(2) + number(3);
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == ':')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  if (parts.size() > 3) return std::nullopt;
+  double seconds = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const bool last = k + 1 == parts.size();
+    const std::size_t point = last ? parts[k].find('.') : std::string::npos;
+    if (!digits(parts[k].substr(0, point), last ? 9 : 6)) return std::nullopt;
+    if (point != std::string::npos && !digits(parts[k].substr(point + 1), 9)) return std::nullopt;
+    seconds = 60 * seconds + std::stod(parts[k]);
+  }
   return seconds > 0 ? std::optional(seconds) : std::nullopt;
 }
 

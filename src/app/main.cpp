@@ -10,13 +10,15 @@
 #include "meniscus/scene/settings.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
-#include <climits>
+#include <filesystem>
 #include <optional>
 #include <sstream>
+
+#include "main_options.hpp"
 
 namespace {
 
@@ -33,21 +35,6 @@ void print_keys() {
   std::ostringstream text;
   describe_keys(text);
   print_text(text.str());
-}
-
-/// An integer of a range, refused by a sentence.
-CLI::Validator integer_between(std::int64_t low, std::int64_t high) {
-  return CLI::Validator(
-      [=](const std::string& text) {
-        std::int64_t value = 0;
-        const char* end = text.data() + text.size();
-        const auto [rest, error] = std::from_chars(text.data(), end, value);
-        if (error == std::errc() && rest == end && value >= low && value <= high)
-          return std::string();
-        return fmt::format("'{}' is out of range; allowed is an integer >= {}{}", text, low,
-                           high < INT_MAX ? fmt::format(" and <= {}", high) : "");
-      },
-      "");
 }
 
 void add_scene_options(CLI::App& command, RunRequest& request) {
@@ -103,22 +90,18 @@ void add_run_options(CLI::App& command, RunRequest& request) {
   command.add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
 }
 
-CLI::App* add_study_command(CLI::App& app, StudyRequest& request, bool& list) {
-  CLI::App* command =
-      app.add_subcommand("study", "error, observed order, time and memory of a family of methods");
-  CLI::Option* name = command->add_option("NAME", request.name, "study to run");
-  command->add_flag("--list", list, "print the known studies")->excludes(name);
-  command->add_option("--levels", request.levels, "resolutions, e.g. --levels 6 10 14")
-      ->check(integer_between(1, INT_MAX));
-  command->add_option("--set", request.set, "key=value: settings of the study")
-      ->type_size(1)
-      ->allow_extra_args(false);
-  command->add_option("--output", request.output, "directory for study.csv and study.json")
-      ->type_name("DIR");
-  command->add_option("--threads", request.threads, "number of threads; all cores by default")
-      ->check(integer_between(1, 4096));
-  command->add_flag("--short", request.brief, "the short form of the tests: few levels, seconds");
-  return command;
+/// Replaces this process by meniscus-study, which lies beside this program.
+[[noreturn]] void hand_over_to_studies(char** argv) {
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path program = self.parent_path() / "meniscus-study";
+  const std::string name = program.string();
+  argv[1] = const_cast<char*>(name.c_str());
+  execvp(name.c_str(), argv + 1);
+  throw FileError(
+      fmt::format("'{}' is not there: studies are built on demand, by: cmake --build {} --target "
+                  "meniscus-study",
+                  program.string(), self.parent_path().string()));
 }
 
 /// What is wrong with the first word if it is no command.
@@ -143,9 +126,6 @@ int dispatch(int argc, char** argv) {
       "A second signal ends at once.");
   RunRequest request;
   request.command_line = portable_command_line(argc, argv);
-  StudyRequest study_request;
-  study_request.command_line = request.command_line;
-  bool list = false;
   std::string file;
 
   CLI::App* run_command = app.add_subcommand("run", "run a scene");
@@ -158,7 +138,10 @@ int dispatch(int argc, char** argv) {
       app.add_subcommand("info", "print what is in a result file or checkpoint");
   info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")
       ->required();
-  CLI::App* study_command = add_study_command(app, study_request, list);
+  // Its options, help included, are those of meniscus-study.
+  CLI::App* study_command =
+      app.add_subcommand("study", "error, observed order, time and memory of a family of methods");
+  study_command->prefix_command()->set_help_flag();
   CLI::App* version_command = app.add_subcommand("version", "print version and build");
 
   if (const auto refusal = unknown_command(app, argc, argv)) {
@@ -172,10 +155,7 @@ int dispatch(int argc, char** argv) {
   }
   if (run_command->parsed()) return run(request);
   if (check_command->parsed()) check(request);
-  if (study_command->parsed()) {
-    if (!list) return study(study_request);
-    list_studies();
-  }
+  if (study_command->parsed()) hand_over_to_studies(argv);
   if (keys_command->parsed()) print_keys();
   if (info_command->parsed()) print_text(describe_file(file));
   if (version_command->parsed()) print_version();
@@ -183,26 +163,8 @@ int dispatch(int argc, char** argv) {
   return exit_ok;
 }
 
-int complain(const char* kind, const std::exception& e, int code) {
-  print_complaint(fmt::format("{}{}", kind, e.what()));
-  return code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  meniscus::secure_streams();
-  try {
-    return dispatch(argc, argv);
-  } catch (const meniscus::InputError& e) {
-    return complain("", e, meniscus::exit_input);
-  } catch (const meniscus::SolveError& e) {
-    return complain("the run failed: ", e, meniscus::exit_numerical);
-  } catch (const meniscus::FileError& e) {
-    return complain("", e, meniscus::exit_file);
-  } catch (const std::bad_alloc& e) {
-    return complain("not enough memory: ", e, meniscus::exit_numerical);
-  } catch (const std::exception& e) {
-    return complain("internal error: ", e, meniscus::exit_internal);
-  }
+  return meniscus::exit_code_of([&] { return dispatch(argc, argv); });
 }

@@ -5,7 +5,7 @@
 #include "meniscus/core/names.hpp"
 #include "meniscus/solve/stepper.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

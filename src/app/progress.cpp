@@ -4,7 +4,7 @@
 
 #include "meniscus/app/print.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cstdio>

@@ -4,9 +4,9 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
+#include "meniscus/core/text.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>
@@ -59,12 +59,12 @@ std::optional<Restart> read_restart(const RunRequest& request, const std::string
     throw InputError(fmt::format(
         "'{}' was written by another scene: {} differ{}; continue it with the scene it was written "
         "by; only [time], [output], [expect] and the title may change",
-        restart.from.file.string(), fmt::join(keys, ", "), keys.size() == 1 ? "s" : ""));
+        restart.from.file.string(), joined(keys, ", "), keys.size() == 1 ? "s" : ""));
   if (const auto keys = filtered(changed, is_frame_layout); restart.in_place && !keys.empty())
     throw FileError(
         fmt::format("cannot continue the run in '{}': its frames have another {}; choose the same, "
                     "or another directory with --output",
-                    output.string(), fmt::join(keys, ", ")));
+                    output.string(), joined(keys, ", ")));
   return restart;
 }
 

@@ -14,7 +14,7 @@
 #include "meniscus/measure/drop_measures.hpp"
 #include "meniscus/scene/expectations.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <omp.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // Places in the scene for messages of bodies and contacts.
 #include "meniscus/app/set_up.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 

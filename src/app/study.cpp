@@ -5,10 +5,11 @@
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/print.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/text.hpp"
 #include "meniscus/io/files.hpp"
 #include "meniscus/io/provenance.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -148,9 +149,11 @@ int print_checks(const StudyRun& run) {
 }  // namespace
 
 void list_studies() {
-  for (const auto& [name, entry] : studies())
-    say("{:<14} {}\n{:<14} levels: {}; by default {}\n", name, entry.summary, "",
-        entry.level_meaning, fmt::join(entry.levels, " "));
+  for (const auto& [name, entry] : studies()) {
+    say("{:<14} {}\n{:<14} levels: {}; by default", name, entry.summary, "", entry.level_meaning);
+    for (const int level : entry.levels) say(" {}", level);
+    say("\n");
+  }
 }
 
 int study(const StudyRequest& request) {
@@ -171,7 +174,7 @@ int study(const StudyRequest& request) {
   say("{}\nlevels: {}; time: set-up + method, wall clock, {} threads\n", entry.summary,
       entry.level_meaning, omp_get_max_threads());
   entry.run(run);
-  if (!run.notes().empty()) say("\n{}\n", fmt::join(run.notes(), "\n"));
+  if (!run.notes().empty()) say("\n{}\n", joined(run.notes(), "\n"));
   const int missed = print_checks(run);
   if (!request.output.empty()) {
     replace_file(output / "study.csv", csv(run));

@@ -2,7 +2,7 @@
 // Run-time warnings: doubtful states of a run.
 #include "meniscus/app/warnings.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "meniscus/body/gauss.hpp"
 #include "meniscus/core/error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -2,7 +2,7 @@
 // The sentence of a failed step.
 #include "meniscus/core/error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 

@@ -5,7 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <muParser.h>
 
 #include <algorithm>

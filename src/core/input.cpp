@@ -3,6 +3,7 @@
 #include "meniscus/core/input.hpp"
 
 #include "meniscus/core/names.hpp"
+#include "meniscus/core/text.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -168,7 +169,7 @@ std::string Block::text(std::string_view key, std::optional<std::string> fallbac
 
 std::string Block::choice(std::string_view key, const std::vector<std::string>& allowed,
                           std::optional<std::string> fallback) const {
-  const std::string list = fmt::format("one of {}", fmt::join(allowed, ", "));
+  const std::string list = "one of " + joined(allowed, ", ");
   return node_->read<std::string>(
       key, list, "", fallback, allowed.front(), [&](const Value& value) {
         const auto name = input_values::exactly<std::string>(value, list);

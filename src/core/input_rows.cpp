@@ -3,8 +3,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <string_view>
@@ -49,10 +48,6 @@ std::string fallback_text(const std::string& value) {
 }
 std::string fallback_text(const Expression& value) {
   return value.constant() ? value.text() : fallback_text(value.text());
-}
-
-std::string list_text(const std::vector<std::string>& items, std::string_view separator) {
-  return fmt::format("{}", fmt::join(items, separator));
 }
 
 std::string counted(std::size_t count, const std::string& what) {

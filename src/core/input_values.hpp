@@ -3,9 +3,9 @@
 #pragma once
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
+#include "meniscus/core/text.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <cstdint>
 #include <string>
@@ -24,7 +24,7 @@ template <class T>
 std::string toml(const std::vector<T>& values) {
   std::vector<std::string> items;
   for (const T& value : values) items.push_back(toml(value));
-  return fmt::format("[{}]", fmt::join(items, ", "));
+  return "[" + joined(items, ", ") + "]";
 }
 
 /// Throws "is an integer; allowed is `allowed`".

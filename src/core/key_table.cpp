@@ -2,7 +2,7 @@
 // The printed table of keys.
 #include "meniscus/core/key_table.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,9 @@
 // Suggestions for names that are misspelt or those of other programs.
 #include "meniscus/core/names.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "meniscus/core/text.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <numeric>
@@ -73,7 +74,7 @@ std::string hint(std::string_view given, const std::vector<std::string>& known) 
 
 std::string allowed_names(std::string_view given, const std::vector<std::string>& known) {
   if (known.empty()) return "none is allowed";
-  return fmt::format("allowed {} {}{}", known.size() == 1 ? "is" : "are", fmt::join(known, ", "),
+  return fmt::format("allowed {} {}{}", known.size() == 1 ? "is" : "are", joined(known, ", "),
                      hint(given, known));
 }
 

@@ -2,7 +2,7 @@
 // The keys in which two scenes differ.
 #include "meniscus/core/input.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <set>
 

@@ -2,9 +2,9 @@
 // A whole scene: opening it, the report of its problems, and the complete input.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
+#include "meniscus/core/text.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -115,7 +115,7 @@ void SceneInput::check() const {
   }
   if (known.size() > most)
     lines.push_back(fmt::format("{}: and {} more problems", document.name, known.size() - most));
-  throw InputError(fmt::format("{}", fmt::join(lines, "\n")));
+  throw InputError(joined(lines, "\n"));
 }
 
 void Block::Node::write(std::string& toml, const std::string& header, bool in_array) const {

@@ -3,9 +3,9 @@
 #include "meniscus/core/snapshot.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/text.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
@@ -56,12 +56,12 @@ const T& Snapshot::find(std::string_view name, std::string_view type) const {
   const auto found = arrays_.find(name);
   const T* values = found == arrays_.end() ? nullptr : std::get_if<T>(&found->second.values);
   if (values) return *values;
-  std::vector<std::string_view> names;
-  for (const auto& entry : arrays_) names.push_back(entry.first);
+  std::vector<std::string> names;
+  for (const auto& entry : arrays_) names.emplace_back(entry.first);
   throw FileError(
       fmt::format("the saved state has no {} named '{}': it was written by another scene or "
                   "another version; it has: {}",
-                  type, name, fmt::join(names, ", ")));
+                  type, name, joined(names, ", ")));
 }
 
 const std::vector<Real>& Snapshot::reals(std::string_view name) const {

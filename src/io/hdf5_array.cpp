@@ -2,7 +2,7 @@
 // Arrays of an HDF5 group, series that grow by one row per frame, and views over frames.
 #include "meniscus/core/error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <hdf5.h>
 
 #include <algorithm>

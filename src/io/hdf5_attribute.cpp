@@ -2,7 +2,7 @@
 // Attributes of HDF5 groups and arrays.
 #include "meniscus/core/error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <hdf5.h>
 
 #include <algorithm>

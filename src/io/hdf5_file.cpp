@@ -5,7 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/files.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <hdf5.h>
 
 #include <algorithm>

@@ -3,10 +3,10 @@
 #include "meniscus/io/history.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/text.hpp"
 #include "meniscus/io/files.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -53,7 +53,7 @@ std::string header_text(const std::vector<HistoryColumn>& columns) {
   }
   if (names.empty() || names[0] != "time")
     throw std::invalid_argument("the first column of a history is 'time'");
-  return fmt::format("# {}\n# {}\n", fmt::join(names, ","), fmt::join(units, ","));
+  return fmt::format("# {}\n# {}\n", joined(names, ","), joined(units, ","));
 }
 
 /// Header and kept rows of the history that is continued.
@@ -128,13 +128,13 @@ bool History::has(std::string_view name) const {
 }
 
 const std::vector<Real>& History::column(std::string_view name) const {
-  std::vector<std::string_view> names;
+  std::vector<std::string> names;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     if (columns_[c].name == name) return values_[c];
     names.push_back(columns_[c].name);
   }
   throw FileError(
-      fmt::format("the history has no column '{}'; it has: {}", name, fmt::join(names, ", ")));
+      fmt::format("the history has no column '{}'; it has: {}", name, joined(names, ", ")));
 }
 
 }  // namespace meniscus

@@ -5,7 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/sha256.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

@@ -2,12 +2,13 @@
 // Provenance of a result, collected.
 #include "meniscus/io/provenance.hpp"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <omp.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <string_view>
 
@@ -23,6 +24,14 @@ std::string compiler() {
 #else
   return fmt::format("g++ {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
 #endif
+}
+
+std::string utc(std::time_t time) {
+  std::tm parts{};
+  gmtime_r(&time, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
 }
 
 }  // namespace
@@ -48,8 +57,7 @@ std::string program_text(const Build& b) {
 
 Provenance provenance(std::string command_line, std::string input) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return {build(), omp_get_max_threads(), std::move(command_line), std::move(input),
-          fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))};
+  return {build(), omp_get_max_threads(), std::move(command_line), std::move(input), utc(now)};
 }
 
 std::string portable_command_line(int argc, const char* const* argv) {

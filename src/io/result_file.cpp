@@ -3,9 +3,9 @@
 #include "meniscus/io/result_file.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/text.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +80,7 @@ std::string describe(const FrameLayout& layout) {
     fields.push_back(fmt::format("{} ({}, {})", f.name, f.components, f.unit));
   return fmt::format("{} particles, {}, fields {}", layout.particles,
                      layout.precision == hdf5::Type::float32 ? "float32" : "float64",
-                     fmt::join(fields, ", "));
+                     joined(fields, ", "));
 }
 
 }  // namespace

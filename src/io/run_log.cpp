@@ -4,7 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/logger.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>

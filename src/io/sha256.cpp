@@ -2,7 +2,7 @@
 // SHA-256 as in FIPS 180-4; the names are those of the standard.
 #include "meniscus/io/sha256.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <bit>

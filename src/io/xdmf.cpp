@@ -4,7 +4,7 @@
 
 #include "meniscus/io/files.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

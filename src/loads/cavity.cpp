@@ -6,7 +6,7 @@
 #include "meniscus/core/optional_rows.hpp"
 #include "meniscus/scene/assembly.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

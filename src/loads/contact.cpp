@@ -6,7 +6,7 @@
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

@@ -4,7 +4,7 @@
 #include "meniscus/measure/cell_measures.hpp"
 #include "meniscus/scene/assembly.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

@@ -6,7 +6,7 @@
 #include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/scene/assembly.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 #include "meniscus/core/ramp.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

@@ -4,7 +4,7 @@
 // note 3.2).
 #include "meniscus/physics/law_registry.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

@@ -4,7 +4,7 @@
 #include "meniscus/physics/lame_solid.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
 

@@ -4,7 +4,7 @@
 
 #include "meniscus/physics/cavity_gap.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

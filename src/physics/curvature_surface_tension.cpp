@@ -7,7 +7,7 @@
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/physics/tension_form.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

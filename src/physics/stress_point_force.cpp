@@ -2,7 +2,7 @@
 // Energy, failures, warnings and output of the internal force.
 #include "meniscus/physics/stress_point_force.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

@@ -8,7 +8,7 @@
 #include "meniscus/measure/measure_registry.hpp"
 #include "meniscus/physics/material.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

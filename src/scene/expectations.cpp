@@ -2,7 +2,7 @@
 // Expectations: numbers taken from the history of a run and compared.
 #include "meniscus/scene/expectations.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "meniscus/core/names.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

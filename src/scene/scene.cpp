@@ -2,7 +2,7 @@
 // Building what a scene says.
 #include "meniscus/scene/scene.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <stdexcept>
 

@@ -6,7 +6,7 @@
 #include "meniscus/measure/drop_measures.hpp"
 #include "meniscus/solve/central_difference.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -18,7 +18,7 @@
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/solve/central_difference.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "meniscus/approx/row_sums.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <stdexcept>

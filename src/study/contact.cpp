@@ -8,7 +8,7 @@
 #include "meniscus/physics/contact_list.hpp"
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Geometry>
 

@@ -8,7 +8,7 @@
 #include "meniscus/solve/central_difference.hpp"
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {

@@ -2,7 +2,7 @@
 // Roots of the dispersion relation by continuation from the limits of small and large viscosity.
 #include "meniscus/study/drop_dispersion.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <optional>

@@ -7,7 +7,7 @@
 #include "meniscus/study/drop_dispersion.hpp"
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

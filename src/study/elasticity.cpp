@@ -3,7 +3,7 @@
 // note 5.4), lambda = mu.
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include "meniscus/solve/central_difference.hpp"
 #include "meniscus/solve/time_step.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // 10).
 #include "meniscus/physics/contact_numbers.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

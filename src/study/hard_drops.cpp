@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of drops: far from round, hardly viscous, with edges, spun, held to each other, and
 // left alone for long.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 // displacement must find that displacement (RKPM note 5.4).
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "support/elastic_case.hpp"
 #include "support/elastic_fields.hpp"

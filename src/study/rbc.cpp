@@ -5,7 +5,7 @@
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>

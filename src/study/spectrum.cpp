@@ -4,7 +4,7 @@
 #include "meniscus/approx/point_rows.hpp"
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

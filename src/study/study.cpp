@@ -2,7 +2,7 @@
 // The bookkeeping of a study.
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>

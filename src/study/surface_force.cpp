@@ -4,7 +4,7 @@
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/study/study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "support/force_cases.hpp"
 

@@ -3,7 +3,7 @@
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/solve/central_difference.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <memory>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the measurements and prints a table per group.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "measure.hpp"
 

@@ -2,7 +2,7 @@
 // The examples of the loads of the program.
 #include "load_examples.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace meniscus::test {
 

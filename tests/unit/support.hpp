@@ -7,57 +7,26 @@
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
-#include <nlohmann/json.hpp>
-
-#include <fstream>
+#include <map>
 #include <memory>
-#include <random>
 #include <string>
+#include <vector>
 
 namespace meniscus::test {
 
 /// A brick of unit cells whose inner nodes are moved by `jitter` times the edge.
 template <int D>
-Geometry<D> brick(std::vector<Real> cells, Real jitter = 0) {
-  Brick<D> shape;
-  shape.size = cells;
-  shape.cells = std::move(cells);
-  Geometry<D> geometry = shape.geometry();
-  if (jitter > 0) jitter_interior(geometry.grid, jitter, 11);
-  return geometry;
-}
+Geometry<D> brick(std::vector<Real> cells, Real jitter = 0);
 
 /// A ball of radius 1.
-inline Geometry<3> ball(int core, int layers) {
-  Ball shape;
-  shape.core = core;
-  shape.layers = layers;
-  return shape.geometry();
-}
+Geometry<3> ball(int core, int layers);
 
 /// A disk of radius 1.
-inline Geometry<2> disk(int core, int rings) {
-  Disk shape;
-  shape.core = core;
-  shape.rings = rings;
-  return shape.geometry();
-}
+Geometry<2> disk(int core, int rings);
 
 /// A closed smooth body without symmetry, e.g. to see net forces.
 template <int D>
-Geometry<D> potato() {
-  const auto map = smooth_map<D>([](const std::array<Jet<D>, D>& X) {
-    std::array<Jet<D>, D> x = X;
-    x[0] = 1.3 * X[0] + 0.2 * X[1] * X[1] + 0.1 * X[0] * X[1];
-    x[1] = X[1] + 0.25 * sin(X[0]);
-    if constexpr (D == 3) x[2] = 0.8 * X[2] + 0.15 * X[0] * X[2] + 0.1 * X[1];
-    return x;
-  });
-  if constexpr (D == 3)
-    return apply_map<3>(map, ball(4, 2));
-  else
-    return apply_map<2>(map, disk(6, 3));
-}
+Geometry<D> potato();
 
 template <int D>
 using Support = typename ParticleSet<D>::AdaptiveSupport;
@@ -65,56 +34,24 @@ using Support = typename ParticleSet<D>::AdaptiveSupport;
 /// A body as a scene makes it.
 template <int D>
 std::unique_ptr<Body<D>> body_of(Geometry<D> geometry, Support<D> support = {},
-                                 Window window = Window::cubic_spline) {
-  order_spatially(geometry);
-  ParticleSet<D> particles(geometry.grid.X, support, window);
-  std::vector<Vec<D>> probes = geometry.grid.X;
-  const auto centres = cell_gauss_points(geometry.grid, 1).X;
-  probes.insert(probes.end(), centres.begin(), centres.end());
-  particles.ensure_quality(probes, "body");
-  auto body = std::make_unique<Body<D>>("body", std::move(geometry), std::move(particles));
-  body->at_particles =
-      build_point_rows<D>(body->particles, body->particles.X(), {.value = true}, body->name);
-  return body;
-}
+                                 Window window = Window::cubic_spline);
 
 /// Numbers, of order one, of every registered law as in a scene.
-inline const std::map<std::string, std::string>& law_texts() {
-  static const std::map<std::string, std::string> texts{
-      {"newtonian", "density = 1.25\nbulk_modulus = 2.5\nviscosity = 0.5\nbulk_viscosity = 0.25\n"},
-      {"neo_hookean", "density = 1.25\nmu = 0.75\nlambda = 1.5\n"},
-      {"st_venant_kirchhoff", "density = 1.25\nmu = 0.75\nlambda = 1.5\n"},
-      {"mooney_rivlin", "density = 1.25\nc1 = 0.625\nc2 = 0.125\nlambda = 2.5\n"},
-      {"liquid_crystal_elastomer",
-       "density = 1.25\nmu = 0.75\nbulk_modulus = 1.5\nstep_length = 2.5\n"}};
-  return texts;
-}
+const std::map<std::string, std::string>& law_texts();
 
 /// Sets the masses of `body` and returns its internal force. `text`: the numbers of the law; a
 /// direction, if the law needs one and `text` has none.
 template <int D>
 std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
                                           const std::string& text,
-                                          const Integration& integration = {}) {
-  const std::string direction = text.find("reference_director") != std::string::npos ? ""
-                                : D == 2 ? "reference_director = [0.6, 0.8]\n"
-                                         : "reference_director = [0.6, 0, -0.8]\n";
-  const SceneInput scene = SceneInput::from_text(text + "\n" + direction);
-  const auto material = laws().at(law).template material<D>(scene.root());
-  scene.check();
-  return material->build(body, integration).force;
-}
+                                          const Integration& integration = {});
 template <int D>
 std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
                                           const Integration& integration = {}) {
   return internal_force<D>(body, law, law_texts().at(law), integration);
 }
 
-inline const std::vector<Integration>& integrations() {
-  static const std::vector<Integration> all{
-      {"q_scni", 0}, {"q_scni", 0, "cell_average"}, {"gauss", 2}, {"nodal", 0}};
-  return all;
-}
+const std::vector<Integration>& integrations();
 
 /// Nodal values f(X) of a vector field.
 template <int D, class F>
@@ -127,17 +64,7 @@ NodalVectors field_on(const Body<D>& body, F&& f) {
 
 /// Independent components, uniform in +-size.
 template <int D>
-NodalVectors random_field(Index n, Real size, unsigned seed) {
-  std::mt19937_64 generator(seed);
-  std::uniform_real_distribution<Real> uniform(-size, size);
-  NodalVectors values(static_cast<std::size_t>(n));
-  for (Index A = 0; A < n; ++A) {
-    Vec<D> x;
-    for (int i = 0; i < D; ++i) x[i] = uniform(generator);
-    set_vector<D>(values, A, x);
-  }
-  return values;
-}
+NodalVectors random_field(Index n, Real size, unsigned seed);
 
 inline NodalVectors sum_of(const NodalVectors& a, Real s, const NodalVectors& b) {
   NodalVectors c = a;
@@ -182,63 +109,11 @@ struct Balance {
   Real force, torque;
 };
 template <int D>
-Balance balance_of(const Body<D>& body, const NodalVectors& u, const NodalVectors& force) {
-  Eigen::Vector3d net = Eigen::Vector3d::Zero(), moment = net;
-  Real force_scale = 0, torque_scale = 0;
-  for (Index A = 0; A < body.size(); ++A) {
-    Eigen::Vector3d x = Eigen::Vector3d::Zero(), f = x;
-    x.head<D>() = at(body.particles.X(), A) + vector_at<D>(u, A);
-    f.head<D>() = vector_at<D>(force, A);
-    const Eigen::Vector3d arm(x[1] * f[2] - x[2] * f[1], x[2] * f[0] - x[0] * f[2],
-                              x[0] * f[1] - x[1] * f[0]);
-    net += f;
-    moment += arm;
-    force_scale += f.norm();
-    torque_scale += x.norm() * f.norm();
-  }
-  return {net.norm() / force_scale, moment.norm() / torque_scale};
-}
+Balance balance_of(const Body<D>& body, const NodalVectors& u, const NodalVectors& force);
 
 /// -dE/dt along u + t direction by central differences of two widths, extrapolated, against force .
 /// direction: relative difference.
-inline Real gradient_error(ForceTerm& term, const NodalVectors& u, const NodalVectors& direction,
-                           Real step) {
-  const auto slope = [&](Real h) {
-    return (energy_of(term, sum_of(u, h, direction)) - energy_of(term, sum_of(u, -h, direction))) /
-           (2 * h);
-  };
-  const Real exact = (4 * slope(step / 2) - slope(step)) / 3;
-  return std::abs(dot(force_of(term, u), direction) + exact) / std::abs(exact);
-}
-
-/// The reference cases whose name begins with `prefix`.
-inline std::vector<nlohmann::json> rkpm_cases(const std::string& prefix) {
-  std::ifstream file(MENISCUS_TEST_DATA "/rkpm.json");
-  std::vector<nlohmann::json> found;
-  const nlohmann::json data = nlohmann::json::parse(file);
-  for (const auto& test : data.at("cases"))
-    if (test.at("name").get<std::string>().rfind(prefix, 0) == 0) found.push_back(test);
-  return found;
-}
-
-inline Window window_called(const std::string& name) {
-  static const std::map<std::string, Window> windows{{"cubic", Window::cubic_spline},
-                                                     {"quintic", Window::quintic_spline},
-                                                     {"quartic", Window::quartic_spline},
-                                                     {"wc2", Window::wendland_c2},
-                                                     {"wc4", Window::wendland_c4}};
-  return windows.at(name);
-}
-
-template <int D>
-std::vector<Vec<D>> points_of(const nlohmann::json& rows) {
-  std::vector<Vec<D>> points;
-  for (const auto& row : rows) {
-    Vec<D> x;
-    for (int i = 0; i < D; ++i) x[i] = row.at(static_cast<std::size_t>(i)).get<Real>();
-    points.push_back(x);
-  }
-  return points;
-}
+Real gradient_error(ForceTerm& term, const NodalVectors& u, const NodalVectors& direction,
+                    Real step);
 
 }  // namespace meniscus::test

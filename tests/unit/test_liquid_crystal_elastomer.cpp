@@ -4,8 +4,10 @@
 #include "meniscus/solve/central_difference.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <Eigen/Dense>
+#include <fstream>
 
 #include "one_body.hpp"
 

@@ -6,6 +6,7 @@
 
 #include <cstring>
 
+#include "rkpm_reference.hpp"
 #include "support.hpp"
 
 namespace meniscus {

@@ -2,7 +2,7 @@
 // Whole scenes: files, syntax errors, overrides, the complete input, the reference of keys.
 #include "meniscus/core/key_table.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <random>
 
+#include "rkpm_reference.hpp"
 #include "support.hpp"
 
 namespace meniscus {

@@ -8,6 +8,7 @@
 
 #include <functional>
 
+#include "rkpm_reference.hpp"
 #include "support.hpp"
 
 namespace meniscus {

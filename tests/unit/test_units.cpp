@@ -46,7 +46,7 @@ TEST(Units, QuantitiesInSiAreTheNearestDoubles) {
   EXPECT_EQ(si.quantity("10 \u03bcm", length), 1e-5);
   EXPECT_EQ(si.quantity("3 angstrom", length), 3e-10);
   EXPECT_EQ(si.quantity("4.11 zJ", energy), 4.11e-21);
-  EXPECT_EQ(si.quantity("1 nL", volume), 1e-12);
+  EXPECT_EQ(si.quantity("1 nL", dimension::volume), 1e-12);
   EXPECT_EQ(si.quantity("2 min", time), 120);
   EXPECT_EQ(si.quantity("1.5 h", time), 5400);
   EXPECT_EQ(si.quantity("3 kHz", rate), 3000);
@@ -104,8 +104,8 @@ TEST(Units, ASymbolReadsBackAsOne) {
   using namespace dimension;
   for (const char* name : {"SI", "nm-ps-ag", "um-us-ng", "mm-min-g"})
     for (const Dimension d :
-         {length, area, volume, time, rate, velocity, acceleration, mass, density, pressure,
-          viscosity, tension, force, energy, power, momentum, angular_momentum})
+         {length, area, dimension::volume, time, rate, velocity, acceleration, mass, density,
+          pressure, viscosity, tension, force, energy, power, momentum, angular_momentum})
       EXPECT_DOUBLE_EQ(UnitSystem(name).quantity("1 " + UnitSystem(name).symbol(d), d), 1);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rkpm_reference.hpp"
 #include "support.hpp"
 
 namespace meniscus {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Total force between two balls in all forms of contact: convergence to the exact values with finer
 // points (CGCM notes 3.2 and 7).
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -64,8 +64,10 @@ TEST(ContactSpheres, ForcesConvergeToTheExactValues) {
       std::vector<Real> errors;
       for (const int points : all_points)
         errors.push_back(std::abs(balls.force(form, points) - exact) / scale);
-      fmt::print("radii {} and {}, gap {:.2f}, {}: {:.2g}\n", R1, R2, gap,
-                 at(contact_form_names, static_cast<int>(form)), fmt::join(errors, " "));
+      fmt::print("radii {} and {}, gap {:.2f}, {}:", R1, R2, gap,
+                 at(contact_form_names, static_cast<int>(form)));
+      for (const Real error : errors) fmt::print(" {:.2g}", error);
+      fmt::print("\n");
       return errors;
     };
     Real finest = 0;

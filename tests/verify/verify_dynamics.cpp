@@ -4,7 +4,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

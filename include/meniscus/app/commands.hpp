@@ -5,6 +5,7 @@
 #include "meniscus/core/units.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,5 +58,9 @@ int study(const StudyRequest& request);
 
 /// Prints the known studies.
 void list_studies();
+
+/// Calls the command. What it throws becomes a message on the standard error output and the exit
+/// code that goes with it.
+int exit_code_of(const std::function<int()>& command);
 
 }  // namespace meniscus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Printing that never fails: a stream that is full or gone loses the text, not the run.
 #pragma once
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string_view>
 

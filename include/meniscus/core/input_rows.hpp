@@ -2,6 +2,8 @@
 // Rows: the keys of a struct, written once, for reading, checking, defaults and documentation.
 // Included at the end of input.hpp, whose names it uses.
 #pragma once
+#include "meniscus/core/text.hpp"
+
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -97,7 +99,6 @@ std::string fallback_text(int);
 std::string fallback_text(bool);
 std::string fallback_text(const std::string&);
 std::string fallback_text(const Expression&);
-std::string list_text(const std::vector<std::string>& items, std::string_view separator);
 /// "3 numbers" or "numbers".
 std::string counted(std::size_t count, const std::string& what);
 std::string si_symbol(Dimension);
@@ -110,7 +111,7 @@ template <class T>
 std::string fallback_text(const std::vector<T>& values) {
   std::vector<std::string> items;
   for (const T& value : values) items.push_back(fallback_text(value));
-  return "[" + list_text(items, ", ") + "]";
+  return "[" + joined(items, ", ") + "]";
 }
 
 template <class T>
@@ -208,7 +209,7 @@ Row<M> text_row(std::string key, std::string M::*member, std::string meaning,
 template <class M>
 Row<M> choice_row(std::string key, std::string M::*member, std::vector<std::string> allowed,
                   std::string meaning, std::optional<std::string> fallback) {
-  const std::string list = rows::list_text(allowed, " | ");
+  const std::string list = joined(allowed, " | ");
   return {key,
           "text",
           "",

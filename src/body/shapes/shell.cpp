@@ -3,7 +3,7 @@
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/core/error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

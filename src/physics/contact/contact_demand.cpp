@@ -4,7 +4,7 @@
 
 #include "meniscus/approx/neighbor_search.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "meniscus/body/gauss.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>

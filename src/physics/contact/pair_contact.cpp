@@ -8,7 +8,7 @@
 #include "meniscus/physics/contact_list.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The methods that the curvature study compares, by panel of its plots.
 #pragma once
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "curvature_methods.hpp"
 

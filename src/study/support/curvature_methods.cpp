@@ -6,7 +6,7 @@
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/core/surface_geometry.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

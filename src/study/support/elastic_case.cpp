@@ -8,7 +8,7 @@
 #include "meniscus/core/random.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -4,8 +4,9 @@
 // over lengths of order one, far below the errors studied.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
+#include "meniscus/core/text.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
@@ -85,12 +86,15 @@ void require_smooth(const FormulaMap<D>& map, const std::string& name) {
       difference = std::max(difference, (at(wide.G, i) - at(narrow.G, i)).norm());
       size = std::max(size, at(narrow.G, i).norm());
     }
-    if (difference > 1e-5 * size || !std::isfinite(difference))
+    if (difference > 1e-5 * size || !std::isfinite(difference)) {
+      std::vector<std::string> place;
+      for (const Real x : X) place.push_back(fmt::format("{:.3g}", x));
       throw InputError(
-          fmt::format("{}: the map is not smooth enough near X = ({:.3g}): its second derivatives "
+          fmt::format("{}: the map is not smooth enough near X = ({}): its second derivatives "
                       "found with two step widths differ by {:.2g}; use formulas without kinks, "
                       "jumps and poles that vary over lengths of order one",
-                      name, fmt::join(X.data(), X.data() + D, ", "), difference));
+                      name, joined(place, ", "), difference));
+    }
   }
 }
 

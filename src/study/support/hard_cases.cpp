@@ -5,7 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

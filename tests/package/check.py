@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""check.py BUILD COMPILER: installs the build tree, builds the example against what is installed,
+and compares what it prints with the history of the installed program.
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENE = """
+dimension = 2
+[time]
+end = 0.05
+[output]
+measures = ["drop.area"]
+[[body]]
+name = "drop"
+shape = "ellipse"
+semi_axes = [1.1, 0.9]
+core = 4
+rings = 2
+[body.material]
+type = "newtonian"
+density = 1
+bulk_modulus = 200
+viscosity = 0.1
+[[surface_tension]]
+body = "drop"
+gamma = 1
+"""
+
+
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{command}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def main():
+    build, compiler = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        installed = folder / "installed"
+        run("cmake", "--install", build, "--prefix", installed)
+        run("cmake", "-S", HERE, "-B", folder / "example", "-G", "Ninja",
+            f"-DCMAKE_PREFIX_PATH={installed}", f"-DCMAKE_CXX_COMPILER={compiler}")  # fmt: skip
+        run("cmake", "--build", folder / "example")
+        scene = folder / "scene.toml"
+        scene.write_text(SCENE)
+        step, measure = run(folder / "example/example", scene, "drop.area").split()
+
+        program = installed / "bin/meniscus"
+        run(program, "run", scene, "--output", folder / "out", "--quiet")
+        lines = (folder / "out/history.csv").read_text().splitlines()
+        columns = lines[0].lstrip("# ").split(",")
+        last = dict(zip(columns, lines[-1].split(",")))
+        if (float(last["step"]), float(last["drop.area"])) != (float(step), float(measure)):
+            sys.exit(f"the library says step {step}, area {measure}; the program {last}")
+
+
+if __name__ == "__main__":
+    main()
