@@ -21,6 +21,10 @@ std::string drop(const std::string& shape, Real Oh, Real end, const std::string&
       "= \"body\"\ngamma = 1\n",
       end, safety, shape, keys, Oh);
 }
+/// Fraction of the stable step where hardly anything damps the sound of the start, whose energy is
+/// only kept to the square of the step.
+constexpr Real ringing = 0.1;
+
 std::string ellipsoid(const std::string& axes, int core) {
   return fmt::format("shape = \"ellipsoid\"\nsemi_axes = {}\ncore = {}\nlayers = {}", axes, core,
                      core / 2);
@@ -38,8 +42,9 @@ void left_alone(HardCases& cases, bool full) {
   const Real end = full ? 60 : 6;
   for (const Real Oh : {0.01, 0.93}) {
     const std::string name = fmt::format("drop 1 : 1.2 : 1 left alone, Oh = {}", Oh);
-    const auto outcome =
-        cases.stays_stable(name, drop(ellipsoid("[1, 1.2, 1]", core), Oh, end), 1e-2);
+    const std::string text =
+        drop(ellipsoid("[1, 1.2, 1]", core), Oh, end, "", Oh > 0.1 ? 0.9 : ringing);
+    const auto outcome = cases.stays_stable(name, text, 1e-2);
     if (Oh > 0.1) is_round(cases, name, outcome, 1e-4);
     cases.study().require(name + ": error of the angular momentum", outcome.angular_momentum_error,
                           {0, 1e-10});
@@ -85,7 +90,7 @@ void hard_drops(HardCases& cases) {
   cases.study().require(long_drop + ": area / area of the sphere",
                         relaxed.measure("body.area") / 12.566, {1, 1.28});
   cases.stays_stable("drop at Oh = 0.01",
-                     drop(ellipsoid("[1, 1.1, 1]", full ? 6 : 4), 0.01, full ? 20 : 4, "", 0.2),
+                     drop(ellipsoid("[1, 1.1, 1]", full ? 6 : 4), 0.01, full ? 20 : 4, "", ringing),
                      1e-2);
   left_alone(cases, full);
   with_edges(cases, full);
