@@ -6,7 +6,7 @@
 #include "meniscus/core/text.hpp"
 #include "meniscus/io/files.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -4,7 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
