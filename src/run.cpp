@@ -6,7 +6,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
 #include "meniscus/io/checkpoint.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "meniscus/scene/epochs.hpp"
 
 #include <fmt/core.h>
 
@@ -53,22 +53,22 @@ template <int D>
 class RunIn final : public Run::Base {
  public:
   explicit RunIn(const SceneInput& input)
-      : scene_(build_scene<D>(input)), complete_(input.complete()), simulation_(scene_) {
-    simulation_.begin();
+      : epochs_(read_plan<D>(input)), complete_(input.complete()) {
+    epochs_.simulation().begin();
   }
 
   int dimension() const override { return D; }
-  double time() const override { return simulation_.state().time; }
-  std::int64_t step() const override { return simulation_.state().step; }
-  bool finished() const override { return simulation_.finished(); }
-  void advance() override { simulation_.advance(); }
+  double time() const override { return now().time; }
+  std::int64_t step() const override { return now().step; }
+  bool finished() const override { return epochs_.simulation().finished(); }
+  void advance() override { epochs_.advance(); }
 
-  std::vector<std::string> bodies() const override { return names_of(scene_.system.bodies); }
-  std::vector<std::string> measures() const override { return names_of(scene_.measures); }
+  std::vector<std::string> bodies() const override { return names_of(scene().system.bodies); }
+  std::vector<std::string> measures() const override { return names_of(scene().measures); }
   std::vector<std::string> fields(const std::string& body) const override {
     std::vector<std::string> names{"position", "displacement", "velocity", "mass"};
     const std::size_t b = find("body", body, bodies());
-    for (const BodyField& field : scene_.fields)
+    for (const BodyField& field : scene().fields)
       if (field.body == b &&
           std::find(names.begin(), names.end(), field.source.name) == names.end())
         names.push_back(field.source.name);
@@ -76,15 +76,15 @@ class RunIn final : public Run::Base {
   }
 
   double measure(const std::string& name) const override {
-    return scene_.measures[find("measure", name, measures())].compute(simulation_.state().motion());
+    return scene().measures[find("measure", name, measures())].compute(now().motion());
   }
 
   Field field(const std::string& body_name, const std::string& name) const override {
     const std::size_t b = find("body", body_name, bodies());
     const std::size_t k = find("field", name, fields(body_name));
-    const Body<D>& body = scene_.system.bodies[b];
-    const State& state = simulation_.state();
-    const auto unit = [&](Dimension d) { return scene_.units.symbol(d); };
+    const Body<D>& body = scene().system.bodies[b];
+    const State& state = now();
+    const auto unit = [&](Dimension d) { return scene().units.symbol(d); };
     switch (k) {
       case 0:
         return {D, unit(dimension::length), places(body, state.u, true)};
@@ -93,12 +93,12 @@ class RunIn final : public Run::Base {
       case 2:
         return {D, unit(dimension::velocity), places(body, state.v, false)};
       case 3:
-        return {1, scene_.symbol_of_sum(dimension::mass), body.mass};
+        return {1, scene().symbol_of_sum(dimension::mass), body.mass};
       default:
         break;
     }
-    const FieldSource& source = field_named(scene_, name);
-    const std::vector<Real> all = field_values(scene_, name, state.motion());
+    const FieldSource& source = field_named(scene(), name);
+    const std::vector<Real> all = field_values(scene(), name, state.motion());
     const auto begin = all.begin() + body.first * source.components;
     return {source.components,
             unit(source.dimension),
@@ -108,10 +108,10 @@ class RunIn final : public Run::Base {
   void save(const std::string& directory) override {
     const RunDirectory folder(directory, ExistingRun::keep);
     CheckpointWriter(folder, provenance("a program with the library", complete_))
-        .write(step(), time(), simulation_.snapshot());
+        .write(step(), time(), epochs_.simulation().snapshot());
   }
   void restore(const std::string& directory) override {
-    simulation_.restore(read_checkpoint(directory).checkpoint.state);
+    epochs_.restore(read_checkpoint(directory).checkpoint.state);
   }
 
  private:
@@ -126,9 +126,11 @@ class RunIn final : public Run::Base {
     return values;
   }
 
-  Scene<D> scene_;
+  const Scene<D>& scene() const { return epochs_.scene(); }
+  const State& now() const { return epochs_.simulation().state(); }
+
+  Epochs<D> epochs_;
   std::string complete_;
-  Simulation<D> simulation_;
 };
 
 std::unique_ptr<Run::Base> begin(const SceneInput& input) {

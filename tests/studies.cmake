@@ -12,6 +12,8 @@ foreach(source ${study_sources})
     --output ${CMAKE_CURRENT_BINARY_DIR}/studies/${name})
   add_test(NAME study.${name}.full CONFIGURATIONS full COMMAND meniscus study ${name}
     --output ${PROJECT_SOURCE_DIR}/verification/${name})
-  set_tests_properties(study.${name}.short study.${name}.full PROPERTIES LABELS verify
+  set_tests_properties(study.${name}.short PROPERTIES LABELS verify
+    ENVIRONMENT "OMP_WAIT_POLICY=passive;OMP_NUM_THREADS=1")
+  set_tests_properties(study.${name}.full PROPERTIES LABELS verify
     PROCESSORS 2 ENVIRONMENT OMP_WAIT_POLICY=passive)
 endforeach()

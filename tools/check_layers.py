@@ -20,11 +20,12 @@ MAY_INCLUDE = {
     "physics": ["core", "approx", "body"],
     "solve": ["core", "approx", "body", "physics"],
     "measure": ["core", "approx", "body", "physics"],
+    "remap": ["core", "approx", "body", "physics", "solve"],
     "io": ["core"],
-    "scene": ["core", "approx", "body", "physics", "solve", "measure", "io"],
-    "run": ["core", "approx", "body", "physics", "solve", "measure", "io", "scene"],
-    "study": ["core", "approx", "body", "physics", "solve", "measure", "scene"],
-    "app": ["core", "approx", "body", "physics", "solve", "measure", "io", "scene", "study"],
+    "scene": ["core", "approx", "body", "physics", "solve", "measure", "remap", "io"],
+    "run": ["core", "approx", "body", "physics", "solve", "measure", "remap", "io", "scene"],
+    "study": ["core", "approx", "body", "physics", "solve", "measure", "remap", "scene"],
+    "app": ["core", "approx", "body", "physics", "solve", "measure", "remap", "io", "scene", "study"],
 }
 LEAVES = {
     "materials": "physics",

@@ -69,8 +69,9 @@ quietly() {
   return 1
 }
 
+# Files are compiled in batches: these trees are built as a whole.
 configure() {
   local dir=$1
   shift
-  cmake -S "$root" -B "$root/$dir" -G Ninja "$@"
+  cmake -S "$root" -B "$root/$dir" -G Ninja -DCMAKE_UNITY_BUILD=ON "$@"
 }

@@ -64,8 +64,10 @@ std::vector<HistoryColumn> history_columns(const Scene<D>& scene) {
                                      {"dt", unit(dimension::time)},
                                      {"kinetic_energy", energy}};
   for (const std::string& kind : stored_kinds(scene)) columns.push_back({kind + "_energy", energy});
-  for (const char* name : {"dissipated", "external_work", "energy_balance"})
-    columns.push_back({name, energy});
+  columns.push_back({"dissipated", energy});
+  columns.push_back({"external_work", energy});
+  if (!scene.remaps.empty()) columns.push_back({"remapped", energy});
+  columns.push_back({"energy_balance", energy});
   for (const char* name : {"energy_balance_error", "momentum_error", "angular_momentum_error"})
     columns.push_back({name, "1"});
   for (const std::string& name : Registry<StepperEntry>::all().at(scene.time.solver).residuals)

@@ -21,6 +21,7 @@ ResultOptions result_options(const Simulation<D>& simulation, bool continued) {
                                                     : ResultOptions::Precision::float64;
   options.compression = output.compression;
   options.time_unit = simulation.scene().units.symbol(dimension::time);
+  options.epoch = simulation.state().epoch;
   if (continued) options.continue_after = simulation.state().step;
   return options;
 }
@@ -43,8 +44,9 @@ struct ReferenceArrays {
 };
 
 template <int D>
-ResultFile make_result_file(const Simulation<D>& simulation, const RunDirectory& directory,
-                            const Provenance& provenance, bool continued) {
+std::unique_ptr<ResultFile> make_result_file(const Simulation<D>& simulation,
+                                             const RunDirectory& directory,
+                                             const Provenance& provenance, bool continued) {
   const Scene<D>& scene = simulation.scene();
   const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
   std::deque<ReferenceArrays<D>> arrays;
@@ -58,7 +60,8 @@ ResultFile make_result_file(const Simulation<D>& simulation, const RunDirectory&
                        {"mass", 1, scene.symbol_of_sum(dimension::mass), a.mass}},
                       {{"surface", 1 << (D - 1), a.facets}}});
   }
-  return {directory, provenance, bodies, result_options(simulation, continued)};
+  return std::make_unique<ResultFile>(directory, provenance, bodies,
+                                      result_options(simulation, continued));
 }
 
 /// sum_B N_B(X_A) f_B for all particles, D numbers each.
@@ -93,7 +96,9 @@ bool due(Real before, Real now, Real every) {
 template <int D>
 Recorder<D>::Recorder(Simulation<D>& simulation, const RunDirectory& directory,
                       const Provenance& provenance, bool continued)
-    : simulation_(simulation),
+    : simulation_(&simulation),
+      directory_(directory),
+      provenance_(provenance),
       measures_(chosen_measures(simulation.scene())),
       energy_kinds_(stored_kinds(simulation.scene())),
       checkpoints_(directory, provenance),
@@ -102,32 +107,44 @@ Recorder<D>::Recorder(Simulation<D>& simulation, const RunDirectory& directory,
       results_(make_result_file(simulation, directory, provenance, continued)) {}
 
 template <int D>
+void Recorder<D>::begin_epoch(Simulation<D>& simulation) {
+  simulation_ = &simulation;
+  measures_ = chosen_measures(simulation.scene());
+  results_.reset();  // closes the file before
+  results_ = make_result_file(simulation, directory_, provenance_, false);
+  write_frame(simulation.scene().output.restartable);
+}
+
+template <int D>
 std::optional<Ledger> Recorder<D>::record(Real before) {
-  const OutputSettings& output = simulation_.scene().output;
-  const Real now = simulation_.state().time, end = simulation_.scene().time.end;
-  const bool last = simulation_.finished();
+  const OutputSettings& output = simulation_->scene().output;
+  const Real now = simulation_->state().time, end = simulation_->scene().time.end;
+  const bool last = simulation_->finished();
   std::optional<Ledger> ledger;
   if (last || due(before, now, output.history_every > 0 ? output.history_every : end / 200)) {
-    ledger = simulation_.audit_now();
+    ledger = simulation_->audit_now();
     write_row(*ledger);
   }
-  if (last || due(before, now, output.frames_every > 0 ? output.frames_every : end / 50))
+  if (last_frame_ != simulation_->state().step &&
+      (last || due(before, now, output.frames_every > 0 ? output.frames_every : end / 50)))
     write_frame(output.restartable);
   return ledger;
 }
 
 template <int D>
 void Recorder<D>::write_row(const Ledger& ledger) {
-  const State& state = simulation_.state();
-  const Audit& audit = simulation_.audit();
-  std::vector<Real> row{state.time, static_cast<Real>(state.step), simulation_.last_step(),
+  const State& state = simulation_->state();
+  const Audit& audit = simulation_->audit();
+  std::vector<Real> row{state.time, static_cast<Real>(state.step), simulation_->last_step(),
                         ledger.kinetic};
   for (const std::string& kind : energy_kinds_) row.push_back(ledger.stored.at(kind));
-  for (const Real x :
-       {ledger.dissipated, ledger.external_work, ledger.balance(), audit.balance_error(ledger),
-        audit.momentum_error(ledger), audit.angular_momentum_error(ledger)})
+  row.push_back(ledger.dissipated);
+  row.push_back(ledger.external_work);
+  if (!simulation_->scene().remaps.empty()) row.push_back(ledger.remapped);
+  for (const Real x : {ledger.balance(), audit.balance_error(ledger), audit.momentum_error(ledger),
+                       audit.angular_momentum_error(ledger)})
     row.push_back(x);
-  for (const Residual& residual : simulation_.stepper().residuals(state))
+  for (const Residual& residual : simulation_->stepper().residuals(state))
     row.push_back(residual.value);
   for (const MeasureSource& m : measures_) row.push_back(m.compute(state.motion()));
   history_.write(row);
@@ -135,10 +152,10 @@ void Recorder<D>::write_row(const Ledger& ledger) {
 
 template <int D>
 void Recorder<D>::write_frame(bool with_state) {
-  const Scene<D>& scene = simulation_.scene();
-  const State& state = simulation_.state();
+  const Scene<D>& scene = simulation_->scene();
+  const State& state = simulation_->state();
   std::deque<std::vector<Real>> storage;
-  std::vector<Field> fields;
+  std::vector<ResultField> fields;
   const auto add = [&](const std::string& name, int components, std::string unit,
                        std::vector<Real> values) {
     fields.push_back({name, components, std::move(unit), storage.emplace_back(std::move(values))});
@@ -160,20 +177,20 @@ void Recorder<D>::write_frame(bool with_state) {
       add_source(name);
   }
   std::optional<Snapshot> snapshot;
-  if (with_state) snapshot = simulation_.snapshot();
-  results_.write_frame(state.step, state.time, fields, snapshot ? &*snapshot : nullptr);
+  if (with_state) snapshot = simulation_->snapshot();
+  results_->write_frame(state.step, state.time, fields, snapshot ? &*snapshot : nullptr);
   last_frame_ = state.step;
 }
 
 template <int D>
 std::filesystem::path Recorder<D>::checkpoint() {
-  return checkpoints_.write(simulation_.state().step, simulation_.state().time,
-                            simulation_.snapshot());
+  return checkpoints_.write(simulation_->state().step, simulation_->state().time,
+                            simulation_->snapshot());
 }
 
 template <int D>
 void Recorder<D>::write_last_good_frame() {
-  if (last_frame_ != simulation_.state().step) write_frame(false);
+  if (last_frame_ != simulation_->state().step) write_frame(false);
 }
 
 template class Recorder<2>;

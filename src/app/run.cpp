@@ -12,6 +12,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/run_log.hpp"
 #include "meniscus/measure/drop_measures.hpp"
+#include "meniscus/scene/epochs.hpp"
 #include "meniscus/scene/expectations.hpp"
 
 #include <fmt/core.h>
@@ -55,19 +56,27 @@ int report_expectations(const Simulation<D>& simulation, const RunDirectory& dir
 /// request, if there was one. Only what the scene says decides the steps, so that a run that was
 /// stopped anywhere goes on as if it had not been.
 template <int D>
-std::optional<int> run_steps(Simulation<D>& simulation, Recorder<D>& recorder, RunLog& log,
+std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& log,
                              const Interruption& interruption, Progress& progress, Real stop) {
-  const double checkpoint_seconds = 60 * simulation.scene().output.checkpoint_minutes;
+  const double checkpoint_seconds = 60 * epochs.scene().output.checkpoint_minutes;
   double next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
   const auto warn = [&](const std::string& sentence) {
     progress.finish();  // the line is not to be written on
     log.warning(sentence);
   };
-  Warnings<D> warnings(simulation, warn);
-  while (simulation.state().time < stop && !simulation.finished()) {
+  Warnings<D> warnings(epochs.simulation(), warn);
+  while (epochs.simulation().state().time < stop && !epochs.simulation().finished()) {
     if (const auto signal = interruption.requested()) return signal;
-    const Real before = simulation.state().time;
-    simulation.advance();
+    const Real before = epochs.simulation().state().time;
+    const typename Epochs<D>::Remapped remapped = epochs.advance();
+    Simulation<D>& simulation = epochs.simulation();
+    if (!remapped.notes.empty()) progress.finish();
+    for (const std::string& note : remapped.notes) log.info(note);
+    for (const std::string& warning : remapped.warnings) warn(warning);
+    if (remapped.new_epoch) {
+      warnings.follow(simulation);
+      recorder.begin_epoch(simulation);
+    }
     const auto ledger = recorder.record(before);
     progress.show(simulation.state(), simulation.last_step(), ledger);
     if (ledger) warnings.look(*ledger);
@@ -133,16 +142,17 @@ bool report_rest(const Simulation<D>& simulation, RunLog& log) {
   for (const Residual& r : residuals)
     measures += fmt::format("{}{} {:.3g} (allowed {:.3g})", measures.empty() ? "" : ", ", r.meaning,
                             r.value, r.allowed);
-  const std::string time =
-      fmt::format("t = {:.6g} {}", state.time, simulation.scene().units.symbol(dimension::time));
+  const std::string obstacle = simulation.stepper().obstacle(state),
+                    time = fmt::format("t = {:.6g} {}", state.time,
+                                       simulation.scene().units.symbol(dimension::time));
   const bool rest = simulation.stepper().arrived();
   if (rest)
     log.info(fmt::format("at rest at {}: {}", time, measures));
   else
-    log.error(
-        fmt::format("not at rest at {}: {}; a later time.end gives more time, if there is an "
-                    "equilibrium",
-                    time, measures));
+    log.error(fmt::format("not at rest at {}: {}; {}", time, measures,
+                          obstacle.empty()
+                              ? "a later time.end gives more time, if there is an equilibrium"
+                              : obstacle + ", which nothing balances"));
   return rest;
 }
 
@@ -160,23 +170,23 @@ void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunD
 
 /// The run itself, once its directory is open.
 template <int D>
-int run_recorded(Simulation<D>& simulation, const RunRequest& request, const Provenance& origin,
+int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance& origin,
                  const std::optional<Restart>& restart, const Interruption& interruption, Real stop,
                  const RunDirectory& directory, RunLog& log) {
-  const Scene<D>& scene = simulation.scene();
   const bool in_place = restart && restart->in_place;
+  const State& begin = epochs.simulation().state();
   if (in_place)  // before rows and frames are dropped that a later checkpoint would need
     CheckpointWriter(directory, origin)
-        .write(simulation.state().step, simulation.state().time, simulation.snapshot());
-  Recorder<D> recorder(simulation, directory, origin, in_place);
+        .write(begin.step, begin.time, epochs.simulation().snapshot());
+  Recorder<D> recorder(epochs.simulation(), directory, origin, in_place);
   if (!restart) recorder.record(-1);
-  Progress progress(simulation.state(), stop, scene.units.symbol(dimension::time),
-                    scene.symbol_of_sum(dimension::energy), request.quiet);
-  const std::int64_t first_step = simulation.state().step;
+  Progress progress(begin, stop, epochs.scene().units.symbol(dimension::time),
+                    epochs.scene().symbol_of_sum(dimension::energy), request.quiet);
+  const std::int64_t first_step = begin.step;
   const double set_up_seconds = interruption.elapsed_seconds();
   std::optional<int> signal;
   try {
-    signal = run_steps(simulation, recorder, log, interruption, progress, stop);
+    signal = run_steps(epochs, recorder, log, interruption, progress, stop);
   } catch (const SolveError& e) {
     progress.finish();
     log.error(e.what());
@@ -186,6 +196,7 @@ int run_recorded(Simulation<D>& simulation, const RunRequest& request, const Pro
   progress.finish();
   recorder.checkpoint();
 
+  Simulation<D>& simulation = epochs.simulation();
   const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
   log.info(summary);
   if (!request.quiet) say("{}\nresults in {}\n", summary, directory.path().string());
@@ -201,17 +212,16 @@ int run_recorded(Simulation<D>& simulation, const RunRequest& request, const Pro
 template <int D>
 int run_scene(const SceneInput& input, const RunRequest& request) {
   Interruption interruption(request.max_walltime);
-  Scene<D> scene = set_up(input, [&] { return build_scene<D>(input); });
-  require_known_outputs(input, scene);
+  Plan<D> plan = set_up(input, [&] { return read_plan<D>(input); });
   const std::string complete = input.complete();
-  const Real stop = std::min(scene.time.end, time_to_stop(request, scene.units));
+  const Real stop = std::min(plan.time.end, time_to_stop(request, plan.units));
   const std::optional<Restart> restart = read_restart(request, complete);
+  const Snapshot* state = restart ? &restart->from.checkpoint.state : nullptr;
 
-  Simulation<D> simulation = set_up(input, [&] { return Simulation<D>(scene); });
-  if (restart)
-    simulation.restore(restart->from.checkpoint.state);
-  else
-    set_up(input, [&] { simulation.begin(); });
+  const auto epochs =
+      set_up(input, [&] { return std::make_unique<Epochs<D>>(std::move(plan), state); });
+  require_known_outputs(input, epochs->scene());
+  if (!restart) set_up(input, [&] { epochs->simulation().begin(); });
 
   interruption.catch_signals();  // before this nothing is lost by ending at once
   const RunDirectory directory(output_directory(request),
@@ -220,10 +230,10 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
                                                             : ExistingRun::refuse);
   RunLog log(directory.log_file());
   const Provenance origin = provenance(request.command_line, complete);
-  introduce(scene, origin, restart, simulation.controller().stable(), log);
-  if (!restart) report_residuals(simulation, log);
+  introduce(epochs->scene(), origin, restart, epochs->simulation().controller().stable(), log);
+  if (!restart) report_residuals(epochs->simulation(), log);
   try {
-    return run_recorded(simulation, request, origin, restart, interruption, stop, directory, log);
+    return run_recorded(*epochs, request, origin, restart, interruption, stop, directory, log);
   } catch (const FileError& e) {
     log.error(e.what());
     return exit_file;

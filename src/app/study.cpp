@@ -156,7 +156,7 @@ void list_studies() {
   }
 }
 
-int study(const StudyRequest& request) {
+int run_study(const StudyRequest& request) {
   if (request.name.empty()) {
     list_studies();
     return exit_usage;

@@ -32,7 +32,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? exit_ok : exit_usage;
   }
-  if (!list) return study(request);
+  if (!list) return run_study(request);
   list_studies();
   require_printed();
   return exit_ok;

@@ -22,7 +22,14 @@ const MeasureSource* find_measure(const std::vector<MeasureSource>& measures,
 
 template <int D>
 Warnings<D>::Warnings(const Simulation<D>& simulation, std::function<void(const std::string&)> say)
-    : simulation_(simulation), say_(std::move(say)) {
+    : say_(std::move(say)) {
+  follow(simulation);
+}
+
+template <int D>
+void Warnings<D>::follow(const Simulation<D>& simulation) {
+  simulation_ = &simulation;
+  enclosures_.clear();
   const Scene<D>& scene = simulation.scene();
   for (const Body<D>& body : scene.system.bodies) {
     const MeasureSource* area = find_measure(scene.measures, body.name + ".area");
@@ -40,10 +47,10 @@ void Warnings<D>::look(const Ledger& ledger) {
 
 template <int D>
 void Warnings<D>::doubtful_laws() {
-  for (const auto& term : simulation_.scene().system.terms) {
+  for (const auto& term : simulation_->scene().system.terms) {
     if (said_.contains(term->name())) continue;
-    if (const auto warning = term->warning(simulation_.state().motion())) {
-      say_(fmt::format("t = {:.6g}: {}", simulation_.state().time, *warning));
+    if (const auto warning = term->warning(simulation_->state().motion())) {
+      say_(fmt::format("t = {:.6g}: {}", simulation_->state().time, *warning));
       said_.insert(term->name());
     }
   }
@@ -52,18 +59,18 @@ void Warnings<D>::doubtful_laws() {
 template <int D>
 void Warnings<D>::imbalance(const Ledger& ledger) {
   constexpr Real bearable = 0.2;
-  const Real error = simulation_.audit().balance_error(ledger);
+  const Real error = simulation_->audit().balance_error(ledger);
   if (std::abs(error) < bearable || !said_.insert("energy balance").second) return;
   say_(fmt::format(
       "t = {:.6g}: the energy balance is off by {:.0f} % of the energy exchanged so far; the step "
       "is too long (lower time.safety) or the motion is not resolved by the particles",
-      simulation_.state().time, 100 * error));
+      simulation_->state().time, 100 * error));
 }
 
 template <int D>
 void Warnings<D>::impossible_areas() {
   constexpr Real bearable = 0.02;
-  const Motion motion = simulation_.state().motion();
+  const Motion motion = simulation_->state().motion();
   for (const Enclosure& e : enclosures_) {
     const std::string kind = "area of " + e.body;
     if (said_.contains(kind)) continue;
@@ -76,7 +83,7 @@ void Warnings<D>::impossible_areas() {
         "t = {:.6g}: body '{}' has the {} {:.4g}, below the least possible {:.4g} for its {}: the "
         "surface is no longer resolved (finer particles, a larger support_factor, or a reference "
         "shape nearer to the present one)",
-        simulation_.state().time, e.body, D == 3 ? "surface area" : "circumference", area, least,
+        simulation_->state().time, e.body, D == 3 ? "surface area" : "circumference", area, least,
         D == 3 ? "volume" : "area"));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface patches, and the assembly of a body from unit shape and map.
+// The assembly of a body from unit shape and map.
 #include "meniscus/body/geometry.hpp"
 
 #include "meniscus/core/error.hpp"
@@ -7,43 +7,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace meniscus {
-
-template <int D>
-SurfacePatch<D> SurfacePatch<D>::plane(const Vec<D>& point, const Vec<D>& normal) {
-  return {point, Mat<D>::Zero(), normal.normalized(), 0};
-}
-
-template <int D>
-SurfacePatch<D> SurfacePatch<D>::sphere(const Vec<D>& centre, Real radius) {
-  return {centre, Mat<D>::Identity(), Vec<D>::Zero(), radius};
-}
-
-template <int D>
-SurfacePatch<D> SurfacePatch<D>::cavity(const Vec<D>& centre, Real radius) {
-  return sphere(centre, -radius);
-}
-
-template <int D>
-SurfacePatch<D> SurfacePatch<D>::cylinder(const Vec<D>& point, const Vec<D>& axis, Real radius) {
-  return {point, Mat<D>::Identity() - axis * axis.transpose(), Vec<D>::Zero(), radius};
-}
-
-template <int D>
-typename SurfacePatch<D>::Foot SurfacePatch<D>::project(const Vec<D>& X) const {
-  if (radius == 0)
-    return {X - normal * normal.dot(X - origin), normal, Mat<D>::Zero(),
-            Mat<D>::Identity() - normal * normal.transpose()};
-  const Vec<D> arm = round * (X - origin);
-  const Real r = std::copysign(arm.norm(), radius);
-  const Vec<D> N = arm / r;
-  const Mat<D> tangential = round - N * N.transpose();
-  return {X - arm + radius * N, N, tangential / radius,
-          Mat<D>::Identity() - round + (radius / r) * tangential};
-}
 
 namespace {
 
@@ -100,9 +66,9 @@ Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bo
   find_boundary(unit);
   for (auto& facet : unit.facets) facet.patch = find_patch(unit, facet, patches);
   if constexpr (D == 3) find_patches_beyond(unit);
-  Geometry<D> geometry{std::move(unit), {}, std::move(patches), std::move(map), smooth};
-  geometry.unit_X = geometry.grid.X;
-  for (auto& X : geometry.grid.X) X = geometry.map(X).x;
+  auto surface = std::make_shared<MappedPatches<D>>(unit.X, std::move(patches), smooth, map);
+  Geometry<D> geometry{std::move(unit), std::move(surface)};
+  for (auto& X : geometry.grid.X) X = map(X).x;
   curve_boundary(geometry);
   check_jacobians(geometry.grid, "the shape");
   return geometry;
@@ -111,14 +77,13 @@ Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bo
 template <int D>
 Geometry<D> apply_map(const SmoothMap<D>& map, Geometry<D> geometry) {
   for (auto& X : geometry.grid.X) X = map(X).x;
-  geometry.map = compose<D>(map, std::move(geometry.map));
+  geometry.surface = geometry.surface->mapped(map, geometry.grid);
   curve_boundary(geometry);
   check_jacobians(geometry.grid, "the map");
   return geometry;
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                                  \
-  template struct SurfacePatch<D>;                                                               \
   template Geometry<D> make_geometry(Grid<D>, std::vector<SurfacePatch<D>>, bool, SmoothMap<D>); \
   template Geometry<D> apply_map(const SmoothMap<D>&, Geometry<D>);
 MENISCUS_INSTANTIATE(2)

@@ -3,11 +3,11 @@
 #include "meniscus/body/grid.hpp"
 
 #include "meniscus/body/gauss.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,7 +47,7 @@ void for_gauss_points(const Grid<D>& grid, Index cell, const TensorRule<D>& rule
   const auto corners = grid.corner_points(at(grid.cells, cell));
   for (std::size_t q = 0; q < rule.x.size(); ++q) {
     const CellPoint<D, D> p = cell_point(corners, grid.bulge(cell), rule.x[q]);
-    f(p.X, rule.w[q] * p.J.determinant());
+    f(p.X, rule.w[q] * determinant<D>(p.J));
   }
 }
 
@@ -103,7 +103,7 @@ std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell) {
     Vec<D> xi;
     for (int k = 0, rest = q; k < D; ++k, rest /= 3) xi[k] = rest % 3 - 1;
     const CellPoint<D, D> point = cell_point(corners, grid.bulge(cell), xi);
-    if (!(point.J.determinant() > 0)) return point;
+    if (!(determinant<D>(point.J) > 0)) return point;
   }
   return {};
 }
@@ -114,7 +114,7 @@ void check_jacobians(const Grid<D>& grid, const std::string& cause) {
     if (const auto fold = find_fold(grid, e))
       throw InputError(
           fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive",
-                      cause, e, place<D>(fold->X), fold->J.determinant()));
+                      cause, e, place<D>(fold->X), determinant<D>(fold->J)));
 }
 
 template <int D>

@@ -3,9 +3,9 @@
 #include "meniscus/body/imperfection.hpp"
 
 #include "meniscus/core/box.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/random.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -86,7 +86,7 @@ Geometry<D> with_imperfection(Geometry<D> geometry, Real rms, std::uint64_t seed
     result.director = [=](const Vec<D>& X) -> Vec<D> {
       Vec<D> X0 = X;  // X = X0 + displacement(X0); gentle waves contract
       for (int k = 0; k < 60; ++k) X0 = X - displacement(waves, X0);
-      return (map(X0).F.inverse().transpose() * perfect(X0)).normalized();
+      return (inverse<D>(map(X0).F).transpose() * perfect(X0)).normalized();
     };
   return result;
 }

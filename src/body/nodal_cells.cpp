@@ -4,13 +4,11 @@
 #include "meniscus/body/nodal_cells.hpp"
 
 #include "meniscus/body/gauss.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
 
 #include <fmt/core.h>
-
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 
 namespace meniscus {
 
@@ -133,7 +131,7 @@ class CellMap {
 template <int D>
 Vec<D> facet_normal(const Mat<D>& J, int k) {
   if constexpr (D == 3)
-    return J.col((k + 1) % 3).cross(J.col((k + 2) % 3));
+    return cross(J.col((k + 1) % 3), J.col((k + 2) % 3));
   else
     return k == 0 ? Vec<2>(J(1, 1), -J(0, 1)) : Vec<2>(-J(1, 0), J(0, 0));
 }
@@ -178,7 +176,7 @@ void NodalCells<D>::volume_points(Index node, CellQuadrature<D>& q) const {
     for (const auto& p : map.table().volume(corner)) {
       const CellPoint<D, D> point = map(p);
       q.volume_X.push_back(point.X);
-      q.volume_w.push_back(p.w * point.J.determinant());
+      q.volume_w.push_back(p.w * determinant<D>(point.J));
     }
   }
 }

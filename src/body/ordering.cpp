@@ -107,7 +107,7 @@ void renumber(Grid<D>& grid, std::span<const Index> order) {
 template <int D>
 void renumber(Geometry<D>& geometry, std::span<const Index> order) {
   renumber(geometry.grid, order);
-  geometry.unit_X = permuted(geometry.unit_X, order);
+  geometry.surface = geometry.surface->renumbered(order);
 }
 
 template <int D>

@@ -2,11 +2,11 @@
 // Building the integration rules of a body: nodal cells with linear moments, Gauss points,
 // particles.
 #include "meniscus/body/body.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 
 namespace meniscus {
@@ -102,7 +102,7 @@ void integrate_cell(const Body<D>& body, Index cell, CellRow<D>& row) {
   add_integrals<D, Flux<D>>(body, quadrature.facet_X, facet_weight, row.candidates, flux);
 
   const Real V = body.cells.volume(cell);
-  const Mat<D> inverse_VS = (V * body.cells.covariance(cell)).inverse();
+  const Mat<D> inverse_VS = inverse<D>(V * body.cells.covariance(cell));
   row.gradient.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     Mat<D> moment;
@@ -144,8 +144,7 @@ std::array<Vec<D>, D + 1> simplex() {
 /// xi_q = sqrt(D) S^(1/2) t_q, a lane per q.
 template <int D>
 std::array<Lanes, D> stress_points(const Mat<D>& S) {
-  const Eigen::SelfAdjointEigenSolver<Mat<D>> eigen(S);
-  const Mat<D> root = eigen.operatorSqrt();
+  const Mat<D> root = square_root<D>(S);
   const auto t = simplex<D>();
   std::array<Lanes, D> xi;
   xi.fill(Lanes::zero());
@@ -233,30 +232,11 @@ std::vector<Real> shape_integrals(const Body<D>& body) {
   return integral;
 }
 
-template <int D>
-MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
-                     const std::vector<Real>& shape_integral) {
-  MassReport report;
-  Real before = 0, after = 0;
-  body.mass.resize(shape_integral.size());
-  for (Index A = 0; A < body.size(); ++A) {
-    const Real row_sum = at(density, A) * at(shape_integral, A);
-    const Real floor = 0.3 * at(density, A) * body.cells.volume(A);
-    at(body.mass, A) = std::max(row_sum, floor);
-    report.raised += row_sum < floor;
-    before += row_sum;
-    after += at(body.mass, A);
-  }
-  report.added = after / before - 1;
-  return report;
-}
-
 #define MENISCUS_INSTANTIATE(D)                                \
   template CellOperator<D> build_cell_rule(const Body<D>&);    \
   template PointRule<D> build_gauss_rule(const Body<D>&, int); \
   template PointRule<D> build_nodal_rule(const Body<D>&);      \
-  template std::vector<Real> shape_integrals(const Body<D>&);  \
-  template MassReport lump_mass(Body<D>&, const std::vector<Real>&, const std::vector<Real>&);
+  template std::vector<Real> shape_integrals(const Body<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -20,31 +20,41 @@ std::array<Real, 3> lagrange_slopes(Real x) {
   return {x - 0.5, -2 * x, x + 0.5};
 }
 
-Lanes dot(const std::array<Lanes, 2>& a, const std::array<Lanes, 2>& b) {
+// T is Lanes or Dual<Lanes>.
+template <class T>
+T dot(const std::array<T, 2>& a, const std::array<T, 2>& b) {
   return a[0] * b[0] + a[1] * b[1];
 }
-Lanes dot(const std::array<Lanes, 3>& a, const std::array<Lanes, 3>& b) {
+template <class T>
+T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-std::array<Lanes, 3> cross(const std::array<Lanes, 3>& a, const std::array<Lanes, 3>& b) {
+template <class T>
+std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-using Tangent2 = std::array<std::array<Lanes, 2>, 1>;
-using Tangents3 = std::array<std::array<Lanes, 3>, 2>;
+template <class T>
+using Tangent2 = std::array<std::array<T, 2>, 1>;
+template <class T>
+using Tangents3 = std::array<std::array<T, 3>, 2>;
 
 /// m, outward for outward facets.
-std::array<Lanes, 2> area_normal(const Tangent2& t) {
+template <class T>
+std::array<T, 2> area_normal(const Tangent2<T>& t) {
   return {t[0][1], -t[0][0]};
 }
-std::array<Lanes, 3> area_normal(const Tangents3& t) {
+template <class T>
+std::array<T, 3> area_normal(const Tangents3<T>& t) {
   return cross(t[0], t[1]);
 }
 /// c_k of b . dm = sum_k c_k . dt_k.
-Tangent2 through_tangents(const Tangent2&, const std::array<Lanes, 2>& b) {
+template <class T>
+Tangent2<T> through_tangents(const Tangent2<T>&, const std::array<T, 2>& b) {
   return {{{-b[1], b[0]}}};
 }
-Tangents3 through_tangents(const Tangents3& t, const std::array<Lanes, 3>& b) {
+template <class T>
+Tangents3<T> through_tangents(const Tangents3<T>& t, const std::array<T, 3>& b) {
   return {cross(t[1], b), cross(b, t[0])};
 }
 
@@ -133,37 +143,60 @@ void SurfacePatches<D>::place(const NodalVector* u, NodalVectors& x) const {
 }
 
 template <int D>
-Real SurfacePatches<D>::group_size(Size size, Index group, const NodalVectors& x,
-                                   Lanes* gradient) const {
-  // From one of its places: neither size depends on the origin, round-off does.
+NodalVectors SurfacePatches<D>::values(const NodalVector* u) const {
+  NodalVectors sums(X_.size());
+  parallel_for(point_count(), [&](Index q) { at(sums, q) = value_at(rows_, q, u); });
+  return sums;
+}
+
+template <int D>
+typename SurfacePatches<D>::template Corners<Lanes> SurfacePatches<D>::corners(
+    Index group, const NodalVectors& x) const {
   const Lanes origin = x.front();
-  std::array<Vector, nodes> place;
+  Corners<Lanes> place;
   for (int lane = 0; lane < 4; ++lane) {
     const auto& node = at(node_, std::min(group * 4 + lane, patches_ - 1));
     for (int a = 0; a < nodes; ++a)
       for (int i = 0; i < D; ++i) at(at(place, a), i).set(lane, (at(x, at(node, a)) - origin)[i]);
   }
-  if (gradient) std::fill_n(gradient, nodes * D, Lanes::zero());
+  return place;
+}
 
-  Lanes total = Lanes::zero();
+template <int D>
+typename SurfacePatches<D>::template Corners<Dual<Lanes>> SurfacePatches<D>::corners(
+    Index group, const NodalVectors& x, const NodalVectors& dx) const {
+  const Corners<Lanes> place = corners(group, x), change = corners(group, dx);
+  Corners<Dual<Lanes>> both;
+  for (int a = 0; a < nodes; ++a)
+    for (int i = 0; i < D; ++i) at(at(both, a), i) = {at(at(place, a), i), at(at(change, a), i)};
+  return both;
+}
+
+template <int D>
+template <class T>
+T SurfacePatches<D>::group_size(Size size, const Corners<T>& place, T* gradient) const {
+  const T zero(0.0);
+  if (gradient) std::fill_n(gradient, nodes * D, zero);
+
+  T total = zero;
   for (const Functions& f : gauss_) {
-    Vector p;
-    std::array<Vector, D - 1> t;
-    p.fill(Lanes::zero());
-    for (Vector& tangent : t) tangent.fill(Lanes::zero());
+    Vector<T> p;
+    std::array<Vector<T>, D - 1> t;
+    p.fill(zero);
+    for (Vector<T>& tangent : t) tangent.fill(zero);
     for (int a = 0; a < nodes; ++a)
       for (int i = 0; i < D; ++i) {
         at(p, i) += at(f.L, a) * at(at(place, a), i);
         for (int k = 0; k < D - 1; ++k) at(at(t, k), i) += at(at(f.dL, k), a) * at(at(place, a), i);
       }
     // The size is sum s; ds = by_place . dx + by_normal . dm.
-    const Vector m = area_normal(t);
-    Vector by_place, by_normal;
+    const Vector<T> m = area_normal(t);
+    Vector<T> by_place, by_normal;
     if (size == Size::area) {
-      const Lanes length = sqrt(dot(m, m));
+      const T length = sqrt(dot(m, m));
       total += f.weight * length;
       for (int i = 0; i < D; ++i) {
-        at(by_place, i) = Lanes::zero();
+        at(by_place, i) = zero;
         at(by_normal, i) = f.weight * at(m, i) / length;
       }
     } else {
@@ -177,13 +210,18 @@ Real SurfacePatches<D>::group_size(Size size, Index group, const NodalVectors& x
     const auto c = through_tangents(t, by_normal);
     for (int a = 0; a < nodes; ++a)
       for (int i = 0; i < D; ++i) {
-        Lanes& g = gradient[a * D + i];
+        T& g = gradient[a * D + i];
         g += at(f.L, a) * at(by_place, i);
         for (int k = 0; k < D - 1; ++k) g += at(at(f.dL, k), a) * at(at(c, k), i);
       }
   }
-  Real sum = 0;  // the last group may have lanes without a patch
-  for (int lane = 0; lane < 4 && group * 4 + lane < patches_; ++lane) sum += total[lane];
+  return total;
+}
+
+template <int D>
+Real SurfacePatches<D>::sum_of_patches(Index group, const Lanes& size) const {
+  Real sum = 0;
+  for (int lane = 0; lane < 4 && group * 4 + lane < patches_; ++lane) sum += size[lane];
   return sum;
 }
 
@@ -196,26 +234,65 @@ Real SurfacePatches<D>::measure(Size size, const NodalVector* u) const {
 
 template <int D>
 Real SurfacePatches<D>::size_of_all(Size size, const NodalVectors& x) const {
-  return parallel_sum(groups(), 0.0, [&](Index g) { return group_size(size, g, x, nullptr); });
+  return parallel_sum(groups(), 0.0, [&](Index g) {
+    return sum_of_patches(g, group_size<Lanes>(size, corners(g, x), nullptr));
+  });
+}
+
+template <int D>
+Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
+                                      const NodalVector* du) const {
+  NodalVectors x(X_.size());
+  place(u, x);
+  const NodalVectors dx = values(du);
+  return parallel_sum(groups(), Dual<Real>(0.0), [&](Index g) -> Dual<Real> {
+    const auto sizes = group_size<Dual<Lanes>>(size, corners(g, x, dx), nullptr);
+    return {sum_of_patches(g, sizes.v), sum_of_patches(g, sizes.d)};
+  });
 }
 
 template <int D>
 Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
   place(u, x_);
   return parallel_sum(groups(), 0.0, [&](Index g) {
-    return group_size(size, g, x_, gradient_.data() + static_cast<std::size_t>(g) * nodes * D);
+    return sum_of_patches(g,
+                          group_size(size, corners(g, x_),
+                                     gradient_.data() + static_cast<std::size_t>(g) * nodes * D));
   });
 }
 
 template <int D>
 void SurfacePatches<D>::add_gradient(Real factor, std::span<NodalVector> force) {
+  scatter(factor, gradient_, force);
+}
+
+template <int D>
+void SurfacePatches<D>::add_gradient_change(Size size, const NodalVector* u, const NodalVector* du,
+                                            const Dual<Real>& factor,
+                                            std::span<NodalVector> force) {
+  NodalVectors x(X_.size());
+  place(u, x);
+  const NodalVectors dx = values(du);
+  AlignedVector<Lanes> change(gradient_.size());
+  parallel_for(groups(), [&](Index g) {
+    std::array<Dual<Lanes>, nodes * D> gradient;
+    group_size(size, corners(g, x, dx), gradient.data());
+    for (int k = 0; k < nodes * D; ++k)
+      at(change, g * nodes * D + k) = factor.v * at(gradient, k).d + factor.d * at(gradient, k).v;
+  });
+  scatter(1, change, force);
+}
+
+template <int D>
+void SurfacePatches<D>::scatter(Real factor, const AlignedVector<Lanes>& gradient,
+                                std::span<NodalVector> force) {
   windows_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index q = begin; q < end; ++q) {
       Lanes sum = Lanes::zero();
       for (Index s = at(share_begin_, q); s < at(share_begin_, q + 1); ++s) {
         const Share& share = at(share_, s);
         for (int i = 0; i < D; ++i)
-          sum.set(i, sum[i] + gradient_[share.entry + static_cast<std::size_t>(i)][share.lane]);
+          sum.set(i, sum[i] + gradient[share.entry + static_cast<std::size_t>(i)][share.lane]);
       }
       scatter_value(rows_, q, factor * sum, f);
     }

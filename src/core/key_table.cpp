@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 namespace meniscus {
 
@@ -24,6 +25,10 @@ void print(std::ostream& out, const KeyTable& table) {
       out << fmt::format(" {:<{}} ", line[i], width[i]);
     out << " " << line.back() << "\n";
   }
+  if (table.example.empty()) return;
+  out << "  example\n";
+  std::istringstream example(table.example);
+  for (std::string line; std::getline(example, line);) out << "    " << line << "\n";
 }
 
 }  // namespace meniscus

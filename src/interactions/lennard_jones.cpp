@@ -113,12 +113,12 @@ class Model final : public ContactModel<D> {
 
 template <int D>
 bool enter() {
-  return register_entry(
-      InteractionEntry<D>{"lennard_jones", "Lennard-Jones between particles spread over both sides",
-                          [] { return key_texts(Keys::rows()); },
-                          [](const Block& block) -> std::unique_ptr<ContactModel<D>> {
-                            return std::make_unique<Model<D>>(read<Keys>(block));
-                          }});
+  return register_entry(InteractionEntry<D>{
+      "lennard_jones", "Lennard-Jones between particles spread over both sides",
+      "epsilon = 1\nsigma0 = 0.3\nbeta = 1\n", [] { return key_texts(Keys::rows()); },
+      [](const Block& block) -> std::unique_ptr<ContactModel<D>> {
+        return std::make_unique<Model<D>>(read<Keys>(block));
+      }});
 }
 
 const bool registered = enter<2>() && enter<3>();

@@ -131,27 +131,47 @@ ReadCheckpoint read_newest(const std::filesystem::path& directory) {
   return read;
 }
 
-std::string frames_with_state(const hdf5::Group& steps) {
-  std::int64_t frames = 0, last = -1;
-  for (; steps.has(fmt::format("{}", frames)); ++frames)
-    if (steps.group(fmt::format("{}", frames)).has("state")) last = frames;
-  if (frames == 0) return "it has no frames";
-  const std::string all = fmt::format("it has the frames 0 to {}", frames - 1);
-  return last < 0 ? all + ", all without the state"
-                  : fmt::format("{}; the last one with the state is {}", all, last);
+std::int64_t frame_count(const hdf5::Group& steps) {
+  std::int64_t frames = 0;
+  while (steps.has(fmt::format("{}", frames))) ++frames;
+  return frames;
 }
 
-ReadCheckpoint read_frame(const std::filesystem::path& path, std::int64_t frame) {
+std::string frames_with_state(const hdf5::Group& steps, std::int64_t first) {
+  const std::int64_t frames = frame_count(steps);
+  std::int64_t last = -1;
+  for (std::int64_t k = 0; k < frames; ++k)
+    if (steps.group(fmt::format("{}", k)).has("state")) last = k;
+  if (frames == 0) return "it has no frames";
+  const std::string all = fmt::format("it has the frames {} to {}", first, first + frames - 1);
+  return last < 0 ? all + ", all without the state"
+                  : fmt::format("{}; the last one with the state is {}", all, first + last);
+}
+
+/// Of a result file or of one in a series, whose frames are counted from `first` on.
+ReadCheckpoint read_frame(const std::filesystem::path& path, std::int64_t frame,
+                          std::int64_t first = 0) {
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group root = file.root();
   if (!root.has("steps"))
     throw FileError(fmt::format("'{}' has no frames: it is not a result file", path.string()));
   const hdf5::Group steps = root.group("steps");
-  const std::string name = fmt::format("{}", frame);
+  const std::string name = fmt::format("{}", frame - first);
   if (!steps.has(name) || !steps.group(name).has("state"))
     throw FileError(fmt::format("cannot continue from frame {} of '{}': {}", frame, path.string(),
-                                frames_with_state(steps)));
+                                frames_with_state(steps, first)));
   return read_state_and_input(steps.group(name), root, path);
+}
+
+ReadCheckpoint read_frame_of_run(const std::filesystem::path& directory, std::int64_t frame) {
+  const auto files = result_series(directory);
+  std::int64_t first = 0;
+  for (std::size_t k = 0; k + 1 < files.size(); ++k) {
+    const std::int64_t frames = frame_count(hdf5::File::open(files[k]).root().group("steps"));
+    if (frame < first + frames) return read_frame(files[k], frame, first);
+    first += frames;
+  }
+  return read_frame(files.empty() ? directory / "run.h5" : files.back(), frame, first);
 }
 
 }  // namespace
@@ -188,7 +208,7 @@ std::filesystem::path CheckpointWriter::write(std::int64_t step, Real time, cons
 ReadCheckpoint read_checkpoint(const std::filesystem::path& path,
                                std::optional<std::int64_t> frame) {
   const bool directory = std::filesystem::is_directory(path);
-  if (frame) return read_frame(directory ? path / "run.h5" : path, *frame);
+  if (frame) return directory ? read_frame_of_run(path, *frame) : read_frame(path, *frame);
   return directory ? read_newest(path) : read_file_of_checkpoint(path);
 }
 

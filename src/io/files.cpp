@@ -79,6 +79,12 @@ void rename_file(const std::filesystem::path& from, const std::filesystem::path&
   if (std::rename(from.c_str(), to.c_str()) != 0) throw_file_error("replace", to, errno);
 }
 
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw_file_error("remove", path, error.value());
+}
+
 void replace_file(const std::filesystem::path& path, std::string_view content) {
   const auto temporary = temporary_name(path);
   std::error_code ignored;

@@ -28,7 +28,7 @@ namespace {
 constexpr herr_t done = 0;
 
 /// Leaves the reason where HDF5, and so the messages of hdf5::check(), look for it.
-herr_t fail(const char* what) {
+herr_t push_error(const char* what) {
   H5Epush2(H5E_DEFAULT, __FILE__, what, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_CANTOPENFILE,
            "%s, error message = '%s'", what, std::strerror(errno));
   return -1;
@@ -146,7 +146,7 @@ struct OrderedFile : H5FD_t {
       const ssize_t n =
           pread(descriptor, buffer + got, size - got, static_cast<off_t>(address + got));
       if (n < 0 && errno == EINTR) continue;
-      if (n < 0) return fail("read");
+      if (n < 0) return push_error("read");
       if (n == 0) break;
       got += static_cast<std::size_t>(n);
     }
@@ -200,9 +200,9 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
   const int mode = (flags & H5F_ACC_RDWR ? O_RDWR : O_RDONLY) |
                    (flags & H5F_ACC_TRUNC ? O_TRUNC : 0) | (flags & H5F_ACC_CREAT ? O_CREAT : 0) |
                    (flags & H5F_ACC_EXCL ? O_EXCL : 0);
-  const int descriptor = open(name, mode | O_CLOEXEC, 0666);
+  const int descriptor = ::open(name, mode | O_CLOEXEC, 0666);
   if (descriptor < 0) {
-    fail("open");
+    push_error("open");
     return nullptr;
   }
   auto* file = new OrderedFile{};

@@ -6,12 +6,11 @@
 #include "meniscus/core/text.hpp"
 #include "meniscus/io/files.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <iterator>
 #include <stdexcept>
 
 namespace meniscus {
@@ -38,7 +37,7 @@ std::vector<std::string> complete_lines(const std::string& content) {
 
 std::string row_text(std::span<const Real> values) {
   std::string row;
-  for (const Real value : values) fmt::format_to(std::back_inserter(row), "{:.17g},", value);
+  for (const Real value : values) row += fmt::format("{:.17g},", value);
   row.back() = '\n';
   return row;
 }

@@ -4,6 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/text.hpp"
+#include "meniscus/io/files.hpp"
 
 #include <fmt/core.h>
 
@@ -14,19 +15,19 @@
 
 #include "hdf5_file.hpp"
 #include "meta.hpp"
+#include "result_series.hpp"
 #include "vtkhdf.hpp"
-#include "xdmf.hpp"
 
 namespace meniscus {
 namespace {
 
 std::int64_t particle_count(const BodyReference& body) {
-  const Field& first = body.arrays.at(0);
+  const ResultField& first = body.arrays.at(0);
   return std::ssize(first.values) / first.components;
 }
 
 /// 2D vectors are stored with z = 0.
-int stored_components(const Field& field) {
+int stored_components(const ResultField& field) {
   switch (field.components) {
     case 1:
     case 3:
@@ -48,7 +49,7 @@ std::vector<Real> with_zero_z(std::span<const Real> xy) {
   return xyz;
 }
 
-void require_size(const Field& field, std::int64_t particles) {
+void require_size(const ResultField& field, std::int64_t particles) {
   if (std::ssize(field.values) != particles * field.components)
     throw std::invalid_argument(fmt::format("field '{}' has {} numbers for {} particles of {}",
                                             field.name, field.values.size(), particles,
@@ -65,7 +66,7 @@ void require_field_name(const std::string& name) {
     throw std::invalid_argument(fmt::format("'{}' cannot be the name of a field", name));
 }
 
-void write_field(hdf5::Group& group, const Field& field, hdf5::Storage storage) {
+void write_field(hdf5::Group& group, const ResultField& field, hdf5::Storage storage) {
   const int columns = stored_components(field);
   const hdf5::Shape shape{std::ssize(field.values) / field.components, columns};
   if (columns == field.components)
@@ -90,10 +91,11 @@ class ResultFile::Writer {
   Writer(const RunDirectory& directory, const Provenance& provenance,
          std::span<const BodyReference> bodies, const ResultOptions& options)
       : options_(options),
-        path_(directory.result_file()),
-        xdmf_(directory.path() / "run.xdmf", path_.filename().string()),
+        sidecars_(directory.path()),
+        path_(place_in_series(directory, options.epoch, sidecars_)),
         continuing_(options.continue_after && std::filesystem::exists(path_)),
-        file_(continuing_ ? hdf5::File::open_to_append(path_) : hdf5::File::create(path_)) {
+        file_(continuing_ ? hdf5::File::open_to_append(path_)
+                          : hdf5::File::create(temporary_name(path_))) {
     for (const BodyReference& body : bodies) {
       bodies_.push_back({body.name, particles_});
       particles_ += particle_count(body);
@@ -104,16 +106,19 @@ class ResultFile::Writer {
       note_continuation(provenance);
     } else {
       hdf5::Group root = file_.root();
+      root.set("epoch", options_.epoch);
       write_meta(root, provenance);
       write_reference(bodies);
       root.create_group("steps");
+      file_.flush();
+      rename_file(temporary_name(path_), path_);  // a file of the series says of which epoch it is
     }
     file_.flush();
   }
 
-  std::int64_t write_frame(std::int64_t step, Real time, std::span<const Field> fields,
+  std::int64_t write_frame(std::int64_t step, Real time, std::span<const ResultField> fields,
                            const Snapshot* state) {
-    for (const Field& field : fields) require_storable(field, step);
+    for (const ResultField& field : fields) require_storable(field, step);
     if (state) state->require_finite();
     if (!layout_) layout_ = layout_of(fields);
     require_same_layout(layout_of(fields));
@@ -123,7 +128,7 @@ class ResultFile::Writer {
     hdf5::Group frame = steps.create_group(name);
     frame.set("step", step);
     frame.set("time", time);
-    for (const Field& field : fields) write_field(frame, field, storage());
+    for (const ResultField& field : fields) write_field(frame, field, storage());
     if (state) write_state(frame, *state);
     if (!root.has("VTKHDF")) vtkhdf::create(root, *layout_, body_of_particle(), options_.time_unit);
     vtkhdf::append(root, *layout_, frames_, time);
@@ -131,8 +136,8 @@ class ResultFile::Writer {
     vtkhdf::announce(root, frames_ + 1);
     file_.flush();
 
-    xdmf_.add_frame(frames_, time, *layout_);
-    xdmf_.write();
+    sidecars_.add_frame(path_.filename().string(), frames_, time, *layout_);
+    sidecars_.write();
     return frames_++;
   }
 
@@ -150,14 +155,14 @@ class ResultFile::Writer {
     return {single ? hdf5::Type::float32 : hdf5::Type::float64, options_.compression};
   }
 
-  FrameLayout layout_of(std::span<const Field> fields) const {
+  FrameLayout layout_of(std::span<const ResultField> fields) const {
     FrameLayout layout{particles_, storage().type, {}};
-    for (const Field& field : fields)
+    for (const ResultField& field : fields)
       layout.fields.push_back({field.name, stored_components(field), field.unit});
     std::sort(layout.fields.begin(), layout.fields.end(),
               [](const auto& a, const auto& b) { return a.name < b.name; });
     if (std::none_of(fields.begin(), fields.end(),
-                     [](const Field& field) { return field.name == "position"; }))
+                     [](const ResultField& field) { return field.name == "position"; }))
       throw std::invalid_argument("a frame needs the field 'position'");
     return layout;
   }
@@ -170,7 +175,7 @@ class ResultFile::Writer {
                     path_.string(), describe(*layout_), describe(layout)));
   }
 
-  void require_storable(const Field& field, std::int64_t step) const {
+  void require_storable(const ResultField& field, std::int64_t step) const {
     require_field_name(field.name);
     require_size(field, particles_);
     const bool single = storage().type == hdf5::Type::float32;
@@ -207,7 +212,7 @@ class ResultFile::Writer {
       group.set("id", static_cast<std::int64_t>(b));
       group.set("particles", particle_count(bodies[b]));
       group.set("first_particle", bodies_[b].first_particle);
-      for (const Field& array : bodies[b].arrays) {
+      for (const ResultField& array : bodies[b].arrays) {
         require_size(array, particle_count(bodies[b]));
         write_field(group, array, {hdf5::Type::float64, options_.compression});
       }
@@ -250,14 +255,14 @@ class ResultFile::Writer {
       if (frame.integer("step") > *options_.continue_after) break;
       const Real time = frame.real("time");
       vtkhdf::append(root, *layout_, frames_, time);
-      xdmf_.add_frame(frames_++, time, *layout_);
+      sidecars_.add_frame(path_.filename().string(), frames_++, time, *layout_);
     }
     dropped_frames_ = stored - frames_;
     for (std::int64_t k = frames_; k < stored; ++k) steps.remove(fmt::format("{}", k));
     file_.flush();
     if (layout_) vtkhdf::announce(root, frames_);
     file_.flush();
-    xdmf_.write();
+    sidecars_.write();
   }
 
   /// /meta keeps the provenance of the first part; later parts are listed below it.
@@ -271,8 +276,9 @@ class ResultFile::Writer {
   }
 
   ResultOptions options_;
+  Sidecars sidecars_;
   std::filesystem::path path_;
-  XdmfSidecar xdmf_;
+  RemovedUnlessRenamed unfinished_{temporary_name(path_)};
   bool continuing_;
   hdf5::File file_;
   std::vector<BodyRange> bodies_;
@@ -285,8 +291,8 @@ ResultFile::ResultFile(const RunDirectory& directory, const Provenance& provenan
     : writer_(std::make_unique<Writer>(directory, provenance, bodies, options)) {}
 ResultFile::~ResultFile() = default;
 
-std::int64_t ResultFile::write_frame(std::int64_t step, Real time, std::span<const Field> fields,
-                                     const Snapshot* state) {
+std::int64_t ResultFile::write_frame(std::int64_t step, Real time,
+                                     std::span<const ResultField> fields, const Snapshot* state) {
   return writer_->write_frame(step, time, fields, state);
 }
 

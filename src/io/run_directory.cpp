@@ -17,7 +17,8 @@ namespace {
 
 /// Everything a run writes. One of the first four makes a directory count as used.
 constexpr const char* run_files[] = {"run.h5",      "checkpoint-a.h5", "checkpoint-b.h5",
-                                     "history.csv", "run.xdmf",        "run.log"};
+                                     "history.csv", "run.xdmf",        "run.h5.series",
+                                     "run.log"};
 constexpr int telling_files = 4;
 
 void refuse_existing_run(const std::filesystem::path& directory) {
@@ -29,22 +30,30 @@ void refuse_existing_run(const std::filesystem::path& directory) {
                       directory.string(), run_files[i]));
 }
 
-void remove_file(const std::filesystem::path& file) {
-  std::error_code error;
-  std::filesystem::remove(file, error);
-  if (error) throw_file_error("remove", file, error.value());
+std::filesystem::path in_series(const std::filesystem::path& directory, std::size_t number) {
+  return directory / (number == 0 ? std::string("run.h5") : fmt::format("run.{}.h5", number));
 }
 
 /// What a run that was killed had not brought to its place yet.
 void remove_temporaries(const std::filesystem::path& directory) {
   for (const char* name : run_files) remove_file(temporary_name(directory / name));
+  remove_file(temporary_name(in_series(directory, result_series(directory).size())));
 }
 
 void remove_run(const std::filesystem::path& directory) {
+  const auto series = result_series(directory);
+  for (auto file = series.rbegin(); file != series.rend(); ++file) remove_file(*file);
   for (const char* name : run_files) remove_file(directory / name);
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> result_series(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  while (std::filesystem::exists(in_series(directory, files.size())))
+    files.push_back(in_series(directory, files.size()));
+  return files;
+}
 
 RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
     : path_(std::move(path)) {
@@ -64,6 +73,10 @@ RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
 
 RunDirectory::~RunDirectory() {
   close(lock_);
+}
+
+std::filesystem::path RunDirectory::result_file(std::size_t number) const {
+  return in_series(path_, number);
 }
 
 void RunDirectory::lock() {

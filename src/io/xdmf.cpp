@@ -24,21 +24,19 @@ const char* attribute_type(int components) {
   }
 }
 
-}  // namespace
-
-XdmfSidecar::XdmfSidecar(std::filesystem::path path, std::string hdf5_name)
-    : path_(std::move(path)), hdf5_name_(std::move(hdf5_name)) {}
-
-std::string XdmfSidecar::data_item(const std::string& array, std::int64_t rows, int columns,
-                                   hdf5::Type type) const {
+/// `array` is the file and the place in it.
+std::string data_item(const std::string& array, std::int64_t rows, int columns, hdf5::Type type) {
   const bool integer = type == hdf5::Type::int64;
   return fmt::format(
-      R"(<DataItem Dimensions="{}{}" NumberType="{}" Precision="{}" Format="HDF">{}:{}</DataItem>)",
+      R"(<DataItem Dimensions="{}{}" NumberType="{}" Precision="{}" Format="HDF">{}</DataItem>)",
       rows, columns == 1 ? "" : fmt::format(" {}", columns), integer ? "Int" : "Float",
-      type == hdf5::Type::float32 ? 4 : 8, hdf5_name_, array);
+      type == hdf5::Type::float32 ? 4 : 8, array);
 }
 
-void XdmfSidecar::add_frame(std::int64_t k, Real time, const FrameLayout& layout) {
+}  // namespace
+
+void XdmfSidecar::add_frame(const std::string& hdf5_name, std::int64_t k, Real time,
+                            const FrameLayout& layout) {
   const std::int64_t n = layout.particles;
   const auto add = [&](const std::string& line) { frames_ += line + '\n'; };
   const auto add_attribute = [&](const std::string& name, int components, const std::string& item) {
@@ -50,15 +48,18 @@ void XdmfSidecar::add_frame(std::int64_t k, Real time, const FrameLayout& layout
   add(fmt::format(R"(<Time Value="{:.17g}"/>)", time));
   add(fmt::format(
       R"(<Topology TopologyType="Polyvertex" NumberOfElements="{}" NodesPerElement="1">)", n));
-  add(data_item("/VTKHDF/Vertices/Connectivity", n, 1, hdf5::Type::int64) + "</Topology>");
+  add(data_item(hdf5_name + ":/VTKHDF/Vertices/Connectivity", n, 1, hdf5::Type::int64) +
+      "</Topology>");
   add(R"(<Geometry GeometryType="XYZ">)");
-  add(data_item(fmt::format("/steps/{}/position", k), n, 3, layout.precision) + "</Geometry>");
-  add_attribute("body", 1, data_item("/VTKHDF/PointData/body", n, 1, hdf5::Type::int64));
+  add(data_item(fmt::format("{}:/steps/{}/position", hdf5_name, k), n, 3, layout.precision) +
+      "</Geometry>");
+  add_attribute("body", 1,
+                data_item(hdf5_name + ":/VTKHDF/PointData/body", n, 1, hdf5::Type::int64));
   for (const StoredField& field : layout.fields)
     if (field.name != "position")
       add_attribute(field.name, field.components,
-                    data_item(fmt::format("/steps/{}/{}", k, field.name), n, field.components,
-                              layout.precision));
+                    data_item(fmt::format("{}:/steps/{}/{}", hdf5_name, k, field.name), n,
+                              field.components, layout.precision));
   add("</Grid>");
 }
 

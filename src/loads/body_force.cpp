@@ -4,11 +4,14 @@
 
 #include "meniscus/scene/assembly.hpp"
 
-namespace meniscus {
+namespace meniscus::body_force_load {
 namespace {
 
 template <int D>
 struct BodyForce final : Load<D> {
+  static constexpr std::string_view example =
+      D == 3 ? "body = \"drop\"\nacceleration = [\"0.1*x*cos(t)\", 0, -1]\n"
+             : "body = \"drop\"\nacceleration = [\"0.1*x*cos(t)\", -1]\n";
   std::string body;
   std::vector<Expression> acceleration;
 
@@ -30,4 +33,4 @@ const bool registered =
     register_load<BodyForce>("body_force", Stage::volume, "force per mass, e.g. gravity");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::body_force_load

@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-namespace meniscus {
+namespace meniscus::cavity_load {
 namespace {
 
 struct Keys {
@@ -39,6 +39,8 @@ Rows<Keys> Keys::rows() {
 
 template <int D>
 struct Cavity final : Load<D>, Keys {
+  static constexpr std::string_view example =
+      "body = \"drop\"\nsurface = \"outer\"\npressure = 0.3\n";
   std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }
 
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
@@ -55,6 +57,7 @@ struct Cavity final : Load<D>, Keys {
     const SurfacePart part = surface == "inner" ? SurfacePart::inner : SurfacePart::outer;
     const CavityFilling filling{pressure, volume_target, penalty.value_or(0), ramp};
     assembly.add(cavity(assembly.body(body), part, filling, points), body);
+    assembly.keep_reference(body, "its [[cavity]] depends on the volume of the reference");
   }
 };
 
@@ -62,4 +65,4 @@ const bool registered =
     register_load<Cavity>("cavity", Stage::surface, "what fills a closed surface");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::cavity_load

@@ -3,12 +3,14 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/optional_rows.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
+#include "meniscus/physics/contact_resolution.hpp"
+#include "meniscus/physics/containment.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
 
 #include <fmt/core.h>
 
-namespace meniscus {
+namespace meniscus::contact_load {
 namespace {
 
 struct Keys {
@@ -37,10 +39,16 @@ Rows<Keys> Keys::rows() {
                  "surface forms: beta per current volume, or per reference volume (beta/J); the "
                  "form volume is referential",
                  "constant"),
-      integer_row("points", &Keys::points, {1, 20},
-                  "Gauss points per direction and facet of the surface (form volume: cell)", 2),
+      integer_row(
+          "points", &Keys::points, {0, 20},
+          "Gauss points per direction and facet of the surface (form volume: cell); 0: so "
+          "many that tangential forces of smooth bodies stay below 1e-3 of the normal ones, "
+          "2 to 8 (rigid partners: to 4, form volume: 2)",
+          0),
       real_row("skin", &Keys::skin, dimension::none, {0.01, 10},
-               "reach of the list beyond the cut-off / sigma0", 0.4),
+               "reach of the list beyond the cut-off / sigma0 (a law of the gap: / quarter of its "
+               "range)",
+               0.4),
   };
 }
 
@@ -69,20 +77,26 @@ std::vector<KeyTable> tables_of_parts() {
   for (const auto& [name, interaction] : interactions<3>())
     tables.push_back(
         {fmt::format("[[contact]] interaction = \"{}\": {}", name, interaction.meaning),
-         interaction.keys()});
+         interaction.keys(),
+         fmt::format("[[contact]]\nbodies = [\"drop\", \"other\"]\ninteraction = \"{}\"\n{}", name,
+                     interaction.example)});
   // In the plane there are all partners of space, and more.
   tables.push_back({"[contact.partner] of any type", key_texts(Partner<2>::rows())});
   for (const auto& [name, partner] : partners<2>()) {
     const auto* in_space = partners<3>().find(name);
     tables.push_back({fmt::format("[contact.partner] type = \"{}\"{}: {}", name,
                                   in_space ? "" : " (2D)", partner.meaning),
-                      in_space ? in_space->keys() : partner.keys()});
+                      in_space ? in_space->keys() : partner.keys(),
+                      fmt::format("[contact.partner]\ntype = \"{}\"\n{}", name,
+                                  in_space ? in_space->example : partner.example)});
   }
   return tables;
 }
 
 template <int D>
 struct Contact final : Load<D>, Keys {
+  static constexpr std::string_view example =
+      "bodies = [\"drop\", \"other\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\n";
   std::unique_ptr<const ContactModel<D>> model;
   std::optional<Partner<D>> partner;  // none: between two bodies
 
@@ -102,14 +116,21 @@ struct Contact final : Load<D>, Keys {
   void build(Assembly<D>& assembly) const override;
 
  private:
-  ContactChoice choice() const;
+  ContactChoice choice(const Assembly<D>& assembly) const;
+  ContactResolution resolution(const Assembly<D>& assembly) const;
+  int points_chosen(const Assembly<D>& assembly) const;
   std::unique_ptr<ForceTerm> term(const Assembly<D>& assembly) const;
+  RigidMotion<D> partner_motion() const;
   void require_gap(ForceTerm& term, const State& initial) const;
+  void require_points_to_meet(const Assembly<D>& assembly) const;
+  void report_points(Assembly<D>& assembly) const;
+  StateCheck containment(const Assembly<D>& assembly) const;
   void report(const ForceTerm& term, Assembly<D>& assembly) const;
 };
 
 template <int D>
 void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
+  require_plain_name(block, name);
   const std::size_t wanted = partner ? 1 : 2;
   if (block.has("bodies") && bodies.size() != wanted)
     block.problem("bodies", fmt::format("names {} bodies; allowed are two, or one with a "
@@ -131,20 +152,45 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
 
 template <int D>
 void Contact<D>::build(Assembly<D>& assembly) const {
+  require_points_to_meet(assembly);
   std::unique_ptr<ForceTerm> term = this->term(assembly);
-  require_gap(*term, assembly.initial());
+  const StateCheck inside = containment(assembly);
+  if (const State* initial = assembly.initial()) {
+    if (const auto failure = inside(initial->motion()))
+      throw InputError(fmt::format("{}: {}; move the bodies apart", this->place,
+                                   assembly.located(*failure).text()));
+    require_gap(*term, *initial);
+  }
+  assembly.check(inside);
   report(*term, assembly);
+  if (density == "referential" || form == "volume")
+    for (const std::string& body : bodies)
+      assembly.keep_reference(body, "its [[contact]] has beta per volume of the reference");
   assembly.add(std::move(term), name);
 }
 
 template <int D>
-ContactChoice Contact<D>::choice() const {
+ContactResolution Contact<D>::resolution(const Assembly<D>& assembly) const {
+  Real facet = 0;
+  for (const std::string& body : bodies) facet = std::max(facet, facet_size(assembly.body(body)));
+  const bool rigid = partner.has_value();
+  return {facet, model->flat(rigid).equilibrium_gap, rigid};
+}
+
+template <int D>
+int Contact<D>::points_chosen(const Assembly<D>& assembly) const {
+  if (points > 0) return points;
+  return form == "volume" ? 2 : resolution(assembly).enough_points();
+}
+
+template <int D>
+ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
   ContactChoice choice;
   choice.name = name;
   for (std::size_t k = 0; k < contact_form_names.size(); ++k)
     if (contact_form_names[k] == form) choice.form = static_cast<ContactForm>(k);
   choice.density = density == "constant" ? SiteDensity::constant : SiteDensity::referential;
-  choice.points = points;
+  choice.points = points_chosen(assembly);
   choice.skin = skin;
   return choice;
 }
@@ -152,10 +198,14 @@ ContactChoice Contact<D>::choice() const {
 template <int D>
 std::unique_ptr<ForceTerm> Contact<D>::term(const Assembly<D>& assembly) const {
   const Body<D>& first = assembly.body(bodies[0]);
-  if (!partner) return model->between(first, assembly.body(bodies[1]), choice());
-  RigidMotion<D> motion;
-  if (!partner->displacement.empty()) motion = RigidMotion<D>(partner->displacement);
-  return model->with_partner(first, {partner->shape, motion, 1e-4 * assembly.end_time()}, choice());
+  if (!partner) return model->between(first, assembly.body(bodies[1]), choice(assembly));
+  return model->with_partner(first, {partner->shape, partner_motion(), 1e-4 * assembly.end_time()},
+                             choice(assembly));
+}
+
+template <int D>
+RigidMotion<D> Contact<D>::partner_motion() const {
+  return partner->displacement.empty() ? RigidMotion<D>() : RigidMotion<D>(partner->displacement);
 }
 
 /// Two surfaces that start closer than the least gap have forces that no step can follow.
@@ -164,6 +214,55 @@ void Contact<D>::require_gap(ForceTerm& term, const State& initial) const {
   NodalVectors force(initial.u.size(), Lanes::zero());
   if (const auto failure = term.add_force(initial.motion(), force).failure)
     throw InputError(fmt::format("{}: {}; move the bodies apart", this->place, failure->cause));
+}
+
+/// Surfaces whose points lie farther apart than the interaction reaches go through each other.
+template <int D>
+void Contact<D>::require_points_to_meet(const Assembly<D>& assembly) const {
+  const ContactResolution r = resolution(assembly);
+  const int chosen = points_chosen(assembly);
+  if (!r.unfelt(chosen)) return;
+  throw InputError(fmt::format(
+      "{}: the contact points of '{}' and '{}' are {:.3g} apart, {} per direction and facet, where "
+      "their equilibrium gap is {:.3g}: they would pass between each other unfelt; allowed are "
+      "distances up to {:.3g} (finer bodies, or an interaction of longer reach)",
+      this->place, bodies[0], bodies[1], r.facet / chosen, chosen, r.gap, r.longest_spacing()));
+}
+
+/// How many points there are, and what their distance costs.
+template <int D>
+void Contact<D>::report_points(Assembly<D>& assembly) const {
+  if (form == "volume") return;
+  const ContactResolution r = resolution(assembly);
+  const int chosen = points_chosen(assembly);
+  assembly.note(fmt::format(
+      "contact '{}': {} points per direction and facet{}, {:.3g} {} apart: {} up to {:.1g} of the "
+      "normal force{}",
+      name, chosen, points > 0 ? "" : " (chosen)", r.facet / chosen,
+      assembly.units().symbol(dimension::length), r.rigid ? "torque" : "tangential force",
+      r.tangential_share(chosen), r.rigid ? " times a radius" : ""));
+}
+
+/// Nothing but the forces keeps bodies out of each other: a body that went through the surface of
+/// another all the same must not run on.
+template <int D>
+StateCheck Contact<D>::containment(const Assembly<D>& assembly) const {
+  const Body<D>& first = assembly.body(bodies[0]);
+  const auto named = [term = fmt::format("contact '{}'", name)](std::optional<Failure> failure) {
+    if (failure) failure->term = term;
+    return failure;
+  };
+  if (!partner)
+    return [named, &first, &second = assembly.body(bodies[1])](const Motion& motion) {
+      return named(body_inside(first, second, motion));
+    };
+  return [named, &first, places = partner->shape->places(),
+          moved = partner_motion()](const Motion& motion) {
+    if (places.empty()) return std::optional<Failure>();
+    std::vector<Vec<D>> now = places;
+    for (Vec<D>& x : now) x += moved.displacement(motion.time);
+    return named(partner_inside<D>(first, now, motion));
+  };
 }
 
 /// Adhesion, gap, strength and stiffness of the contact as if it were flat.
@@ -185,6 +284,7 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   assembly.note(note);
   assembly.note(
       fmt::format("contact '{}': {:.1f} MB", name, 1e-6 * static_cast<Real>(term.bytes())));
+  report_points(assembly);
   if (form == "dissertation")
     assembly.warn(fmt::format(
         "contact '{}': form = \"dissertation\" is not the gradient of an energy: energy drifts at "
@@ -201,4 +301,4 @@ const bool registered = register_load<Contact>(
     "contact", Stage::contact, "adhesive contact of two bodies, or of one with a rigid partner");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::contact_load

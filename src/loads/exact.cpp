@@ -3,11 +3,15 @@
 #include "meniscus/measure/shape_measures.hpp"
 #include "meniscus/scene/assembly.hpp"
 
-namespace meniscus {
+namespace meniscus::exact_load {
 namespace {
 
 template <int D>
 struct Exact final : Load<D> {
+  static constexpr std::string_view example =
+      D == 3
+          ? "body = \"drop\"\ndisplacement = [\"0.1*t\", 0, 0]\nvelocity = [0.1, 0, 0]\nrate = 1\n"
+          : "body = \"drop\"\ndisplacement = [\"0.1*t\", 0]\nvelocity = [0.1, 0]\nrate = 1\n";
   std::string body;
   std::vector<Expression> displacement, velocity;
   Real rate = 0;
@@ -36,4 +40,4 @@ const bool registered =
     register_load<Exact>("exact", Stage::volume, "measure: error against a known motion");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::exact_load

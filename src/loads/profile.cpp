@@ -6,10 +6,11 @@
 
 #include <fmt/core.h>
 
-namespace meniscus {
+namespace meniscus::profile_load {
 namespace {
 
 struct Profile final : Load<3> {
+  static constexpr std::string_view example = "body = \"shell\"\nr = [0, 2]\nz = [0.8, 0]\n";
   std::string body, label;
   std::vector<Real> r, z;
 
@@ -41,4 +42,4 @@ const bool registered = register_load_in<3, Profile>("profile", Stage::surface,
                                                      "measure: distance from a known profile (3D)");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::profile_load

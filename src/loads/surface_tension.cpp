@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace meniscus {
+namespace meniscus::surface_tension_load {
 namespace {
 
 struct Keys {
@@ -43,11 +43,13 @@ Rows<Keys> Keys::rows() {
 
 template <int D>
 struct SurfaceTension final : Load<D>, Keys {
+  static constexpr std::string_view example = "body = \"drop\"\ngamma = 1\n";
   std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }
+  std::string claim() const override { return "the surface of '" + body + "'"; }
 
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     const BodyPlan<D>* planned = require_body(block, bodies, body);
-    if (planned && form == "curvature" && !planned->geometry.smooth)
+    if (planned && form == "curvature" && !planned->geometry.surface->smooth())
       block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
                                         "undefined; allowed are balanced, weak, triangles",
                                         body));
@@ -87,4 +89,4 @@ const bool registered = register_load<SurfaceTension>("surface_tension", Stage::
                                                       "tension of the whole surface of a body");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::surface_tension_load

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // St.Venant-Kirchhoff solid: linear in the Green strain. For small strains; it loses ellipticity
 // already at moderate compression (constitutive note 3.1).
+#include "meniscus/core/dense.hpp"
 #include "meniscus/physics/lame_solid.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <fmt/core.h>
-
-#include <Eigen/Eigenvalues>
 
 namespace meniscus {
 namespace {
@@ -37,9 +36,7 @@ struct StVenantKirchhoff : LameSolid {
     Eigen::Matrix3d strain;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) strain(i, j) = E(i, j);
-    const Real least =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(strain, Eigen::EigenvaluesOnly)
-            .eigenvalues()[0];
+    const Real least = symmetric_eigenvalues<3>(strain)[0];
     if (lambda * trace(E) + mu * (1 + 4 * least) > 0) return {};
     return fmt::format(
         "the compression (least principal stretch {:.3g}, J = {:.3g}) is beyond what "

@@ -3,9 +3,9 @@
 #include "meniscus/measure/meridian_shape.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/parallel.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,14 +25,6 @@ Real height_at(std::span<const Real> r, std::span<const Real> z, Real where) {
     return (1 - s) * z[k] + s * z[k + 1];
   }
   return z[where < r.front() ? 0 : r.size() - 1];
-}
-
-/// The rotation Q that brings Q A closest to B, from sum w B A^T (Kabsch).
-Mat<3> best_rotation(const Mat<3>& moment) {
-  const Eigen::JacobiSVD<Mat<3>> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Mat<3> sign = Mat<3>::Identity();
-  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  return svd.matrixU() * sign * svd.matrixV().transpose();
 }
 
 /// Largest value of a sampled function: the vertex of the parabola through the largest sample and
@@ -70,6 +62,7 @@ Real evans_fung_thickness(Real x) {
 }
 
 Meridians::Meridians(const Body<3>& body) : body_(body), centre_(Vec<3>::Zero()) {
+  const SmoothMap<3>& map = mapped_patches(*body.geometry.surface).map();
   Real total = 0;
   for (int m = 0; m < meridians; ++m)
     for (int k = 0; k < points; ++k) {
@@ -77,7 +70,7 @@ Meridians::Meridians(const Body<3>& body) : body_(body), centre_(Vec<3>::Zero())
       const Real theta = std::numbers::pi * k / (points - 1);
       const Vec<3> direction(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                              std::cos(theta));
-      X_.push_back(body.geometry.map(direction).x);
+      X_.push_back(map(direction).x);
       weight_.push_back(std::sin(theta));
       total += weight_.back();
       centre_ += weight_.back() * X_.back();

@@ -5,9 +5,9 @@
 
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/box.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/measure/measure_registry.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -55,7 +55,7 @@ class SurfacePlaces {
       normal += mode * mode.transpose();
       right += r * mode;
     }
-    return normal.ldlt().solve(right);
+    return solve_symmetric<3>(normal, right);
   }
 
  private:

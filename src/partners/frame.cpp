@@ -2,12 +2,15 @@
 // Rigid frame around a rectangle.
 #include "meniscus/physics/partner_registry.hpp"
 
+#include <fmt/core.h>
+
 #include <limits>
 
 namespace meniscus {
 namespace {
 
 struct Frame final : PartnerShape<2> {
+  static constexpr std::string_view example = "low = [-1.3, -1.4]\nhigh = [2, 3]\n";
   std::vector<Real> low, high;
   Real thickness = 0;
 
@@ -19,6 +22,12 @@ struct Frame final : PartnerShape<2> {
             real_row("thickness", &Frame::thickness, dimension::length, range::non_negative,
                      "of the walls; 0: infinite", 0.0)};
   }
+  void check(const Block& block) const {
+    for (int i = 0; i < 2; ++i)
+      if (!(at(high, i) > at(low, i)))
+        block.problem("high", fmt::format("{}: {:.6g} is not above {:.6g} of low; allowed is more",
+                                          i == 0 ? "x" : "y", at(high, i), at(low, i)));
+  }
   /// Of the nearest of the four walls, seen from inside the room.
   Foot foot(const Vec<2>& x) const override {
     Foot nearest{std::numeric_limits<Real>::infinity(), Vec<2>::Zero(), Mat<2>::Zero()};
@@ -28,6 +37,13 @@ struct Frame final : PartnerShape<2> {
       if (below_high < nearest.distance) nearest = {below_high, -Vec<2>::Unit(i), Mat<2>::Zero()};
     }
     return nearest;
+  }
+  /// The middle of the corners of walls that end somewhere.
+  std::vector<Vec<2>> places() const override {
+    if (!(thickness > 0)) return {};
+    const Vec<2> a = Vec<2>::Map(low.data()) - Vec<2>::Constant(thickness / 2),
+                 b = Vec<2>::Map(high.data()) + Vec<2>::Constant(thickness / 2);
+    return {a, {b.x(), a.y()}, b, {a.x(), b.y()}};
   }
   std::unique_ptr<RigidPartner<2>> lennard_jones(const ContactLaw& law, Real beta) const override {
     return rigid_frame(law, beta, Vec<2>::Map(low.data()), Vec<2>::Map(high.data()),

@@ -2,11 +2,15 @@
 // Rigid half space.
 #include "meniscus/physics/partner_registry.hpp"
 
+#include <cmath>
+
 namespace meniscus {
 namespace {
 
 template <int D>
 struct HalfSpace final : PartnerShape<D> {
+  static constexpr std::string_view example = D == 3 ? "point = [0, 0, -1.3]\nnormal = [0, 0, 1]\n"
+                                                     : "point = [0, -1.3]\nnormal = [0, 1]\n";
   std::vector<Real> point, normal;
 
   static Rows<HalfSpace> rows() {
@@ -14,6 +18,11 @@ struct HalfSpace final : PartnerShape<D> {
                       "a point of the plane"),
             reals_row("normal", &HalfSpace::normal, D, dimension::none, range::any,
                       "out of the solid, of any length")};
+  }
+  void check(const Block& block) const {
+    const Real length = Vec<D>::Map(normal.data()).norm();
+    if (!(length > 0 && std::isfinite(length)))
+      block.problem("normal", "has no direction; allowed is any vector of a finite length > 0");
   }
   typename PartnerShape<D>::Foot foot(const Vec<D>& x) const override {
     const Vec<D> n = Vec<D>::Map(normal.data()).normalized();

@@ -7,6 +7,11 @@ namespace {
 
 template <int D, bool hollow>
 struct Round final : PartnerShape<D> {
+  static constexpr std::string_view example =
+      hollow
+          ? (D == 3 ? "centre = [0, 0.1, 0]\nradius = 1.4\n" : "centre = [0.1, 0]\nradius = 1.4\n")
+          : (D == 3 ? "centre = [0, 0.2, -2]\nradius = 0.7\n"
+                    : "centre = [0.2, -2]\nradius = 0.7\n");
   std::vector<Real> centre;
   Real radius = 0;
 
@@ -20,6 +25,10 @@ struct Round final : PartnerShape<D> {
     const Vec<D> k = r > 0 ? Vec<D>(arm / r) : Vec<D>::Unit(0);
     const Mat<D> across = Mat<D>::Identity() - k * k.transpose();
     return {sign * (r - radius), sign * k, r > 0 ? Mat<D>(sign / r * across) : Mat<D>::Zero()};
+  }
+  std::vector<Vec<D>> places() const override {
+    if (hollow) return {};
+    return {Vec<D>::Map(centre.data())};
   }
   std::unique_ptr<RigidPartner<D>> lennard_jones(const ContactLaw& law, Real beta) const override {
     const Vec<D> place = Vec<D>::Map(centre.data());

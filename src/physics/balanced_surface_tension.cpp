@@ -27,6 +27,11 @@ class BalancedSurfaceTension final : public TensionForm<D> {
     patches_.add_gradient(-this->gamma_ * correction_, this->own_part(force));
     return {};
   }
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    patches_.add_gradient_change(Size::area, this->displacements(motion),
+                                 this->displacements(change), -this->gamma_ * correction_,
+                                 this->own_part(force));
+  }
   std::size_t bytes() const override { return patches_.bytes(); }
   Offset pairs() const override { return patches_.pairs(); }
 

@@ -22,6 +22,7 @@ class BodyForce final : public ForceTerm {
     for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += at(load_, A);
     return {};
   }
+  void add_tangent(const Motion&, const Motion&, Forces) override {}  // the same everywhere
   Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
   Real load_power(const Motion& motion) override {
     evaluate(motion.time);
@@ -36,7 +37,7 @@ class BodyForce final : public ForceTerm {
   void evaluate(Real time) {
     if (time == evaluated_at_ || (steady_ && evaluated_at_ > never)) return;
     for (Index A = 0; A < body_.size(); ++A) {
-      const Eigen::Vector3d X = spatial<D>(at(body_.particles.X(), A));
+      const Eigen::Vector3d X = spatial<D>(body_.origin(A));
       at(load_, A) = Lanes::zero();
       for (int i = 0; i < D; ++i)
         at(load_, A).set(i, at(body_.mass, A) * at(acceleration_, i)(X, time));

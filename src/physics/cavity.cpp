@@ -39,6 +39,21 @@ class Cavity final : public ForceTerm {
     return report;
   }
 
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    if (vented()) return;
+    const Body<D>& body = surface_.body();
+    // The volume is a polynomial of third degree: central differences of its gradient are exact.
+    const NodalVectors here = volume_gradient(motion, 0, change),
+                       ahead = volume_gradient(motion, 1, change),
+                       behind = volume_gradient(motion, -1, change);
+    const Real dV = parallel_sum(
+        body.size(), 0.0, [&](Index A) { return sum(at(here, A) * at(change.u, body.first + A)); });
+    const Real p = pressure(motion.time, volume(motion));
+    const Real dp = filling_.pressure ? 0 : -filling_.penalty / reference_volume_ * dV;
+    for (Index A = 0; A < body.size(); ++A)
+      at(force, body.first + A) += dp * at(here, A) + p / 2 * (at(ahead, A) - at(behind, A));
+  }
+
   std::optional<Real> stored_energy(const Motion& motion) const override {
     if (vented()) return std::nullopt;
     const Real V = volume(motion);
@@ -71,6 +86,14 @@ class Cavity final : public ForceTerm {
  private:
   bool vented() const { return !filling_.pressure && !filling_.volume_target; }
   Real volume(const Motion& motion) const { return surface_.placed(motion).size.volume; }
+  /// dV/dd_A of the body's particles at the displacements u + s du.
+  NodalVectors volume_gradient(const Motion& motion, Real s, const Motion& change) {
+    NodalVectors u(motion.u.begin(), motion.u.end());
+    for (std::size_t A = 0; A < u.size(); ++A) u[A] += s * change.u[A];
+    NodalVectors gradient(static_cast<std::size_t>(surface_.body().size()), Lanes::zero());
+    surface_.add_volume_gradient(surface_.placed({motion.time, u, u}), 1, gradient);
+    return gradient;
+  }
   /// V/V0 - target.
   Real excess(Real time, Real volume) const {
     const Real target = 1 + (*filling_.volume_target - 1) * filling_.ramp.fraction(time);

@@ -3,8 +3,7 @@
 #include "meniscus/physics/coefficient_damping.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
-
-#include <Eigen/Dense>
+#include "meniscus/core/dense.hpp"
 
 namespace meniscus {
 namespace {
@@ -34,7 +33,7 @@ class CoefficientDamping final : public ForceTerm {
     const Eigen::Vector3d w = sums.rate();
     Report report;
     report.heat = parallel_sum(body_.size(), 0.0, [&](Index A) {
-      const Eigen::Vector3d turned = w.cross(spatial(at(offset_, A)));
+      const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
       const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
       at(slip_, A) = at(rate_, A) * s;
       return at(rate_, A) * sum(s * s);
@@ -66,7 +65,7 @@ class CoefficientDamping final : public ForceTerm {
       constexpr Real round_off = 1e-15;
       const Real size = inertia.trace();
       if (!(size > 0)) return Eigen::Vector3d::Zero();
-      return (inertia + round_off * size * Eigen::Matrix3d::Identity()).inverse() * momentum;
+      return inverse<3>(inertia + round_off * size * Eigen::Matrix3d::Identity()) * momentum;
     }
   };
 
@@ -87,7 +86,7 @@ class CoefficientDamping final : public ForceTerm {
       const Eigen::Vector3d x = spatial(e);
       const Real c = at(rate_, A);
       return Rotation{c * (x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose()),
-                      c * x.cross(spatial(d))};
+                      c * cross(x, spatial(d))};
     });
   }
 

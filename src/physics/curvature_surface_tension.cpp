@@ -2,6 +2,7 @@
 // Surface tension as gamma times the curvature of the deformed surface, from F and its gradient.
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/dual.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/surface_geometry.hpp"
 #include "meniscus/physics/surface_tension.hpp"
@@ -17,7 +18,7 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
  public:
   CurvatureSurfaceTension(const Body<D>& body, Real gamma, int points)
       : TensionForm<D>(body, gamma), surface_(surface_points(body.geometry, points)) {
-    if (!body.geometry.smooth || !surface_.exact)
+    if (!body.geometry.surface->smooth() || !surface_.exact)
       throw InputError(
           fmt::format("body '{}': the curvature form of surface tension needs a smooth analytic "
                       "surface, but this "
@@ -40,6 +41,18 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
     });
     return {};
   }
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    const NodalVector *u = this->displacements(motion), *du = this->displacements(change);
+    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
+      for (Index q = begin; q < end; ++q) {
+        const auto frame = frame_of(q, dual(deformation(q, u), displacement_gradient(q, du)));
+        const Dual<Real> t =
+            gamma_ * curvature_at(q, u, du, frame) * (at(surface_.area, q) * frame.area_ratio);
+        scatter_value(rows_, q,
+                      Lanes((t * frame.n[0]).d, (t * frame.n[1]).d, (t * frame.n[2]).d, 0.0), f);
+      }
+    });
+  }
 
   std::vector<MeasureSource> measures() const override {
     auto sources = TensionForm<D>::measures();
@@ -58,21 +71,45 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
   using TensionForm<D>::body_;
   using TensionForm<D>::gamma_;
 
-  SurfaceFrame<Real> frame_at(Index q, const NodalVector* u) const {
+  Tensor<Real> displacement_gradient(Index q, const NodalVector* u, Real diagonal = 0) const {
     const auto column = gradient_at(rows_, q, u);
-    Tensor<Real> F = Tensor<Real>::identity();
+    Tensor<Real> F = Tensor<Real>::diagonal(diagonal);
     for (int i = 0; i < D; ++i)
       for (int K = 0; K < D; ++K) F(i, K) += at(column, K)[i];
-    return surface_frame(F, embed<D>(at(surface_.N, q)));
+    return F;
   }
-  Real curvature_at(Index q, const NodalVector* u, const SurfaceFrame<Real>& frame) const {
-    Vec<D> n;
-    for (int i = 0; i < D; ++i) n[i] = at(frame.n, i);
-    const auto packed = hessian_along<D>(rows_, q, u, n);
+  Tensor<Real> deformation(Index q, const NodalVector* u) const {
+    return displacement_gradient(q, u, 1);
+  }
+  template <class T>
+  SurfaceFrame<T> frame_of(Index q, const Tensor<T>& F) const {
+    const auto N = embed<D>(at(surface_.N, q));
+    return surface_frame(F, {T(N[0]), T(N[1]), T(N[2])});
+  }
+  SurfaceFrame<Real> frame_at(Index q, const NodalVector* u) const {
+    return frame_of(q, deformation(q, u));
+  }
+  /// n_i u_i,KL
+  Tensor<Real> bending(Index q, const NodalVector* u, const std::array<Real, 3>& n) const {
+    Vec<D> direction;
+    for (int i = 0; i < D; ++i) direction[i] = at(n, i);
+    const auto packed = hessian_along<D>(rows_, q, u, direction);
     Mat<D> nG;
     for (int K = 0; K < D; ++K)
       for (int L = 0; L < D; ++L) nG(K, L) = at(packed, hessian_index(D, K, L));
-    return twice_mean_curvature(frame, embed<D>(nG, 0), embed<D>(at(surface_.grad_N, q), 0));
+    return embed<D>(nG, 0);
+  }
+  Real curvature_at(Index q, const NodalVector* u, const SurfaceFrame<Real>& frame) const {
+    return twice_mean_curvature(frame, bending(q, u, frame.n), embed<D>(at(surface_.grad_N, q), 0));
+  }
+  Dual<Real> curvature_at(Index q, const NodalVector* u, const NodalVector* du,
+                          const SurfaceFrame<Dual<Real>>& frame) const {
+    const auto& n = frame.n;
+    const std::array<Real, 3> value{n[0].v, n[1].v, n[2].v}, change{n[0].d, n[1].d, n[2].d};
+    const Tensor<Real> grad_N = embed<D>(at(surface_.grad_N, q), 0);
+    return twice_mean_curvature(
+        frame, dual(bending(q, u, value), bending(q, du, value) + bending(q, u, change)),
+        dual(grad_N, Tensor<Real>::zero()));
   }
   Real area(const Motion& motion) const override {
     const NodalVector* u = this->displacements(motion);

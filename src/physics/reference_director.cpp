@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meniscus {
 
@@ -47,6 +48,32 @@ Eigen::Vector3d ReferenceDirector::at(const Vec<D>& X, const Geometry<D>& geomet
   return h / length;
 }
 
+template <int D>
+Real largest_turn(const Grid<D>& grid, std::span<const Eigen::Vector3d> director) {
+  Real least_cosine = 1;
+  for (const auto& cell : grid.cells)
+    for (int a = 0; a < Grid<D>::corners; ++a)
+      for (int k = 0; k < D; ++k)
+        if (const int b = a | 1 << k; b != a)
+          least_cosine = std::min(
+              least_cosine, std::abs(meniscus::at(director, meniscus::at(cell, a))
+                                         .dot(meniscus::at(director, meniscus::at(cell, b)))));
+  return std::acos(least_cosine);
+}
+
+std::optional<std::string> doubt_of_director(Real turn) {
+  constexpr Real bearable = 0.005;
+  const Real error = turn * turn / 12;
+  if (error < bearable) return std::nullopt;
+  return fmt::format(
+      "the director turns by up to {:.0f} degrees from cell to cell, but integration = \"q_scni\" "
+      "has one per cell: energies are off by up to {:.1g} there; use finer cells, or integration = "
+      "\"gauss\"",
+      turn * 180 / std::numbers::pi, error);
+}
+
+template Real largest_turn(const Grid<2>&, std::span<const Eigen::Vector3d>);
+template Real largest_turn(const Grid<3>&, std::span<const Eigen::Vector3d>);
 template Eigen::Vector3d ReferenceDirector::at(const Vec<2>&, const Geometry<2>&) const;
 template Eigen::Vector3d ReferenceDirector::at(const Vec<3>&, const Geometry<3>&) const;
 

@@ -92,8 +92,8 @@ std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index par
   const auto scalar = [](Real x) { return std::array{x}; };
   return {
       averaged(visit, particles, others, "J", dimension::none,
-               "det F, mean over the particle's cell",
-               [=](const StressPoint& point) { return scalar(jacobian(point)); }),
+               "volume / that in the reference of the scene, mean over the particle's cell",
+               [=](const StressPoint& p) { return scalar(p.volume_ratio * jacobian(p)); }),
       averaged(visit, particles, others, "F", dimension::none,
                "deformation gradient, mean over the particle's cell, row-major",
                [](const StressPoint& point) { return row_major(deformation_gradient(point.H)); }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy, failures, warnings and output of the internal force.
+// Tangent, energy, failures, warnings and output of the internal force.
 #include "meniscus/physics/stress_point_force.hpp"
 
 #include <fmt/core.h>
@@ -19,6 +19,37 @@ Tensor<Lanes> StressPointForce<D, Rule>::gradients(Index group, const NodalVecto
   Tensor<Lanes> H;
   rule_.gather(group, u, H);
   return H;
+}
+
+/// With J_e = V/V0 of the surface the force is -sum w P grad N - (sum w dW/dJ_e) dV/du / V0.
+template <int D, class Rule>
+void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& change,
+                                            Forces force) {
+  const NodalVector *u = motion.u.data() + body_.first, *du = change.u.data() + body_.first,
+                    *v = motion.v.data() + body_.first, *dv = change.v.data() + body_.first;
+  const bool viscous = this->viscous();
+  Dual<Real> enclosed(0.0);
+  if (surface_)
+    enclosed = surface_->measure(Size::volume, u, du) / surface_->reference(Size::volume) - 1.0;
+  PerChunk<Dual<Real>> pull(chunks(), 0.0);
+  accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
+    DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
+    Dual<Lanes> sum_of_pulls(0.0);
+    for (Index g = begin; g < end; ++g) {
+      x.H = gradients(g, u, du);
+      if (viscous) x.F_rate = gradients(g, v, dv);
+      const StressChange stress = laws_->tangent(g, motion.time, x);
+      const Lanes w = rule_.weight(g);
+      rule_.scatter(g, -w * stress.P, f);
+      sum_of_pulls += w * stress.pull_on_enclosed;
+    }
+    at(pull, chunk) = sum(sum_of_pulls);
+  });
+  if (!surface_) return;
+  Dual<Real> slope(0.0);
+  for (const Dual<Real>& p : pull) slope += p;
+  surface_->add_gradient_change(Size::volume, u, du, -slope / surface_->reference(Size::volume),
+                                body_.part(std::span<NodalVector>(force)));
 }
 
 template <int D, class Rule>
@@ -95,7 +126,10 @@ void StressPointForce<D, Rule>::visit(const Motion& motion,
     const Tensor<Lanes> H = gradients(g, u), P = laws_->stress(g, motion.time, H);
     const Lanes w = rule_.weight(g);
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
-      if (w[lane] > 0) f({rule_.owner(g, lane), w[lane], lane_of(H, lane), lane_of(P, lane)});
+      if (w[lane] > 0) {
+        const Index owner = rule_.owner(g, lane);
+        f({owner, w[lane], lane_of(H, lane), lane_of(P, lane), body_.volume_ratio(owner)});
+      }
   }
 }
 

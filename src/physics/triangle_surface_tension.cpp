@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface tension of the polyhedron (2D: polygon) through the places of the boundary particles.
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/physics/tension_form.hpp"
-
-#include <Eigen/Geometry>
 
 namespace meniscus {
 
@@ -12,10 +11,10 @@ template <int D>
 FlatPull<D> flat_pull(const std::array<Vec<D>, D>& x) {
   FlatPull<D> pull;
   if constexpr (D == 3) {
-    const Vec<3> normal = (x[1] - x[0]).cross(x[2] - x[0]), n = normal.normalized();
+    const Vec<3> normal = cross(x[1] - x[0], x[2] - x[0]), n = normal.normalized();
     pull.area = 0.5 * normal.norm();
     for (std::size_t k = 0; k < 3; ++k)
-      pull.force[k] = 0.5 * (x[(k + 2) % 3] - x[(k + 1) % 3]).cross(n);
+      pull.force[k] = 0.5 * cross(x[(k + 2) % 3] - x[(k + 1) % 3], n);
   } else {
     const Vec<2> edge = x[1] - x[0], t = edge.normalized();
     pull.area = edge.norm();
@@ -27,6 +26,31 @@ template FlatPull<2> flat_pull<2>(const std::array<Vec<2>, 2>&);
 template FlatPull<3> flat_pull<3>(const std::array<Vec<3>, 3>&);
 
 namespace {
+
+/// Change of FlatPull::force when the corners x move by dx.
+template <int D>
+std::array<Vec<D>, D> flat_pull_change(const std::array<Vec<D>, D>& x,
+                                       const std::array<Vec<D>, D>& dx) {
+  std::array<Vec<D>, D> change;
+  // Of the unit vector along `a` when that changes by `da`.
+  const auto turn = [](const Vec<D>& a, const Vec<D>& da) -> Vec<D> {
+    const Vec<D> n = a.normalized();
+    return (da - n * n.dot(da)) / a.norm();
+  };
+  if constexpr (D == 3) {
+    const Vec<3> a = x[1] - x[0], b = x[2] - x[0], da = dx[1] - dx[0], db = dx[2] - dx[0];
+    const Vec<3> normal = cross(a, b), n = normal.normalized();
+    const Vec<3> dn = turn(normal, cross(da, b) + cross(a, db));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t p = (k + 1) % 3, q = (k + 2) % 3;
+      change[k] = 0.5 * (cross(dx[q] - dx[p], n) + cross(x[q] - x[p], dn));
+    }
+  } else {
+    const Vec<2> dt = turn(x[1] - x[0], dx[1] - dx[0]);
+    change = {dt, -dt};
+  }
+  return change;
+}
 
 template <int D>
 class TriangleSurfaceTension final : public TensionForm<D> {
@@ -54,11 +78,20 @@ class TriangleSurfaceTension final : public TensionForm<D> {
       const FlatPull<D> pull = flat_pull<D>(corners(simplex, x_));
       for (std::size_t k = 0; k < D; ++k) at(pull_, simplex[k]) += gamma_ * pull.force[k];
     }
-    for (Index B = 0; B < rows_.size(); ++B) set_vector<D>(load_, B, at(pull_, B));
-    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
-      for (Index B = begin; B < end; ++B) scatter_value(rows_, B, at(load_, B), f);
-    });
+    scatter(pull_, force);
     return {};
+  }
+
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    std::vector<Vec<D>> x, dx(X_.size()), pull(X_.size(), Vec<D>::Zero());
+    find_places(motion, x);
+    for (Index B = 0; B < rows_.size(); ++B)
+      at(dx, B) = displacement(B, this->displacements(change));
+    for (const auto& simplex : simplices_) {
+      const auto dp = flat_pull_change<D>(corners(simplex, x), corners(simplex, dx));
+      for (std::size_t k = 0; k < D; ++k) at(pull, simplex[k]) += gamma_ * dp[k];
+    }
+    scatter(pull, force);
   }
 
   std::size_t bytes() const override {
@@ -75,9 +108,19 @@ class TriangleSurfaceTension final : public TensionForm<D> {
   void find_places(const Motion& motion, std::vector<Vec<D>>& x) const {
     const NodalVector* u = this->displacements(motion);
     x.resize(X_.size());
-    parallel_for(rows_.size(), [&](Index B) {
-      const Lanes displacement = value_at(rows_, B, u);
-      for (int i = 0; i < D; ++i) at(x, B)[i] = at(X_, B)[i] + displacement[i];
+    parallel_for(rows_.size(), [&](Index B) { at(x, B) = at(X_, B) + displacement(B, u); });
+  }
+  Vec<D> displacement(Index B, const NodalVector* u) const {
+    const Lanes sum = value_at(rows_, B, u);
+    Vec<D> x;
+    for (int i = 0; i < D; ++i) x[i] = sum[i];
+    return x;
+  }
+  /// force_A += sum_B N_A(X_B) pull_B
+  void scatter(const std::vector<Vec<D>>& pull, std::span<NodalVector> force) {
+    for (Index B = 0; B < rows_.size(); ++B) set_vector<D>(load_, B, at(pull, B));
+    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
+      for (Index B = begin; B < end; ++B) scatter_value(rows_, B, at(load_, B), f);
     });
   }
   static std::array<Vec<D>, D> corners(const std::array<Index, D>& simplex,

@@ -10,6 +10,9 @@
 
 #include <fmt/core.h>
 
+#include <numeric>
+#include <utility>
+
 namespace meniscus {
 namespace {
 
@@ -64,6 +67,26 @@ ParticleSet<D> sound_particles(const BodySettings& settings, const Geometry<D>& 
   return particles;
 }
 
+/// What the floor of the lumped masses changed.
+template <int D>
+void report_masses(const std::string& name, const MassReport& mass, Assembly<D>& assembly) {
+  if (mass.raised == 0) return;
+  std::string note = fmt::format(
+      "body '{}': the masses of {} particles were raised to 0.3 of their cells", name, mass.raised);
+  if (mass.kept_degree >= 0)
+    note += fmt::format(", the others give as much; {} kept",
+                        mass.kept_degree == 2   ? "mass, first and second moments are"
+                        : mass.kept_degree == 1 ? "mass and first moments are"
+                                                : "the mass is");
+  assembly.note(note);
+  if (mass.added > 1e-3)
+    assembly.warn(
+        fmt::format("body '{}': the floor of the lumped masses adds {:.2g} to the total mass; use "
+                    "more cells or "
+                    "a smaller support_factor",
+                    name, mass.added));
+}
+
 template <int D>
 void report(const Body<D>& body, const typename Material<D>::Built& built,
             const BodySettings& settings, Assembly<D>& assembly) {
@@ -81,11 +104,8 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
         fmt::format("body '{}': the volume change is averaged over each nodal cell (volumetric = "
                     "\"cell_average\")",
                     name));
-  if (built.mass.raised > 0)
-    assembly.note(
-        fmt::format("body '{}': the masses of {} particles were raised to 0.3 of their cells, the "
-                    "total by {:.2g}",
-                    name, built.mass.raised, built.mass.added));
+  report_masses(name, built.mass, assembly);
+  if (built.warning) assembly.warn(fmt::format("body '{}': {}", name, *built.warning));
   if (built.note) assembly.note(fmt::format("body '{}': {}", name, *built.note));
   if (settings.integration == "nodal")
     assembly.warn(
@@ -94,33 +114,52 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
                     name));
 }
 
+/// The body has the mass that it had before it was referred anew, to the last bit if it is that.
+template <int D>
+void keep_mass(Body<D>& body) {
+  const Real factor =
+      body.reference->mass / std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
+  for (Real& mass : body.mass) mass *= factor;
+}
+
 }  // namespace
 
 template <int D>
-void build_body(const BodyPlan<D>& planned, Scene<D>& scene, Assembly<D>& assembly) {
+void build_body(const BodyPlan<D>& planned, std::shared_ptr<const Reference<D>> reference,
+                Scene<D>& scene, Assembly<D>& assembly) {
   const BodySettings& settings = planned.settings;
-  Geometry<D> geometry = planned.geometry;
-  order_spatially(geometry);
+  Geometry<D> geometry = reference ? reference->geometry : planned.geometry;
+  if (!reference) order_spatially(geometry);
   ParticleSet<D> particles = sound_particles(settings, geometry, assembly);
   System<D>& system = scene.system;
   Body<D>& body =
       system.bodies.emplace_back(settings.name, std::move(geometry), std::move(particles));
   body.first = system.size();
+  body.reference = std::move(reference);
   body.at_particles =
       build_point_rows<D>(body.particles, body.particles.X(), {.value = true}, body.name);
   auto built = planned.material->build(
       body, {settings.integration, settings.gauss_points, settings.volumetric,
              planned.enclosed && planned.material->fluid()});
+  if (body.reference) keep_mass(body);
   system.mass.insert(system.mass.end(), body.mass.begin(), body.mass.end());
   report(body, built, settings, assembly);
   scene.viscosity.push_back(std::move(built.viscosity));
+  if (!planned.material->fluid())
+    assembly.keep_reference(body.name, "the stress of a solid depends on its first reference");
+  if (settings.integration != "q_scni")
+    assembly.keep_reference(body.name, "only integration = \"q_scni\" knows J by nodal cell");
+  if (is_hollow(body.geometry))
+    assembly.keep_reference(body.name, "walls of a cavity are known by its shape only");
   assembly.add(std::move(built.force), body.name);
   for (const auto& [name, group] : measures<D>())
     for (MeasureSource& source : group.make(body, scene.units))
       assembly.measure(body.name, std::move(source));
 }
 
-template void build_body(const BodyPlan<2>&, Scene<2>&, Assembly<2>&);
-template void build_body(const BodyPlan<3>&, Scene<3>&, Assembly<3>&);
+template void build_body(const BodyPlan<2>&, std::shared_ptr<const Reference<2>>, Scene<2>&,
+                         Assembly<2>&);
+template void build_body(const BodyPlan<3>&, std::shared_ptr<const Reference<3>>, Scene<3>&,
+                         Assembly<3>&);
 
 }  // namespace meniscus

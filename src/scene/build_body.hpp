@@ -5,8 +5,10 @@
 
 namespace meniscus {
 
-/// Adds the body to `scene`; the assembly is of the same scene.
+/// Adds the body to `scene`, on a reference of its own unless that is null; the assembly is of the
+/// same scene.
 template <int D>
-void build_body(const BodyPlan<D>& planned, Scene<D>& scene, Assembly<D>& assembly);
+void build_body(const BodyPlan<D>& planned, std::shared_ptr<const Reference<D>> reference,
+                Scene<D>& scene, Assembly<D>& assembly);
 
 }  // namespace meniscus

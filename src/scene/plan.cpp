@@ -2,6 +2,7 @@
 // Reading a scene whole, with every check that needs no particles.
 #include "meniscus/scene/plan.hpp"
 
+#include "meniscus/body/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
@@ -20,7 +21,7 @@ const BodyPlan<D>* require_body(const Block& block, const BodyPlans<D>& bodies,
                                 const std::string& name, std::string_view key) {
   std::vector<std::string> known;
   for (const BodyPlan<D>& body : bodies) {
-    if (body.settings.name == name) return &body;
+    if (body.settings.name == name) return body.in_order ? &body : nullptr;
     known.push_back(body.settings.name);
   }
   if (block.has(key) && !known.empty())
@@ -32,19 +33,18 @@ template const BodyPlan<2>* require_body(const Block&, const BodyPlans<2>&, cons
 template const BodyPlan<3>* require_body(const Block&, const BodyPlans<3>&, const std::string&,
                                          std::string_view);
 
-namespace {
-
-void require_components(const Block& block, const char* key, std::size_t given, int D) {
-  if (given == static_cast<std::size_t>(D) || !block.has(key)) return;
-  block.problem(key, fmt::format("has {} components; allowed are {}, one per dimension", given, D));
-}
-
-/// The name of a body is part of names in run.h5 and history.csv.
 void require_plain_name(const Block& block, const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
   if (block.has("name") && (name.empty() || !std::all_of(name.begin(), name.end(), plain)))
     block.problem("name",
                   fmt::format("'{}' cannot be a name; allowed are letters, digits, _ and -", name));
+}
+
+namespace {
+
+void require_components(const Block& block, const char* key, std::size_t given, int D) {
+  if (given == static_cast<std::size_t>(D) || !block.has(key)) return;
+  block.problem(key, fmt::format("has {} components; allowed are {}, one per dimension", given, D));
 }
 
 template <int D>
@@ -58,11 +58,22 @@ std::shared_ptr<const Material<D>> plan_material(const Block& body) {
   return material;
 }
 
+/// Each body for itself may be affordable where all are not.
+template <int D>
+void note_if_unaffordable(const Block& block, Real cells) {
+  try {
+    require_affordable<D>(cells, "the bodies up to this one");
+  } catch (const InputError& error) {
+    block.problem("shape", error.what());
+  }
+}
+
 template <int D>
 void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
   if (blocks.empty()) root.problem("body", "a scene needs at least one [[body]]");
   std::set<std::string> names;
+  Real cells = 0;
   for (const Block& block : blocks) {
     BodySettings settings = read<BodySettings>(block);
     if (!settings.name.empty() && !names.insert(settings.name).second)
@@ -76,15 +87,19 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
     require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
     require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
     Geometry<D> geometry = read_geometry<D>(block);
+    const bool in_order = block.in_order();
+    cells += in_order ? geometry.grid.cell_count() : 0;
+    if (in_order && bodies.size() > 0) note_if_unaffordable<D>(block, cells);
     auto material = plan_material<D>(block);
     block.done();
-    bodies.push_back({std::move(settings), std::move(geometry), std::move(material)});
+    bodies.push_back({std::move(settings), std::move(geometry), std::move(material), in_order});
   }
 }
 
 /// Reads all tables of a kind of load.
 template <int D>
-void plan_loads(const Block& root, const LoadEntry<D>& kind, Plan<D>& plan) {
+void plan_loads(const Block& root, const LoadEntry<D>& kind, std::set<std::string>& claims,
+                Plan<D>& plan) {
   std::set<std::string> identities;
   for (const Block& block : root.tables(kind.name)) {
     std::unique_ptr<Load<D>> load = kind.read(block);
@@ -95,17 +110,31 @@ void plan_loads(const Block& root, const LoadEntry<D>& kind, Plan<D>& plan) {
       block.problem(identity->key,
                     fmt::format("there is a [[{}]] with {} '{}' already; allowed is one per {}",
                                 kind.name, identity->key, identity->value, identity->key));
+    else if (const std::string claim = load->claim();
+             !claim.empty() && !claims.insert(claim).second)
+      block.problem("", fmt::format("{} has a law already; allowed is one", claim));
     block.done();
     plan.loads.push_back(std::move(load));
   }
 }
 
+/// Loads that the other dimension has are no unknown words.
+template <int D>
+void refuse_loads_of_other_dimension(const Block& root) {
+  constexpr int other = 5 - D;
+  for (const auto& [name, kind] : loads<other>())
+    if (!loads<D>().find(name) && !root.tables(name).empty())
+      root.problem(name, fmt::format("[[{}]] is for bodies in {} dimensions", name, other));
+}
+
 /// Reads all loads in the order in which they are built.
 template <int D>
 void plan_loads(const Block& root, Plan<D>& plan) {
+  std::set<std::string> claims;
   for (const Stage stage : {Stage::surface, Stage::volume, Stage::contact})
     for (const auto& [name, kind] : loads<D>())
-      if (kind.stage == stage) plan_loads(root, kind, plan);
+      if (kind.stage == stage) plan_loads(root, kind, claims, plan);
+  refuse_loads_of_other_dimension<D>(root);
 }
 
 /// What can never be met, or is always, is a mistake.
@@ -137,6 +166,7 @@ RunSettings read_settings(const Block& root) {
   if (const auto block = root.table("time", true)) {
     run.time = read<TimeSettings>(*block);
     run.time.step_place = block->place("step");
+    run.time.solver_place = block->place("solver");
     block->done();
   }
   const Block output = root.table_or_defaults("output");

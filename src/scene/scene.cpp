@@ -2,6 +2,8 @@
 // Building what a scene says.
 #include "meniscus/scene/scene.hpp"
 
+#include "meniscus/core/error.hpp"
+
 #include <fmt/core.h>
 
 #include <stdexcept>
@@ -22,7 +24,7 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
     const Body<D>& body = scene.system.bodies[b];
     const BodySettings& settings = plan.bodies[b].settings;
     for (Index A = 0; A < body.size(); ++A) {
-      const Eigen::Vector3d X = spatial<D>(at(body.particles.X(), A));
+      const Eigen::Vector3d X = spatial<D>(body.origin(A));
       for (int i = 0; i < D; ++i) {
         if (!settings.initial_displacement.empty())
           at(state.u, body.first + A).set(i, at(settings.initial_displacement, i)(X));
@@ -77,14 +79,25 @@ std::vector<Real> field_values(const Scene<D>& scene, const std::string& name,
 }
 
 template <int D>
-Scene<D> build(const Plan<D>& plan) {
+void require_remappable(const Scene<D>& scene, const std::string& body) {
+  const auto kept = scene.kept_references.find(body);
+  if (kept != scene.kept_references.end())
+    throw InputError(fmt::format("body '{}' cannot be referred anew: {}", body, kept->second));
+}
+
+template <int D>
+Scene<D> build(const Plan<D>& plan, const References<D>& references) {
   Scene<D> scene;
   static_cast<RunSettings&>(scene) = plan;
-  Assembly<D> assembly(scene);
-  for (const BodyPlan<D>& body : plan.bodies) build_body(body, scene, assembly);
+  Assembly<D> assembly(scene, references.empty());
+  for (const BodyPlan<D>& body : plan.bodies) {
+    const auto found = references.find(body.settings.name);
+    build_body(body, found == references.end() ? nullptr : found->second, scene, assembly);
+  }
   set_initial_state(plan, scene);
   for (const auto& load : plan.loads) load->build(assembly);
-  warn_of_overlaps(scene);
+  for (const PlannedRemap& remap : scene.remaps) require_remappable(scene, remap.body);
+  if (references.empty()) warn_of_overlaps(scene);
   return scene;
 }
 
@@ -97,8 +110,10 @@ template const FieldSource& field_named(const Scene<2>&, const std::string&);
 template const FieldSource& field_named(const Scene<3>&, const std::string&);
 template std::vector<Real> field_values(const Scene<2>&, const std::string&, const Motion&);
 template std::vector<Real> field_values(const Scene<3>&, const std::string&, const Motion&);
-template Scene<2> build(const Plan<2>&);
-template Scene<3> build(const Plan<3>&);
+template void require_remappable(const Scene<2>&, const std::string&);
+template void require_remappable(const Scene<3>&, const std::string&);
+template Scene<2> build(const Plan<2>&, const References<2>&);
+template Scene<3> build(const Plan<3>&, const References<3>&);
 template Scene<2> build_scene(const SceneInput&);
 template Scene<3> build_scene(const SceneInput&);
 

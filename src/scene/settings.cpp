@@ -132,7 +132,7 @@ void add_shapes(auto& tables, const auto& shapes, const std::string& dimension) 
   for (const auto& [name, shape] : shapes)
     tables.push_back(
         {"[[body]] shape = \"" + name + "\" (" + dimension + "): " + std::string(shape.meaning),
-         shape.keys()});
+         shape.keys(), "[[body]]\nshape = \"" + name + "\"\n" + std::string(shape.example)});
 }
 
 void add(std::vector<KeyTable>& tables, std::vector<KeyTable> more) {
@@ -162,7 +162,8 @@ std::vector<KeyTable> key_tables() {
   add_shapes(tables, shapes<3>(), "3D");
   add_shapes(tables, shapes<2>(), "2D");
   for (const auto& [name, law] : laws())
-    tables.push_back({"[body.material] type = \"" + name + "\"", law.keys});
+    tables.push_back({"[body.material] type = \"" + name + "\"", law.keys,
+                      "[body.material]\ntype = \"" + name + "\"\n" + law.example});
   for (const auto& [name, load] : loads<3>()) add(tables, load.keys());
   for (const auto& [name, load] : loads<2>())
     if (!loads<3>().find(name)) add(tables, load.keys());

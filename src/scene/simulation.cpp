@@ -21,6 +21,22 @@ std::vector<Real> packed(const NodalVectors& field) {
   return values;
 }
 
+namespace {
+
+template <int D>
+StepperChoice stepper_choice(const Scene<D>& scene) {
+  StepperChoice choice{scene.time.end,
+                       scene.time.force_tolerance,
+                       scene.time.shape_tolerance,
+                       {},
+                       scene.time.solver_place};
+  for (const std::vector<Real>& viscosity : scene.viscosity)
+    choice.fluid.push_back(!viscosity.empty());
+  return choice;
+}
+
+}  // namespace
+
 template <int D>
 Simulation<D>::Simulation(Scene<D>& scene)
     : scene_(scene),
@@ -32,14 +48,32 @@ Simulation<D>::Simulation(Scene<D>& scene)
                                  scene.time.step_place}),
       stepper_(Registry<StepperEntry>::all()
                    .at(scene.time.solver)
-                   .make(scene.system, {scene.time.end, scene.time.force_tolerance,
-                                        scene.time.shape_tolerance})) {}
+                   .make(scene.system, stepper_choice(scene))) {}
 
 template <int D>
 void Simulation<D>::begin() {
   start(scene_.system, state_);
   controller_.begin(state_);
   audit_.begin(take_ledger(scene_.system, state_));
+  stepper_->begin(state_);
+}
+
+template <int D>
+void Simulation<D>::begin_after(Simulation& before, State state) {
+  Snapshot history;
+  before.archive_terms(Archive::writing(history));
+  archive_terms(Archive::reading(history));
+  state_ = std::move(state);
+  ++state_.epoch;
+  last_step_ = before.last_step_;
+  start(scene_.system, state_);
+  state_.books.remapped += take_ledger(scene_.system, state_).balance() -
+                           take_ledger(before.scene_.system, before.state_).balance();
+  // Where u = 0 the damping of coefficients is no smooth function of u, but for v = 0.
+  State at_rest = state_;
+  std::fill(at_rest.v.begin(), at_rest.v.end(), Lanes::zero());
+  controller_.begin(at_rest);
+  audit_ = before.audit_;
   stepper_->begin(state_);
 }
 
@@ -71,7 +105,7 @@ void Simulation<D>::step(Real dt) {
 template <int D>
 void Simulation<D>::advance() {
   try {
-    last_step_ = controller_.next(state_, scene_.time.end);
+    last_step_ = controller_.next(state_, scene_.time.end, stepper_->longest_step(state_));
     if (keeps_state_before_)
       step(last_step_);
     else
@@ -83,6 +117,19 @@ void Simulation<D>::advance() {
     failure.cause = e.what();
     give_up(failure);
   }
+}
+
+template <int D>
+void Simulation<D>::refuse_impossible_states() const {
+  for (const StateCheck& check : scene_.checks)
+    if (const auto found = check(state_.motion())) {
+      StepFailure failure = scene_.system.located(*found, state_.motion());
+      failure.step = state_.step;
+      failure.time = state_.time;
+      failure.dt = last_step_;
+      throw StepError(failure);
+    }
+  refuse_impossible_surfaces();
 }
 
 /// A surface smaller than that of the ball (2D: disk) of the same volume cannot be: its quadrature
@@ -116,7 +163,7 @@ void Simulation<D>::give_up(StepFailure failure) {
 
 template <int D>
 Ledger Simulation<D>::audit_now() {
-  refuse_impossible_surfaces();
+  refuse_impossible_states();
   const Ledger ledger = take_ledger(scene_.system, state_);
   audit_.follow(scene_.system, state_, ledger);
   return ledger;
@@ -126,6 +173,7 @@ template <int D>
 void Simulation<D>::archive(const Archive& a) {
   state_.archive(a, D);
   a("last_step", last_step_, dimension::time);
+  require_saved(last_step_ >= 0, a, "last_step");
   controller_.archive(a.in("step_control"));
   const Archive stepper = a.in("stepper").in(scene_.time.solver);
   if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's
@@ -134,9 +182,28 @@ void Simulation<D>::archive(const Archive& a) {
     stepper_->archive(stepper, state_);
   if (a.is_reading()) audit_.begin(take_ledger(scene_.system, state_));  // its kinds of energy
   audit_.archive(a.in("audit"), D);
+  archive_terms(a);
+  archive_references(a.in("references"));
+}
+
+template <int D>
+void Simulation<D>::archive_terms(const Archive& a) {
   for (std::size_t k = 0; k < scene_.system.terms.size(); ++k) {
     ForceTerm& term = *scene_.system.terms[k];
     term.archive(a.in(fmt::format("terms/{} {}", k, term.name())));
+  }
+}
+
+/// The scene is built on its references, so that a state that is read only has to be of the same.
+template <int D>
+void Simulation<D>::archive_references(const Archive& a) const {
+  for (const Body<D>& body : scene_.system.bodies) {
+    if (a.is_reading() && a.has(body.name) != (body.reference != nullptr))
+      throw FileError(fmt::format("the state has another reference of body '{}'", body.name));
+    if (!a.is_reading() && body.reference) {
+      Reference<D> reference = *body.reference;
+      reference.archive(a.in(body.name));
+    }
   }
 }
 

@@ -2,9 +2,9 @@
 // Sums of energy and momentum over the particles.
 #include "meniscus/solve/audit.hpp"
 
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/parallel.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +28,7 @@ Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
                            const Eigen::Vector3d p = at(system.mass, I) * vector_of(at(state.v, I));
                            Eigen::Matrix<Real, 6, 1> both;
                            both.head<3>() = p;
-                           both.tail<3>() = x.cross(p);
+                           both.tail<3>() = cross(x, p);
                            return both;
                          });
   return zero;
@@ -41,7 +41,7 @@ Real relative(Real change, Real scale) {
 }  // namespace
 
 Real Ledger::balance() const {
-  Real total = kinetic + dissipated - external_work;
+  Real total = kinetic + dissipated - external_work - remapped;
   for (const auto& [kind, energy] : stored) total += energy;
   return total;
 }
@@ -62,6 +62,7 @@ Ledger take_ledger(const System<D>& system, const State& state) {
       ledger.stored[std::string(term->energy_kind())] += *energy;
   ledger.dissipated = state.books.dissipated;
   ledger.external_work = state.books.external_work;
+  ledger.remapped = state.books.remapped;
   const auto both = momenta(system, state);
   ledger.momentum = both.template head<3>();
   ledger.angular_momentum = both.template tail<3>();

@@ -39,8 +39,9 @@ Real kinetic_energy(const System<D>& system, const State& state) {
 }  // namespace
 
 template <int D>
-Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances)
-    : system_(system), tolerances_(tolerances) {}
+Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances,
+                          const std::vector<bool>& fluid)
+    : system_(system), tolerances_(tolerances), fluids_(system, fluid) {}
 
 template <int D>
 void Relaxation<D>::begin(const State& state) {
@@ -92,9 +93,8 @@ void Relaxation<D>::judge(const State& state, Real dt) {
   const Real elapsed = state.time - window_begin_;
   const bool ramps_ended = window_begin_ < steady_after() && state.time >= steady_after();
   if (!ramps_ended && elapsed < std::max(window_length_, fewest_steps * dt) * (1 - 1e-9)) return;
-  const Change change = change_since(window_u_, window_force_, state);
+  const Change change = judged_window(state);
   const Real quarter = change.omega > 0 ? std::numbers::pi / (2 * change.omega) : 2 * elapsed;
-  shape_change_ = change.left * largest_change(state);
   // A window that was much too short for the mode it has shown says nothing.
   const bool settled = window_begin_ >= steady_after() && elapsed >= 0.25 * quarter &&
                        shape_change_ <= tolerances_.shape &&
@@ -103,17 +103,50 @@ void Relaxation<D>::judge(const State& state, Real dt) {
   open_window(state, ramps_ended ? 0 : std::min(0.5 * quarter, 2 * elapsed));
 }
 
-/// In the energy of the mode w = du, stiffness k = - du.df and mass m = du.M du: the present force
-/// is f.du/k of w away from where it vanishes, and the velocity carries on by v.M du/sqrt(k m).
+template <int D>
+typename Relaxation<D>::Change Relaxation<D>::judged_window(const State& state) {
+  NodalVectors du(state.u.size()), df = du;
+  for (Index A = 0; A < system_.size(); ++A) {
+    at(du, A) = at(state.u, A) - at(window_u_, A);
+    at(df, A) = at(state.force, A) - at(window_force_, A);
+  }
+  remove_free_drift(system_, state, df, du);
+  for (Index A = 0; A < system_.size(); ++A)
+    if (fluids_.holds(A)) at(du, A) = at(df, A) = Lanes::zero();
+  Change change =
+      change_of([&](Index A) { return at(du, A); }, [&](Index A) { return at(df, A); }, state);
+  shape_change_ = change.left * largest_change(du);
+  if (!fluids_.any()) return change;
+
+  const Real clock = fluids_.clock(uncancelled_force(state)), elapsed = state.time - window_begin_;
+  const Real flow = fluids_.change(fluids_.axes(window_u_), fluids_.axes(state.u)) / elapsed;
+  // A fluid that swings is at a turning point for less than the time of its clock.
+  const bool long_enough = elapsed >= clock * (1 - 1e-9);
+  shape_change_ = std::max(shape_change_, long_enough ? flow * clock : 1.0);
+  const Real slowest = std::numbers::pi / (4 * clock);  // makes windows of the length of the clock
+  change.omega = change.omega > 0 ? std::min(change.omega, slowest) : slowest;
+  return change;
+}
+
 template <int D>
 typename Relaxation<D>::Change Relaxation<D>::change_since(const NodalVectors& u,
                                                            const NodalVectors& f,
                                                            const State& state) const {
+  return change_of([&](Index A) { return at(state.u, A) - at(u, A); },
+                   [&](Index A) { return at(state.force, A) - at(f, A); }, state);
+}
+
+/// In the energy of the mode w = du, stiffness k = - du.df and mass m = du.M du: the present force
+/// is f.du/k of w away from where it vanishes, and the velocity carries on by v.M du/sqrt(k m).
+template <int D>
+template <class U, class F>
+typename Relaxation<D>::Change Relaxation<D>::change_of(U&& du_of, F&& df_of,
+                                                        const State& state) const {
   const Lanes sums = parallel_sum(system_.size(), Lanes::zero(), [&](Index A) {
-    const Lanes du = at(state.u, A) - at(u, A);
+    const Lanes du = du_of(A);
     const Real mass = at(system_.mass, A);
-    return Lanes(-sum(du * (at(state.force, A) - at(f, A))), mass * sum(du * du),
-                 sum(du * at(state.force, A)), mass * sum(du * at(state.v, A)));
+    return Lanes(-sum(du * df_of(A)), mass * sum(du * du), sum(du * at(state.force, A)),
+                 mass * sum(du * at(state.v, A)));
   });
   const Real k = sums[0], m = sums[1];
   if (m == 0) return {0, 0};
@@ -122,15 +155,12 @@ typename Relaxation<D>::Change Relaxation<D>::change_since(const NodalVectors& u
 }
 
 template <int D>
-Real Relaxation<D>::largest_change(const State& state) const {
+Real Relaxation<D>::largest_change(const NodalVectors& du) const {
   Real largest = 0;
   for (const Body<D>& body : system_.bodies) {
-    NodalVectors du(static_cast<std::size_t>(body.size()));
-    for (Index A = 0; A < body.size(); ++A)
-      at(du, A) = at(state.u, body.first + A) - at(window_u_, body.first + A);
     Real change = 0;
     for (Index A = 0; A < body.size(); ++A) {
-      const Lanes moved = value_at(body.at_particles, A, du.data());
+      const Lanes moved = value_at(body.at_particles, A, du.data() + body.first);
       change = std::max(change, std::sqrt(sum(moved * moved)));
     }
     largest = std::max(largest, change / box_around<D>(body.particles.X()).extent().maxCoeff());
@@ -139,13 +169,22 @@ Real Relaxation<D>::largest_change(const State& state) const {
 }
 
 template <int D>
+Real Relaxation<D>::uncancelled_force(const State& state) const {
+  Real sum = 0;
+  for (const auto& term : system_.terms) sum += term->uncancelled_force(state.motion());
+  return sum;
+}
+
+template <int D>
 Real Relaxation<D>::force_residual(const State& state) const {
-  const Real left = parallel_sum(system_.size(), 0.0, [&](Index A) {
+  const Real uncancelled = uncancelled_force(state);
+  if (!(uncancelled > 0)) return 0;
+  Real left = parallel_sum(system_.size(), 0.0, [&](Index A) {
+    if (fluids_.holds(A)) return 0.0;
     return std::sqrt(sum(at(state.force, A) * at(state.force, A)));
   });
-  Real uncancelled = 0;
-  for (const auto& term : system_.terms) uncancelled += term->uncancelled_force(state.motion());
-  return uncancelled > 0 ? left / uncancelled : 0;
+  if (fluids_.any()) left += fluids_.force_of_power(state, fluids_.clock(uncancelled));
+  return left / uncancelled;
 }
 
 template <int D>
@@ -171,12 +210,13 @@ template <int D>
 std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
   for (const auto& term : system.terms)
     if (term->steady_after() >= choice.end)
-      throw InputError(
-          fmt::format("[time] solver = \"relax\": {} changes until t = {:.6g}, not before the end "
-                      "{:.6g} of the scene; there is no rest to be reached",
-                      term->name(), term->steady_after(), choice.end));
+      throw InputError(fmt::format(
+          "{}: {} changes until t = {:.6g}, not before the end {:.6g} of the scene; there "
+          "is no rest that \"relax\" could reach",
+          choice.place, term->name(), term->steady_after(), choice.end));
   return std::make_unique<Relaxation<D>>(
-      system, typename Relaxation<D>::Tolerances{choice.force_tolerance, choice.shape_tolerance});
+      system, typename Relaxation<D>::Tolerances{choice.force_tolerance, choice.shape_tolerance},
+      choice.fluid);
 }
 
 const bool registered =

@@ -2,7 +2,17 @@
 // The books of energy, and what is kept of a state.
 #include "meniscus/solve/state.hpp"
 
+#include "meniscus/core/error.hpp"
+
+#include <fmt/core.h>
+
 namespace meniscus {
+
+void require_saved(bool in_range, const Archive& a, std::string_view name) {
+  if (a.is_reading() && !in_range)
+    throw FileError(
+        fmt::format("the saved state '{}' is out of range: its file was changed", name));
+}
 
 void Books::begin(const Report& report, Real power_of_loads) {
   heat = report.heat;
@@ -26,6 +36,7 @@ void Books::archive(const Archive& a, int space_dimension) {
   const Dimension power = of_sum(dimension::power, space_dimension);
   a("dissipated", dissipated, energy);
   a("external_work", external_work, energy);
+  a("remapped", remapped, energy);
   a("heat", heat, power);
   a("external_power", external_power, power);
   a("load_power", load_power, power);
@@ -34,6 +45,8 @@ void Books::archive(const Archive& a, int space_dimension) {
 void State::archive(const Archive& a, int space_dimension) {
   a("time", time, dimension::time);
   a("step", step);
+  a("epoch", epoch);
+  require_saved(time >= 0 && step >= 0, a, "time, step");
   a("displacement", u, space_dimension, dimension::length);
   a("velocity", v, space_dimension, dimension::velocity);
   a("force", force, space_dimension, of_sum(dimension::force, space_dimension));
@@ -48,6 +61,7 @@ void State::archive(const Archive& a, int space_dimension) {
   books.archive(a.in("books"), space_dimension);
   a("demand/stiffness", demand.stiffness, {0, -2, 0});
   a("demand/longest", demand.longest, dimension::time);
+  require_saved(demand.stiffness >= 0 && demand.longest > 0, a, "demand");
 }
 
 }  // namespace meniscus

@@ -94,13 +94,15 @@ void StepController<D>::respect_demand(const State& state) {
 }
 
 template <int D>
-Real StepController<D>::next(const State& state, Real end) {
+Real StepController<D>::next(const State& state, Real end, Real accurate) {
   if (state.step >= next_check_) reconsider(state);
   respect_demand(state);
+  constexpr Real least_share = 0.1;
+  const Real dt = choice_.fixed ? step_ : std::min(step_, std::max(accurate, least_share * step_));
   const Real left = end - state.time;
-  if (left <= step_ * (1 + 1e-9)) return left;
-  if (left < 2 * step_) return left / 2;
-  return step_;
+  if (left <= dt * (1 + 1e-9)) return left;
+  if (left < 2 * dt) return left / 2;
+  return dt;
 }
 
 template <int D>
@@ -113,6 +115,11 @@ void StepController<D>::archive(const Archive& a) {
   a("next_check", next_check_);
   a("last_check", last_check_);
   a("known_stiffness", known_stiffness_, {0, -2, 0});
+  require_saved(step_ > 0 && stable_.dt > 0 && stable_.of_fields > 0 && stable_.stiffness >= 0 &&
+                    stable_.viscosity >= 0 && first_limit_ > 0,
+                a, "step_control/step");
+  require_saved(interval_ > 0 && interval_ <= 1e9 && last_check_ >= 0 && next_check_ >= last_check_,
+                a, "step_control/interval");
   a("warned", warned_);
   std::optional<Real> fixed = choice_.fixed;
   Real safety = choice_.safety;

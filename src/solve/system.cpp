@@ -10,31 +10,6 @@
 #include <stdexcept>
 
 namespace meniscus {
-namespace {
-
-/// A failure at a particle.
-template <int D>
-StepFailure failure_at(const System<D>& system, const Motion& motion, Index particle,
-                       std::string cause) {
-  const Body<D>& body = system.body_of(particle);
-  const Index A = particle - body.first;
-  const Vec<D>& X = at(body.particles.X(), A);
-  const Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
-  std::string reference, current;
-  for (int i = 0; i < D; ++i) {
-    reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
-    current += fmt::format("{}{:.6g}", i ? ", " : "", X[i] + u[i]);
-  }
-  StepFailure failure;
-  failure.cause = std::move(cause);
-  failure.body = body.name;
-  failure.particle = particle;
-  failure.place = fmt::format("({}), now ({})", reference, current);
-  return failure;
-}
-
-}  // namespace
-
 template <int D>
 std::size_t System<D>::add_field(const FieldSpec& spec, std::span<const Real> capacity) {
   std::size_t k = 0;
@@ -72,6 +47,27 @@ const Body<D>& System<D>::body_of(Index particle) const {
 }
 
 template <int D>
+StepFailure System<D>::located(const Failure& what, const Motion& motion) const {
+  const Body<D>& body = body_of(what.particle);
+  const Index A = what.particle - body.first;
+  const Vec<D>& X = at(body.particles.X(), A);
+  const Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
+  std::string reference, current;
+  for (int i = 0; i < D; ++i) {
+    reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
+    current += fmt::format("{}{:.6g}", i ? ", " : "", X[i] + u[i]);
+  }
+  StepFailure failure;
+  failure.cause = what.cause;
+  failure.term = what.term;
+  failure.of_step = what.of_step;
+  failure.body = body.name;
+  failure.particle = what.particle;
+  failure.place = fmt::format("({}), now ({})", reference, current);
+  return failure;
+}
+
+template <int D>
 Report System<D>::add_up(const Motion& motion, Forces force) {
   std::fill(force.begin(), force.end(), Lanes::zero());
   for (Unknown& field : force.fields) std::fill(field.f.begin(), field.f.end(), Lanes::zero());
@@ -99,24 +95,18 @@ void System<D>::commit(const Motion& motion) {
 template <int D>
 Report System<D>::compute_forces(const Motion& motion, Forces force) {
   Report report = add_up(motion, force);
-  if (report.failure) {
-    StepFailure failure =
-        failure_at(*this, motion, report.failure->particle, report.failure->cause);
-    failure.term = report.failure->term;
-    failure.of_step = report.failure->of_step;
-    throw StepError(failure);
-  }
+  if (report.failure) throw StepError(located(*report.failure, motion));
   const Lanes total =
       parallel_sum(size(), Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
   for (const Unknown& field : force.fields)
     for (Index A = 0; A < size(); ++A)
       if (!std::isfinite(sum(at(field.f, A) * at(field.f, A))))
-        throw StepError(failure_at(
-            *this, motion, A, "the force on '" + field.spec.name + "' is not a finite number"));
+        throw StepError(
+            located({A, "the force on '" + field.spec.name + "' is not a finite number"}, motion));
   if (std::isfinite(sum(total))) return report;
   for (Index A = 0; A < size(); ++A)
     if (!std::isfinite(sum(at(force, A) * at(force, A))))
-      throw StepError(failure_at(*this, motion, A, "the force is not a finite number"));
+      throw StepError(located({A, "the force is not a finite number"}, motion));
   return report;  // the squares overflowed
 }
 

@@ -14,7 +14,7 @@
 
 #include "support/bodies.hpp"
 
-namespace meniscus {
+namespace meniscus::contact_study {
 namespace {
 
 constexpr Real radius = 3, cutoff = 4;  // in sigma0 = 1
@@ -248,4 +248,4 @@ const bool registered =
                               run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::contact_study

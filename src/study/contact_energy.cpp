@@ -10,7 +10,7 @@
 
 #include <fmt/core.h>
 
-namespace meniscus {
+namespace meniscus::contact_energy_study {
 namespace {
 
 std::string scene_text(const std::string& form, int points) {
@@ -128,4 +128,4 @@ const bool registered =
                               "time step"});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::contact_energy_study

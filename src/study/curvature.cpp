@@ -10,7 +10,7 @@
 #include "support/curvature_list.hpp"
 #include "support/height_function.hpp"
 
-namespace meniscus {
+namespace meniscus::curvature_study {
 namespace {
 
 using namespace study;
@@ -228,4 +228,4 @@ const bool registered =
                               run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::curvature_study

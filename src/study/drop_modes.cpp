@@ -3,18 +3,19 @@
 // relation. A sphere in its Laplace pressure is thrown into the potential flow grad(r^l P_l); once
 // the vortical modes of that start have died out, the amplitude of P_l is one damped mode.
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/study/drop_dispersion.hpp"
 #include "meniscus/study/study.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace meniscus {
+namespace meniscus::drop_modes_study {
 namespace {
 
 struct Case {
@@ -80,7 +81,7 @@ class Amplitude {
       normal += P * P.transpose();
       right += r * P;
     }
-    return Vector(normal.ldlt().solve(right))[l_];
+    return solve_symmetric<5>(normal, right)[l_];
   }
 
  private:
@@ -191,4 +192,4 @@ const bool registered = register_entry(
                run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::drop_modes_study

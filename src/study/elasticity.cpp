@@ -10,7 +10,7 @@
 #include "support/elastic_case.hpp"
 #include "support/elastic_fields.hpp"
 
-namespace meniscus {
+namespace meniscus::elasticity_study {
 namespace {
 
 using namespace study;
@@ -105,4 +105,4 @@ const bool registered = register_entry(
                run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::elasticity_study

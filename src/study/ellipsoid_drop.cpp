@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-namespace meniscus {
+namespace meniscus::ellipsoid_drop_study {
 namespace {
 
 struct Method {
@@ -137,4 +137,4 @@ const bool registered = register_entry(
                run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::ellipsoid_drop_study

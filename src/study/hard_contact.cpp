@@ -91,8 +91,8 @@ void compression(HardCases& cases) {
   cases.study().require(name + ": least gap / equilibrium gap",
                         least == outcome.least.end() ? std::nan("") : least->second / gap,
                         {0.56, 0.62});
-  cases.study().require(name + ": step at the equilibrium gap / least step",
-                        outcome.first_step / outcome.least_step, {10, 20});
+  cases.study().require(name + ": step allowed at the equilibrium gap / least allowed step",
+                        outcome.first_allowed_step / outcome.least_allowed_step, {10, 20});
 }
 
 void overlap(HardCases& cases) {

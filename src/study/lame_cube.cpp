@@ -10,7 +10,7 @@
 #include <ctime>
 #include <numbers>
 
-namespace meniscus {
+namespace meniscus::lame_cube_study {
 namespace {
 
 constexpr Real young = 1, poisson = 0.3, amplitude = 1e-5;
@@ -156,4 +156,4 @@ const bool registered = register_entry(
                run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::lame_cube_study

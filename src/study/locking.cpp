@@ -8,7 +8,7 @@
 #include "support/elastic_case.hpp"
 #include "support/elastic_fields.hpp"
 
-namespace meniscus {
+namespace meniscus::locking_study {
 namespace {
 
 using namespace study;
@@ -86,4 +86,4 @@ const bool registered = register_entry(
                run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::locking_study

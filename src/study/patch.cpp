@@ -8,7 +8,7 @@
 #include "support/elastic_case.hpp"
 #include "support/elastic_fields.hpp"
 
-namespace meniscus {
+namespace meniscus::patch_study {
 namespace {
 
 using namespace study;
@@ -81,4 +81,4 @@ const bool registered = register_entry(
                run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::patch_study

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace meniscus {
+namespace meniscus::rbc_study {
 namespace {
 
 constexpr Real quarter_meridian = 3.5 + 1.5 * std::numbers::pi / 2;
@@ -225,4 +225,4 @@ const bool registered = register_entry(
                run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::rbc_study

@@ -12,7 +12,7 @@
 #include "support/cube_modes.hpp"
 #include "support/elastic_case.hpp"
 
-namespace meniscus {
+namespace meniscus::spectrum_study {
 namespace {
 
 using namespace study;
@@ -146,4 +146,4 @@ const bool registered =
                               run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::spectrum_study

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus {
+namespace meniscus::static_drop_study {
 namespace {
 
 struct Case {
@@ -185,4 +185,4 @@ const bool registered =
                               run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::static_drop_study

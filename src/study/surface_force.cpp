@@ -8,7 +8,7 @@
 
 #include "support/force_cases.hpp"
 
-namespace meniscus {
+namespace meniscus::surface_force_study {
 namespace {
 
 using namespace study;
@@ -167,4 +167,4 @@ const bool registered = register_entry(
                run});
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::surface_force_study

@@ -7,7 +7,7 @@ namespace meniscus {
 namespace {
 
 struct Tension {
-  static constexpr std::string_view type_name = "tension";
+  static constexpr std::string_view type_name = "tension", example = "gamma = 1\n";
   Real gamma = 0;
 
   static Rows<Tension> rows() {

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Result files and checkpoints made to do harm: each is refused by a sentence or read as what it
 is, without a signal, in little memory and time. Usage: hostile_files.py RESULT_WRITER RESULT_READER
-[sanitized]  (the address sanitizer reserves more address space than any limit allows)"""
+[sanitized | N]  (the address sanitizer reserves more address space than any limit allows; N: as many
+more files with two or three things done to each, chosen by a seed)"""
+import random
 import resource
 import shutil
 import struct
@@ -191,8 +193,9 @@ class Files:
                        stdout=subprocess.DEVNULL)
         self.count = 0
 
-    def harm(self, what, source, change, *refusing):
-        """`change` is made to a copy of `source`, which the ways `refusing` have to refuse."""
+    def harm(self, what, source, change, *refusing, flips=()):
+        """`change` is made to a copy of `source`, which the ways `refusing` have to refuse. `flips`:
+        where in the file bytes are changed after that, from 0 to 1."""
         path = self.directory / "harmed.h5"
         shutil.copy(self.directory / "run" / source, path)
         with h5py.File(path, "r+") as file:
@@ -201,6 +204,11 @@ class Files:
             content = path.read_bytes()
             head = content[:512].split(b"checksum ")[0] + b"checksum %016x\n" % fnv(content[512:])
             path.write_bytes(head.ljust(512, b"\0") + content[512:])
+        if flips:
+            content = bytearray(path.read_bytes())
+            for place in flips:
+                content[int(place * len(content))] ^= 1 << int(place * 1e6) % 8
+            path.write_bytes(content)
         self.read(what, path, *refusing)
 
     def read(self, what, path, *refusing):
@@ -216,8 +224,30 @@ class Files:
         self.count += 1
 
 
+def combinations(files, count):
+    """Several changes to one file: nothing is expected of them but an answer."""
+    chosen = random.Random(3)
+    kinds = {"steps/0/state": STATE | SIGNED, "steps/0": HOLDER, "meta": META | PROGRAM, "/": INFO}
+    for k in range(count):
+        changes = []
+        for _ in range(chosen.randint(2, 3)):
+            path = chosen.choice(list(kinds))
+            changes.append((path, chosen.choice(list(kinds[path]))))
+        flips = [chosen.random() for _ in range(chosen.choice((0, 0, 1, 20)))]
+
+        def change(file):
+            for path, name in changes:
+                try:
+                    kinds[path][name](file[path])
+                except (KeyError, ValueError, TypeError, RuntimeError, OSError, AttributeError):
+                    pass  # an earlier change has taken what this one is done to
+
+        files.harm(f"{k}: {changes}", "run.h5", change, flips=flips)
+
+
 def main():
-    writer, reader, *sanitized = sys.argv[1:]
+    writer, reader, *options = sys.argv[1:]
+    sanitized, more = options == ["sanitized"], [int(option) for option in options if option.isdigit()]
     with tempfile.TemporaryDirectory() as name:
         files = Files(writer, reader, Path(name), not sanitized)
         with h5py.File(Path(name) / "run/run.h5") as file:
@@ -245,6 +275,8 @@ def main():
             path = Path(name) / "garbage.h5"
             path.write_bytes(content)
             files.read(f"garbage {number}", path, "info", "checkpoint", "frame")
+        for count in more:
+            combinations(files, count)
         print(f"{files.count} files")
 
 

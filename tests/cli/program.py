@@ -41,6 +41,13 @@ body = "drop"
 gamma = "72.8 mN/m"
 """
 
+# The same, referred anew twice.
+REMAPPED_DROP = DROP + """
+[[remap]]
+body = "drop"
+at = ["17 ps", "35 ps"]
+"""
+
 # An elastic block that is shaken.
 BLOCK = """
 dimension = 3
@@ -125,13 +132,25 @@ class ProgramTest(unittest.TestCase):
             self.assertIn(word, done.stderr)
         return done
 
+    def result_files(self, output):
+        """run.h5, run.1.h5, ..."""
+        folder = self.directory / output
+        files = [folder / "run.h5"]
+        while (file := folder / f"run.{len(files)}.h5").exists():
+            files.append(file)
+        return files
+
     def frames(self, output):
         """The frames of a run: a list of {name: array}, with step and time."""
-        with h5py.File(self.directory / output / "run.h5") as file:
-            steps = file["steps"]
-            return [{"step": steps[str(k)].attrs["step"], "time": steps[str(k)].attrs["time"],
-                     **{n: d[:] for n, d in steps[str(k)].items() if isinstance(d, h5py.Dataset)}}
-                    for k in range(len(steps))]
+        frames = []
+        for path in self.result_files(output):
+            with h5py.File(path) as file:
+                for k in range(len(file["steps"])):
+                    frame = file[f"steps/{k}"]
+                    frames.append({"step": frame.attrs["step"], "time": frame.attrs["time"],
+                                   **{name: array[:] for name, array in frame.items()
+                                      if isinstance(array, h5py.Dataset)}})
+        return frames
 
     def history(self, output):
         """Columns of history.csv by name."""

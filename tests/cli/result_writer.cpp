@@ -51,11 +51,11 @@ void write_run(const std::string& path, std::int64_t frames, const ResultOptions
     Snapshot state;
     state.add_reals("velocity", three, "m/s");
     state.add_integers("step", std::vector<std::int64_t>{10 * k});
-    const Field fields[] = {{"position", 3, "m", three},
-                            {"pressure", 1, "Pa", one},
-                            {"velocity", 2, "m/s", two},
-                            {"strain", 6, "1", six},
-                            {"stress", 9, "Pa", nine}};
+    const ResultField fields[] = {{"position", 3, "m", three},
+                                  {"pressure", 1, "Pa", one},
+                                  {"velocity", 2, "m/s", two},
+                                  {"strain", 6, "1", six},
+                                  {"stress", 9, "Pa", nine}};
     const Real time = 0.5 * static_cast<Real>(k);
     history.write(std::vector<Real>{time, 1.0 / 3.0});
     result.write_frame(10 * k, time, fields, &state);

@@ -87,6 +87,82 @@ class Scenes(ProgramTest):
         self.assert_refused(text, "contact[0]", "surfaces overlap", "'one' and 'two'",
                             "move the bodies apart")
 
+    CONTACT = """
+    dimension = 2
+    time.end = 1
+    [[body]]
+    name = "one"
+    shape = "disk"
+    radius = 1
+    core = 4
+    rings = 2
+    material = { type = "neo_hookean", density = 1, mu = 1, lambda = 1 }
+    [[contact]]
+    bodies = ["one"]
+    epsilon = 1
+    sigma0 = 0.4
+    beta = 1
+    partner = PARTNER
+    """
+
+    def test_partners(self):
+        """Numbers of a partner that make no shape are refused at their key."""
+        for partner, *words in (
+                ('{ type = "half_space", point = [0, -2], normal = [0, 0] }', "partner.normal", "no direction"),
+                ('{ type = "frame", low = [2, -2], high = [-2, 2] }', "partner.high", "x: -2 is not above 2"),
+                ('{ type = "ball", centre = [0, -3], radius = 1, normal = [0, 1] }', "partner.normal",
+                 "unknown key"),
+                ('{ type = "half_space", point = [0, -2], normal = [0, 1], radius = 1 }', "partner.radius",
+                 "unknown key")):
+            report = self.assert_refused(self.CONTACT.replace("PARTNER", partner), "contact[0].", *words)
+            self.assertEqual(len(report.splitlines()), 1, report)
+
+    def test_names_of_contacts(self):
+        """They become parts of names in the history, as those of bodies do."""
+        partner = '{ type = "half_space", point = [0, -2], normal = [0, 1] }'
+        for name in ("a/b", "a b", "a,b", "a.b"):
+            text = self.CONTACT.replace("PARTNER", partner).replace("epsilon", f'name = "{name}"\nepsilon')
+            self.assert_refused(text, "contact[0].name", "cannot be a name")
+
+    def test_body_that_cannot_be_made(self):
+        """What else would be said of it is about its stand-in."""
+        shell = """
+        dimension = 3
+        time.end = 1
+        [[body]]
+        name = "cell"
+        shape = "sphere_shell"
+        radius = 1
+        thickness = 3
+        layers = 4
+        spacing = 0.8
+        [body.material]
+        type = "liquid_crystal_elastomer"
+        density = 1
+        mu = 1
+        bulk_modulus = 8
+        step_length = 2
+        [[cavity]]
+        body = "cell"
+        volume_target = 0.9
+        penalty = 10
+        [[profile]]
+        body = "cell"
+        r = [0, 1]
+        z = [0.5, 0]
+        """
+        report = self.assert_refused(shell, "body[0].shape")
+        self.assertEqual(len(report.splitlines()), 1, report)
+
+    def test_two_laws_on_a_surface(self):
+        """Their measures would have equal names."""
+        self.assert_refused(DROP + '[[surface]]\nbody = "drop"\nlaw = { type = "tension", gamma = 1 }\n',
+                            "surface", "the surface of 'drop' has a law already")
+
+    def test_loads_of_space(self):
+        self.assert_refused(SHEET + '[[profile]]\nbody = "sheet"\nr = [1]\nz = [0]\n',
+                            "scene.toml:16:1: profile", "[[profile]] is for bodies in 3 dimensions")
+
     def test_counted_falls_need_a_level(self):
         expect = "[expect]\nkinetic_energy = {{ reduce = \"{}\", value = 1, within = 0{} }}\n"
         self.assert_refused(DROP + expect.format("falls", ""), "level", "is missing")
@@ -199,6 +275,15 @@ class Scenes(ProgramTest):
         done = self.call("check", self.scene(text), code=3, **limits)
         self.assertRegex(done.stderr, r"body\[0\].shape: .*2.7e\+07 cells.* GB of memory, 3\.\d* GB are there")
 
+    def test_memory_of_all_bodies(self):
+        """Each may fit where all do not."""
+        big = self.change(BLOCK, ("cells = [4, 4, 4]", "cells = [36, 36, 36]"))
+        body = big[big.index("[[body]]"):big.index("[[body_force]]")]
+        text = big + body.replace('"block"', '"second"')
+        limits = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (3 << 30, 3 << 30))}
+        done = self.call("check", self.scene(text), code=3, **limits)
+        self.assertRegex(done.stderr, r"body\[1\].shape: the bodies up to this one would have 9.3\d*e\+04 cells")
+
     def test_settings(self):
         file = self.scene(BLOCK)
         self.refused(["run", file, "--set", "time.ent=3"], 3, "--set 'time.ent=3'", "did you mean 'end'")
@@ -261,9 +346,9 @@ class Failures(ProgramTest):
         """Exit code 4 with all of `words`; everything that was written is finite."""
         file = self.scene(text)
         done = self.refused(["run", file, "--output", "out"], 4, *words)
-        self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
-        self.assertIn(done.stderr.strip().split(": ", 1)[1],
-                      (self.directory / "out/run.log").read_text())
+        *warnings, error = done.stderr.strip().splitlines()
+        self.assertTrue(all(line.startswith("warning: ") for line in warnings), done.stderr)
+        self.assertIn(error.split(": ", 1)[1], (self.directory / "out/run.log").read_text())
         for name, column in self.history("out").items():
             self.assertTrue(np.isfinite(column).all(), name)
         for frame in self.frames("out"):
@@ -308,7 +393,37 @@ class Failures(ProgramTest):
         acceleration = ["sin(t)", 0]
         """
         for command in ("check", "run"):
-            self.refused([command, self.scene(text)], 3, "body force on 'sheet'", "no rest")
+            self.refused([command, self.scene(text)], 3, "scene.toml:5:10: time.solver",
+                         "body force on 'sheet'", "no rest")
+
+    def test_net_force(self):
+        """Nothing balances it: that is said, and not that there may be more time."""
+        text = SHEET.replace("end = 0.1", 'end = 0.1\nsolver = "relax"') + """
+        [[body_force]]
+        body = "sheet"
+        acceleration = [0, -2]
+        """
+        message = self.assert_fails(text, "not at rest at t = 0.1 s", "net force (0, -", "on body 'sheet'",
+                                    "nothing balances")
+        self.assertNotIn("more time", message)
+
+    def test_body_in_another(self):
+        """The points of two surfaces miss each other, and what repels them is weak."""
+        disk = """
+        [[body]]
+        name = "{}"
+        shape = "disk"
+        radius = 1
+        core = 6
+        rings = 3
+        centre = {}
+        initial_velocity = {}
+        material = {{ type = "neo_hookean", density = 1, mu = 400, lambda = 300 }}
+        """
+        text = "dimension = 2\ntime.end = 0.4\n[output]\n"
+        text += disk.format("left", [-1.2, 0], [1.5, 0]) + disk.format("right", [1.2, 0.3], [-1.5, 0])
+        text += '[[contact]]\nbodies = ["left", "right"]\nepsilon = 1\nsigma0 = 0.05\nbeta = 1\npoints = 2\n'
+        self.assert_fails(text, "particle ", "is inside of body '", "contact 'left-right'")
 
 
 class Expectations(ProgramTest):

@@ -4,6 +4,7 @@
 time, and which of them are in order is known: data/accepted_mutants.txt has been read line by line.
 Usage: test_mutants.py PROGRAM            400 of the mutants, chosen by a seed
        test_mutants.py PROGRAM --all      every one
+       test_mutants.py PROGRAM --pairs N  N scenes with two lines changed, chosen by a seed
        test_mutants.py PROGRAM --update   every one; rewrites the list, to be read as a difference"""
 import random
 import re
@@ -182,6 +183,20 @@ def all_mutants():
                     yield base, i, name, "\n".join(lines[:i] + [new] + lines[i + 1:])
 
 
+def pair_mutants(count):
+    """(base, lines, mutations, scene) with two changes each."""
+    chosen = random.Random(SEED)
+    for _ in range(count):
+        base = chosen.choice(list(BASES))
+        lines = BASES[base].split("\n")
+        changed = chosen.sample([i for i, line in enumerate(lines) if line.strip()], 2)
+        names = []
+        for i in changed:
+            name, lines[i] = chosen.choice(list(mutants_of(lines[i].strip()).items()))
+            names.append(name)
+        yield base, tuple(changed), tuple(names), "\n".join(lines)
+
+
 def verdict(program, directory, number, scene):
     """"accepted", "refused", or what is wrong with the program."""
     file = directory / f"m{number}.toml"
@@ -211,6 +226,25 @@ def listed():
     return accepted
 
 
+def is_known(known, base, lines, names):
+    """Whether each change of a scene leaves it in order by itself."""
+    return all(name in known.get((base, i), ()) for i, name in zip(lines, names))
+
+
+def check_pairs(program, count):
+    """What is in order with both changes is so with each: no mistake hides another."""
+    known, mutants, wrong, in_order = listed(), list(pair_mutants(count)), [], 0
+    with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(2) as pool:
+        verdicts = pool.map(lambda m: verdict(program, Path(name), m[0], m[1][3]), enumerate(mutants))
+        for (base, lines, names, _), found in zip(mutants, verdicts):
+            in_order += found == "accepted"
+            if found not in ("accepted", "refused") or found == "accepted" and not is_known(known, base, lines, names):
+                wrong.append(f"{base} {lines} {names}: {found}")
+    print("\n".join(wrong))
+    print(f"{count} mutants with two changes, {in_order} in order, {len(wrong)} wrong")
+    sys.exit(bool(wrong))
+
+
 def write_list(accepted):
     with LIST.open("w") as out:
         out.write("# Scene, number and text of a line of test_mutants.py: changes that leave it in order.\n")
@@ -221,6 +255,8 @@ def write_list(accepted):
 
 def main():
     program, mode = sys.argv[1], (sys.argv[2:] or [""])[0]
+    if mode == "--pairs":
+        check_pairs(program, int(sys.argv[3]))
     mutants = list(all_mutants())
     if not mode:
         mutants = random.Random(SEED).sample(mutants, COUNT)

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run that is stopped and continued, however, ends with the same bits as one that is not.
 Usage: test_restart.py PROGRAM"""
+import json
 import re
 import signal
 
 import numpy as np
 
 import program
-from program import BLOCK, DROP, RELAXING_SHEET, ProgramTest, state_of
+from program import BLOCK, DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of
 
 
 class Restart(ProgramTest):
@@ -123,6 +124,52 @@ class EveryWay:
 
 class Drop(EveryWay, Restart):
     SCENE, TIME, LATER = DROP, "20.3 ps", "41 ps"
+
+
+class RemappedDrop(EveryWay, Restart):
+    # Stopped in the second and the third epoch.
+    SCENE, TIME, LATER = REMAPPED_DROP, "20.3 ps", "41 ps"
+
+    def test_series(self):
+        """A file per epoch; the sidecars have all of them; the books are kept over all."""
+        self.reference(self.SCENE)
+        names = ["run.h5", "run.1.h5", "run.2.h5"]
+        self.assertEqual([file.name for file in self.result_files("whole")], names)
+        listed = json.loads((self.directory / "whole/run.h5.series").read_text())["files"]
+        self.assertEqual([file["name"] for file in listed], names)
+        times = [frame["time"] for frame in self.whole_frames]
+        self.assertTrue(all(a < b for a, b in zip(times, times[1:])))
+        for file in listed:
+            self.assertIn(file["time"], times)
+        xdmf = (self.directory / "whole/run.xdmf").read_text()
+        self.assertEqual(xdmf.count("<Time "), len(times))
+        self.assertIn("run.2.h5:/steps/0/position", xdmf)
+        self.assertIn("run.2.h5", self.call("info", "whole").stdout)
+        history = self.history("whole")
+        self.assertEqual(len(set(history["remapped"])), 3)
+        before = self.call("run", self.scene(DROP, "other"), "--output", "other")
+        self.assertNotEqual(state_of(before), self.whole)
+        other = self.history("other")
+        self.assertNotIn("remapped", other)
+        scale = np.ptp(other["surface_energy"])
+        for name in ("surface_energy", "kinetic_energy", "dissipated"):
+            self.assertLess(abs(history[name][-1] - other[name][-1]), 0.1 * scale, name)
+        self.assertLess(np.abs(history["momentum_error"]).max(), 1e-12)
+        self.assertLess(np.abs(history["angular_momentum_error"]).max(), 1e-12)
+
+    def test_back_into_the_first_epoch(self):
+        """Files of later epochs go with their frames."""
+        self.reference(self.SCENE)
+        first = self.whole_frames[1]["time"] * (1 + 1e-9)
+        self.call("run", self.file, "--restart", "whole", "--frame", "1", "--until", first)
+        self.assertEqual(len(self.result_files("whole")), 1)
+        self.assertFalse((self.directory / "whole/run.h5.series").exists())
+        self.assert_same(self.call("run", self.file, "--restart", "whole"), "whole")
+
+    def test_overwrite(self):
+        self.reference(self.SCENE)
+        self.call("run", self.scene(DROP, "other"), "--output", "whole", "--overwrite")
+        self.assertEqual(len(self.result_files("whole")), 1)
 
 
 class Block(EveryWay, Restart):

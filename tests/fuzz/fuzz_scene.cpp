@@ -13,7 +13,7 @@ namespace {
 std::pair<std::string, std::string> read(const std::string& toml) {
   try {
     const SceneInput input = SceneInput::from_text(toml, "s.toml");
-    const input_test::Scene scene = input_test::read_scene(input.root());
+    const input_test::LiquidScene scene = input_test::read_scene(input.root());
     const std::string complete = input.complete();
     input.check();
     for (const auto& liquid : scene.liquids) liquid.at({1e-9, 1, 2});

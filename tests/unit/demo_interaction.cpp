@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A demonstration: an interaction that no other file knows of. Morse's law of the gap; the tests of
-// all loads find it.
+// everything registered find it.
 #include "meniscus/physics/interaction_registry.hpp"
 
 #include <cmath>
 
-#include "load_examples.hpp"
-
-namespace meniscus {
+namespace meniscus::demo_interaction {
 namespace {
 
 /// e = W (x^2 - 2 x), x = exp((rest - g) / length).
 struct DemoMorse final : Interaction {
+  static constexpr std::string_view example = "work = 1\nrest = 0.3\nlength = 0.1\n";
   Real work = 0, rest = 0, length = 0;
 
   static Rows<DemoMorse> rows() {
@@ -40,42 +39,8 @@ struct DemoMorse final : Interaction {
   }
 };
 
-std::string contact(const std::string& partner) {
-  return "[[contact]]\nbodies = [\"drop\"]\ninteraction = \"demo_morse\"\nwork = 1\nrest = 0.3\n"
-         "length = 0.1\npartner = { " +
-         partner + " }\n";
-}
-
 const bool registered =
-    register_interaction<DemoMorse>("demo_morse", "demonstration: Morse's law of the gap") &&
-    register_entry(test::LoadExample{"contact.demo_morse", test::one_drop,
-                                     [](int D) {
-                                       return contact(
-                                           std::string("type = \"half_space\", ") +
-                                           (D == 3 ? "point = [0, 0, -1.35], normal = [0, 0, 1]"
-                                                   : "point = [0, -1.35], normal = [0, 1]"));
-                                     },
-                                     true, false}) &&
-    register_entry(test::LoadExample{"contact.demo_morse_ball", test::one_drop,
-                                     [](int D) {
-                                       return contact(
-                                           std::string("type = \"ball\", radius = 0.7, centre = ") +
-                                           (D == 3 ? "[0, 0.2, -2]" : "[0.2, -2]"));
-                                     },
-                                     true, false}) &&
-    register_entry(test::LoadExample{
-        "contact.demo_morse_cavity", test::one_drop,
-        [](int D) {
-          return contact(std::string("type = \"cavity\", radius = 1.4, centre = ") +
-                         (D == 3 ? "[0, 0.1, 0]" : "[0.1, 0]"));
-        },
-        true, false}) &&
-    register_entry(test::LoadExample{
-        "contact.demo_morse_frame", test::one_drop,
-        [](int D) {
-          return D == 3 ? "" : contact("type = \"frame\", low = [-1.3, -1.4], high = [2, 3]");
-        },
-        true, false});
+    register_interaction<DemoMorse>("demo_morse", "demonstration: Morse's law of the gap");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::demo_interaction

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A demonstration: a load that no other file knows of. Springs hold the particles where they were;
-// the tests of all loads find it.
+// the tests of everything registered find it.
 #include "meniscus/scene/assembly.hpp"
 
-#include "load_examples.hpp"
-
-namespace meniscus {
+namespace meniscus::demo_load {
 namespace {
 
 /// f_A = -k m_A u_A, the gradient of E = sum k m_A u_A^2 / 2.
@@ -44,6 +42,7 @@ class Springs final : public ForceTerm {
 
 template <int D>
 struct DemoSprings final : Load<D> {
+  static constexpr std::string_view example = "body = \"drop\"\nstiffness = 2\n";
   std::string body;
   Real stiffness = 0;
 
@@ -61,11 +60,7 @@ struct DemoSprings final : Load<D> {
 };
 
 const bool registered =
-    register_load<DemoSprings>("demo_springs", Stage::volume, "demonstration: springs") &&
-    register_entry(test::LoadExample{
-        "demo_springs", test::one_drop,
-        [](int) -> std::string { return "[[demo_springs]]\nbody = \"drop\"\nstiffness = 2\n"; },
-        true, false});
+    register_load<DemoSprings>("demo_springs", Stage::volume, "demonstration: springs");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::demo_load

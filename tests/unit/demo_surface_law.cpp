@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A demonstration: a surface law that no other file knows of. A skin that resists a change of its
-// area; the tests of all loads find it.
+// area; the tests of everything registered find it.
 #include "meniscus/physics/surface_registry.hpp"
 
-#include "load_examples.hpp"
-
-namespace meniscus {
+namespace meniscus::demo_surface_law {
 namespace {
 
 /// w = K (Js - 1)^2 / 2, dw/dF = K (Js - 1) dJs/dF.
 struct DemoSkin {
-  static constexpr std::string_view type_name = "demo_skin";
+  static constexpr std::string_view type_name = "demo_skin", example = "stiffness = 1\n";
   Real stiffness = 0;
 
   static Rows<DemoSkin> rows() {
@@ -34,14 +32,7 @@ struct DemoSkin {
   }
 };
 
-const bool registered =
-    register_surface_law<DemoSkin>("demonstration: resists a change of area") &&
-    register_entry(test::LoadExample{"surface.demo_skin", test::one_drop,
-                                     [](int) -> std::string {
-                                       return "[[surface]]\nbody = \"drop\"\n"
-                                              "law = { type = \"demo_skin\", stiffness = 1 }\n";
-                                     },
-                                     true, true});
+const bool registered = register_surface_law<DemoSkin>("demonstration: resists a change of area");
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::demo_surface_law

@@ -80,14 +80,14 @@ liquid = { bulk_modulus = 1e9, axes = [1, 1, 1], ripened = true }
 volume = { value = 1, within = 0.1 }
 )toml";
 
-struct Scene {
+struct LiquidScene {
   std::int64_t dimension = 0;
   std::vector<Varying<Liquid>> liquids;
   std::vector<std::string> expected;
 };
 
-inline Scene read_scene(const Block& root) {
-  Scene scene;
+inline LiquidScene read_scene(const Block& root) {
+  LiquidScene scene;
   scene.dimension = root.integer("dimension", {2, 3}, {});
   for (const Block& body : root.tables("body")) {
     body.text("name", {});

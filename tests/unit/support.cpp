@@ -61,13 +61,11 @@ std::unique_ptr<Body<D>> body_of(Geometry<D> geometry, Support<D> support, Windo
 }
 
 const std::map<std::string, std::string>& law_texts() {
-  static const std::map<std::string, std::string> texts{
-      {"newtonian", "density = 1.25\nbulk_modulus = 2.5\nviscosity = 0.5\nbulk_viscosity = 0.25\n"},
-      {"neo_hookean", "density = 1.25\nmu = 0.75\nlambda = 1.5\n"},
-      {"st_venant_kirchhoff", "density = 1.25\nmu = 0.75\nlambda = 1.5\n"},
-      {"mooney_rivlin", "density = 1.25\nc1 = 0.625\nc2 = 0.125\nlambda = 2.5\n"},
-      {"liquid_crystal_elastomer",
-       "density = 1.25\nmu = 0.75\nbulk_modulus = 1.5\nstep_length = 2.5\n"}};
+  static const auto texts = [] {
+    std::map<std::string, std::string> all;
+    for (const auto& [name, law] : laws()) all.emplace(name, law.example);
+    return all;
+  }();
   return texts;
 }
 

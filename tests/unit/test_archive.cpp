@@ -13,7 +13,7 @@
 #include "one_body.hpp"
 #include "unit/io_helpers.hpp"
 
-namespace meniscus {
+namespace meniscus::test_archive {
 namespace {
 
 /// One value of every type.
@@ -218,4 +218,4 @@ TEST(Archive, ASnapshotOfAnotherSceneIsRefused) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_archive

@@ -9,7 +9,7 @@
 
 #include "one_body.hpp"
 
-namespace meniscus {
+namespace meniscus::test_audit {
 namespace {
 
 using test::OneBody;
@@ -81,4 +81,4 @@ TEST(Audit, ErrorsAreRelativeToWhatWasExchanged) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_audit

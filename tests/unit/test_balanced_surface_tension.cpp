@@ -15,7 +15,7 @@
 
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_balanced_surface_tension {
 namespace {
 
 constexpr Real pi = std::numbers::pi;
@@ -316,4 +316,4 @@ TEST(Simulation, StopsADropWhoseAreaIsImpossible) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_balanced_surface_tension

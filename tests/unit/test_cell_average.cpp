@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_cell_average {
 namespace {
 
 const Integration full{"q_scni", 0, "full"}, selective{"q_scni", 0, "cell_average"};
@@ -149,4 +149,4 @@ TEST(CellAverage, NeedsCells) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_cell_average

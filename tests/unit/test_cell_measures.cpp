@@ -11,7 +11,7 @@
 
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_cell_measures {
 namespace {
 
 DiskShell flat_cell(Real spacing) {
@@ -117,4 +117,4 @@ TEST(EvansFung, SolidBodiesHaveNoCellMeasures) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_cell_measures

@@ -8,7 +8,7 @@
 
 #include "one_body.hpp"
 
-namespace meniscus {
+namespace meniscus::test_central_difference {
 namespace {
 
 using test::OneBody;
@@ -180,4 +180,4 @@ TEST(CentralDifference, AForceThatIsNoNumberNamesTheParticle) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_central_difference

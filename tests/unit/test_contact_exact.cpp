@@ -8,7 +8,7 @@
 #include "contact_reference.hpp"
 #include "contact_support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_contact_exact {
 namespace {
 
 Mat<3> matrix(const nlohmann::json& rows) {
@@ -102,4 +102,4 @@ TEST(ContactEllipsoids, FormsHaveTheSameForceAndTheirOwnWork) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_contact_exact

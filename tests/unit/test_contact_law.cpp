@@ -5,7 +5,7 @@
 
 #include "contact_reference.hpp"
 
-namespace meniscus {
+namespace meniscus::test_contact_law {
 namespace {
 
 using test::contact_laws;
@@ -153,4 +153,4 @@ TEST(ContactLaw, KernelsHaveNames) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_contact_law

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-namespace meniscus {
+namespace meniscus::test_contact_list {
 namespace {
 
 using Cloud = AlignedVector<Lanes>;
@@ -118,4 +118,4 @@ TEST(ContactList, IsEmptyWhenTheCloudsAreApart) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_contact_list

@@ -4,7 +4,7 @@
 
 #include "contact_reference.hpp"
 
-namespace meniscus {
+namespace meniscus::test_contact_numbers {
 namespace {
 
 using test::contact_laws;
@@ -125,4 +125,4 @@ TEST(ContactNumbers, GiveTheAngleOfYoungAndDupre) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_contact_numbers

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-namespace meniscus {
+namespace meniscus::test_contact_run {
 namespace {
 
 std::string disk(const std::string& name, const std::string& more) {
@@ -212,4 +212,4 @@ TEST(ContactRun, WrongTablesAreNoted) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_contact_run

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-namespace meniscus {
+namespace meniscus::test_drop_dispersion {
 namespace {
 
 TEST(DropDispersion, MatchesReference) {
@@ -45,4 +45,4 @@ TEST(DropDispersion, HasItsLimits) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_drop_dispersion

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace meniscus {
+namespace meniscus::test_elementary {
 namespace {
 
 constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
@@ -103,4 +103,4 @@ TEST(Elementary, BadArgumentsAreSeenInTheirLaneOnly) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_elementary

@@ -9,7 +9,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace meniscus {
+namespace meniscus::test_expectations {
 namespace {
 
 /// Rows at t = 0, 0.5, ..., 10 of 2 exp(-0.3 t), of t - 4, and of an oscillating -exp(-0.3 t).
@@ -163,4 +163,4 @@ TEST_F(Expectations, Table) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_expectations

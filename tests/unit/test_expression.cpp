@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace meniscus {
+namespace meniscus::test_expression {
 namespace {
 
 const Eigen::Vector3d X(0.5, -2.0, 3.0);
@@ -124,4 +124,4 @@ TEST(Expression, Messages) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_expression

@@ -11,7 +11,7 @@
 
 #include "one_body.hpp"
 
-namespace meniscus {
+namespace meniscus::test_fields {
 namespace {
 
 constexpr Real capacity = 0.7, stiffness = 2;
@@ -206,4 +206,4 @@ TEST(Fields, AskedForTwiceAreOne) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_fields

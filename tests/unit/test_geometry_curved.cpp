@@ -14,7 +14,7 @@
 
 #include "straight_grid.hpp"
 
-namespace meniscus {
+namespace meniscus::test_geometry_curved {
 namespace {
 
 using std::numbers::pi;
@@ -203,4 +203,4 @@ TEST(CurvedCells, FoldsOfBulgesAreFound) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_geometry_curved

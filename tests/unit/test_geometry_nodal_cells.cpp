@@ -13,7 +13,7 @@
 #include <map>
 #include <vector>
 
-namespace meniscus {
+namespace meniscus::test_geometry_nodal_cells {
 namespace {
 
 template <int D>
@@ -174,4 +174,4 @@ TEST(NodalCells, NodeWithoutCellIsRefused) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_geometry_nodal_cells

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace meniscus {
+namespace meniscus::test_geometry_ordering {
 namespace {
 
 Ellipsoid long_ellipsoid() {
@@ -89,4 +89,4 @@ TEST(Ordering, RefusesWhatIsNoPermutation) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_geometry_ordering

@@ -13,7 +13,7 @@
 
 #include "straight_grid.hpp"
 
-namespace meniscus {
+namespace meniscus::test_geometry_shapes {
 namespace {
 
 using std::numbers::pi;
@@ -27,7 +27,7 @@ TEST(Shapes, BallCountsAndVolume) {
   // Reference value of the cubed sphere with n = 10, m = 5, a = 0.5, w = 0.7.
   EXPECT_NEAR(volume(test::straight(ball.grid)), 4.1437736935676135, 1e-12);
   EXPECT_NEAR(volume(ball.grid) / (4 * pi / 3), 1, 4e-6);
-  EXPECT_TRUE(ball.smooth);
+  EXPECT_TRUE(ball.surface->smooth());
 }
 
 TEST(Shapes, HalfSphereIsHalfABall) {
@@ -45,7 +45,7 @@ TEST(Shapes, HalfSphereIsHalfABall) {
   const Index in_plane = 49 + 3 * 24;
   EXPECT_EQ(2 * body.grid.node_count() - in_plane, whole.geometry().grid.node_count());
   EXPECT_NEAR(volume(body.grid), 4 * volume(whole.geometry().grid), 1e-12);
-  EXPECT_FALSE(body.smooth);
+  EXPECT_FALSE(body.surface->smooth());
   std::array<std::size_t, 2> facets{};
   for (const auto& facet : body.grid.facets) {
     ++at(facets, facet.patch);
@@ -67,7 +67,7 @@ TEST(Shapes, CylinderCountsAndVolume) {
   const Geometry<3> body = cylinder.geometry();
   EXPECT_EQ(body.grid.node_count(), 4036);
   EXPECT_EQ(body.grid.cell_count(), 2916);
-  EXPECT_FALSE(body.smooth);
+  EXPECT_FALSE(body.surface->smooth());
   // The cross-section is a regular 72-gon; with curved sides it is the circle but for 1.2e-7.
   EXPECT_NEAR(volume(test::straight(body.grid)), 0.5 * 36 * 4 * std::sin(2 * pi / 72), 1e-12);
   EXPECT_NEAR(volume(body.grid) / (2 * pi), 1, 1.3e-7);
@@ -337,4 +337,4 @@ TEST(Grid, GaussPointsIntegratePolynomials) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_geometry_shapes

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace meniscus {
+namespace meniscus::test_geometry_shells {
 namespace {
 
 constexpr Real pi = std::numbers::pi;
@@ -157,7 +157,7 @@ TEST(Shells, MapHasExactDerivatives) {
   auto spheroid = shell<SpheroidShell>(0.3, 4, 0.6);
   spheroid.radius = 3;
   spheroid.height = 4;
-  const SmoothMap<3> map = spheroid.geometry().map;
+  const SmoothMap<3> map = mapped_patches(*spheroid.geometry().surface).map();
   constexpr Real h = 1e-5;
   for (const Vec<3>& X : {Vec<3>(0.3, 0.5, 0.6), Vec<3>(-0.8, 0.1, -0.05), Vec<3>(0, 0, 0.9),
                           Vec<3>(2e-6, 1e-6, -0.7), Vec<3>(1e-3, 0, 0.8)}) {
@@ -208,4 +208,4 @@ TEST(Shells, WithoutAParallelSurfaceAreRefused) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_geometry_shells

@@ -11,7 +11,7 @@
 
 #include "straight_grid.hpp"
 
-namespace meniscus {
+namespace meniscus::test_geometry_surface {
 namespace {
 
 using std::numbers::pi;
@@ -219,4 +219,4 @@ TEST(SurfacePoints, FlatFacetsEncloseTheGrid) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_geometry_surface

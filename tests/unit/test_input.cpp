@@ -6,7 +6,7 @@
 
 #include "unit/input_scene.hpp"
 
-namespace meniscus {
+namespace meniscus::test_input {
 namespace {
 
 using namespace input_test;
@@ -19,7 +19,7 @@ using dimension::pressure;
 
 TEST(Input, ReadsAValidScene) {
   const SceneInput input = SceneInput::from_text(valid_scene);
-  const Scene scene = read_scene(input.root());
+  const LiquidScene scene = read_scene(input.root());
   input.check();
   EXPECT_EQ(scene.dimension, 3);
   ASSERT_EQ(scene.liquids.size(), 2u);
@@ -340,4 +340,4 @@ TEST(Input, WordsOfOtherProgramsLeadHome) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_input

@@ -6,7 +6,7 @@
 
 #include "unit/input_scene.hpp"
 
-namespace meniscus {
+namespace meniscus::test_input_fuzz {
 namespace {
 
 using namespace input_test;
@@ -38,7 +38,7 @@ TEST(Fuzz, MutatedScenesAreReadOrRefused) {
     }
     try {
       const auto input = SceneInput::from_text(toml);
-      const Scene scene = read_scene(input.root());
+      const LiquidScene scene = read_scene(input.root());
       (void)input.complete();
       input.check();
       for (const auto& liquid : scene.liquids) liquid.at({1e-9, 1, 2});
@@ -83,4 +83,4 @@ TEST(Fuzz, MutatedQuantitiesFormulasAndPathsAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_input_fuzz

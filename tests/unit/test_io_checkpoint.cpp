@@ -12,7 +12,7 @@
 
 #include "unit/io_helpers.hpp"
 
-namespace meniscus {
+namespace meniscus::test_io_checkpoint {
 namespace {
 
 TEST(Hash, IsFnv1a) {
@@ -185,4 +185,4 @@ TEST(ProvenanceOfARun, CommandLineDoesNotTellWhereFilesAre) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_io_checkpoint

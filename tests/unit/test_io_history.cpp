@@ -11,7 +11,7 @@
 
 #include "unit/io_helpers.hpp"
 
-namespace meniscus {
+namespace meniscus::test_io_history {
 namespace {
 
 class Histories : public TemporaryDirectory {
@@ -96,4 +96,4 @@ TEST_F(Histories, LogGoesToFileAndWarningsToStderr) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_io_history

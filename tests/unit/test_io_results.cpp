@@ -14,7 +14,7 @@
 
 #include "unit/io_helpers.hpp"
 
-namespace meniscus {
+namespace meniscus::test_io_results {
 namespace {
 
 class Results : public TemporaryDirectory {
@@ -22,8 +22,8 @@ class Results : public TemporaryDirectory {
   static constexpr Index particles = 5;
 
   ResultFile open(const RunDirectory& directory, ResultOptions options = {}) {
-    const Field drop[] = {{"X", 2, "m", std::span<const Real>(X_).first(4)}};
-    const Field wall[] = {{"X", 2, "m", std::span<const Real>(X_).subspan(4)}};
+    const ResultField drop[] = {{"X", 2, "m", std::span<const Real>(X_).first(4)}};
+    const ResultField wall[] = {{"X", 2, "m", std::span<const Real>(X_).subspan(4)}};
     const BodyReference bodies[] = {{"drop", {drop[0]}, {}}, {"wall", {wall[0]}, {}}};
     return {directory, provenance("test", input_), bodies, options};
   }
@@ -31,8 +31,8 @@ class Results : public TemporaryDirectory {
   /// A frame whose numbers tell its step.
   std::int64_t write(ResultFile& file, std::int64_t step, const Snapshot* state = nullptr) {
     std::vector<Real> x(2 * particles, static_cast<Real>(step));
-    const Field fields[] = {{"position", 2, "m", x},
-                            {"pressure", 1, "Pa", std::span<const Real>(x).first(particles)}};
+    const ResultField fields[] = {{"position", 2, "m", x},
+                                  {"pressure", 1, "Pa", std::span<const Real>(x).first(particles)}};
     return file.write_frame(step, 0.1 * static_cast<Real>(step), fields, state);
   }
 
@@ -71,11 +71,11 @@ TEST_F(Results, BadNumbersAreRefusedByFieldAndParticle) {
   write(file, 0);
   std::vector<Real> x(2 * particles, 1.0);
   x[7] = std::numeric_limits<Real>::quiet_NaN();
-  const Field nan[] = {{"position", 2, "m", x}};
+  const ResultField nan[] = {{"position", 2, "m", x}};
   EXPECT_THROW_WITH(file.write_frame(3, 0, nan), SolveError,
                     "the field 'position' is nan at particle 1 of body 'wall' in step 3");
   x[7] = -std::numeric_limits<Real>::infinity();
-  const Field infinite[] = {{"position", 2, "m", x}};
+  const ResultField infinite[] = {{"position", 2, "m", x}};
   EXPECT_THROW(file.write_frame(3, 0, infinite), SolveError);
   EXPECT_EQ(write(file, 3), 1);
 }
@@ -84,7 +84,7 @@ TEST_F(Results, NumbersTooLargeForSinglePrecisionAreRefused) {
   const RunDirectory directory(path(), ExistingRun::refuse);
   ResultFile file = open(directory, {.precision = ResultOptions::Precision::float32});
   const std::vector<Real> x(2 * particles, 1e39);
-  const Field fields[] = {{"position", 2, "m", x}};
+  const ResultField fields[] = {{"position", 2, "m", x}};
   EXPECT_THROW_WITH(file.write_frame(0, 0, fields), SolveError, "too large for float32");
 }
 
@@ -93,7 +93,7 @@ TEST_F(Results, FramesHaveTheSameFields) {
   ResultFile file = open(directory);
   write(file, 0);
   const std::vector<Real> x(2 * particles, 1.0);
-  const Field fields[] = {{"position", 2, "m", x}};
+  const ResultField fields[] = {{"position", 2, "m", x}};
   EXPECT_THROW_WITH(file.write_frame(1, 1, fields), FileError, "pressure (1, Pa)");
 }
 
@@ -116,6 +116,42 @@ TEST_F(Results, ContinuationDropsLaterFramesAndGoesOn) {
   const std::string xdmf = content(path() / "run.xdmf");
   EXPECT_NE(xdmf.find("run.h5:/steps/2/position"), xdmf.npos);
   EXPECT_EQ(xdmf.find("/steps/3/"), xdmf.npos);
+}
+
+TEST_F(Results, EpochsStandInFilesOfTheirOwnAndAreCountedThrough) {
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const auto& file : result_series(path())) found.push_back(file.filename().string());
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  {
+    const RunDirectory directory(path(), ExistingRun::refuse);
+    for (const std::int64_t epoch : {0, 1, 2}) {
+      ResultFile file = open(directory, {.epoch = epoch});
+      for (const std::int64_t step : {0, 10}) {
+        const Snapshot kept = state(20 * epoch + step);
+        EXPECT_EQ(write(file, 20 * epoch + step, &kept), step / 10);
+      }
+    }
+  }
+  EXPECT_EQ(names(), (Names{"run.h5", "run.1.h5", "run.2.h5"}));
+  EXPECT_EQ(read_checkpoint(path(), 3).checkpoint.step, 30);
+  EXPECT_THROW_WITH(read_checkpoint(path(), 6), FileError, "frames 4 to 5");
+  EXPECT_NE(content(path() / "run.xdmf").find("run.1.h5:/steps/1/position"), std::string::npos);
+  EXPECT_NE(content(path() / "run.h5.series").find("\"run.2.h5\", \"time\": 4"), std::string::npos);
+  EXPECT_NE(describe_file(path()).find("  5     step 50"), std::string::npos);
+  {  // What comes after goes.
+    const RunDirectory directory(path(), ExistingRun::keep);
+    ResultFile file = open(directory, {.epoch = 1, .continue_after = 20});
+    EXPECT_EQ(file.frames(), 1);
+    EXPECT_EQ(names(), (Names{"run.h5", "run.1.h5"}));
+    EXPECT_EQ(write(file, 25), 1);
+  }
+  EXPECT_EQ(content(path() / "run.h5.series").find("run.2.h5"), std::string::npos);
+  const RunDirectory directory(path(), ExistingRun::replace);
+  EXPECT_EQ(names(), Names{});
+  EXPECT_FALSE(std::filesystem::exists(path() / "run.h5.series"));
 }
 
 TEST_F(Results, ContinuationOfAnotherSceneIsRefused) {
@@ -200,4 +236,4 @@ TEST_F(Results, FullDiskIsReportedAndLeavesTheFramesBefore) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_io_results

@@ -11,7 +11,7 @@
 
 #include "one_body.hpp"
 
-namespace meniscus {
+namespace meniscus::test_liquid_crystal_elastomer {
 namespace {
 
 using Matrix = Eigen::Matrix3d;
@@ -355,4 +355,4 @@ TEST(LiquidCrystalElastomerBody, KeepsEnergyAndMomenta) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_liquid_crystal_elastomer

@@ -11,7 +11,7 @@
 #include <ostream>
 #include <random>
 
-namespace meniscus {
+namespace meniscus::test_materials {
 namespace {
 
 using Matrix = Tensor<Real>;
@@ -360,4 +360,4 @@ TEST(LawRegistry, KnowsItsLaws) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_materials

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace meniscus {
+namespace meniscus::test_neighbor_search {
 namespace {
 
 template <int D>
@@ -103,4 +103,4 @@ TYPED_TEST(NeighborSearchTest, FollowsAMovedCloud) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_neighbor_search

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace meniscus {
+namespace meniscus::test_parallel {
 namespace {
 
 TEST(Chunks, FollowFromTheSizeAlone) {
@@ -41,4 +41,4 @@ TEST(Chunks, SumsHaveTheSameBitsForAnyThreads) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_parallel

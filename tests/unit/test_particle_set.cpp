@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_particle_set {
 namespace {
 
 TEST(ParticleSet, SupportIsAMultipleOfTheDistanceToANeighbour) {
@@ -128,4 +128,4 @@ TEST(ParticleSet, TwoParticlesInOnePlaceAreNoHarm) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_particle_set

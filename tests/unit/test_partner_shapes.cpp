@@ -7,7 +7,7 @@
 
 #include <map>
 
-namespace meniscus {
+namespace meniscus::test_partner_shapes {
 namespace {
 
 template <int D>
@@ -58,4 +58,4 @@ TEST(PartnerShapes, KnowTheirDistanceAndItsDerivatives) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_partner_shapes

@@ -2,9 +2,9 @@
 // A plan is read once; scenes can be built from it any number of times.
 #include <gtest/gtest.h>
 
-#include "load_examples.hpp"
+#include "cases.hpp"
 
-namespace meniscus {
+namespace meniscus::test_plan {
 namespace {
 
 template <int D>
@@ -17,10 +17,9 @@ std::uint64_t state_after(Scene<D> scene, int steps) {
 
 template <int D>
 void expect_equal_builds() {
-  for (const auto& [name, example] : Registry<test::LoadExample>::all()) {
-    if (example.tables(D).empty()) continue;
-    SCOPED_TRACE(name);
-    const SceneInput input = SceneInput::from_text(example.scene(D));
+  for (const test::Case& c : test::cases<D>()) {
+    SCOPED_TRACE(c.name);
+    const SceneInput input = SceneInput::from_text(c.scene);
     scene_dimension(input);
     const Plan<D> plan = read_plan<D>(input);
     const std::uint64_t first = state_after<D>(build(plan), 5);
@@ -35,4 +34,4 @@ TEST(Plan, CanBeBuiltAgain) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_plan

@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_point_rows {
 namespace {
 
 constexpr RowContent everything{.value = true, .gradient = true, .hessian = true};
@@ -187,4 +187,4 @@ TEST(PointRows, RefusePointsOutOfReach) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_point_rows

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-namespace meniscus {
+namespace meniscus::test_registry {
 namespace {
 
 struct Liquid {
@@ -54,4 +54,4 @@ TEST(Registry, IsOneForAllFiles) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_registry

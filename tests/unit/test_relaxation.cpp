@@ -12,7 +12,7 @@
 
 #include "one_body.hpp"
 
-namespace meniscus {
+namespace meniscus::test_relaxation {
 namespace {
 
 /// A scene in motion.
@@ -126,6 +126,49 @@ TEST(Relaxation, BodiesWithoutLoadAreAtRestAtOnce) {
   EXPECT_LT(run.simulation.state().step, 100);
 }
 
+/// What drifts has its shape, and ends; under a force that nothing balances it says so.
+TEST(Relaxation, RigidDriftIsNoChangeOfShape) {
+  const std::string drifting = sheet + "[[body_force]]\nbody = \"it\"\nacceleration = ";
+  std::string text = sheet;
+  text.replace(text.find("[body.material]"), 0, "initial_velocity = [0.003, 0.001]\n");
+  Relaxed<2> free(text);
+  free.simulation.begin();
+  while (!free.simulation.finished()) free.simulation.advance();
+  free.expect_rest(1e-5, 1e-4);
+  EXPECT_GT(free.simulation.state().u.front()[0], 0.003);
+
+  text = drifting + "[0, -0.02]\n";
+  text.replace(text.find("end = 1000"), 10, "end = 30");
+  Relaxed<2> pulled(text);
+  pulled.simulation.begin();
+  EXPECT_EQ(pulled.simulation.stepper().obstacle(pulled.simulation.state()),
+            "net force (0, -0.05) on body 'it'");
+  while (!pulled.simulation.finished()) pulled.simulation.advance();
+  EXPECT_FALSE(pulled.relaxation().arrived());
+}
+
+/// Nothing brings the particles of a fluid back to where they were.
+template <int D>
+void expect_drop_at_rest(const std::string& shape) {
+  Relaxed<D> run("dimension = " + std::to_string(D) +
+                 "\n[time]\nsolver = \"relax\"\nend = 60\n[[body]]\nname = \"drop\"\n" + shape +
+                 "material = { type = \"newtonian\", density = 1, bulk_modulus = 200, viscosity = "
+                 "0.3 }\n[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n");
+  run.simulation.begin();
+  while (!run.simulation.finished()) run.simulation.advance();
+  run.expect_rest(1e-5, 1e-4);
+  EXPECT_NEAR(run.measure("drop.aspect"), 1, 2e-3);
+  EXPECT_NEAR(run.measure("drop.isoperimetric"), 1, 1e-4);
+  EXPECT_LT(run.simulation.state().time, 20);
+}
+
+TEST(Relaxation, DropsComeToRest) {
+  expect_drop_at_rest<2>(
+      "shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\ninitial_displacement = [\"0.1*x\", "
+      "\"-0.09*y\"]\n");
+  expect_drop_at_rest<3>("shape = \"ellipsoid\"\nsemi_axes = [1, 1.2, 1]\ncore = 4\nlayers = 2\n");
+}
+
 const std::string active_bar =
     "dimension = 3\n[time]\nsolver = \"relax\"\nend = 500\nforce_tolerance = 1e-8\n"
     "shape_tolerance = 1e-6\n"
@@ -189,4 +232,4 @@ TEST(Relaxation, LoadsMustCeaseToChange) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_relaxation

@@ -9,7 +9,7 @@
 #include "rkpm_reference.hpp"
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_reproducing_kernel {
 namespace {
 
 using nlohmann::json;
@@ -162,4 +162,4 @@ TEST(ReproducingKernel, QualityIsZeroOrWorseWhereNothingIsDetermined) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_reproducing_kernel

@@ -9,7 +9,7 @@
 
 #include "contact_reference.hpp"
 
-namespace meniscus {
+namespace meniscus::test_rigid_partners {
 namespace {
 
 using test::expect_relative;
@@ -180,4 +180,4 @@ TEST(RigidMotion, IsTheFormulaAndItsDerivative) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_rigid_partners

@@ -7,7 +7,7 @@
 
 #include "contact_reference.hpp"
 
-namespace meniscus {
+namespace meniscus::test_rigid_polygons {
 namespace {
 
 using test::contact_references;
@@ -157,4 +157,4 @@ TEST(RigidPolygons, RefuseNonsense) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_rigid_polygons

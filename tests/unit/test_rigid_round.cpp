@@ -8,7 +8,7 @@
 
 #include "contact_reference.hpp"
 
-namespace meniscus {
+namespace meniscus::test_rigid_round {
 namespace {
 
 using test::contact_references;
@@ -236,4 +236,4 @@ TEST(RigidPartner, PutsTheExactForceAndEnergyOnASphere) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_rigid_round

@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace meniscus {
+namespace meniscus::test_run {
 namespace {
 
 constexpr const char* drop = R"(
@@ -104,4 +104,4 @@ TEST(Run, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_run

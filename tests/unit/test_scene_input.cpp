@@ -12,7 +12,7 @@
 
 #include "unit/input_scene.hpp"
 
-namespace meniscus {
+namespace meniscus::test_scene_input {
 namespace {
 
 using namespace input_test;
@@ -136,9 +136,9 @@ TEST(Input, FilesThatCannotBeRead) {
 // ---- overrides
 // -----------------------------------------------------------------------------------
 
-Scene scene_with(const std::vector<std::string>& overrides) {
+LiquidScene scene_with(const std::vector<std::string>& overrides) {
   const auto input = SceneInput::from_text(valid_scene, "s.toml", overrides);
-  Scene scene = read_scene(input.root());
+  LiquidScene scene = read_scene(input.root());
   input.check();
   return scene;
 }
@@ -262,10 +262,10 @@ TEST(Complete, ReadsBackAsTheSameInput) {
     const auto once = SceneInput::from_text(
         valid_scene, "s.toml",
         {std::string("units.system=") + system, "body[1].liquid.axes=['1 um', 0.1, 3e-300]"});
-    const Scene first = read_scene(once.root());
+    const LiquidScene first = read_scene(once.root());
     once.check();
     const auto again = SceneInput::from_text(once.complete());
-    const Scene second = read_scene(again.root());
+    const LiquidScene second = read_scene(again.root());
     again.check();
     EXPECT_EQ(without_comments(again.complete()), without_comments(once.complete()));
     ASSERT_EQ(second.liquids.size(), first.liquids.size());
@@ -336,4 +336,4 @@ TEST(Scenes, AreComparedKeyByKey) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_scene_input

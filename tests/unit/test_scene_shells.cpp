@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <string>
 
-namespace meniscus {
+namespace meniscus::test_scene_shells {
 namespace {
 
 const std::string shell = R"toml(
@@ -103,4 +103,4 @@ TEST(SceneShells, FacesThatTouchStopTheRunWithTheCause) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_scene_shells

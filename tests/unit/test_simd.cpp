@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace meniscus {
+namespace meniscus::test_simd {
 namespace {
 
 const Lanes a{1, 2, 3, 4}, b{5, 6, 7, 8}, c{9, 10, 11, 12};
@@ -45,4 +45,4 @@ TEST(Simd, LeastAndLargestByLane) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_simd

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace meniscus {
+namespace meniscus::test_step_error {
 namespace {
 
 /// Pressed together so fast that it folds within the first step.
@@ -58,4 +58,4 @@ TEST(StepErrors, WithoutAPlaceAreTheirCause) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_step_error

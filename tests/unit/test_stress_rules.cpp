@@ -11,7 +11,7 @@
 #include "rkpm_reference.hpp"
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_stress_rules {
 namespace {
 
 TEST(CellRule, MatchesReferenceOnALattice) {
@@ -311,20 +311,5 @@ TEST(StressRules, ShapeIntegralsHaveTheMomentsOfTheBody) {
   expect_shape_integrals<3>(test::potato<3>(), 0.05);
 }
 
-TEST(LumpMass, RaisesTinyMassesToTheFloor) {
-  const auto body = test::body_of<2>(test::disk(4, 2));
-  std::vector<Real> integral = shape_integrals(*body);
-  const std::vector<Real> density(integral.size(), 3.0);
-  Real before = 0;
-  for (const Real V : integral) before += 3 * V;
-  const Real removed = integral[5] + 0.1;
-  integral[5] = -0.1;
-  const MassReport report = lump_mass(*body, density, integral);
-  EXPECT_EQ(report.raised, 1);
-  EXPECT_DOUBLE_EQ(body->mass[5], 0.9 * body->cells.volume(5));
-  EXPECT_DOUBLE_EQ(body->mass[6], 3 * integral[6]);
-  EXPECT_NEAR(report.added, (0.9 * body->cells.volume(5) + 0.3) / (before - 3 * removed), 1e-13);
-}
-
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_stress_rules

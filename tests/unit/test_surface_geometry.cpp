@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace meniscus {
+namespace meniscus::test_surface_geometry {
 namespace {
 
 using nlohmann::json;
@@ -76,4 +76,4 @@ TEST(SurfaceGeometry, PlaneStrainCircleIsACylinder) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_surface_geometry

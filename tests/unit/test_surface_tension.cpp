@@ -11,7 +11,7 @@
 #include "rkpm_reference.hpp"
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_surface_tension {
 namespace {
 
 enum class Form { balanced, weak, curvature, triangles };
@@ -189,4 +189,4 @@ TEST(SurfaceTension, PullsASphereInwards) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_surface_tension

@@ -1,91 +1,230 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tangents of the terms against other differences of their forces; linear, and symmetric where
-// there is an energy.
+// Tangents of the terms against differences of their forces; linear, and symmetric where there is
+// an energy.
+#include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/cavity.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
 #include "contact_support.hpp"
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_tangent {
 namespace {
 
-/// Changes of the size of a spacing.
-struct Change {
+/// Displacements and velocities, or their changes, of all particles.
+struct Fields {
   NodalVectors u, v;
-  Motion motion() const { return {0, u, v}; }
+  Motion motion() const { return {0.3, u, v}; }
 };
 
-NodalVectors tangent_of(ForceTerm& term, const Change& at, const Change& change) {
+Fields sum_of(const Fields& a, Real s, const Fields& b) {
+  return {test::sum_of(a.u, s, b.u), test::sum_of(a.v, s, b.v)};
+}
+
+NodalVectors force_of(ForceTerm& term, const Fields& at) {
+  NodalVectors f = test::zeros(at.u);
+  term.add_force(at.motion(), f);
+  return f;
+}
+
+NodalVectors tangent_of(ForceTerm& term, const Fields& at, const Fields& change) {
   NodalVectors f = test::zeros(at.u);
   term.add_tangent(at.motion(), change.motion(), f);
   return f;
 }
 
+/// Central differences of eighth order.
+NodalVectors difference_of(ForceTerm& term, const Fields& at, const Fields& change, Real h) {
+  constexpr std::array<Real, 4> weight{4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+  NodalVectors sum = test::zeros(at.u);
+  for (int k = 1; k <= 4; ++k)
+    for (const int sign : {1, -1})
+      sum = test::sum_of(sum, sign * meniscus::at(weight, k - 1) / h,
+                         force_of(term, sum_of(at, sign * k * h, change)));
+  return sum;
+}
+
 template <int D>
-Change random_change(Index size, Real u, Real v, unsigned seed) {
+Fields random_fields(Index size, Real u, Real v, unsigned seed) {
   return {test::random_field<D>(size, u, seed), test::random_field<D>(size, v, seed + 1)};
 }
 
-/// `symmetric`: relative deviation allowed for the tangent of an energy.
-template <int D>
-void expect_tangent(ForceTerm& term, Index size, Real symmetric) {
-  SCOPED_TRACE(term.name());
-  const Change at = random_change<D>(size, 0.02, term.viscous() ? 0.5 : 0, 7);
-  const Change change = random_change<D>(size, 0.1, 0.1, 11);
-  const NodalVectors tangent = tangent_of(term, at, change);
-  NodalVectors difference = test::zeros(at.u);
-  constexpr Real h = 1e-5;
-  const auto moved = [&](Real s) {
-    return test::force_of(term, test::sum_of(at.u, s, change.u), test::sum_of(at.v, s, change.v));
-  };
-  const NodalVectors plus = moved(h), minus = moved(-h);
-  for (std::size_t A = 0; A < difference.size(); ++A)
-    difference[A] = (plus[A] - minus[A]) / (2 * h);
-  EXPECT_LT(test::norm(test::sum_of(tangent, -1, difference)), 1e-6 * test::norm(difference));
-  const NodalVectors zero = test::zeros(at.u);
-  const Change half{test::sum_of(zero, 0.5, change.u), test::sum_of(zero, 0.5, change.v)};
-  EXPECT_LT(test::norm(test::sum_of(tangent, -2, tangent_of(term, at, half))),
-            1e-6 * test::norm(tangent));
-  if (symmetric == 0) return;
-  // Along displacements alone: viscous forces have no energy.
-  Change a = random_change<D>(size, 0.1, 0, 17), b = random_change<D>(size, 0.1, 0, 19);
-  const Change still{at.u, test::zeros(at.u)};
-  const Real one = test::dot(b.u, tangent_of(term, still, a)),
-             two = test::dot(a.u, tangent_of(term, still, b));
-  const Real size_of_both = test::norm(tangent_of(term, still, a)) * test::norm(b.u);
-  EXPECT_GT(size_of_both, 0);
-  EXPECT_LT(std::abs(one - two), symmetric * size_of_both);
+enum class Kind { exact, difference };
+/// Relative deviations allowed: from differences of the forces, of that step, and from symmetry.
+struct Allowed {
+  Real deviation, asymmetry, step;
+};
+constexpr Allowed allowed(Kind kind) {
+  return kind == Kind::exact ? Allowed{1e-10, 1e-12, 1e-2} : Allowed{1e-7, 1e-6, 1e-3};
 }
 
 template <int D>
-void expect_tangents() {
+void expect_tangent(ForceTerm& term, Index size, Kind kind = Kind::exact) {
+  SCOPED_TRACE(term.name());
+  const Fields at = random_fields<D>(size, 0.02, 0.5, 7),
+               change = random_fields<D>(size, 0.1, 0.1, 11),
+               other = random_fields<D>(size, 0.1, 0.1, 13);
+  const NodalVectors tangent = tangent_of(term, at, change);
+  const NodalVectors difference = difference_of(term, at, change, allowed(kind).step);
+  EXPECT_GT(test::norm(difference), 0);
+  EXPECT_LT(test::norm(test::sum_of(tangent, -1, difference)),
+            allowed(kind).deviation * test::norm(difference));
+  // Linear.
+  const NodalVectors both = tangent_of(term, at, sum_of(change, -0.5, other));
+  const NodalVectors sum = test::sum_of(tangent, -0.5, tangent_of(term, at, other));
+  EXPECT_LT(test::norm(test::sum_of(both, -1, sum)), allowed(kind).asymmetry * test::norm(sum));
+  // Of an energy: symmetric along displacements; viscous forces have none.
+  if (!term.stored_energy(at.motion())) return;
+  const Fields still{at.u, test::zeros(at.u)};
+  const Fields a{change.u, still.v}, b{other.u, still.v};
+  const NodalVectors along_a = tangent_of(term, still, a), along_b = tangent_of(term, still, b);
+  const Real one = test::dot(b.u, along_a), two = test::dot(a.u, along_b);
+  EXPECT_LT(std::abs(one - two), allowed(kind).asymmetry * test::norm(along_a) * test::norm(b.u));
+}
+
+/// Every law with every rule; the fluid also about the volume that its surface encloses.
+template <int D>
+void expect_tangents_of_laws() {
   const auto body = test::body_of<D>(test::potato<D>());
-  for (const auto& [law, text] : test::law_texts())
+  for (const auto& [law, entry] : laws())
     for (const Integration& integration : test::integrations()) {
-      SCOPED_TRACE(integration.rule + " " + integration.volumetric);
-      expect_tangent<D>(*test::internal_force<D>(*body, law, integration), body->size(), 1e-6);
+      SCOPED_TRACE(law + " " + integration.rule + " " + integration.volumetric);
+      expect_tangent<D>(*test::internal_force<D>(*body, law, integration), body->size());
     }
-  expect_tangent<D>(*weak_surface_tension<D>(*body, 1, 3), body->size(), 1e-6);
-  expect_tangent<D>(*triangle_surface_tension<D>(*body, 1), body->size(), 1e-6);
-  expect_tangent<D>(*curvature_surface_tension<D>(*body, 1, 3), body->size(), 0);
+  for (const std::string volumetric : {"full", "cell_average"})
+    for (const std::string equation : {"linear", "log", "tait"})
+      for (const std::string viscosity : {"0", "0.5"}) {
+        SCOPED_TRACE(volumetric + " " + equation + " " + viscosity);
+        const auto term =
+            test::internal_force<D>(*body, "newtonian",
+                                    "density = 1\nbulk_modulus = 2\nequation_of_state = \"" +
+                                        equation + "\"\nviscosity = " + viscosity + "\n",
+                                    {"q_scni", 0, volumetric, true});
+        expect_tangent<D>(*term, body->size());
+      }
+  for (const std::string director : {"normal", "convected"})
+    for (const Integration& integration : test::integrations()) {
+      SCOPED_TRACE(director + " " + integration.rule + " " + integration.volumetric);
+      const auto term = test::internal_force<D>(
+          *body, "liquid_crystal_elastomer",
+          test::law_texts().at("liquid_crystal_elastomer") +
+              "volume_energy = \"logarithmic\"\nstep_length_end = 1.5\nstep_length_ramp = [0, 1]\n"
+              "activity = 0.2\ndirector = \"" +
+              director + "\"\n",
+          integration);
+      expect_tangent<D>(*term, body->size());
+    }
+}
+
+TEST(Tangent, OfEveryLawAndRuleIsThatOfItsForces) {
+  expect_tangents_of_laws<2>();
+  expect_tangents_of_laws<3>();
+}
+
+template <int D>
+void expect_tangents_of_surfaces() {
+  const auto body = test::body_of<D>(test::potato<D>());
+  expect_tangent<D>(*balanced_surface_tension<D>(*body, 1), body->size());
+  expect_tangent<D>(*weak_surface_tension<D>(*body, 1, 3), body->size());
+  expect_tangent<D>(*triangle_surface_tension<D>(*body, 1), body->size());
   CavityFilling filling;
   filling.pressure = 2;
-  expect_tangent<D>(*cavity<D>(*body, SurfacePart::outer, filling, 3), body->size(), 1e-6);
+  expect_tangent<D>(*cavity<D>(*body, SurfacePart::outer, filling, 3), body->size());
+  filling.pressure.reset();
+  filling.volume_target = 0.8;
+  filling.penalty = 3;
+  filling.ramp = {0, 1};
+  expect_tangent<D>(*cavity<D>(*body, SurfacePart::outer, filling, 3), body->size());
 }
 
-TEST(Tangent, OfEveryTermIsThatOfItsForces) {
-  expect_tangents<2>();
-  expect_tangents<3>();
+TEST(Tangent, OfSurfacesAndCavitiesIsThatOfTheirForces) {
+  expect_tangents_of_surfaces<2>();
+  expect_tangents_of_surfaces<3>();
 }
 
-TEST(Tangent, OfContactIsThatOfItsForces) {
+/// It has an energy, but its force is not the gradient.
+TEST(Tangent, OfCurvatureIsThatOfItsForces) {
+  const auto body = test::body_of<3>(test::potato<3>());
+  const auto term = curvature_surface_tension<3>(*body, 1, 3);
+  const Fields at = random_fields<3>(body->size(), 0.002, 0, 7),
+               change = random_fields<3>(body->size(), 0.01, 0, 11);
+  const NodalVectors difference = difference_of(*term, at, change, 0.01);
+  EXPECT_LT(test::norm(test::sum_of(tangent_of(*term, at, change), -1, difference)),
+            1e-10 * test::norm(difference));
+}
+
+TEST(Tangent, OfALoadThatDoesNotDependOnTheMotionIsZero) {
+  const auto body = test::body_of<2>(test::potato<2>());
+  body->mass.assign(static_cast<std::size_t>(body->size()), 1.0);
+  const auto term = body_force<2>(*body, {Expression("x*t"), Expression("1")});
+  const Fields at = random_fields<2>(body->size(), 0.02, 0.5, 7);
+  EXPECT_EQ(test::norm(tangent_of(*term, at, at)), 0);
+}
+
+TEST(Tangent, OfContactIsADifferenceOfItsForces) {
   const auto pair = test::round_pair<2>(0.35);
   const auto term = test::contact_of<2>(pair, test::law<2>(), ContactForm::energy);
-  expect_tangent<2>(*term, pair.first->size() + pair.second->size(), 1e-6);
+  expect_tangent<2>(*term, pair.first->size() + pair.second->size(), Kind::difference);
+}
+
+/// Newton's method for the equilibrium of a hanging block: the tangents as columns of a matrix.
+/// Each residual is of the order of the square of the one before.
+TEST(Tangent, MakesNewtonConvergeQuadratically) {
+  const auto body = test::body_of<2>(test::brick<2>({2, 2}, 0.1));
+  const auto force = test::internal_force<2>(*body, "neo_hookean");
+  const std::size_t n = 2 * static_cast<std::size_t>(body->size());
+  // Held by springs at its upper coefficients, pulled down everywhere.
+  const auto residual_of = [&](const Fields& at) {
+    NodalVectors f = force_of(*force, at);
+    for (Index A = 0; A < body->size(); ++A) {
+      meniscus::at(f, A) += Lanes(0, -0.05, 0, 0);
+      if (meniscus::at(body->particles.X(), A)[1] > 0.9)
+        meniscus::at(f, A) -= 10 * meniscus::at(at.u, A);
+    }
+    return f;
+  };
+  const auto solve = [&](const Fields& at, const NodalVectors& r) {
+    Eigen::MatrixXd K(n, n);
+    Eigen::VectorXd b(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      Fields unit{test::zeros(at.u), test::zeros(at.u)};
+      unit.u[k / 2].set(static_cast<int>(k % 2), 1);
+      const NodalVectors column = tangent_of(*force, at, unit);
+      for (std::size_t i = 0; i < n; ++i)
+        K(static_cast<Index>(i), static_cast<Index>(k)) = column[i / 2][static_cast<int>(i % 2)];
+      if (meniscus::at(body->particles.X(), k / 2)[1] > 0.9)
+        K(static_cast<Index>(k), static_cast<Index>(k)) -= 10;
+      b[static_cast<Index>(k)] = r[k / 2][static_cast<int>(k % 2)];
+    }
+    const Eigen::VectorXd x = K.partialPivLu().solve(-b);
+    NodalVectors du = test::zeros(at.u);
+    for (std::size_t k = 0; k < n; ++k)
+      du[k / 2].set(static_cast<int>(k % 2), x[static_cast<Index>(k)]);
+    return du;
+  };
+  Fields at{NodalVectors(static_cast<std::size_t>(body->size()), Lanes::zero()), {}};
+  at.v = at.u;
+  std::vector<Real> norms;
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    const NodalVectors r = residual_of(at);
+    norms.push_back(test::norm(r));
+    at.u = test::sum_of(at.u, 1, solve(at, r));
+  }
+  std::string all;
+  for (const Real norm : norms) all += fmt::format(" {:.2e}", norm);
+  std::size_t fast = 0;
+  for (std::size_t k = 1; k < norms.size(); ++k)
+    if (norms[k - 1] < 1e-2 && norms[k - 1] > 1e-7) {
+      EXPECT_LT(norms[k], 100 * norms[k - 1] * norms[k - 1] + 1e-15) << all;
+      ++fast;
+    }
+  EXPECT_GE(fast, 2u) << all;
+  EXPECT_LT(norms.back(), 1e-14) << all;
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_tangent

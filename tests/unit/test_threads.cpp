@@ -12,7 +12,7 @@
 
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_threads {
 namespace {
 
 /// Runs f with that many threads.
@@ -154,4 +154,4 @@ TEST(Threads, ARunGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_threads

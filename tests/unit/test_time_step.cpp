@@ -12,7 +12,7 @@
 
 #include "one_body.hpp"
 
-namespace meniscus {
+namespace meniscus::test_time_step {
 namespace {
 
 using test::OneBody;
@@ -206,4 +206,4 @@ TEST(StepController, ArrivesExactlyAndRefusesAboveTheLimit) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_time_step

@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace meniscus {
+namespace meniscus::test_units {
 namespace {
 
 std::string message(const UnitSystem& units, std::string_view text, Dimension expected) {
@@ -176,4 +176,4 @@ TEST(Names, TheNearestIsOffered) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_units

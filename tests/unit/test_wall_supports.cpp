@@ -13,7 +13,7 @@
 
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_wall_supports {
 namespace {
 
 Geometry<3> flat_cell(Real spacing, Real thickness = 0.5) {
@@ -153,4 +153,4 @@ TEST(WallSupports, KernelsAcrossTheCavityMakeItFarTooStiff) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_wall_supports

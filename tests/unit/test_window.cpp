@@ -7,7 +7,7 @@
 #include "rkpm_reference.hpp"
 #include "support.hpp"
 
-namespace meniscus {
+namespace meniscus::test_window {
 namespace {
 
 constexpr std::array all_windows{Window::cubic_spline, Window::quintic_spline, Window::wendland_c2,
@@ -96,4 +96,4 @@ TEST(Window, IsPositiveAndFallingInside) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::test_window

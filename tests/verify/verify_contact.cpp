@@ -9,7 +9,7 @@
 #include "../unit/contact_reference.hpp"
 #include "../unit/contact_support.hpp"
 
-namespace meniscus {
+namespace meniscus::verify_contact {
 namespace {
 
 /// Two balls of radii R1 and R2 whose centres are D apart; the points of the second are turned, so
@@ -92,4 +92,4 @@ TEST(ContactSpheres, ForcesConvergeToTheExactValues) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::verify_contact

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <numbers>
 
-namespace meniscus {
+namespace meniscus::verify_dynamics {
 namespace {
 
 bool full() {
@@ -126,4 +126,4 @@ TEST(LameCube, NodalIntegrationIsMuchLessAccurate) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::verify_dynamics

@@ -8,7 +8,7 @@
 
 #include "unit/support.hpp"
 
-namespace meniscus {
+namespace meniscus::verify_young_laplace {
 namespace {
 
 class YoungLaplace : public testing::Test {
@@ -76,4 +76,4 @@ TEST_F(YoungLaplace, Triangles) {
 }
 
 }  // namespace
-}  // namespace meniscus
+}  // namespace meniscus::verify_young_laplace

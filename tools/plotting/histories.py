@@ -26,14 +26,14 @@ def time_axis(run, axis):
 
 
 def energies(run):
-    """Kinetic energy, changes of the others since the start, the sum of all less the external work,
-    and below it the error of the balance."""
+    """Kinetic energy, changes of the others since the start, the sum of all less the external work
+    and what remaps brought, and below it the error of the balance."""
     columns = {"kinetic": run.history["kinetic_energy"]}
     for name, values in run.history.items():
         if name.endswith("_energy") and name != "kinetic_energy":
             columns[f"{column(name)[:-7]}, change"] = values - values[0]
-    for name in ("dissipated", "external_work"):
-        if np.any(run.history[name]):
+    for name in ("dissipated", "external_work", "remapped"):
+        if np.any(run.history.get(name, 0)):
             columns[name.replace("_", " ")] = run.history[name]
     figure, (top, bottom) = plt.subplots(
         2, 1, figsize=(4.6, 4.6), sharex=True, height_ratios=(3, 1.2), layout="constrained"

@@ -10,6 +10,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 import cells
+import comparison
 import contacts
 import drop_decay
 import histories
@@ -33,12 +34,22 @@ def arguments():
     parser.add_argument(
         "--frames", type=int, default=5, help="number of cross-sections (default 5)"
     )
+    parser.add_argument(
+        "--beside", metavar="DIR", type=pathlib.Path, nargs="+", default=[],
+        help="draws only measures over time, those of DIR and of these runs together",
+    )  # fmt: skip
+    parser.add_argument(
+        "--measure", action="append", help="measure to compare, e.g. drop.ca (default: all)"
+    )
     return parser.parse_args()
 
 
 def pictures_of(args):
     if (args.dir / "study.json").exists():
         return studies.draw(studies.Study(args.dir), args.field)
+    if args.beside:
+        runs = {d.resolve().name: Results(d) for d in (args.dir, *args.beside)}
+        return comparison.draw(runs, args.measure)
     run = Results(args.dir)
     return {
         **histories.draw(run),

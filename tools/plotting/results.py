@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads what a run has written: run.h5 (frames, reference, input) and history.csv."""
+"""Reads what a run has written: run.h5 (frames, reference, input), run.1.h5, ... after remaps, and
+history.csv."""
 
 import csv
 import tomllib
@@ -30,18 +31,24 @@ class Results:
     """A run directory. Raises OSError or ValueError, with the reason, if it cannot be read."""
 
     def __init__(self, folder):
-        self.file = h5py.File(folder / "run.h5", "r")
-        self.input = tomllib.loads(self.file["meta/input"][()].decode())
-        self.frames = sorted(self.file["steps"], key=int)
+        self.files = [h5py.File(path, "r") for path in result_series(folder)]
+        self.input = tomllib.loads(self.files[0]["meta/input"][()].decode())
+        settings = {table["name"]: table for table in self.input["body"]}
+        self.frames = []  # groups /steps/<k> of all files
+        self.epochs = []  # [frame] bodies in the reference that the frame is in
+        for file in self.files:
+            groups = file["reference"]
+            bodies = [
+                Body(name, groups[name], settings[name], self.input["dimension"])
+                for name in sorted(groups, key=lambda name: groups[name].attrs["id"])
+            ]
+            for k in sorted(file["steps"], key=int):
+                self.frames.append(file["steps"][k])
+                self.epochs.append(bodies)
         if not self.frames:
             raise ValueError(f"{folder}/run.h5 has no frames")
-        self.times = np.array([self.file["steps"][k].attrs["time"] for k in self.frames])
-        settings = {table["name"]: table for table in self.input["body"]}
-        groups = self.file["reference"]
-        self.bodies = [
-            Body(name, groups[name], settings[name], self.input["dimension"])
-            for name in sorted(groups, key=lambda name: groups[name].attrs["id"])
-        ]
+        self.times = np.array([frame.attrs["time"] for frame in self.frames])
+        self.bodies = self.epochs[0]
         self.history, self.units = read_history(folder / "history.csv")
 
     @property
@@ -53,11 +60,11 @@ class Results:
         return self.units["time"]
 
     def unit_of(self, field):
-        return self.file["steps"][self.frames[0]][field].attrs["units"].decode()
+        return self.frames[0][field].attrs["units"].decode()
 
     def field(self, frame, name, body):
         """Values of a field at the particles of a body, in the frame of that number."""
-        return self.file["steps"][self.frames[frame]][name][body.particles]
+        return self.frames[frame][name][body.particles]
 
     def places(self, frame, body):
         """Positions [particle, i] of the particles of a body."""
@@ -82,8 +89,7 @@ class Results:
     def default_field(self):
         """The first scalar among the fields of the scene, or else the first field."""
         names = self.input["output"]["fields"]
-        step = self.file["steps"][self.frames[0]]
-        scalars = [name for name in names if step[name].ndim == 1]
+        scalars = [name for name in names if self.frames[0][name].ndim == 1]
         return (scalars or names or ["position"])[0]
 
     def expectations(self, column):
@@ -95,6 +101,14 @@ class Results:
             relative = expected.get("within_relative", 0) * abs(expected["value"])
             tolerance = max(expected.get("within", 0), relative)
             yield expected.get("at", end), expected["value"], tolerance
+
+
+def result_series(folder):
+    """run.h5, run.1.h5, ..., as many as there are."""
+    paths = [folder / "run.h5"]
+    while (path := folder / f"run.{len(paths)}.h5").exists():
+        paths.append(path)
+    return paths
 
 
 def read_history(path):

@@ -13,13 +13,13 @@ PANELS_IN_ROW = 6
 
 def draw(run, name, count):
     name = name or run.default_field()
-    first = run.file["steps"][run.frames[0]]
+    first = run.frames[0]
     if name not in first:
         known = ", ".join(k for k in first if k != "state")
         raise ValueError(f"there is no field '{name}' in run.h5; it has {known}")
     frames = run.spread_frames(count)
     plane = Plane(run)
-    cuts = [[Cut(run, body, plane, frame, name) for body in run.bodies] for frame in frames]
+    cuts = [[Cut(run, body, plane, frame, name) for body in run.epochs[frame]] for frame in frames]
     return {f"sections_{name}": picture(run, plane, frames, cuts, name)}
 
 

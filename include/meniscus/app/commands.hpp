@@ -54,7 +54,7 @@ struct StudyRequest {
 
 /// Runs a study, prints its table and its checks, and writes study.csv and study.json to the output
 /// directory (none if empty); returns exit_expectation if a check is missed. Throws as run().
-int study(const StudyRequest& request);
+int run_study(const StudyRequest& request);
 
 /// Prints the known studies.
 void list_studies();

@@ -17,6 +17,9 @@ class Recorder {
   Recorder(Simulation<D>& simulation, const RunDirectory& directory, const Provenance& provenance,
            bool continued);
 
+  /// The run goes on as another simulation, the same scene with new references of bodies: a result
+  /// file of its own begins, with a frame.
+  void begin_epoch(Simulation<D>& simulation);
   /// Writes the row and frame that are due after a step that began at `before` (-1: the initial
   /// state), or because the end of the scene is reached. Returns the ledger if a row was written.
   std::optional<Ledger> record(Real before);
@@ -29,12 +32,14 @@ class Recorder {
   void write_row(const Ledger& ledger);
   void write_frame(bool with_state);
 
-  Simulation<D>& simulation_;
+  Simulation<D>* simulation_;
+  const RunDirectory& directory_;
+  Provenance provenance_;
   std::vector<MeasureSource> measures_;
   std::vector<std::string> energy_kinds_;
   CheckpointWriter checkpoints_;
   HistoryWriter history_;  // before the frames: it refuses other columns before anything is dropped
-  ResultFile results_;
+  std::unique_ptr<ResultFile> results_;
   std::int64_t last_frame_ = -1;
 };
 

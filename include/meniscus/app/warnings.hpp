@@ -16,6 +16,8 @@ class Warnings {
   /// `say` is called with a sentence.
   Warnings(const Simulation<D>& simulation, std::function<void(const std::string&)> say);
 
+  /// From now on looks at that simulation, of the same scene.
+  void follow(const Simulation<D>& simulation);
   /// `ledger` of now.
   void look(const Ledger& ledger);
 
@@ -33,7 +35,7 @@ class Warnings {
     const MeasureSource *area, *volume;
   };
 
-  const Simulation<D>& simulation_;
+  const Simulation<D>* simulation_;
   std::function<void(const std::string&)> say_;
   std::vector<Enclosure> enclosures_;  ///< bodies under surface tension
   std::set<std::string> said_;

@@ -5,7 +5,9 @@
 #include "meniscus/approx/stress_rules.hpp"
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/body/nodal_cells.hpp"
+#include "meniscus/body/reference.hpp"
 
+#include <memory>
 #include <string>
 
 namespace meniscus {
@@ -22,6 +24,19 @@ struct Body {
   /// Values of the shape functions at the particles: places x(X_A) = sum_B N_B(X_A) d_B. Particle
   /// coefficients d_A are not places.
   PointRows<D> at_particles;
+  /// What it was referred to anew; null: it has the reference of its scene.
+  std::shared_ptr<const Reference<D>> reference;
+
+  /// Place of a particle in the reference of the scene, of which formulas are functions.
+  const Vec<D>& origin(Index A) const {
+    return reference ? at(reference->origin, A) : at(particles.X(), A);
+  }
+  /// The same of the centroid of a nodal cell.
+  const Vec<D>& cell_origin(Index A) const {
+    return reference ? at(reference->cell_origin, A) : cells.centroid(A);
+  }
+  /// Volume of a nodal cell in this reference / in that of the scene.
+  Real volume_ratio(Index A) const { return reference ? at(reference->volume_ratio, A) : 1; }
 
   Index size() const { return particles.size(); }
   /// Its own part of an array over the particles of all bodies.
@@ -62,14 +77,16 @@ PointRule<D> build_nodal_rule(const Body<D>& body);
 template <int D>
 std::vector<Real> shape_integrals(const Body<D>& body);
 
-/// m_A = integral of density N_A, with the floor m_A >= 0.3 density V_A (tiny and negative row sums
-/// at corners are unstable at any step; performance note 3). `density` per particle.
 struct MassReport {
-  Index raised = 0;  ///< particles at the floor
-  Real added = 0;    ///< relative change of the total mass
+  Index raised = 0;     ///< particles that were below the floor
+  int kept_degree = 2;  ///< moments of the masses up to this degree are those of the row sums
+  Real added = 0;       ///< relative change of the total mass, where not even that is kept
 };
 
-/// Sets body.mass; `shape_integral` per particle.
+/// m_A = integral of density N_A, with the floor m_A >= 0.3 density V_A (tiny and negative row sums
+/// at corners are unstable at any step; performance note 3). What the floor adds is taken from
+/// other particles, neighbours first, so that mass, first and second moments of the body stay those
+/// of the row sums, which are those of its volume. `density` per particle. Needs at_particles.
 template <int D>
 MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
                      const std::vector<Real>& shape_integral);

@@ -17,6 +17,7 @@ namespace meniscus {
 struct Ball {
   static constexpr const char* name = "ball";
   static constexpr const char* meaning = "ball, meshed as a cubed sphere";
+  static constexpr std::string_view example = "radius = 1\ncore = 2\nlayers = 1\n";
   Real radius = 1;
   int core = 10, layers = 5;
   std::vector<Real> centre{0, 0, 0};
@@ -29,6 +30,7 @@ struct Ball {
 struct Ellipsoid {
   static constexpr const char* name = "ellipsoid";
   static constexpr const char* meaning = "ellipsoid, a stretched ball";
+  static constexpr std::string_view example = "semi_axes = [1, 1, 1.2]\ncore = 2\nlayers = 1\n";
   std::vector<Real> semi_axes{1, 1, 1};
   int core = 10, layers = 5;
   std::vector<Real> centre{0, 0, 0};
@@ -41,6 +43,7 @@ struct Ellipsoid {
 struct HalfSphere {
   static constexpr const char* name = "half_sphere";
   static constexpr const char* meaning = "half ball above its flat face z = 0";
+  static constexpr std::string_view example = "radius = 1\ncore = 4\nlayers = 1\n";
   Real radius = 1;
   int core = 10, layers = 5;
   std::vector<Real> centre{0, 0, 0};
@@ -53,6 +56,8 @@ struct HalfSphere {
 struct Cylinder {
   static constexpr const char* name = "cylinder";
   static constexpr const char* meaning = "cylinder or disc about z";
+  static constexpr std::string_view example =
+      "radius = 1\nheight = 1\ncore = 4\nrings = 1\nlayers = 2\n";
   Real radius = 1, height = 1;
   int core = 18, rings = 9, layers = 3;
   std::vector<Real> centre{0, 0, 0};
@@ -74,6 +79,8 @@ struct Wall {
 struct DiskShell : Wall {
   static constexpr const char* name = "disk_shell";
   static constexpr const char* meaning = "hollow disk with round rim";
+  static constexpr std::string_view example =
+      "radius = 2\nheight = 1.6\nthickness = 0.4\nspacing = 0.6\n";
   Real radius = 1, height = 0.5;
 
   static Rows<DiskShell> rows();
@@ -83,6 +90,8 @@ struct DiskShell : Wall {
 struct CylinderShell : Wall {
   static constexpr const char* name = "cylinder_shell";
   static constexpr const char* meaning = "hollow cylinder with rounded edges";
+  static constexpr std::string_view example =
+      "radius = 2\nheight = 3\nthickness = 0.4\nspacing = 0.8\nedge_radius = 0.8\n";
   Real radius = 1, height = 1, edge_radius = 0.5;
 
   static Rows<CylinderShell> rows();
@@ -92,6 +101,8 @@ struct CylinderShell : Wall {
 struct SpheroidShell : Wall {
   static constexpr const char* name = "spheroid_shell";
   static constexpr const char* meaning = "hollow spheroid with a wall of even thickness";
+  static constexpr std::string_view example =
+      "radius = 2\nheight = 3\nthickness = 0.4\nspacing = 0.7\n";
   Real radius = 1, height = 1;
 
   static Rows<SpheroidShell> rows();
@@ -101,6 +112,7 @@ struct SpheroidShell : Wall {
 struct SphereShell : Wall {
   static constexpr const char* name = "sphere_shell";
   static constexpr const char* meaning = "hollow sphere";
+  static constexpr std::string_view example = "radius = 2\nthickness = 0.4\nspacing = 0.7\n";
   Real radius = 1;
 
   static Rows<SphereShell> rows();
@@ -111,6 +123,7 @@ struct SphereShell : Wall {
 struct Disk {
   static constexpr const char* name = "disk";
   static constexpr const char* meaning = "disk";
+  static constexpr std::string_view example = "radius = 1\ncore = 4\nrings = 2\n";
   Real radius = 1;
   int core = 18, rings = 9;
   std::vector<Real> centre{0, 0};
@@ -123,6 +136,7 @@ struct Disk {
 struct Ellipse {
   static constexpr const char* name = "ellipse";
   static constexpr const char* meaning = "ellipse, a stretched disk";
+  static constexpr std::string_view example = "semi_axes = [1, 1.2]\ncore = 4\nrings = 2\n";
   std::vector<Real> semi_axes{1, 1};
   int core = 18, rings = 9;
   std::vector<Real> centre{0, 0};
@@ -136,6 +150,8 @@ template <int D>
 struct Brick {
   static constexpr const char* name = D == 3 ? "box" : "rectangle";
   static constexpr const char* meaning = D == 3 ? "box of equal cells" : "rectangle of equal cells";
+  static constexpr std::string_view example =
+      D == 3 ? "size = [1, 1, 2]\nspacing = 0.5\n" : "size = [1, 2]\nspacing = 0.5\n";
   std::vector<Real> size = std::vector<Real>(D, 1);
   std::vector<Real> cells;   ///< number per direction; empty: from `spacing`
   Real spacing = 0;          ///< largest edge of a cell
@@ -150,7 +166,7 @@ struct Brick {
 template <int D>
 struct ShapeEntry {
   static constexpr const char* kind = "shape";
-  std::string_view name, meaning;
+  std::string_view name, meaning, example;
   std::vector<KeyText> (*keys)();
   /// Nothing if something of the table is wrong. Throws InputError for numbers that make no shape.
   std::optional<Geometry<D>> (*make)(const Block&);
@@ -162,11 +178,12 @@ const Registry<ShapeEntry<D>>& shapes() {
   return Registry<ShapeEntry<D>>::all();
 }
 
-/// Enters S: name, meaning, rows(), and geometry(), which throws InputError for numbers that make
-/// no shape.
+/// Enters S: name, meaning, example, rows(), and geometry(), which throws InputError for numbers
+/// that make no shape.
 template <int D, class S>
 bool register_shape() {
-  return register_entry(ShapeEntry<D>{S::name, S::meaning, [] { return key_texts(S::rows()); },
+  return register_entry(ShapeEntry<D>{S::name, S::meaning, example_of<S>(),
+                                      [] { return key_texts(S::rows()); },
                                       [](const Block& block) -> std::optional<Geometry<D>> {
                                         const S shape = read<S>(block);
                                         if (!block.in_order()) return std::nullopt;

@@ -4,6 +4,7 @@
 #pragma once
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/body/body.hpp"
+#include "meniscus/core/dual.hpp"
 
 #include <array>
 
@@ -36,6 +37,12 @@ class SurfacePatches {
   /// force_A += factor d(size)/du_A of what was followed last, over the particles of the body.
   void add_gradient(Real factor, std::span<NodalVector> force);
 
+  /// A size at `u` and its change with `du`.
+  Dual<Real> measure(Size size, const NodalVector* u, const NodalVector* du) const;
+  /// force_A += change with `du` of factor d(size)/du_A at `u`. Nothing is remembered.
+  void add_gradient_change(Size size, const NodalVector* u, const NodalVector* du,
+                           const Dual<Real>& factor, std::span<NodalVector> force);
+
   Index point_count() const { return static_cast<Index>(X_.size()); }
   Index patch_count() const { return patches_; }
   Offset pairs() const { return rows_.entries(); }
@@ -43,7 +50,11 @@ class SurfacePatches {
 
  private:
   static constexpr int nodes = D == 3 ? 9 : 3;
-  using Vector = std::array<Lanes, D>;
+  template <class T>
+  using Vector = std::array<T, D>;
+  /// Places of the nodes of four patches, a lane per patch.
+  template <class T>
+  using Corners = std::array<Vector<T>, nodes>;
   /// A Gauss point: L_a, its derivatives and the weight.
   struct Functions {
     Real weight;
@@ -59,9 +70,21 @@ class SurfacePatches {
   void number_points(const Geometry<D>& geometry);
   void list_shares();
   void place(const NodalVector* u, NodalVectors& x) const;
+  /// Displacements of the points.
+  NodalVectors values(const NodalVector* u) const;
   Real size_of_all(Size size, const NodalVectors& x) const;
-  /// Size of four patches; its gradient with respect to their nodes, [a][i], if asked for.
-  Real group_size(Size size, Index group, const NodalVectors& x, Lanes* gradient) const;
+  /// The nodes of a group from one of the places `x`: no size depends on the origin, round-off
+  /// does.
+  Corners<Lanes> corners(Index group, const NodalVectors& x) const;
+  Corners<Dual<Lanes>> corners(Index group, const NodalVectors& x, const NodalVectors& dx) const;
+  /// Size of each of four patches; its gradient with respect to their nodes, [a][i], if asked for.
+  /// T is Lanes or Dual<Lanes>.
+  template <class T>
+  T group_size(Size size, const Corners<T>& place, T* gradient) const;
+  /// Of the patches of a group: the last may have lanes without one.
+  Real sum_of_patches(Index group, const Lanes& size) const;
+  /// force_A += factor gradient, which is [group][a][i].
+  void scatter(Real factor, const AlignedVector<Lanes>& gradient, std::span<NodalVector> force);
   Index groups() const { return (patches_ + 3) / 4; }
 
   std::array<Functions, nodes> gauss_;

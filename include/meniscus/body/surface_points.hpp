@@ -7,33 +7,13 @@
 
 namespace meniscus {
 
-/// Which part of the surface of a hollow body; a solid one is outer altogether.
-enum class SurfacePart { whole, outer, inner };
-
-/// Structure of arrays over the points, facet after facet; those of the i-th of the facets asked
-/// for stand at [i * per_facet, (i + 1) * per_facet).
-template <int D>
-struct SurfacePoints {
-  std::vector<Vec<D>> X;       ///< position
-  std::vector<Vec<D>> N;       ///< outward unit normal
-  std::vector<Mat<D>> grad_N;  ///< N_K,L, tangential in both indices: grad_N N = grad_N^T N = 0
-  std::vector<Real> area;      ///< weight; in 2D length per unit depth
-  std::vector<Index> facet;    ///< number of the boundary facet
-  int per_facet = 0;
-  /// On the exact surface. Otherwise flat facets with grad_N = 0: no curvature can be had from it.
-  bool exact = false;
-
-  Index size() const { return static_cast<Index>(X.size()); }
-};
-
-/// k Gauss points per direction of every boundary facet, 1 <= k <= 20, on the exact surface: facet
-/// points projected onto their patch of the unit shape with exact tangents, then mapped.
+/// k Gauss points per direction of every boundary facet, 1 <= k <= 20, on the surface of the body.
 template <int D>
 SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k,
                                 SurfacePart part = SurfacePart::whole);
 
-/// The point of the exact surface at xi in [-1, 1]^(D-1) of a facet: where surface_points() puts a
-/// Gauss point xi. On an edge between two patches it lies on both.
+/// The point of the surface at xi in [-1, 1]^(D-1) of a facet: where surface_points() puts a Gauss
+/// point xi. On an edge between two patches it lies on both.
 template <int D>
 Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const Vec<D - 1>& xi);
 

@@ -9,9 +9,7 @@ namespace meniscus {
 /// Whether the body has an inner surface.
 template <int D>
 bool is_hollow(const Geometry<D>& geometry) {
-  for (const SurfacePatch<D>& patch : geometry.patches)
-    if (patch.inner()) return true;
-  return false;
+  return geometry.surface->hollow();
 }
 
 /// What was done to the supports of a hollow body.

@@ -5,6 +5,7 @@
 
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace meniscus {
@@ -18,6 +19,7 @@ struct KeyText {
 struct KeyTable {
   std::string heading;  ///< e.g. "[[body]]"
   std::vector<KeyText> keys;
+  std::string example = {};  ///< lines of a scene
 };
 
 template <class M>
@@ -28,7 +30,17 @@ std::vector<KeyText> key_texts(const Rows<M>& rows) {
   return keys;
 }
 
-/// Prints heading and keys as lines of an aligned table.
+/// The example that T brings for scenes: lines with its own keys, those that have to be given at
+/// least. Empty if it brings none; the tests refuse that.
+template <class T>
+constexpr std::string_view example_of() {
+  if constexpr (requires { T::example; })
+    return T::example;
+  else
+    return {};
+}
+
+/// Prints heading, keys as lines of an aligned table, and example.
 void print(std::ostream& out, const KeyTable& table);
 
 }  // namespace meniscus

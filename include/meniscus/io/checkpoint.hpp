@@ -52,7 +52,8 @@ struct ReadCheckpoint {
 /// Reads the state to continue from. `path` is one of:
 /// - a checkpoint file;
 /// - the directory of a run: its newest valid checkpoint;
-/// - with `frame`, a result file or the directory of a run: that frame, if it holds the state.
+/// - with `frame`, a result file or the directory of a run, whose files are counted through: that
+///   frame, if it holds the state.
 /// Every state is checked against its stored hash, and its numbers are finite. Throws FileError if
 /// nothing valid is found.
 ReadCheckpoint read_checkpoint(const std::filesystem::path& path,

@@ -37,6 +37,8 @@ void write_new_file(const std::filesystem::path& path, std::string_view content)
 void overwrite_beginning(const std::filesystem::path& path, std::string_view content);
 /// Moves `from` over `to` in one step.
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+/// Removes a file that may be there.
+void remove_file(const std::filesystem::path& path);
 /// Writes under the temporary name, then renames.
 void replace_file(const std::filesystem::path& path, std::string_view content);
 /// Makes the directory and those above it where they are missing.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DIR/run.h5 and DIR/run.xdmf: the frames of a run, for people, plotting tools and ParaView.
+// DIR/run.h5 and DIR/run.xdmf: the frames of a run, for people, plotting tools and ParaView. A run
+// whose bodies are referred anew goes on in run.1.h5, run.2.h5, ..., each whole in itself;
+// run.xdmf has the frames of all, and run.h5.series lists the files.
 //
 // run.h5:
 //   /steps/<k>/<field>      one array per field of frame k = 0, 1, ...; attributes step, time
@@ -26,7 +28,7 @@
 namespace meniscus {
 
 /// Values per particle, particle by particle: values[components * I + c].
-struct Field {
+struct ResultField {
   std::string name;  ///< letters, digits, '_'
   /// 1 scalar; 2 or 3 vector (of a 2D run: stored with z = 0); 6 symmetric tensor in the order
   /// xx, yy, zz, xy, yz, xz; 9 tensor by rows.
@@ -44,8 +46,8 @@ struct Connectivity {
 
 /// What does not change of a body. Particles of the bodies follow each other in every field.
 struct BodyReference {
-  std::string name;           ///< not empty, without '/'
-  std::vector<Field> arrays;  ///< at least one; all have one value per particle of the body
+  std::string name;                 ///< not empty, without '/'
+  std::vector<ResultField> arrays;  ///< at least one; all have one value per particle of the body
   std::vector<Connectivity> connectivity;
 };
 
@@ -54,8 +56,10 @@ struct ResultOptions {
   Precision precision = Precision::float64;  ///< of fields; a state is always double
   int compression = 0;                       ///< deflate level, 0 (none) to 9
   std::string time_unit = "s";
-  /// Continue DIR/run.h5 after this step: frames of later steps are dropped (the run will make them
-  /// again), the others stay. Without the file a new one is begun.
+  /// How often bodies were referred anew: files of earlier epochs stay, of later ones are removed.
+  std::int64_t epoch = 0;
+  /// Continue the file of this epoch after this step: frames of later steps are dropped (the run
+  /// will make them again), the others stay. Without the file a new one is begun.
   std::optional<std::int64_t> continue_after{};
 };
 
@@ -72,7 +76,7 @@ class ResultFile {
   /// have the same fields. When it returns, the frame survives a kill.
   /// Throws SolveError naming field and particle if a value is NaN or infinite, FileError if the
   /// disk does not take it or if a continued file has other fields; the frames before are safe.
-  std::int64_t write_frame(std::int64_t step, Real time, std::span<const Field> fields,
+  std::int64_t write_frame(std::int64_t step, Real time, std::span<const ResultField> fields,
                            const Snapshot* state = nullptr);
 
   std::int64_t frames() const;

@@ -2,6 +2,7 @@
 // Results directory of a run, locked for one writer.
 #pragma once
 #include <filesystem>
+#include <vector>
 
 namespace meniscus {
 
@@ -12,8 +13,13 @@ enum class ExistingRun {
   keep      ///< it is continued
 };
 
-/// DIR/run.h5, run.xdmf, history.csv, run.log, checkpoint-a.h5, checkpoint-b.h5. While the object
-/// lives no other program can write results there; the lock ends with the process, however it ends.
+/// The result files of a run in `directory`, in the order of their epochs: run.h5, run.1.h5, ... as
+/// many as there are.
+std::vector<std::filesystem::path> result_series(const std::filesystem::path& directory);
+
+/// DIR/run.h5 (run.1.h5, ... after remaps), run.xdmf, history.csv, run.log, checkpoint-a.h5,
+/// checkpoint-b.h5. While the object lives no other program can write results there; the lock ends
+/// with the process, however it ends.
 class RunDirectory {
  public:
   /// Makes the directory if needed. Throws FileError if it cannot be made or written to, is not a
@@ -24,7 +30,8 @@ class RunDirectory {
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path result_file() const { return path_ / "run.h5"; }
+  /// Of that number in the series.
+  std::filesystem::path result_file(std::size_t number = 0) const;
   std::filesystem::path history_file() const { return path_ / "history.csv"; }
   std::filesystem::path log_file() const { return path_ / "run.log"; }
 

@@ -2,6 +2,7 @@
 // The selective form of the q_scni integration: one volume change per nodal cell. Nearly
 // incompressible solids do not lock with it (RKPM note 5.4).
 #pragma once
+#include "meniscus/core/dual.hpp"
 #include "meniscus/physics/law.hpp"
 
 namespace meniscus {
@@ -13,6 +14,10 @@ template <int D>
     return 0.25 * sum(x);
   else
     return (1.0 / 3.0) * (x[0] + x[1] + x[2]);
+}
+template <int D>
+Dual<Lanes> cell_mean(const Dual<Lanes>& x) {
+  return {cell_mean<D>(x.v), cell_mean<D>(x.d)};
 }
 
 /// A law for the D + 1 stress points of a nodal cell together: each point sees its deformation
@@ -35,17 +40,20 @@ class CellAverage {
     return law_.energy_density(scaled(H, stretch(theta, mean_theta)));
   }
 
-  [[gnu::always_inline]] Tensor<Lanes> stress(const Tensor<Lanes>& H) const {
-    const Lanes theta = volume_change(H), mean_theta = mean(theta);
-    const Lanes s = stretch(theta, mean_theta);
-    const Tensor<Lanes> H_star = scaled(H, s), P = law_.stress(H_star);
-    const Lanes p = (1.0 / 3.0) * (trace(P) + contract(P, H_star));
-    const Lanes excess = mean(p) / (1.0 + mean_theta) - p / (1.0 + theta);
+  /// T is Lanes or Dual<Lanes>, as below.
+  template <class T>
+  [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
+    const T theta = volume_change(H), mean_theta = mean(theta);
+    const T s = stretch(theta, mean_theta);
+    const Tensor<T> H_star = scaled(H, s), P = law_.stress(H_star);
+    const T p = (1.0 / 3.0) * (trace(P) + contract(P, H_star));
+    const T excess = mean(p) / (1.0 + mean_theta) - p / (1.0 + theta);
     return (1.0 + s) * P + excess * cofactor_of_deformation(H);
   }
 
-  [[gnu::always_inline]] Tensor<Lanes> viscous_stress(
-      const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const requires ViscousLaw<L> {
+  template <class T>
+  [[gnu::always_inline]] Tensor<T> viscous_stress(
+      const Tensor<T>& H, const Tensor<T>& F_rate) const requires ViscousLaw<L> {
     return law_.viscous_stress(H, F_rate);
   }
 
@@ -64,13 +72,18 @@ class CellAverage {
   Real steady_after() const requires RampedLaw<L> { return law_.steady_after(); }
 
  private:
-  [[gnu::always_inline]] static Lanes mean(Lanes x) { return cell_mean<D>(x); }
+  template <class T>
+  [[gnu::always_inline]] static T mean(const T& x) {
+    return cell_mean<D>(x);
+  }
   /// s - 1 from J - 1 and Jm - 1, without cancellation near the reference state.
-  [[gnu::always_inline]] static Lanes stretch(Lanes theta, Lanes mean_theta) {
+  template <class T>
+  [[gnu::always_inline]] static T stretch(const T& theta, const T& mean_theta) {
     return expm1((1.0 / 3.0) * log1p((mean_theta - theta) / (1.0 + theta)));
   }
   /// F* - I = (1 + s) H + s I, here with s - 1 as argument.
-  [[gnu::always_inline]] static Tensor<Lanes> scaled(const Tensor<Lanes>& H, Lanes s) {
+  template <class T>
+  [[gnu::always_inline]] static Tensor<T> scaled(const Tensor<T>& H, const T& s) {
     return add_diagonal((1.0 + s) * H, s);
   }
 

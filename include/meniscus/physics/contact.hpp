@@ -29,7 +29,7 @@ struct ContactChoice {
   ContactForm form = ContactForm::energy;
   SiteDensity density = SiteDensity::constant;
   int points = 2;   ///< Gauss points per direction of a facet, or of a cell
-  Real skin = 0.4;  ///< of the list, / sigma0
+  Real skin = 0.4;  ///< of the list, / sigma0 (of a law of the gap: / quarter of its range)
 };
 
 /// A body with `beta` particles of the interaction per volume.
@@ -44,6 +44,13 @@ struct ContactBody {
 template <int D>
 std::unique_ptr<ForceTerm> contact_pair(const ContactBody<D>& first, const ContactBody<D>& second,
                                         const ContactLaw& law, const ContactChoice& choice);
+
+/// Contact of two bodies by a law of the gap between their surfaces, brought to zero over the last
+/// quarter of its range (CGCM note 11). Throws InputError for another form than `energy`.
+template <int D>
+std::unique_ptr<ForceTerm> gap_pair(const Body<D>& first, const Body<D>& second,
+                                    std::shared_ptr<const Interaction> law,
+                                    const ContactChoice& choice);
 
 /// A rigid partner in motion.
 template <int D>

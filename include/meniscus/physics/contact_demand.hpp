@@ -21,6 +21,23 @@ Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active
                    const ContactPoints<D>* other, std::span<const Index> other_active,
                    const Vec<D>& rigid_velocity, const Motion& motion);
 
+/// How near bodies are at least and how fast they can come nearer, from boxes around places and
+/// velocities: cheap, while they are far apart.
+struct Approach {
+  Real distance, speed;
+};
+template <int D>
+Approach approach(const ContactPoints<D>& first, const ContactPlaces<D>& at_first,
+                  const ContactPoints<D>& second, const ContactPlaces<D>& at_second,
+                  const Motion& motion);
+/// Of a body and a rigid partner with `velocity`, whose distance is known.
+template <int D>
+Approach approach(const Body<D>& body, Real distance, const Vec<D>& velocity, const Motion& motion);
+
+/// A step brings bodies that do not feel each other yet at most a quarter of the range into it: at
+/// any speed they feel each other before they meet.
+StepDemand approach_demand(const Approach& approach, Real range);
+
 /// The numbers of a contact that decide its stiffness.
 struct ContactInertia {
   const Interaction& interaction;

@@ -61,7 +61,8 @@ class ContactPoints {
   /// Moves all points along with the body.
   void move(const Motion& motion, ContactPlaces<D>& places) const;
   /// Brings the weights of these clusters up to date.
-  void weigh(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places) const;
+  void update_weights(std::span<const Index> clusters, const Motion& motion,
+                      ContactPlaces<D>& places) const;
 
   /// The particle nearest to a point, counted over all bodies.
   Index particle_at(Index point) const { return body_->first + at(rule_.point_owner, point); }

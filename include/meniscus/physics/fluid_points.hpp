@@ -29,54 +29,81 @@ concept FluidLaw = Law<L> && requires(const L law, const Lanes theta) {
 ///
 /// `averaged`: J is the mean over the D + 1 points of a nodal cell, what CellAverage does to a law
 /// that has no deviator. The viscous stress is that of each point.
-template <int D, FluidLaw L>
+///
+/// J_e is a number of the scalar E, Real or Dual<Real>; functions of H are of Lanes or Dual<Lanes>.
+template <int D, FluidLaw L, class E = Real>
 class FluidPoints {
  public:
   static constexpr bool viscous = L::viscous;
 
   FluidPoints(const L& law, bool averaged) : law_(law), averaged_(averaged) { enclose(0); }
 
-  void enclose(Real theta) {
+  void enclose(const E& theta) {
+    using std::pow;
     enclosed_ = theta;
-    per_enclosed_ = 1 / (1 + theta);
-    scale_ = std::pow(1 + theta, law_.volumetric_degree() - 1);
+    per_enclosed_ = 1.0 / (1.0 + theta);
+    scale_ = pow(1.0 + theta, law_.volumetric_degree() - 1);
     enclosed_stress_ = law_.mean_stress(theta);
   }
+  FluidPoints<D, L, Dual<Real>> about(const Dual<Real>& theta) const {
+    FluidPoints<D, L, Dual<Real>> same(law_, averaged_);
+    same.enclose(theta);
+    return same;
+  }
 
-  Lanes energy_density(const Tensor<Lanes>& H) const {
-    return (1 + enclosed_) * scale_ * law_.volumetric_energy(excess(H)) +
-           law_.volumetric_energy(Lanes(enclosed_));
+  Lanes energy_density(const Tensor<Lanes>& H) const { return energy(theta(H)); }
+  template <class T>
+  [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
+    return slope(theta(H)) * cofactor_of_deformation(H);
   }
-  [[gnu::always_inline]] Tensor<Lanes> stress(const Tensor<Lanes>& H) const {
-    return (scale_ * law_.mean_stress(excess(H))) * cofactor_of_deformation(H);
-  }
-  [[gnu::always_inline]] Lanes pull_on_enclosed(const Tensor<Lanes>& H) const {
-    return enclosed_stress_ - scale_ * law_.p_wave_modulus() * excess(H);
+  template <class T>
+  [[gnu::always_inline]] T pull_on_enclosed(const Tensor<T>& H) const {
+    return pull(theta(H));
   }
   Tensor<Lanes> local_stress(const Tensor<Lanes>& H) const {
     return law_.mean_stress(theta(H)) * cofactor_of_deformation(H);
   }
-  [[gnu::always_inline]] Tensor<Lanes> viscous_stress(
-      const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const requires ViscousLaw<L> {
+  template <class T>
+  [[gnu::always_inline]] Tensor<T> viscous_stress(
+      const Tensor<T>& H, const Tensor<T>& F_rate) const requires ViscousLaw<L> {
     return law_.viscous_stress(H, F_rate);
   }
   Real p_wave_modulus() const { return law_.p_wave_modulus(); }
   bool inviscid() const requires ViscousLaw<L> { return law_.inviscid(); }
 
- private:
-  [[gnu::always_inline]] Lanes theta(const Tensor<Lanes>& H) const {
-    const Lanes each = volume_change(H);
+ protected:
+  /// J - 1.
+  template <class T>
+  [[gnu::always_inline]] T theta(const Tensor<T>& H) const {
+    const T each = volume_change(H);
     return averaged_ ? cell_mean<D>(each) : each;
   }
+  /// W, dW/dJ and dW/dJ_e.
+  Lanes energy(Lanes theta) const {
+    return (1 + enclosed_) * scale_ * law_.volumetric_energy(excess(theta)) +
+           law_.volumetric_energy(Lanes(enclosed_));
+  }
+  template <class T>
+  [[gnu::always_inline]] T slope(const T& theta) const {
+    return scale_ * law_.mean_stress(excess(theta));
+  }
+  template <class T>
+  [[gnu::always_inline]] T pull(const T& theta) const {
+    return enclosed_stress_ - scale_ * law_.p_wave_modulus() * excess(theta);
+  }
+  const L& law() const { return law_; }
+
+ private:
   /// r.
-  [[gnu::always_inline]] Lanes excess(const Tensor<Lanes>& H) const {
-    return per_enclosed_ * (theta(H) - enclosed_);
+  template <class T>
+  [[gnu::always_inline]] T excess(const T& theta) const {
+    return per_enclosed_ * (theta - enclosed_);
   }
 
   L law_;
   bool averaged_;
-  Real enclosed_, per_enclosed_, scale_;  // J_e - 1, 1/J_e, J_e^(m-1)
-  Real enclosed_stress_;                  // U'(J_e)
+  E enclosed_, per_enclosed_, scale_;  // J_e - 1, 1/J_e, J_e^(m-1)
+  E enclosed_stress_;                  // U'(J_e)
 };
 
 }  // namespace meniscus

@@ -2,10 +2,10 @@
 // The registry of interactions by which a [[contact]] acts.
 //
 // A law of the gap is a struct derived from Interaction in its own file in src/interactions, with
-// rows(), which ends with
+// rows() and an example, which ends with
 //   const bool registered = register_interaction<MyLaw>("my_law", "what it is");
-// It then acts between a body and rigid partners of any shape. A ContactModel of its own is for
-// interactions that know more than a law of the gap.
+// It then acts between two bodies, and between a body and rigid partners of any shape. A
+// ContactModel of its own is for interactions that know more than a law of the gap.
 #pragma once
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/partner_registry.hpp"
@@ -39,7 +39,7 @@ class ContactModel {
 template <int D>
 struct InteractionEntry {
   static constexpr const char* kind = "interaction";
-  std::string_view name, meaning;
+  std::string_view name, meaning, example;
   std::vector<KeyText> (*keys)();
   std::unique_ptr<ContactModel<D>> (*read)(const Block&);  ///< notes problems in the block
 };
@@ -49,7 +49,7 @@ const Registry<InteractionEntry<D>>& interactions() {
   return Registry<InteractionEntry<D>>::all();
 }
 
-/// A law of the gap on a body and rigid partners.
+/// A law of the gap on two bodies, or on a body and rigid partners.
 template <int D>
 std::unique_ptr<ContactModel<D>> gap_contact(std::shared_ptr<const Interaction> law);
 
@@ -62,7 +62,8 @@ std::unique_ptr<RigidPartner<D>> distance_field(std::shared_ptr<const Interactio
 
 template <int D, class L>
 bool register_interaction_in(std::string_view name, std::string_view meaning) {
-  return register_entry(InteractionEntry<D>{name, meaning, [] { return key_texts(L::rows()); },
+  return register_entry(InteractionEntry<D>{name, meaning, example_of<L>(),
+                                            [] { return key_texts(L::rows()); },
                                             [](const Block& block) {
                                               auto law = std::make_shared<L>();
                                               for (const auto& row : L::rows())

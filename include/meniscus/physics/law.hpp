@@ -8,7 +8,8 @@
 // log1p, expm1 and their remainders are made for that.
 //
 // The functions are templates of the scalar T: Real, Lanes (four stress points at once, the time
-// loop) and Complex (complex-step derivatives). Hence the rules for law code:
+// loop), Complex (complex-step derivatives) and Dual (exact tangents). Hence the rules for law
+// code:
 //   - no comparison, abs, min or max of anything that depends on the argument;
 //   - transpose never conjugates; no norm; sqrt only where its argument cannot vanish;
 //   - stress and viscous_stress are [[gnu::always_inline]]: as calls they take up to twice as long;

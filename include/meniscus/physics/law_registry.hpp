@@ -6,6 +6,8 @@
 #include "meniscus/physics/law.hpp"
 #include "meniscus/physics/material.hpp"
 
+#include <fmt/core.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +48,7 @@ struct LawEntry {
   std::string_view name;
   bool viscous;
   std::vector<KeyText> keys;
+  std::string example;                            ///< keys and typical numbers, lines of a scene
   std::unique_ptr<AnyLaw> (*typical)();           ///< with the typical numbers of its rows
   std::unique_ptr<AnyLaw> (*read)(const Block&);  ///< uniform numbers from a scene; notes problems
   std::unique_ptr<Material<2>> (*material_2d)(const Block&);  ///< for a body; notes problems
@@ -115,10 +118,20 @@ class AnyLawOf final : public AnyLaw {
   L law_;
 };
 
+/// The numbers of typical_law() as lines of a scene.
+template <Law L>
+std::string typical_text() {
+  std::string text;
+  for (const Row<L>& row : L::rows())
+    if (row.member && row.number != row.typical)
+      text += fmt::format("{} = {}\n", row.key, row.typical);
+  return text;
+}
+
 template <Law L>
 LawEntry make_entry() {
-  LawEntry entry{L::type_name, L::viscous,          key_texts(L::rows()), nullptr,
-                 nullptr,      read_material<2, L>, read_material<3, L>};
+  LawEntry entry{L::type_name, L::viscous, key_texts(L::rows()), typical_text<L>(),
+                 nullptr,      nullptr,    read_material<2, L>,  read_material<3, L>};
   if constexpr (DirectedLaw<L>)
     entry.keys.push_back({ReferenceDirector::key, "numbers or formulas", "1", "",
                           "normal of the walls",

@@ -8,6 +8,9 @@
 #include "meniscus/physics/fluid_points.hpp"
 #include "meniscus/physics/internal_force.hpp"
 #include "meniscus/physics/reference_director.hpp"
+#include "meniscus/physics/referred_fluid.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>
@@ -35,9 +38,10 @@ class Material {
   struct Built {
     std::unique_ptr<ForceTerm> force;
     MassReport mass;
-    bool cell_average;                ///< one volume change per nodal cell
-    std::optional<std::string> note;  ///< for the log
-    std::vector<Real> viscosity;      ///< shear viscosity of a fluid, per particle; empty: a solid
+    bool cell_average;                   ///< one volume change per nodal cell
+    std::optional<std::string> note;     ///< for the log
+    std::optional<std::string> warning;  ///< for the log, of what is doubtful
+    std::vector<Real> viscosity;  ///< shear viscosity of a fluid, per particle; empty: a solid
   };
   /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
   /// InputError (a formula leaves its range somewhere in the body).
@@ -58,7 +62,7 @@ class MaterialOf final : public Material<D> {
     if (integration.rule == "q_scni") {
       CellOperator<D> op = build_cell_rule(body);
       std::vector<Vec<D>> places;
-      for (Index A = 0; A < body.size(); ++A) places.push_back(body.cells.centroid(A));
+      for (Index A = 0; A < body.size(); ++A) places.push_back(body.cell_origin(A));
       return put(body, std::move(op.rule), laws_at(places, body.geometry), op.shape_integral,
                  integration);
     }
@@ -111,19 +115,33 @@ class MaterialOf final : public Material<D> {
   typename Material<D>::Built put(Body<D>& body, Rule rule, const std::vector<L>& laws,
                                   const std::vector<Real>& shape_integral,
                                   const Integration& integration) const {
-    const auto X = body.particles.X();
     std::vector<Real> density, viscosity;
     for (Index A = 0; A < body.size(); ++A) {
-      const L law = law_.uniform() ? law_.base : law_at(at(X, A), body.geometry);
-      density.push_back(law.density);
+      const L law = law_.uniform() ? law_.base : law_at(body.origin(A), body.geometry);
+      density.push_back(law.density / body.volume_ratio(A));
       if constexpr (FluidLaw<L>) viscosity.push_back(law.viscosity);
     }
     const MassReport mass = lump_mass(body, density, shape_integral);
     std::optional<std::string> note;
     if constexpr (NotingLaw<L>) note = laws.front().note(mean_spacing(body.geometry.grid));
+    std::optional<std::string> warning;
+    if constexpr (DirectedLaw<L> && std::is_same_v<Rule, CellRule<D>>)
+      if (!director_->uniform()) warning = doubt_of_turns(body, laws);
     const bool averaged = averages(integration, laws);
-    return {force(body, std::move(rule), laws, averaged, integration.enclosed), mass, averaged,
-            std::move(note), std::move(viscosity)};
+    return {force(body, std::move(rule), laws, averaged, integration.enclosed),
+            mass,
+            averaged,
+            std::move(note),
+            std::move(warning),
+            std::move(viscosity)};
+  }
+
+  /// A nodal cell has one law: the director of its centre.
+  static std::optional<std::string> doubt_of_turns(const Body<D>& body,
+                                                   const std::vector<L>& laws) {
+    std::vector<Eigen::Vector3d> directors;
+    for (const L& law : laws) directors.push_back(Eigen::Vector3d::Map(law.director.data()));
+    return doubt_of_director(largest_turn(body.geometry.grid, directors));
   }
 
   /// The law of a group of stress points is L itself or what is made of it.
@@ -134,9 +152,20 @@ class MaterialOf final : public Material<D> {
     if constexpr (FluidLaw<L>) {
       std::vector<FluidPoints<D, L>> points;
       for (const L& law : laws) points.emplace_back(law, averaged);
-      return force_of(body, std::move(rule), std::move(points),
-                      enclosed ? std::make_unique<SurfacePatches<D>>(body) : nullptr);
+      auto surface = enclosed ? std::make_unique<SurfacePatches<D>>(body) : nullptr;
+      if (body.reference && !body.reference->undeformed()) {
+        if constexpr (std::is_same_v<Rule, CellRule<D>>)
+          return std::make_unique<InternalForce<D, ReferredFluid<D, L>, Rule>>(
+              body, std::move(rule), referred(body, points), std::move(surface));
+        throw InputError(fmt::format(
+            "body '{}': only integration = \"q_scni\" can be referred anew", body.name));
+      }
+      return force_of(body, std::move(rule), std::move(points), std::move(surface));
     } else {
+      if (body.reference && !body.reference->undeformed())
+        throw InputError(fmt::format(
+            "body '{}': a solid cannot be referred anew, its stress depends on more than J",
+            body.name));
       if constexpr (std::is_same_v<Rule, CellRule<D>>)
         if (averaged)
           return force_of(body, std::move(rule),

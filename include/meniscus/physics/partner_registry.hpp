@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shapes of rigid partners of a contact, and their registry.
 //
-// A shape that scenes can name is a struct in its own file in src/partners, with rows(), which ends
-// with
+// A shape that scenes can name is a struct in its own file in src/partners, with rows(), an example
+// of it near a ball of radius 1 about the origin and, if numbers can contradict each other,
+// check(block), which ends with
 //   const bool registered = register_partner<2, MyShape<2>>("my_shape", "what it is") && ...;
 #pragma once
 #include "meniscus/core/key_table.hpp"
@@ -28,6 +29,9 @@ class PartnerShape {
     Mat<D> bend;
   };
   virtual Foot foot(const Vec<D>& x) const = 0;
+  /// Places in the material of which one would be inside of a body that has run over the partner;
+  /// none where no body can be around it.
+  virtual std::vector<Vec<D>> places() const { return {}; }
 
   /// The field of this shape filled with `beta` particles of a Lennard-Jones law per volume. Throws
   /// InputError for numbers that make no shape.
@@ -38,7 +42,7 @@ class PartnerShape {
 template <int D>
 struct PartnerEntry {
   static constexpr const char* kind = "rigid partner";
-  std::string_view name, meaning;
+  std::string_view name, meaning, example;
   std::vector<KeyText> (*keys)();
   std::shared_ptr<const PartnerShape<D>> (*read)(const Block&);  ///< notes problems in the block
 };
@@ -51,10 +55,12 @@ const Registry<PartnerEntry<D>>& partners() {
 template <int D, class P>
 bool register_partner(std::string_view name, std::string_view meaning) {
   return register_entry(
-      PartnerEntry<D>{name, meaning, [] { return key_texts(P::rows()); },
+      PartnerEntry<D>{name, meaning, example_of<P>(), [] { return key_texts(P::rows()); },
                       [](const Block& block) -> std::shared_ptr<const PartnerShape<D>> {
                         auto shape = std::make_shared<P>();
                         for (const auto& row : P::rows()) row.read(*shape, block);
+                        if constexpr (requires { shape->check(block); })
+                          if (block.in_order()) shape->check(block);
                         return shape;
                       }});
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The laws at the stress points of a body, with their type forgotten: for energies, fields,
-// warnings and all else that is not done at every step. Compiled once per law, not for every rule.
+// tangents, warnings and all else that explicit steps do not do. Compiled once per law, not for
+// every rule.
 #pragma once
+#include "meniscus/core/dual.hpp"
 #include "meniscus/physics/law.hpp"
 
 #include <algorithm>
@@ -15,8 +17,21 @@ namespace meniscus {
 template <class L>
 concept EnclosedLaw = requires(L law, const Tensor<Lanes> H) {
   law.enclose(Real{});                                     ///< J_e - 1
+  law.about(Dual<Real>{});                                 ///< the same law about that J_e - 1
   { law.pull_on_enclosed(H) } -> std::same_as<Lanes>;      ///< dW/dJ_e
   { law.local_stress(H) } -> std::same_as<Tensor<Lanes>>;  ///< without regard to J_e
+};
+
+/// How a group of stress points deforms: H = F - I, dF/dt and J_e - 1, with their changes.
+struct DualDeformation {
+  Tensor<Dual<Lanes>> H, F_rate;
+  Dual<Real> enclosed;
+};
+
+/// What follows from it: the change of the stress, and dW/dJ_e of an EnclosedLaw with its change.
+struct StressChange {
+  Tensor<Lanes> P;
+  Dual<Lanes> pull_on_enclosed;
 };
 
 /// What is asked of a law at a group of up to four stress points, a lane per point; H = F - I.
@@ -32,6 +47,8 @@ class PointLaws {
   virtual Lanes energy_density(Index group, Real time, const Tensor<Lanes>& H) const = 0;
   /// Elastic first Piola stress; that of an EnclosedLaw at the local J.
   virtual Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H) const = 0;
+  /// Exact. F_rate is looked at by viscous laws alone, J_e by an EnclosedLaw.
+  virtual StressChange tangent(Index group, Real time, const DualDeformation& x) const = 0;
   /// Size of the stress of the reference law, without what ramps add: an active body is free of
   /// stress where that cancels. Stresses of round-off are no scale: those of a strain of 1e-9 count
   /// at least.
@@ -77,6 +94,22 @@ class PointLawsOf final : public PointLaws {
       return reference(group).local_stress(H);
     else
       return at(group, time).stress(H);
+  }
+  [[gnu::noinline]] StressChange tangent(Index group, Real time,
+                                         const DualDeformation& x) const override {
+    const auto& law = at(group, time);
+    StressChange change{};
+    Tensor<Dual<Lanes>> P;
+    if constexpr (EnclosedLaw<L>) {
+      const auto about = law.about(x.enclosed);
+      P = about.stress(x.H);
+      change.pull_on_enclosed = about.pull_on_enclosed(x.H);
+    } else {
+      P = law.stress(x.H);
+    }
+    if constexpr (L::viscous) P = P + law.viscous_stress(x.H, x.F_rate);
+    change.P = derivative(P);
+    return change;
   }
   Lanes stress_scale(Index group, const Tensor<Lanes>& H) const override {
     Tensor<Lanes> P;

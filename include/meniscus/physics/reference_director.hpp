@@ -4,6 +4,8 @@
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/core/input.hpp"
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,5 +31,14 @@ class ReferenceDirector {
   std::vector<Expression> formulas_;  ///< empty: by the geometry
   std::string place_;                 ///< in the scene, to begin messages with
 };
+
+/// Largest angle in radians between the unit directors of two nodes that share an edge of a cell;
+/// h and -h are the same director.
+template <int D>
+Real largest_turn(const Grid<D>& grid, std::span<const Eigen::Vector3d> director);
+
+/// A sentence if a director that is constant in every nodal cell, but turns by so much from one to
+/// the next, changes energies by 0.5 % or more: its square varies by turn^2/12 within a cell.
+std::optional<std::string> doubt_of_director(Real turn);
 
 }  // namespace meniscus

@@ -9,10 +9,11 @@ namespace meniscus {
 
 /// One stress point of a body.
 struct StressPoint {
-  Index owner;     ///< particle of the body whose cell it lies in
-  Real weight;     ///< reference volume (2D: area)
-  Tensor<Real> H;  ///< F - I
-  Tensor<Real> P;  ///< elastic first Piola stress
+  Index owner;        ///< particle of the body whose cell it lies in
+  Real weight;        ///< reference volume (2D: area)
+  Tensor<Real> H;     ///< F - I
+  Tensor<Real> P;     ///< elastic first Piola stress
+  Real volume_ratio;  ///< J_0 of the reference (body/reference.hpp)
 };
 
 /// Calls the function for all stress points of a body in a fixed order.

@@ -18,6 +18,7 @@ class StressPointForce : public ForceTerm {
   std::string name() const final { return "internal force of '" + body_.name + "'"; }
   std::string_view energy_kind() const final { return "strain"; }
   Real steady_after() const final { return laws_->steady_after(); }
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) final;
   std::optional<Real> stored_energy(const Motion& motion) const final;
   Real uncancelled_force(const Motion& motion) const final;
   std::optional<std::string> warning(const Motion& motion) const final;
@@ -71,6 +72,9 @@ class StressPointForce : public ForceTerm {
   Real energy(const PointLaws& laws, const Motion& motion) const;
   /// H at the stress points of a group.
   [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const NodalVector* u) const;
+  Tensor<Dual<Lanes>> gradients(Index group, const NodalVector* u, const NodalVector* du) const {
+    return dual(gradients(group, u), gradients(group, du));
+  }
   void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
   VisitStressPoints visitor() const;
 

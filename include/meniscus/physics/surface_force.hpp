@@ -5,6 +5,7 @@
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/dual.hpp"
 #include "meniscus/physics/force_term.hpp"
 #include "meniscus/physics/surface_law.hpp"
 
@@ -31,19 +32,26 @@ class SurfaceForce final : public ForceTerm {
 
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector* u = displacements(motion);
-    const auto own_part = force.subspan(static_cast<std::size_t>(body_.first),
-                                        static_cast<std::size_t>(body_.size()));
-    windows_.accumulate(own_part, [&](int, Index begin, Index end, NodalVector* f) {
+    windows_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index g = begin; g < end; ++g)
-        rule_.scatter(g, law_.stress(state(g, u), -rule_.weight(g)), f);
+        rule_.scatter(g, law_.stress(state(g, gradients(g, u)), -rule_.weight(g)), f);
     });
     return {};
+  }
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    const NodalVector *u = displacements(motion), *du = displacements(change);
+    windows_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+      for (Index g = begin; g < end; ++g) {
+        const auto s = state(g, dual(gradients(g, u), gradients(g, du)));
+        rule_.scatter(g, derivative(law_.stress(s, Dual<Lanes>(-rule_.weight(g)))), f);
+      }
+    });
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
     const NodalVector* u = displacements(motion);
     return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
-      return sum(rule_.weight(g) * law_.energy_density(state(g, u)));
+      return sum(rule_.weight(g) * law_.energy_density(state(g, gradients(g, u))));
     });
   }
 
@@ -52,7 +60,7 @@ class SurfaceForce final : public ForceTerm {
              "current area of the surface (2D: length)", [this](const Motion& motion) {
                const NodalVector* u = displacements(motion);
                return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
-                 return sum(rule_.weight(g) * state(g, u).stretch);
+                 return sum(rule_.weight(g) * state(g, gradients(g, u)).stretch);
                });
              }}};
   }
@@ -65,20 +73,29 @@ class SurfaceForce final : public ForceTerm {
  private:
   const Lanes* displacements(const Motion& motion) const { return motion.u.data() + body_.first; }
 
-  /// Four points. Lanes without a point have N = 0; their stretch is set to 1.
-  [[gnu::always_inline]] SurfaceState<Lanes> state(Index group, const NodalVector* u) const {
-    SurfaceState<Lanes> s;
-    rule_.gather(group, u, s.H);
+  /// H at four points.
+  [[gnu::always_inline]] Tensor<Lanes> gradients(Index group, const NodalVector* u) const {
+    Tensor<Lanes> H;
+    rule_.gather(group, u, H);
+    return H;
+  }
+
+  /// Four points; T is Lanes or Dual<Lanes>. Lanes without a point have N = 0; their stretch is set
+  /// to 1.
+  template <class T>
+  [[gnu::always_inline]] SurfaceState<T> state(Index group, const Tensor<T>& H) const {
+    SurfaceState<T> s;
+    s.H = H;
     s.cofactor = cofactor(deformation_gradient(s.H));
     const Lanes* N = normal_.data() + static_cast<std::size_t>(group) * D;
-    s.N = {N[0], N[1], Lanes::zero()};
+    s.N = {N[0], N[1], T(0.0)};
     if constexpr (D == 3) s.N[2] = N[2];
     for (int i = 0; i < 3; ++i) {
       at(s.m, i) = s.cofactor(i, 0) * N[0] + s.cofactor(i, 1) * N[1];
       if constexpr (D == 3) at(s.m, i) += s.cofactor(i, 2) * N[2];
     }
-    const Lanes square = s.m[0] * s.m[0] + s.m[1] * s.m[1] + s.m[2] * s.m[2];
-    s.stretch = sqrt(select(square.v > 0.0, square, 1.0));
+    const T square = s.m[0] * s.m[0] + s.m[1] * s.m[1] + s.m[2] * s.m[2];
+    s.stretch = sqrt(select(value(square).v > 0.0, square, T(1.0)));
     return s;
   }
 

@@ -23,7 +23,7 @@ class SurfaceMaterial {
 
 struct SurfaceLawEntry {
   static constexpr const char* kind = "surface law";
-  std::string_view name, meaning;
+  std::string_view name, meaning, example;
   std::vector<KeyText> keys;
   std::unique_ptr<SurfaceMaterial> (*read)(const Block&);  ///< notes problems in the block
 };
@@ -58,11 +58,11 @@ class SurfaceMaterialOf final : public SurfaceMaterial {
 /// Enters the law: the last line of every file in src/surfaces.
 template <SurfaceLaw L>
 bool register_surface_law(std::string_view meaning) {
-  return register_entry(SurfaceLawEntry{L::type_name, meaning, key_texts(L::rows()),
-                                        [](const Block& block) -> std::unique_ptr<SurfaceMaterial> {
-                                          return std::make_unique<SurfaceMaterialOf<L>>(
-                                              meniscus::read<L>(block));
-                                        }});
+  return register_entry(
+      SurfaceLawEntry{L::type_name, meaning, example_of<L>(), key_texts(L::rows()),
+                      [](const Block& block) -> std::unique_ptr<SurfaceMaterial> {
+                        return std::make_unique<SurfaceMaterialOf<L>>(meniscus::read<L>(block));
+                      }});
 }
 
 }  // namespace meniscus

@@ -13,8 +13,8 @@ namespace meniscus {
 template <int D>
 class Assembly {
  public:
-  /// `scene` has its bodies and its initial state.
-  explicit Assembly(Scene<D>& scene) : scene_(scene) {}
+  /// `scene` has its bodies and its initial state; a scene that is built again goes on at another.
+  Assembly(Scene<D>& scene, bool begins) : scene_(scene), begins_(begins) {}
 
   /// Throws InputError if there is none of that name.
   const Body<D>& body(const std::string& name) const;
@@ -30,6 +30,14 @@ class Assembly {
   std::function<Real(const Motion&)> measure_named(const std::string& name) const;
   /// Says that a body is a drop.
   void drop(Drop<D> drop) { scene_.drops.push_back(std::move(drop)); }
+  /// Says when a body is to be referred anew.
+  void remap(PlannedRemap planned) { scene_.remaps.push_back(std::move(planned)); }
+  /// Says why a body cannot be referred anew: something depends on its reference by more than J.
+  void keep_reference(const std::string& body, std::string why) {
+    scene_.kept_references[body] = std::move(why);
+  }
+  /// Watches for what cannot be.
+  void check(StateCheck check) { scene_.checks.push_back(std::move(check)); }
   /// Shear viscosity of each particle of a fluid; empty for a solid.
   const std::vector<Real>& viscosity(const std::string& body) const;
   /// For the log: what was decided, and what is doubtful.
@@ -42,12 +50,18 @@ class Assembly {
 
   const UnitSystem& units() const { return scene_.units; }
   Real end_time() const { return scene_.time.end; }
-  const State& initial() const { return scene_.initial; }
+  /// Null if the scene does not begin there.
+  const State* initial() const { return begins_ ? &scene_.initial : nullptr; }
+  /// A failure of the initial state, with body and place of its particle.
+  StepFailure located(const Failure& failure) const {
+    return scene_.system.located(failure, scene_.initial.motion());
+  }
 
  private:
   std::size_t number_of(const std::string& body) const;
 
   Scene<D>& scene_;
+  bool begins_;
   std::map<std::string, Real> surface_energy_;
 };
 

@@ -3,7 +3,7 @@
 // each.
 //
 // A load lives in its own file in src/loads, in an anonymous namespace: a struct MyLoad<D> with the
-// members that rows() reads, check() and build(). The file ends with
+// members that rows() reads, check(), build(), and an example. The file ends with
 //   const bool registered = register_load<MyLoad>("my_load", Stage::volume, "what it is");
 // Nothing else speaks of it by name.
 #pragma once
@@ -31,12 +31,18 @@ struct BodyPlan {
   BodySettings settings;
   Geometry<D> geometry;
   std::shared_ptr<const Material<D>> material;
+  bool in_order;          ///< a body that cannot be made has a stand-in for its geometry
   bool enclosed = false;  ///< if it is a fluid: Integration::enclosed
 };
 template <int D>
 using BodyPlans = std::vector<BodyPlan<D>>;
 
-/// The planned body of that name; null, and a problem noted at `key`, if there is none.
+/// Notes a problem if a name, which becomes part of names in run.h5 and history.csv, has other
+/// characters than letters, digits, _ and -.
+void require_plain_name(const Block& block, const std::string& name);
+
+/// The planned body of that name; null, and a problem noted at `key`, if there is none. Also null
+/// for a body that cannot be made: what else would be said of it is about its stand-in.
 template <int D>
 const BodyPlan<D>* require_body(const Block& block, const BodyPlans<D>& bodies,
                                 const std::string& name, std::string_view key = "body");
@@ -57,6 +63,8 @@ class Load {
     std::string key, value;
   };
   virtual std::optional<Identity> identity() const { return std::nullopt; }
+  /// What only one load of any kind may have, e.g. "the surface of 'drop'"; empty if nothing.
+  virtual std::string claim() const { return ""; }
   /// Notes in the block what cannot be with these bodies.
   virtual void check(const Block& block, const BodyPlans<D>& bodies) const = 0;
   /// Says in the plans what it asks of the bodies themselves.
@@ -72,6 +80,7 @@ template <int D>
 struct LoadEntry {
   static constexpr const char* kind = "load";
   std::string_view name;  ///< of its tables: [[name]]
+  std::string_view example;
   Stage stage;
   std::vector<KeyTable> (*keys)();
   std::unique_ptr<Load<D>> (*read)(const Block&);  ///< the keys of rows(); the rest is in check()
@@ -89,9 +98,11 @@ template <int D, class L>
 bool register_load_in(std::string_view name, Stage stage, std::string_view meaning) {
   // Functions without captures need the texts where they can find them.
   static const std::string heading = "[[" + std::string(name) + "]]: " + std::string(meaning);
-  LoadEntry<D> entry{name, stage, nullptr, nullptr};
+  static const std::string example =
+      "[[" + std::string(name) + "]]\n" + std::string(example_of<L>());
+  LoadEntry<D> entry{name, example_of<L>(), stage, nullptr, nullptr};
   entry.keys = [] {
-    std::vector<KeyTable> tables{{heading, key_texts(L::rows())}};
+    std::vector<KeyTable> tables{{heading, key_texts(L::rows()), example}};
     if constexpr (requires { L::inner_tables(); })
       for (KeyTable& table : L::inner_tables()) tables.push_back(std::move(table));
     return tables;

@@ -4,6 +4,9 @@
 #include "meniscus/scene/plan.hpp"
 #include "meniscus/solve/system.hpp"
 
+#include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,15 +28,27 @@ struct BodyField {
   FieldSource source;
 };
 
+/// When a body is to be referred anew to where it is.
+struct PlannedRemap {
+  std::string body;
+  std::vector<Real> times;
+};
+
+/// What is wrong with a motion that cannot be; looked for at the start and at output times.
+using StateCheck = std::function<std::optional<Failure>(const Motion&)>;
+
 template <int D>
 struct Scene : RunSettings {
   System<D> system;
   State initial;
   std::vector<std::vector<Real>> viscosity;  ///< [body][particle]; empty: a solid
   std::vector<Drop<D>> drops;
+  std::vector<StateCheck> checks;
   /// Measures by full name, e.g. "drop.aspect".
   std::vector<MeasureSource> measures;
   std::vector<BodyField> fields;
+  std::vector<PlannedRemap> remaps;
+  std::map<std::string, std::string> kept_references;  ///< [body] why it cannot be referred anew
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
 
@@ -50,10 +65,15 @@ template <int D>
 std::vector<Real> field_values(const Scene<D>& scene, const std::string& name,
                                const Motion& motion);
 
-/// Throws InputError for what shows only here (a formula that leaves its range, surfaces that start
-/// too close), SolveError if shape functions cannot be built.
+/// Throws InputError if something in the scene depends on the reference of that body.
 template <int D>
-Scene<D> build(const Plan<D>& plan);
+void require_remappable(const Scene<D>& scene, const std::string& body);
+
+/// Throws InputError for what shows only here (a formula that leaves its range, surfaces that start
+/// too close), SolveError if shape functions cannot be built. Bodies with a reference are built on
+/// that, and their initial state means nothing.
+template <int D>
+Scene<D> build(const Plan<D>& plan, const References<D>& references = {});
 
 /// Reads the whole scene, then builds it.
 template <int D>

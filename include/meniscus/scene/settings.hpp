@@ -12,6 +12,7 @@ struct TimeSettings {
   Real end = 0;
   std::optional<Real> step;  ///< given: checked against the stable step; else chosen
   std::string step_place;    ///< where the scene gives it, to begin messages with
+  std::string solver_place;  ///< the same of `solver`
   Real safety = 0.9;
   int check_every = 0;  ///< most steps between estimates of the stable step
   std::string solver;   ///< "dynamics" or "relax"

@@ -20,6 +20,10 @@ class Simulation {
 
   /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
   void begin();
+  /// Goes on in place of `before`, of the same scene with other references of its bodies, from its
+  /// state carried over to them. The history of force terms, the books and the audit are those of
+  /// before; the energy that has come by the change is booked as remapped. Throws as begin().
+  void begin_after(Simulation& before, State state);
   /// One step towards the end of the scene; one that is rejected is taken back and halved, a few
   /// times. Throws StepError; the state is then back at the places before the step, but not
   /// complete.
@@ -34,8 +38,9 @@ class Simulation {
   StepController<D>& controller() { return controller_; }
   const Audit& audit() const { return audit_; }
   const Stepper<D>& stepper() const { return *stepper_; }
-  /// The ledger of now; widens the scales of the audit. Throws SolveError if a drop has lost its
-  /// shape: an isoperimetric ratio below 1 - 1e-3.
+  /// The ledger of now; widens the scales of the audit. Throws SolveError for a state that cannot
+  /// be: what a check of the scene finds, or a drop that has lost its shape (an isoperimetric ratio
+  /// below 1 - 1e-3).
   Ledger audit_now();
 
   /// Everything that decides how the run goes on, bit for bit.
@@ -45,7 +50,10 @@ class Simulation {
 
  private:
   void archive(const Archive& a);
+  void archive_terms(const Archive& a);
+  void archive_references(const Archive& a) const;
   void step(Real dt);
+  void refuse_impossible_states() const;
   void refuse_impossible_surfaces() const;
   [[noreturn]] void give_up(StepFailure failure);
 

@@ -13,10 +13,12 @@ struct Ledger {
   Real kinetic = 0;
   std::map<std::string, Real> stored;  ///< by kind of energy: "strain", "surface", ...
   Real dissipated = 0, external_work = 0;
+  Real remapped = 0;  ///< that came by new references of bodies
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< about the origin; 2D: z only
 
-  /// What does not change in an exact solution: kinetic + stored + dissipated - external work.
+  /// What does not change in an exact solution: kinetic + stored + dissipated - external work -
+  /// remapped.
   Real balance() const;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dynamic relaxation: explicit dynamics with the damping that its motion asks for.
 #pragma once
+#include "meniscus/solve/rest.hpp"
 #include "meniscus/solve/stepper.hpp"
 
 namespace meniscus {
@@ -14,7 +15,9 @@ namespace meniscus {
 /// After the last ramp the bodies are observed over windows of an eighth of a period (a sixteenth
 /// at least) of the slowest mode that moves: they are at rest when both measures below are small at
 /// the end of two in a row. Neither momentum nor angular momentum comes into bodies that have none,
-/// so that they do not drift.
+/// so that they do not drift. A body that drifts all the same is judged by its shape, and a fluid
+/// by the change of its axes in the time of its clock and by its power (FluidRest): nothing brings
+/// its particles back.
 template <int D>
 class Relaxation final : public Stepper<D> {
  public:
@@ -27,7 +30,8 @@ class Relaxation final : public Stepper<D> {
     Real shape;
   };
 
-  Relaxation(System<D>& system, const Tolerances& tolerances);
+  /// `fluid`: which bodies are fluids; none if it is empty.
+  Relaxation(System<D>& system, const Tolerances& tolerances, const std::vector<bool>& fluid = {});
 
   /// Begins to observe.
   void begin(const State& state) override;
@@ -35,9 +39,10 @@ class Relaxation final : public Stepper<D> {
   /// Whether the bodies are at rest.
   bool arrived() const override { return settled_windows_ >= 2; }
   std::vector<Residual> residuals(const State& state) const override;
+  std::string obstacle(const State& state) const override { return net_forces(system_, state); }
   void archive(const Archive& a, const State& state) override;
 
-  /// Of the present state.
+  /// Of the present state; of fluids FluidRest::force_of_power().
   Real force_residual(const State& state) const;
   /// Left to go, as extrapolated from the last window; 1 before there was one.
   Real shape_change() const { return shape_change_; }
@@ -56,10 +61,17 @@ class Relaxation final : public Stepper<D> {
   };
   /// Since displacements u and forces f.
   Change change_since(const NodalVectors& u, const NodalVectors& f, const State& state) const;
-  Real largest_change(const State& state) const;
+  /// For changes du(A), df(A) of the particles to the present state.
+  template <class U, class F>
+  Change change_of(U&& du_of, F&& df_of, const State& state) const;
+  /// Sets shape_change_.
+  Change judged_window(const State& state);
+  Real largest_change(const NodalVectors& du) const;
+  Real uncancelled_force(const State& state) const;
 
   System<D>& system_;
   Tolerances tolerances_;
+  FluidRest<D> fluids_;
   NodalVectors last_u_, last_force_;      ///< before the step
   NodalVectors window_u_, window_force_;  ///< at the beginning of the window
   Real window_begin_ = 0, window_length_ = 0;

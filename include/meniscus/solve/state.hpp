@@ -6,10 +6,14 @@
 
 namespace meniscus {
 
+/// Throws FileError if what an archive has read is out of its range: the file was changed.
+void require_saved(bool in_range, const Archive& a, std::string_view name);
+
 /// Heat and work so far, and the powers of now that go on into the next step.
 struct Books {
   Real dissipated = 0;                      ///< heat so far
   Real external_work = 0;                   ///< work of the outside world so far
+  Real remapped = 0;                        ///< energy that came by new references so far
   Real heat = 0;                            ///< power turned into heat
   Real external_power = 0, load_power = 0;  ///< of Report and ForceTerm
 
@@ -24,6 +28,7 @@ struct Books {
 struct State {
   Real time = 0;
   std::int64_t step = 0;
+  std::int64_t epoch = 0;       ///< how often bodies were referred anew
   NodalVectors u, v;            ///< displacement and velocity coefficients at `time`
   NodalVectors force;           ///< at u and the velocity of the last half step
   std::vector<Unknown> fields;  ///< other unknowns

@@ -24,14 +24,17 @@ class StepController {
   /// Estimates the stable step at the start of a run. Throws InputError if a fixed step exceeds it.
   void begin(const State& state);
 
-  /// The next step; the last two are shortened to arrive at `end` exactly. Throws SolveError when
-  /// the stable step has collapsed to a millionth of the first.
-  Real next(const State& state, Real end);
+  /// The next step: not longer than `accurate`, down to a tenth of what is stable, unless it is
+  /// fixed. The last two are shortened to arrive at `end` exactly. Throws SolveError when the
+  /// stable step has collapsed to a millionth of the first.
+  Real next(const State& state, Real end, Real accurate = unbounded);
 
   /// A step was rejected: the next ones are not longer than `dt`, until the next estimate.
   void shorten(Real dt) { step_ = std::min(step_, dt); }
 
   const StableStep& stable() const { return stable_; }
+  /// The step that stability and terms allow.
+  Real allowed() const { return step_; }
   /// Said once when a fixed step has come close to the stable one, or above it.
   std::optional<std::string> take_warning() { return std::exchange(warning_, std::nullopt); }
 

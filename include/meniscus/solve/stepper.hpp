@@ -22,6 +22,8 @@ class Stepper {
 
   /// A run begins, or a run of another stepper goes on, at `state`, which has its forces.
   virtual void begin(const State&) {}
+  /// The longest step that is accurate enough, at a state that has its forces.
+  virtual Real longest_step(const State&) { return unbounded; }
   /// From state.time to state.time + dt. Throws as advance().
   virtual void step(State& state, Real dt) = 0;
 
@@ -29,6 +31,8 @@ class Stepper {
   virtual bool arrived() const { return false; }
   /// Of the present state, in the order of StepperEntry::residuals; none if it looks for nothing.
   virtual std::vector<Residual> residuals(const State&) const { return {}; }
+  /// What may keep the stepper from arriving; empty if it sees nothing.
+  virtual std::string obstacle(const State&) const { return ""; }
 
   /// Keeps what decides how the run goes on; `state` is that of the archive.
   virtual void archive(const Archive&, const State&) {}
@@ -38,6 +42,8 @@ class Stepper {
 struct StepperChoice {
   Real end = 0;                                   ///< of the run
   Real force_tolerance = 0, shape_tolerance = 0;  ///< of Relaxation
+  std::vector<bool> fluid = {};                   ///< which bodies are fluids; empty: none
+  std::string place = {};                         ///< of the choice, to begin a message with
 };
 
 struct StepperEntry {

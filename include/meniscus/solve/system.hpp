@@ -38,6 +38,8 @@ struct System {
   Real load_power(const Motion& motion);
   void commit(const Motion& motion);
 
+  /// A failure with body and place of its particle.
+  StepFailure located(const Failure& failure, const Motion& motion) const;
   /// The body that holds a particle.
   const Body<D>& body_of(Index particle) const;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ball and ellipsoid.
+#include "meniscus/body/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
 
 #include "cubed.hpp"
@@ -8,24 +9,23 @@ namespace meniscus {
 
 namespace {
 
-constexpr Range count{1, 1000};
-
 Geometry<3> stretched_ball(const Vec<3>& semi_axes, int core, int layers,
                            const std::vector<Real>& centre) {
   return make_geometry<3>(cubed_ball<3>(core, layers), {SurfacePatch<3>::sphere(Vec<3>::Zero(), 1)},
                           true, affine_map<3>(semi_axes.asDiagonal(), Vec<3>::Map(centre.data())));
 }
 
-const bool registered = register_shape<3, Ball>() && register_shape<3, Ellipsoid>();
+const bool ball_registered = register_shape<3, Ball>() && register_shape<3, Ellipsoid>();
 
 }  // namespace
 
 Rows<Ball> Ball::rows() {
-  return {real_row("radius", &Ball::radius, dimension::length, range::positive, "radius"),
-          integer_row("core", &Ball::core, count, "cells along an edge of the core cube", 10),
-          integer_row("layers", &Ball::layers, count, "shells of cells around the core", 5),
-          reals_row("centre", &Ball::centre, 3, dimension::length, range::any, "centre",
-                    std::vector<Real>{0, 0, 0})};
+  return {
+      real_row("radius", &Ball::radius, dimension::length, range::positive, "radius"),
+      integer_row("core", &Ball::core, count_in_space, "cells along an edge of the core cube", 10),
+      integer_row("layers", &Ball::layers, count_in_space, "shells of cells around the core", 5),
+      reals_row("centre", &Ball::centre, 3, dimension::length, range::any, "centre",
+                std::vector<Real>{0, 0, 0})};
 }
 
 Geometry<3> Ball::geometry() const {
@@ -35,8 +35,10 @@ Geometry<3> Ball::geometry() const {
 Rows<Ellipsoid> Ellipsoid::rows() {
   return {reals_row("semi_axes", &Ellipsoid::semi_axes, 3, dimension::length, range::positive,
                     "semi-axes along x, y, z"),
-          integer_row("core", &Ellipsoid::core, count, "cells along an edge of the core cube", 10),
-          integer_row("layers", &Ellipsoid::layers, count, "shells of cells around the core", 5),
+          integer_row("core", &Ellipsoid::core, count_in_space,
+                      "cells along an edge of the core cube", 10),
+          integer_row("layers", &Ellipsoid::layers, count_in_space,
+                      "shells of cells around the core", 5),
           reals_row("centre", &Ellipsoid::centre, 3, dimension::length, range::any, "centre",
                     std::vector<Real>{0, 0, 0})};
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Box and rectangle.
+#include "meniscus/body/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <cmath>
-
-#include "cell_count.hpp"
 
 namespace meniscus {
 
@@ -56,7 +55,7 @@ Row<M> alternative_row(std::string key, std::string type, Dimension dimension, R
   return row;
 }
 
-const bool registered = register_shape<3, Brick<3>>() && register_shape<2, Brick<2>>();
+const bool brick_registered = register_shape<3, Brick<3>>() && register_shape<2, Brick<2>>();
 
 }  // namespace
 

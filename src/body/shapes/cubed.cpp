@@ -2,13 +2,12 @@
 // Cubed disk and cubed sphere.
 #include "cubed.hpp"
 
+#include "meniscus/body/cell_count.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "cell_count.hpp"
 
 namespace meniscus {
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cylinder: the disk repeated along z.
+#include "meniscus/body/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
 
-#include "cell_count.hpp"
 #include "cubed.hpp"
 
 namespace meniscus {
 
 namespace {
-
-constexpr Range count{1, 1000};
 
 /// Radius 1, -1/2 <= z <= 1/2.
 Grid<3> unit_cylinder(int core, int rings, int layers) {
@@ -28,7 +26,7 @@ Grid<3> unit_cylinder(int core, int rings, int layers) {
   return grid;
 }
 
-const bool registered = register_shape<3, Cylinder>();
+const bool cylinder_registered = register_shape<3, Cylinder>();
 
 }  // namespace
 
@@ -36,9 +34,10 @@ Rows<Cylinder> Cylinder::rows() {
   return {
       real_row("radius", &Cylinder::radius, dimension::length, range::positive, "radius"),
       real_row("height", &Cylinder::height, dimension::length, range::positive, "extent along z"),
-      integer_row("core", &Cylinder::core, count, "cells along an edge of the core square", 18),
-      integer_row("rings", &Cylinder::rings, count, "rings of cells around the core", 9),
-      integer_row("layers", &Cylinder::layers, count, "layers of cells along z", 3),
+      integer_row("core", &Cylinder::core, count_in_space, "cells along an edge of the core square",
+                  18),
+      integer_row("rings", &Cylinder::rings, count_in_space, "rings of cells around the core", 9),
+      integer_row("layers", &Cylinder::layers, count_in_space, "layers of cells along z", 3),
       reals_row("centre", &Cylinder::centre, 3, dimension::length, range::any, "centre",
                 std::vector<Real>{0, 0, 0})};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Disk and ellipse.
+#include "meniscus/body/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
 
 #include "cubed.hpp"
@@ -8,22 +9,21 @@ namespace meniscus {
 
 namespace {
 
-constexpr Range count{1, 10000};
-
 Geometry<2> stretched_disk(const Vec<2>& semi_axes, int core, int rings,
                            const std::vector<Real>& centre) {
   return make_geometry<2>(cubed_ball<2>(core, rings), {SurfacePatch<2>::sphere(Vec<2>::Zero(), 1)},
                           true, affine_map<2>(semi_axes.asDiagonal(), Vec<2>::Map(centre.data())));
 }
 
-const bool registered = register_shape<2, Disk>() && register_shape<2, Ellipse>();
+const bool disk_registered = register_shape<2, Disk>() && register_shape<2, Ellipse>();
 
 }  // namespace
 
 Rows<Disk> Disk::rows() {
   return {real_row("radius", &Disk::radius, dimension::length, range::positive, "radius"),
-          integer_row("core", &Disk::core, count, "cells along an edge of the core square", 18),
-          integer_row("rings", &Disk::rings, count, "rings of cells around the core", 9),
+          integer_row("core", &Disk::core, count_in_plane, "cells along an edge of the core square",
+                      18),
+          integer_row("rings", &Disk::rings, count_in_plane, "rings of cells around the core", 9),
           reals_row("centre", &Disk::centre, 2, dimension::length, range::any, "centre",
                     std::vector<Real>{0, 0})};
 }
@@ -33,12 +33,14 @@ Geometry<2> Disk::geometry() const {
 }
 
 Rows<Ellipse> Ellipse::rows() {
-  return {reals_row("semi_axes", &Ellipse::semi_axes, 2, dimension::length, range::positive,
-                    "semi-axes along x, y"),
-          integer_row("core", &Ellipse::core, count, "cells along an edge of the core square", 18),
-          integer_row("rings", &Ellipse::rings, count, "rings of cells around the core", 9),
-          reals_row("centre", &Ellipse::centre, 2, dimension::length, range::any, "centre",
-                    std::vector<Real>{0, 0})};
+  return {
+      reals_row("semi_axes", &Ellipse::semi_axes, 2, dimension::length, range::positive,
+                "semi-axes along x, y"),
+      integer_row("core", &Ellipse::core, count_in_plane, "cells along an edge of the core square",
+                  18),
+      integer_row("rings", &Ellipse::rings, count_in_plane, "rings of cells around the core", 9),
+      reals_row("centre", &Ellipse::centre, 2, dimension::length, range::any, "centre",
+                std::vector<Real>{0, 0})};
 }
 
 Geometry<2> Ellipse::geometry() const {

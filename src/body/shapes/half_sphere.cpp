@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Half sphere: the upper half of the cubed sphere.
+#include "meniscus/body/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/core/error.hpp"
 
@@ -10,8 +11,6 @@
 namespace meniscus {
 
 namespace {
-
-constexpr Range count{1, 1000};
 
 /// The cells above z = 0 and their nodes; an even core has nodes, and no cells, across that plane.
 Grid<3> upper_half(const Grid<3>& whole) {
@@ -33,15 +32,16 @@ Grid<3> upper_half(const Grid<3>& whole) {
   return half;
 }
 
-const bool registered = register_shape<3, HalfSphere>();
+const bool half_sphere_registered = register_shape<3, HalfSphere>();
 
 }  // namespace
 
 Rows<HalfSphere> HalfSphere::rows() {
   return {real_row("radius", &HalfSphere::radius, dimension::length, range::positive, "radius"),
-          integer_row("core", &HalfSphere::core, count,
+          integer_row("core", &HalfSphere::core, count_in_space,
                       "cells along an edge of the core of the whole ball, an even number", 10),
-          integer_row("layers", &HalfSphere::layers, count, "shells of cells around the core", 5),
+          integer_row("layers", &HalfSphere::layers, count_in_space,
+                      "shells of cells around the core", 5),
           reals_row("centre", &HalfSphere::centre, 3, dimension::length, range::any,
                     "centre of the flat face", std::vector<Real>{0, 0, 0})};
 }

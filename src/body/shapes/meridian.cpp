@@ -15,7 +15,7 @@ namespace {
 constexpr Real right_angle = std::numbers::pi / 2;
 
 /// x = a sin t, z = c cos t.
-struct Ellipse {
+struct EllipseArc {
   Real a, c;
 
   /// ds/dt
@@ -94,7 +94,7 @@ Meridian rounded_cylinder_meridian(Real radius, Real height, Real edge_radius) {
 }
 
 Meridian spheroid_meridian(Real radius, Real height) {
-  const Ellipse ellipse{radius, 0.5 * height};
+  const EllipseArc ellipse{radius, 0.5 * height};
   const Real a = ellipse.a, c = ellipse.c, quarter = ellipse.arc_length(right_angle);
   Meridian meridian;
   meridian.length = quarter;

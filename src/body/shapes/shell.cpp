@@ -39,8 +39,9 @@ Geometry<3> wall_of(const Wall& shell, const Meridian& meridian) {
                    Vec<3>::Map(shell.centre.data()));
 }
 
-const bool registered = register_shape<3, DiskShell>() && register_shape<3, CylinderShell>() &&
-                        register_shape<3, SpheroidShell>() && register_shape<3, SphereShell>();
+const bool shell_registered =
+    register_shape<3, DiskShell>() && register_shape<3, CylinderShell>() &&
+    register_shape<3, SpheroidShell>() && register_shape<3, SphereShell>();
 
 }  // namespace
 

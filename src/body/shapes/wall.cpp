@@ -2,6 +2,7 @@
 // The map of the unit spherical shell onto a wall, and its body.
 #include "wall.hpp"
 
+#include "meniscus/body/cell_count.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <fmt/core.h>
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "cell_count.hpp"
 #include "cubed.hpp"
 
 namespace meniscus {

@@ -3,6 +3,7 @@
 #include "meniscus/physics/contact_demand.hpp"
 
 #include "meniscus/approx/neighbor_search.hpp"
+#include "meniscus/core/box.hpp"
 
 #include <fmt/core.h>
 
@@ -44,6 +45,54 @@ Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> ac
   return std::sqrt(std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3])));
 }
 
+/// Around points in lanes, [cluster][i].
+template <int D>
+Box<D> box_around_lanes(std::span<const Lanes> x) {
+  Lanes low[D], high[D];
+  for (int i = 0; i < D; ++i) low[i] = high[i] = x[static_cast<std::size_t>(i)];
+  for (std::size_t k = 0; k < x.size(); k += D)
+    for (int i = 0; i < D; ++i) {
+      low[i] = min(low[i], at(x, k + static_cast<std::size_t>(i)));
+      high[i] = max(high[i], at(x, k + static_cast<std::size_t>(i)));
+    }
+  Box<D> box;
+  for (int lane = 0; lane < Lanes::width; ++lane) {
+    Vec<D> a, b;
+    for (int i = 0; i < D; ++i) {
+      a[i] = low[i][lane];
+      b[i] = high[i][lane];
+    }
+    box.include(a);
+    box.include(b);
+  }
+  return box;
+}
+
+/// Around the coefficients of the velocity of a body.
+template <int D>
+Box<D> velocities(const Body<D>& body, const Motion& motion) {
+  Lanes low = at(motion.v, body.first), high = low;
+  for (const NodalVector& v : body.part(motion.v)) {
+    low = min(low, v);
+    high = max(high, v);
+  }
+  Box<D> box;
+  for (int i = 0; i < D; ++i) {
+    box.low[i] = low[i];
+    box.high[i] = high[i];
+  }
+  return box;
+}
+
+template <int D>
+Real distance_between(const Box<D>& a, const Box<D>& b) {
+  return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(Vec<D>::Zero()).norm();
+}
+template <int D>
+Real farthest_between(const Box<D>& a, const Box<D>& b) {
+  return (a.high - b.low).cwiseAbs().cwiseMax((b.high - a.low).cwiseAbs()).norm();
+}
+
 }  // namespace
 
 template <int D>
@@ -62,6 +111,29 @@ Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active
   const Vec<D> mean = other ? mean_velocity(*other, other_active, motion) : rigid_velocity;
   const Real own = largest_deviation(points, active, mean, motion);
   return other ? own + largest_deviation(*other, other_active, mean, motion) : own;
+}
+
+template <int D>
+Approach approach(const ContactPoints<D>& first, const ContactPlaces<D>& at_first,
+                  const ContactPoints<D>& second, const ContactPlaces<D>& at_second,
+                  const Motion& motion) {
+  return {distance_between(box_around_lanes<D>(at_first.x), box_around_lanes<D>(at_second.x)),
+          farthest_between(velocities(first.body(), motion), velocities(second.body(), motion))};
+}
+
+template <int D>
+Approach approach(const Body<D>& body, Real distance, const Vec<D>& velocity,
+                  const Motion& motion) {
+  return {distance, farthest_between(velocities(body, motion), Box<D>{velocity, velocity})};
+}
+
+StepDemand approach_demand(const Approach& approach, Real range) {
+  constexpr Real into_range = 0.25;
+  StepDemand demand;
+  if (approach.speed > 0)
+    demand.longest =
+        (std::max(0.0, approach.distance - range) + into_range * range) / approach.speed;
+  return demand;
 }
 
 StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed) {
@@ -89,13 +161,16 @@ std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, 
       contact, gap, spacing);
 }
 
-template Real gap_between(const ContactPlaces<2>&, const ContactPlaces<2>&);
-template Real gap_between(const ContactPlaces<3>&, const ContactPlaces<3>&);
-template Real closing_speed(const ContactPoints<2>&, std::span<const Index>,
-                            const ContactPoints<2>*, std::span<const Index>, const Vec<2>&,
-                            const Motion&);
-template Real closing_speed(const ContactPoints<3>&, std::span<const Index>,
-                            const ContactPoints<3>*, std::span<const Index>, const Vec<3>&,
-                            const Motion&);
+#define MENISCUS_INSTANTIATE(D)                                                                \
+  template Real gap_between(const ContactPlaces<D>&, const ContactPlaces<D>&);                 \
+  template Real closing_speed(const ContactPoints<D>&, std::span<const Index>,                 \
+                              const ContactPoints<D>*, std::span<const Index>, const Vec<D>&,  \
+                              const Motion&);                                                  \
+  template Approach approach(const ContactPoints<D>&, const ContactPlaces<D>&,                 \
+                             const ContactPoints<D>&, const ContactPlaces<D>&, const Motion&); \
+  template Approach approach(const Body<D>&, Real, const Vec<D>&, const Motion&);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
 
 }  // namespace meniscus

@@ -140,8 +140,8 @@ void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places) cons
 }
 
 template <int D>
-void ContactPoints<D>::weigh(std::span<const Index> clusters, const Motion& motion,
-                             ContactPlaces<D>& places) const {
+void ContactPoints<D>::update_weights(std::span<const Index> clusters, const Motion& motion,
+                                      ContactPlaces<D>& places) const {
   if (components_ == 1) return;
   const NodalVector* u = motion.u.data() + body_->first;
   parallel_for(

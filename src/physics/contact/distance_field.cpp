@@ -49,14 +49,14 @@ class GapContact final : public ContactModel<D> {
   explicit GapContact(std::shared_ptr<const Interaction> law) : law_(std::move(law)) {}
 
   void check(const Block& block, bool rigid) const override {
-    if (!rigid)
-      block.problem("interaction",
-                    "is a law of the gap, which needs a rigid partner; allowed between two bodies "
-                    "is lennard_jones");
+    if (!rigid && block.has("form") && block.text("form", "energy") != "energy")
+      block.problem("form",
+                    "with a law of the gap two bodies act on each other by its energy "
+                    "alone; allowed is energy");
   }
-  std::unique_ptr<ForceTerm> between(const Body<D>&, const Body<D>&,
+  std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
                                      const ContactChoice& choice) const override {
-    throw InputError("contact '" + choice.name + "': a law of the gap needs a rigid partner");
+    return gap_pair<D>(first, second, law_, choice);
   }
   std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
                                           const ContactChoice& choice) const override {

@@ -15,13 +15,13 @@
 namespace meniscus {
 namespace {
 
-/// What the points of one body feel.
+/// Forces on the points of one body.
 template <int D>
-struct Felt {
+struct Evaluation {
   AlignedVector<Lanes> T, S;  ///< [cluster][i], as in contact_forms.hpp
   std::vector<Real> nearest;  ///< [active cluster] least squared distance to the other body
 
-  Felt(Index clusters, bool moment) {
+  Evaluation(Index clusters, bool moment) {
     T.assign(static_cast<std::size_t>(clusters) * D, Lanes::zero());
     if (moment) S = T;
     nearest.reserve(static_cast<std::size_t>(clusters));
@@ -54,8 +54,8 @@ class PairContact final : public ForceTerm {
         second_(points_of(second, choice)),
         list_(law.reach(), choice.skin * law.sigma0),
         now_{first_.at_rest(), second_.at_rest()},
-        first_felt_(first_.clusters(), Form::moment),
-        second_felt_(second_.clusters(), Form::moment) {}
+        first_result_(first_.clusters(), Form::moment),
+        second_result_(second_.clusters(), Form::moment) {}
 
   std::string name() const override { return "contact '" + name_ + "'"; }
   std::string_view energy_kind() const override { return "contact"; }
@@ -63,11 +63,12 @@ class PairContact final : public ForceTerm {
   Report add_force(const Motion& motion, Forces force) override {
     move(motion, now_);
     list_.update(now_.first.x, now_.second.x);
-    weigh(motion, list_, now_);
-    sum_all(now_.first, list_.of_first(), now_.second, first_felt_);
-    sum_all(now_.second, list_.of_second(), now_.first, second_felt_);
-    first_.add_force(now_.first, list_.of_first().active, first_felt_.T, first_felt_.S, force);
-    second_.add_force(now_.second, list_.of_second().active, second_felt_.T, second_felt_.S, force);
+    update_weights(motion, list_, now_);
+    sum_all(now_.first, list_.of_first(), now_.second, first_result_);
+    sum_all(now_.second, list_.of_second(), now_.first, second_result_);
+    first_.add_force(now_.first, list_.of_first().active, first_result_.T, first_result_.S, force);
+    second_.add_force(now_.second, list_.of_second().active, second_result_.T, second_result_.S,
+                      force);
     return report(motion);
   }
 
@@ -89,7 +90,7 @@ class PairContact final : public ForceTerm {
   std::vector<MeasureSource> measures() const override;
 
   std::size_t bytes() const override {
-    const Felt<D>&a = first_felt_, &b = second_felt_;
+    const Evaluation<D>&a = first_result_, &b = second_result_;
     return first_.bytes() + second_.bytes() + now_.first.bytes() + now_.second.bytes() +
            list_.bytes() + (a.T.size() + a.S.size() + b.T.size() + b.S.size()) * sizeof(Lanes);
   }
@@ -104,9 +105,10 @@ class PairContact final : public ForceTerm {
     first_.move(motion, places.first);
     second_.move(motion, places.second);
   }
-  void weigh(const Motion& motion, const ContactList<D>& list, PairPlaces<D>& places) const {
-    first_.weigh(list.of_first().active, motion, places.first);
-    second_.weigh(list.of_second().active, motion, places.second);
+  void update_weights(const Motion& motion, const ContactList<D>& list,
+                      PairPlaces<D>& places) const {
+    first_.update_weights(list.of_first().active, motion, places.first);
+    second_.update_weights(list.of_second().active, motion, places.second);
   }
 
   /// f(places, list) at any motion; takes memory. The list of the forces serves where it holds.
@@ -118,13 +120,13 @@ class PairContact final : public ForceTerm {
     if (!list_.valid(places.first.x, places.second.x))
       own.emplace(list_.reach(), list_.skin()).update(places.first.x, places.second.x);
     const ContactList<D>& list = own ? *own : list_;
-    weigh(motion, list, places);
+    update_weights(motion, list, places);
     return f(places, list);
   }
 
   void sum_all(const ContactPlaces<D>& points, const Rows& rows, const ContactPlaces<D>& others,
-               Felt<D>& felt) const {
-    felt.nearest.resize(rows.active.size());
+               Evaluation<D>& result) const {
+    result.nearest.resize(rows.active.size());
     parallel_for(
         static_cast<Index>(rows.active.size()),
         [&](Index k) {
@@ -134,11 +136,11 @@ class PairContact final : public ForceTerm {
           const Lanes nearest =
               contact::sum_over_partners<Form, D>(pair_law_, law_.reach(), points.x_of(c),
                                                   points.weight_of(c), rows.of(c), others, T, S);
-          at(felt.nearest, k) =
+          at(result.nearest, k) =
               std::min(std::min(nearest[0], nearest[1]), std::min(nearest[2], nearest[3]));
           for (int i = 0; i < D; ++i) {
-            at(felt.T, c * D + i) = T[i];
-            if (Form::moment) at(felt.S, c * D + i) = S[i];
+            at(result.T, c * D + i) = T[i];
+            if (Form::moment) at(result.S, c * D + i) = S[i];
           }
         },
         4);
@@ -192,15 +194,19 @@ class PairContact final : public ForceTerm {
   ContactList<D> list_;
   // Work space of a force.
   PairPlaces<D> now_;
-  Felt<D> first_felt_, second_felt_;
+  Evaluation<D> first_result_, second_result_;
 };
 
 /// What the places and velocities of a force mean for the step.
 template <int D, class Form, PairKernel K>
 Report PairContact<D, Form, K>::report(const Motion& motion) const {
   Report report;
-  const std::vector<Real>& nearest = first_felt_.nearest;
-  if (nearest.empty()) return report;
+  const std::vector<Real>& nearest = first_result_.nearest;
+  if (nearest.empty()) {
+    report.demand =
+        approach_demand(approach(first_, now_.first, second_, now_.second, motion), law_.reach());
+    return report;
+  }
   const Real gap = std::sqrt(*std::min_element(nearest.begin(), nearest.end()));
   if (gap < interaction_.least_gap()) report.failure = describe_overlap(gap);
   const Real speed = closing_speed<D>(first_, list_.of_first().active, &second_,
@@ -213,7 +219,7 @@ Report PairContact<D, Form, K>::report(const Motion& motion) const {
 template <int D, class Form, PairKernel K>
 Failure PairContact<D, Form, K>::describe_overlap(Real gap) const {
   const auto& active = list_.of_first().active;
-  const std::vector<Real>& nearest = first_felt_.nearest;
+  const std::vector<Real>& nearest = first_result_.nearest;
   const auto k = std::min_element(nearest.begin(), nearest.end()) - nearest.begin();
   const Index cluster = at(active, k);
   Eigen::Index lane = 0;
@@ -229,11 +235,11 @@ Failure PairContact<D, Form, K>::describe_overlap(Real gap) const {
 template <int D, class Form, PairKernel K>
 Vec<D> PairContact<D, Form, K>::force_on_first(const Motion& motion) const {
   return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
-    Felt<D> felt(first_.clusters(), Form::moment);
-    sum_all(places.first, list.of_first(), places.second, felt);
+    Evaluation<D> result(first_.clusters(), Form::moment);
+    sum_all(places.first, list.of_first(), places.second, result);
     Vec<D> force = Vec<D>::Zero();
     for (const Index c : list.of_first().active)
-      for (int i = 0; i < D; ++i) force[i] -= sum(at(felt.T, c * D + i));
+      for (int i = 0; i < D; ++i) force[i] -= sum(at(result.T, c * D + i));
     return force;
   });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of a deformable body with a rigid partner in closed form.
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_demand.hpp"
@@ -7,7 +8,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numeric>
 
@@ -17,7 +17,7 @@ namespace {
 /// x cross y; in the plane the third component.
 template <int D>
 Eigen::Vector3d cross(const Vec<D>& x, const Vec<D>& y) {
-  return spatial<D>(x).cross(spatial<D>(y));
+  return meniscus::cross(spatial<D>(x), spatial<D>(y));
 }
 
 template <int D>
@@ -41,7 +41,7 @@ class RigidContact final : public ForceTerm {
   std::string_view energy_kind() const override { return "contact"; }
 
   Report add_force(const Motion& motion, Forces force) override {
-    feel(motion, now_);
+    evaluate(motion, now_);
     const std::span<const Lanes> S =
         form_ == ContactForm::energy ? std::span<const Lanes>(now_.S) : std::span<const Lanes>();
     points_.add_force(now_.places, all_, now_.T, S, force);
@@ -49,10 +49,10 @@ class RigidContact final : public ForceTerm {
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
-    const Felt felt = felt_at(motion);
+    const Evaluation result = evaluated(motion);
     return parallel_sum(points_.clusters(), 0.0, [&](Index c) {
       Lanes E = Lanes::zero();
-      for (int i = 0; i < D; ++i) E += at(felt.S, c * D + i) * felt.places.weight_of(c)[i];
+      for (int i = 0; i < D; ++i) E += at(result.S, c * D + i) * result.places.weight_of(c)[i];
       return sum(E);
     });
   }
@@ -61,7 +61,7 @@ class RigidContact final : public ForceTerm {
   bool may_reject_steps() const override { return true; }
 
   std::optional<std::string> warning(const Motion& motion) const override {
-    return unresolved_gap(name_, felt_at(motion).gap(), points_.spacing(), interaction_->range());
+    return unresolved_gap(name_, evaluated(motion).gap(), points_.spacing(), interaction_->range());
   }
 
   std::vector<MeasureSource> measures() const override;
@@ -72,13 +72,13 @@ class RigidContact final : public ForceTerm {
   Offset pairs() const override { return points_.pairs() + points_.size(); }
 
  private:
-  /// Where the points are and what they feel, [cluster][i] as in contact_forms.hpp.
-  struct Felt {
+  /// Places of the points and their forces, [cluster][i] as in contact_forms.hpp.
+  struct Evaluation {
     ContactPlaces<D> places;
     AlignedVector<Lanes> T, S;
     AlignedVector<Lanes> distances;  // [cluster] from the surface of the partner
 
-    explicit Felt(const ContactPoints<D>& points) : places(points.at_rest()) {
+    explicit Evaluation(const ContactPoints<D>& points) : places(points.at_rest()) {
       T.assign(static_cast<std::size_t>(points.clusters()) * D, Lanes::zero());
       S = T;
       distances.assign(static_cast<std::size_t>(points.clusters()), Lanes::zero());
@@ -94,23 +94,23 @@ class RigidContact final : public ForceTerm {
   };
 
   Real end_of_motion() const;
-  void feel(const Motion& motion, Felt& felt) const;
-  void feel(Index cluster, const Vec<D>& shift, Felt& felt) const;
+  void evaluate(const Motion& motion, Evaluation& result) const;
+  void evaluate(Index cluster, const Vec<D>& shift, Evaluation& result) const;
   /// At any motion; takes memory.
-  Felt felt_at(const Motion& motion) const {
-    Felt felt(points_);
-    feel(motion, felt);
-    return felt;
+  Evaluation evaluated(const Motion& motion) const {
+    Evaluation result(points_);
+    evaluate(motion, result);
+    return result;
   }
   Report report(const Motion& motion);
 
-  Vec<D> net_force(const Felt& felt) const {
+  Vec<D> net_force(const Evaluation& result) const {
     Vec<D> force = Vec<D>::Zero();
     for (const Index c : all_)
-      for (int i = 0; i < D; ++i) force[i] -= sum(at(felt.T, c * D + i));
+      for (int i = 0; i < D; ++i) force[i] -= sum(at(result.T, c * D + i));
     return force;
   }
-  Eigen::Vector3d net_torque(const Felt& felt) const;
+  Eigen::Vector3d net_torque(const Evaluation& result) const;
 
   std::string name_;
   std::shared_ptr<const Interaction> interaction_;
@@ -120,7 +120,7 @@ class RigidContact final : public ForceTerm {
   std::vector<Index> all_;  // clusters
   Real steady_after_ = 0;
   // Work space of a force.
-  Felt now_;
+  Evaluation now_;
   std::vector<Index> near_;  // clusters that the step demand looks at
 };
 
@@ -138,19 +138,19 @@ Real RigidContact<D>::end_of_motion() const {
 }
 
 template <int D>
-void RigidContact<D>::feel(const Motion& motion, Felt& felt) const {
-  points_.move(motion, felt.places);
-  points_.weigh(all_, motion, felt.places);
+void RigidContact<D>::evaluate(const Motion& motion, Evaluation& result) const {
+  points_.move(motion, result.places);
+  points_.update_weights(all_, motion, result.places);
   const Vec<D> shift = partner_.motion.displacement(motion.time);
   parallel_for(
-      points_.clusters(), [&](Index c) { feel(c, shift, felt); }, 16);
+      points_.clusters(), [&](Index c) { evaluate(c, shift, result); }, 16);
 }
 
 /// T and S of the four points of a cluster: T = grad S V, with S forming the energy S.V, or T = U V
 /// for the pressure form. The dissertation's traction Sigma n = -beta1 grad S n is T without S.
 template <int D>
-void RigidContact<D>::feel(Index cluster, const Vec<D>& shift, Felt& felt) const {
-  const Lanes *x = felt.places.x_of(cluster), *weight = felt.places.weight_of(cluster);
+void RigidContact<D>::evaluate(Index cluster, const Vec<D>& shift, Evaluation& result) const {
+  const Lanes *x = result.places.x_of(cluster), *weight = result.places.weight_of(cluster);
   for (int lane = 0; lane < Lanes::width; ++lane) {
     Vec<D> place, V;
     for (int i = 0; i < D; ++i) {
@@ -160,16 +160,16 @@ void RigidContact<D>::feel(Index cluster, const Vec<D>& shift, Felt& felt) const
     const RigidField<D> field = partner_.shape->field(place);
     const Vec<D> T = form_ == ContactForm::pressure ? Vec<D>(field.U * V) : field.grad_S * V;
     for (int i = 0; i < D; ++i) {
-      at(felt.T, cluster * D + i).set(lane, T[i]);
-      at(felt.S, cluster * D + i).set(lane, field.S[i]);
+      at(result.T, cluster * D + i).set(lane, T[i]);
+      at(result.S, cluster * D + i).set(lane, field.S[i]);
     }
-    at(felt.distances, cluster).set(lane, partner_.shape->distance(place));
+    at(result.distances, cluster).set(lane, partner_.shape->distance(place));
   }
 }
 
 /// Torque about the origin, -sum (x cross T + V cross S): turning the body turns x and V.
 template <int D>
-Eigen::Vector3d RigidContact<D>::net_torque(const Felt& felt) const {
+Eigen::Vector3d RigidContact<D>::net_torque(const Evaluation& result) const {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
   const auto vector = [](const Lanes* field, int lane) {
     Vec<D> x;
@@ -178,10 +178,10 @@ Eigen::Vector3d RigidContact<D>::net_torque(const Felt& felt) const {
   };
   for (const Index c : all_)
     for (int lane = 0; lane < points_.points_in(c); ++lane) {
-      torque -= cross<D>(vector(felt.places.x_of(c), lane), vector(&at(felt.T, c * D), lane));
+      torque -= cross<D>(vector(result.places.x_of(c), lane), vector(&at(result.T, c * D), lane));
       if (form_ == ContactForm::energy)
         torque -=
-            cross<D>(vector(felt.places.weight_of(c), lane), vector(&at(felt.S, c * D), lane));
+            cross<D>(vector(result.places.weight_of(c), lane), vector(&at(result.S, c * D), lane));
     }
   return torque;
 }
@@ -197,7 +197,11 @@ Report RigidContact<D>::report(const Motion& motion) {
   }
   const Index nearest = now_.nearest_point();
   const Real gap = now_.distance(nearest);
-  if (!(gap < interaction_->range())) return report;
+  if (!(gap < interaction_->range())) {
+    report.demand =
+        approach_demand(approach<D>(points_.body(), gap, velocity, motion), interaction_->range());
+    return report;
+  }
   if (gap < interaction_->least_gap())
     report.failure = Failure{
         points_.particle_at(nearest),
@@ -219,22 +223,24 @@ Report RigidContact<D>::report(const Motion& motion) {
 template <int D>
 std::vector<MeasureSource> RigidContact<D>::measures() const {
   const auto looked_at = [this](auto&& number) {
-    return [this, number](const Motion& motion) { return Real(number(felt_at(motion))); };
+    return [this, number](const Motion& motion) { return Real(number(evaluated(motion))); };
   };
   std::vector<MeasureSource> all{
       {"energy", dimension::energy, "energy of the interaction",
        [this](const Motion& motion) { return *stored_energy(motion); }},
       {"gap", dimension::length, "least distance of the points of the body from the partner",
-       looked_at([](const Felt& felt) { return felt.gap(); })},
+       looked_at([](const Evaluation& result) { return result.gap(); })},
       {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
-       looked_at([this](const Felt& felt) { return felt.gap() / points_.spacing(); })}};
+       looked_at([this](const Evaluation& result) { return result.gap() / points_.spacing(); })}};
   for (int i = 0; i < D; ++i)
-    all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the body",
-                   looked_at([this, i](const Felt& felt) { return net_force(felt)[i]; })});
+    all.push_back(
+        {std::string("force_") + "xyz"[i], dimension::force, "force on the body",
+         looked_at([this, i](const Evaluation& result) { return net_force(result)[i]; })});
   for (int i = D == 3 ? 0 : 2; i < 3; ++i)
-    all.push_back({std::string("torque_") + "xyz"[i], dimension::energy,
-                   "torque on the body about the origin",
-                   looked_at([this, i](const Felt& felt) { return net_torque(felt)[i]; })});
+    all.push_back(
+        {std::string("torque_") + "xyz"[i], dimension::energy,
+         "torque on the body about the origin",
+         looked_at([this, i](const Evaluation& result) { return net_torque(result)[i]; })});
   if (partner_.motion.moves())
     for (int i = 0; i < D; ++i)
       all.push_back({std::string("displacement_") + "xyz"[i], dimension::length,

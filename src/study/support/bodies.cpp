@@ -61,7 +61,7 @@ Geometry<D> reference_body(const std::string& shape, int n) {
 
 template <int D>
 void require_curvature(const std::string& shape, const Geometry<D>& geometry) {
-  if (!geometry.smooth)
+  if (!geometry.surface->smooth())
     throw InputError(fmt::format(
         "the shape '{}' has edges; the normal jumps there, 2 kappa = -div n is infinite, and so "
         "the error of a curvature is undefined; study the {}; a simulation of this shape takes the "

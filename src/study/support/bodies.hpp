@@ -11,6 +11,10 @@ namespace meniscus::study {
 /// Names of the shapes that reference_body() knows; the first one is smooth, the others have edges.
 template <int D>
 const std::vector<std::string>& reference_shapes();
+template <>
+const std::vector<std::string>& reference_shapes<2>();
+template <>
+const std::vector<std::string>& reference_shapes<3>();
 
 /// A ball or disk of radius 1 with n cells along an edge of the core inside n / 2 shells; also box,
 /// cylinder and rectangle, for what needs no curvature. In spatial order.

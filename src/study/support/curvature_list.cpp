@@ -33,23 +33,23 @@ class List {
 };
 
 constexpr auto cubic = Window::cubic_spline, quintic = Window::quintic_spline;
-constexpr auto points = Places::points, nodes = Places::nodes;
+constexpr auto at_points = Places::points, at_nodes = Places::nodes;
 
 }  // namespace
 
 template <int D>
 std::vector<CurvatureMethod<D>> main_methods(bool brief) {
   List<D> list("methods");
-  list.add(2, 1.8, cubic, points);
-  list.add_recovered(2, 1.8, cubic, points);
-  list.add(3, 2.0, cubic, points);
+  list.add(2, 1.8, cubic, at_points);
+  list.add_recovered(2, 1.8, cubic, at_points);
+  list.add(3, 2.0, cubic, at_points);
   if (brief) return list.methods;
-  list.add(2, 1.5, cubic, points);
-  list.add(2, 2.0, cubic, points);
-  list.add(2, 2.0, quintic, nodes);
-  list.add_recovered(2, 2.3, quintic, points);
-  list.add(3, 1.75, cubic, points);
-  list.add_recovered(3, 2.0, cubic, points);
+  list.add(2, 1.5, cubic, at_points);
+  list.add(2, 2.0, cubic, at_points);
+  list.add(2, 2.0, quintic, at_nodes);
+  list.add_recovered(2, 2.3, quintic, at_points);
+  list.add(3, 1.75, cubic, at_points);
+  list.add_recovered(3, 2.0, cubic, at_points);
   return list.methods;
 }
 
@@ -59,38 +59,39 @@ std::vector<CurvatureMethod<D>> all_methods() {
   const auto append = [&](const List<D>& list) {
     all.insert(all.end(), list.methods.begin(), list.methods.end());
   };
-  for (const Places places : {points, nodes})
+  for (const Places places : {at_points, at_nodes})
     for (const Window window : {cubic, quintic, Window::wendland_c2, Window::wendland_c4}) {
       List<D> list(fmt::format("{}, {}", at(window_names, static_cast<int>(window)),
-                               places == points ? "points" : "nodes"));
+                               places == at_points ? "points" : "nodes"));
       for (const Real factor : {1.5, 1.8, 2.0, 2.3}) list.add(2, factor, window, places);
       append(list);
     }
 
   List<D> bases("bases");
-  bases.add(1, 1.6, cubic, points);
-  bases.add(3, 1.75, cubic, points);
-  bases.add(3, 2.0, cubic, points);
-  bases.add(3, 2.0, cubic, nodes);
+  bases.add(1, 1.6, cubic, at_points);
+  bases.add(3, 1.75, cubic, at_points);
+  bases.add(3, 2.0, cubic, at_points);
+  bases.add(3, 2.0, cubic, at_nodes);
   append(bases);
 
   List<D> recovered("recovered");
-  for (const Real factor : {1.5, 1.8, 2.0, 2.3}) recovered.add_recovered(2, factor, cubic, points);
-  recovered.add_recovered(2, 2.3, quintic, points);
-  recovered.add_recovered(2, 1.8, cubic, nodes);
-  recovered.add_recovered(3, 1.75, cubic, points);
-  recovered.add_recovered(3, 2.0, cubic, points);
+  for (const Real factor : {1.5, 1.8, 2.0, 2.3})
+    recovered.add_recovered(2, factor, cubic, at_points);
+  recovered.add_recovered(2, 2.3, quintic, at_points);
+  recovered.add_recovered(2, 1.8, cubic, at_nodes);
+  recovered.add_recovered(3, 1.75, cubic, at_points);
+  recovered.add_recovered(3, 2.0, cubic, at_points);
   append(recovered);
 
   List<D> smoothed("smoothed");
-  smoothed.add_smoothed(1.8, cubic, points);
-  smoothed.add_smoothed(2.3, quintic, points);
-  smoothed.add_smoothed(2.3, quintic, nodes);
+  smoothed.add_smoothed(1.8, cubic, at_points);
+  smoothed.add_smoothed(2.3, quintic, at_points);
+  smoothed.add_smoothed(2.3, quintic, at_nodes);
   append(smoothed);
 
   List<D> stages("re-referenced");
   for (const int k : {2, 4, 8}) {
-    CurvatureMethod<D>& m = stages.add(2, 1.8, cubic, points);
+    CurvatureMethod<D>& m = stages.add(2, 1.8, cubic, at_points);
     m.stages = k;
     m.line += fmt::format(", {} stages", k);
   }

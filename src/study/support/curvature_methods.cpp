@@ -22,10 +22,11 @@ SurfacePoints<D> node_points(const Geometry<D>& geometry, const SurfacePoints<D>
   for (Index q = 0; q < points.size(); ++q)
     for (const Index A : at(geometry.grid.facets, at(points.facet, q)).nodes)
       at(share, A) += at(points.area, q) / (1 << (D - 1));
+  const MappedPatches<D>& unit = mapped_patches(*geometry.surface);
   SurfacePoints<D> nodes;
   nodes.exact = true;
   for (const Index A : boundary_nodes(geometry.grid)) {
-    const auto foot = geometry.patches[0].project(at(geometry.unit_X, A));
+    const auto foot = unit.patches()[0].project(at(unit.unit_X(), A));
     nodes.X.push_back(foot.X);
     nodes.N.push_back(foot.N);
     nodes.grad_N.push_back(foot.grad_N);

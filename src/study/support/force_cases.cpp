@@ -4,9 +4,8 @@
 
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/surface_geometry.hpp"
-
-#include <Eigen/Geometry>
 
 #include "bodies.hpp"
 
@@ -107,7 +106,7 @@ Balance balance_of(const ForceCase& c, const NodalVectors& force) {
   for (Index A = 0; A < c.body->size(); ++A) {
     const Vec<3> x = vector_at<3>(d, A), f = vector_at<3>(force, A);
     net += f;
-    moment += x.cross(f);
+    moment += cross(x, f);
     force_scale += f.norm();
     torque_scale += x.norm() * f.norm();
   }

@@ -15,12 +15,6 @@ namespace {
 
 constexpr Range yes{1, 1};
 
-void note_step(Real step, Real left, HardOutcome& outcome) {
-  ++outcome.steps;
-  if (outcome.first_step == 0) outcome.first_step = step;
-  if (left > 1.5 * step) outcome.least_step = std::min(outcome.least_step, step);
-}
-
 template <int D>
 void note_watched(const Simulation<D>& simulation, const HardRun& how, HardOutcome& outcome) {
   for (const MeasureSource& m : simulation.scene().measures) {
@@ -37,7 +31,10 @@ void follow(Simulation<D>& simulation, const HardRun& how, HardOutcome& outcome)
   simulation.begin();
   while (simulation.state().time < end && outcome.steps < how.largest_step_number) {
     simulation.advance();
-    note_step(simulation.last_step(), end - simulation.state().time, outcome);
+    ++outcome.steps;
+    const Real allowed = simulation.controller().allowed();
+    if (outcome.steps == 1) outcome.first_allowed_step = allowed;
+    outcome.least_allowed_step = std::min(outcome.least_allowed_step, allowed);
     if (!how.watched.empty()) note_watched(simulation, how, outcome);
     if (static_cast<std::int64_t>(outcome.steps) % 50) continue;
     const Ledger ledger = simulation.audit_now();

@@ -16,8 +16,7 @@ struct HardOutcome {
   Real energy_error = 0;  ///< largest error of the energy balance
   Real final_energy_error = 0;
   Real angular_momentum_error = 0;  ///< largest
-  Real first_step = 0,
-       least_step = unbounded;        ///< lengths; of the last two steps, which fit the end, not
+  Real first_allowed_step = 0, least_allowed_step = unbounded;
   std::map<std::string, Real> least;  ///< smallest so far of the measures that are watched
   std::string stopped;                ///< message of the failure; empty if it ran to its end
   std::string remarks;                ///< notes and warnings of the set-up

@@ -2,11 +2,10 @@
 // The maps of the curvature studies, and the test that a map does not fold.
 #include "maps.hpp"
 
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <fmt/core.h>
-
-#include <Eigen/LU>
 
 namespace meniscus::study {
 namespace {
@@ -115,7 +114,7 @@ typename NamedMap<D>::Path straight_path(SmoothMap<D> map) {
 template <int D>
 void require_no_fold(const NamedMap<D>& map, std::span<const Vec<D>> places) {
   for (const Vec<D>& X : places) {
-    const Real J = map.map(X).F.determinant();
+    const Real J = determinant<D>(map.map(X).F);
     if (J > 0) continue;
     std::string place = fmt::format("{:.4g}", X[0]);
     for (int i = 1; i < D; ++i) place += fmt::format(", {:.4g}", X[i]);

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact surfaces: patches of a unit shape and a smooth map onto the body.
+#pragma once
+#include "meniscus/body/surface.hpp"
+
+#include <vector>
+
+namespace meniscus {
+
+/// A piece of the surface of a unit shape: plane (2D: line) or round (sphere, cylinder, circle).
+template <int D>
+struct SurfacePatch {
+  /// Projection of a point onto the patch, with the derivative of the projection.
+  struct Foot {
+    Vec<D> X, N;        ///< nearest point of the patch, outward unit normal there
+    Mat<D> grad_N;      ///< N_K,L along the surface
+    Mat<D> derivative;  ///< dX_foot / dX
+  };
+
+  static SurfacePatch plane(const Vec<D>& point, const Vec<D>& normal);
+  static SurfacePatch sphere(const Vec<D>& centre, Real radius);  ///< in 2D a circle
+  static SurfacePatch cavity(const Vec<D>& centre, Real radius);  ///< the normal points inwards
+  /// About the line through `point` along the unit vector `axis`.
+  static SurfacePatch cylinder(const Vec<D>& point, const Vec<D>& axis, Real radius);
+
+  Foot project(const Vec<D>& X) const;
+  Real distance(const Vec<D>& X) const { return (project(X).X - X).norm(); }
+  bool inner() const { return radius < 0; }
+
+  Vec<D> origin = Vec<D>::Zero();
+  /// Orthogonal projection onto the directions in which the patch is round; zero for a plane.
+  Mat<D> round = Mat<D>::Zero();
+  Vec<D> normal = Vec<D>::Zero();  ///< of a plane
+  Real radius = 0;                 ///< of a round patch; negative: the body is around it
+};
+
+/// Points of a facet are projected onto its patch of the unit shape, with exact tangents, and
+/// mapped.
+template <int D>
+class MappedPatches final : public Surface<D> {
+ public:
+  /// `unit_X`: places of the nodes in the unit shape (those of the boundary are exact). The facets
+  /// of the grid know the numbers of their patches.
+  MappedPatches(std::vector<Vec<D>> unit_X, std::vector<SurfacePatch<D>> patches, bool smooth,
+                SmoothMap<D> map);
+
+  SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const override;
+  Vec<D> point(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const override;
+  bool smooth() const override { return smooth_; }
+  bool hollow() const override;
+  std::shared_ptr<const Surface<D>> renumbered(std::span<const Index> order) const override;
+  std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
+                                           const Grid<D>& grid) const override;
+
+  const std::vector<Vec<D>>& unit_X() const { return unit_X_; }
+  const std::vector<SurfacePatch<D>>& patches() const { return patches_; }
+  /// Unit shape -> body.
+  const SmoothMap<D>& map() const { return map_; }
+
+ private:
+  std::vector<Vec<D>> unit_X_;
+  std::vector<SurfacePatch<D>> patches_;
+  bool smooth_;
+  SmoothMap<D> map_;
+};
+
+/// The surface of a body that is known by patches. Throws std::logic_error for other bodies.
+template <int D>
+const MappedPatches<D>& mapped_patches(const Surface<D>& surface);
+
+}  // namespace meniscus

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Determinants, inverses and decompositions of small matrices, compiled once: Eigen's, which take
+// seconds to compile in every file that uses them.
+#pragma once
+#include "meniscus/core/types.hpp"
+
+namespace meniscus {
+
+inline Eigen::Vector3d cross(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+}
+
+// D = 2, 3.
+
+template <int D>
+Real determinant(const Mat<D>& A);
+
+/// Of a matrix that is not singular.
+template <int D>
+Mat<D> inverse(const Mat<D>& A);
+
+/// Eigenvalues of a symmetric matrix in ascending order.
+template <int D>
+Vec<D> symmetric_eigenvalues(const Mat<D>& S);
+
+/// Symmetric root R of a symmetric matrix without negative eigenvalues, R R = S.
+template <int D>
+Mat<D> square_root(const Mat<D>& S);
+
+/// x of S x = b, S symmetric and not indefinite (L D L^T with pivots); n = 2, 3, 5.
+template <int n>
+Vec<n> solve_symmetric(const Mat<n>& S, const Vec<n>& b);
+
+/// The rotation Q that brings Q A closest to B, from sum w B A^T (Kabsch 1976, by singular values).
+Mat<3> best_rotation(const Mat<3>& moment);
+
+}  // namespace meniscus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact facets: the surface of a body as flat simplices, and the point of it nearest to a place.
+#pragma once
+#include "meniscus/approx/force_windows.hpp"
+#include "meniscus/body/body.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+#include <array>
+#include <span>
+
+namespace meniscus {
+
+/// Triangles (2D: segments) through the places of the boundary nodes.
+template <int D>
+class ContactFacets {
+ public:
+  /// Throws SolveError if shape functions cannot be built.
+  explicit ContactFacets(const Body<D>& body);
+
+  /// Where the facets are at a motion.
+  struct Places {
+    std::vector<Vec<D>> corner;    ///< places of the boundary nodes
+    AlignedVector<Lanes> samples;  ///< [facet][i]: its corners and its middle, for a ContactList
+  };
+  Places at_rest() const;
+  /// Moves all facets along with the body. Takes no memory.
+  void move(const Motion& motion, Places& places) const;
+
+  /// The nearest point of the surface: sum_k share_k x_k over the corners of a facet. Moving the
+  /// corners by dx_k changes the distance by -normal . sum_k share_k dx_k.
+  struct Foot {
+    Index facet = -1;  ///< -1: there is none
+    Real distance = unbounded;
+    Vec<D> normal;  ///< unit vector from there to the place
+    std::array<Real, D> share;
+  };
+  /// Among these facets; of equally near ones the first.
+  Foot foot(const Places& places, const Vec<D>& x, std::span<const Index> facets) const;
+
+  const std::array<Index, D>& corners_of(Index facet) const { return at(simplices_, facet); }
+  /// force_A += sum over the corners of N_A `pull`, which is [corner].
+  void add_force(const std::vector<Vec<D>>& pull, std::span<NodalVector> force);
+
+  /// Longest edge in the reference.
+  Real longest_edge() const;
+  const Body<D>& body() const { return body_; }
+  std::size_t bytes() const;
+  Offset pairs() const { return rows_.entries(); }
+
+ private:
+  void sample(Places& places) const;
+
+  const Body<D>& body_;
+  std::vector<std::array<Index, D>> simplices_;  // corners
+  std::vector<Vec<D>> X_;                        // [corner]
+  PointRows<D> rows_;
+  ForceWindows windows_;
+};
+
+}  // namespace meniscus

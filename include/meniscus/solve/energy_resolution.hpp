@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The step that resolves the exchange of energy.
+#pragma once
+#include "meniscus/solve/system.hpp"
+
+namespace meniscus {
+
+/// A stable step need not be an accurate one. Central differences keep, for constant step and
+/// linear forces, not the energy H but H - dt^2/8 S, S = sum f^2/m (performance note 4): the
+/// balance of energy is off by the changes of dt^2/8 S. Steps with dt^2/8 S <= eta E, E the most
+/// energy that has been in motion so far, keep that error small against what is exchanged. In
+/// smooth motion the stable step is far below; after a sudden release or an impact it is not.
+template <int D>
+class EnergyResolution {
+ public:
+  /// At a state that has its forces. It grows from nothing where a body is let go from rest, so the
+  /// caller needs a least step.
+  Real longest_step(const System<D>& system, const State& state);
+
+  void archive(const Archive& a) {
+    a("energy", energy_, of_sum(dimension::energy, D));
+    a("held", held_, dimension::time);
+    a("least", least_, dimension::time);
+    a("window_end", window_end_);
+  }
+
+ private:
+  void hold(Real allowed, std::int64_t step);
+
+  Real energy_ = 0;         ///< most that has been in motion: kinetic, dissipated and external work
+  Real held_ = unbounded;   ///< the step in use
+  Real least_ = unbounded;  ///< that was allowed in this window of steps
+  std::int64_t window_end_ = 0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lumped masses: row sums with a floor, and what the floor adds taken from other particles.
+#include "meniscus/approx/monomials.hpp"
+#include "meniscus/body/body.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+/// Least mass of a particle, of the mass of its nodal cell.
+constexpr Real least_share = 0.3;
+
+/// Monomials up to degree 2 of the reference position, from the middle of the body and in units of
+/// its size, so that systems of their moments are well conditioned.
+template <int D>
+class QuadraticBasis {
+ public:
+  static constexpr int size = monomial_count(D, 2);
+  using Values = Eigen::Matrix<Real, size, 1>;
+
+  explicit QuadraticBasis(std::span<const Vec<D>> X) : middle_(Vec<D>::Zero()), scale_(0) {
+    for (const Vec<D>& place : X) middle_ += place / static_cast<Real>(X.size());
+    for (const Vec<D>& place : X) scale_ = std::max(scale_, (place - middle_).norm());
+  }
+
+  Values operator()(const Vec<D>& X) const {
+    constexpr Monomials<D, 2> monomials;
+    const Vec<D> x = (X - middle_) / scale_;
+    Values p;
+    p[0] = 1;
+    for (std::size_t k = 1; k < static_cast<std::size_t>(size); ++k)
+      p[static_cast<int>(k)] = p[monomials.factor[k]] * x[monomials.variable[k]];
+    return p;
+  }
+
+ private:
+  Vec<D> middle_;
+  Real scale_;
+};
+
+/// What each particle gives, so that all together give the moments `wanted` of degrees up to
+/// `degree`: the gifts with the least sum of squares over `margin`. Nothing if there are none that
+/// leave every particle its margin.
+template <int D>
+std::optional<std::vector<Real>> gifts(std::span<const Vec<D>> X, const std::vector<Real>& margin,
+                                       const typename QuadraticBasis<D>::Values& wanted,
+                                       int degree) {
+  const QuadraticBasis<D> basis(X);
+  const int n = monomial_count(D, degree);
+  Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t A = 0; A < X.size(); ++A) {
+    const Eigen::VectorXd p = basis(X[A]).head(n);
+    moments += margin[A] * p * p.transpose();
+  }
+  const Eigen::VectorXd factor = moments.ldlt().solve(wanted.head(n));
+  std::vector<Real> gift(X.size());
+  Eigen::VectorXd left = wanted.head(n);
+  for (std::size_t A = 0; A < X.size(); ++A) {
+    const Eigen::VectorXd p = basis(X[A]).head(n);
+    gift[A] = margin[A] * p.dot(factor);
+    if (!(gift[A] <= margin[A])) return std::nullopt;
+    left -= gift[A] * p;
+  }
+  // Too few particles give: the system has no solution.
+  if (!(left.cwiseAbs().maxCoeff() <= 1e-11 * wanted[0])) return std::nullopt;
+  return gift;
+}
+
+}  // namespace
+
+template <int D>
+MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
+                     const std::vector<Real>& shape_integral) {
+  const auto X = body.particles.X();
+  const auto n = static_cast<std::size_t>(body.size());
+  MassReport report;
+  std::vector<Real> floor(n), excess(n, 0.0), margin(n), near(n, 0.0);
+  body.mass.resize(n);
+  Real sum = 0, added = 0;
+  for (Index A = 0; A < body.size(); ++A) {
+    const Real row_sum = at(density, A) * at(shape_integral, A);
+    at(floor, A) = least_share * at(density, A) * body.cells.volume(A);
+    at(body.mass, A) = std::max(row_sum, at(floor, A));
+    at(excess, A) = at(body.mass, A) - row_sum;
+    at(margin, A) = at(body.mass, A) - at(floor, A);
+    report.raised += at(excess, A) > 0;
+    sum += row_sum;
+    added += at(excess, A);
+  }
+  if (report.raised == 0) return report;
+
+  // Givers are neighbours of the raised particles, or, where those cannot give enough, all.
+  const QuadraticBasis<D> basis(X);
+  typename QuadraticBasis<D>::Values wanted = QuadraticBasis<D>::Values::Zero();
+  for (Index A = 0; A < body.size(); ++A) {
+    if (at(excess, A) == 0) continue;
+    wanted += at(excess, A) * basis(at(X, A));
+    for (Offset e = at(body.at_particles.start, A); e < at(body.at_particles.start, A + 1); ++e) {
+      const Index B = at(body.at_particles.particle, e);
+      at(near, B) = at(margin, B);
+    }
+  }
+  for (report.kept_degree = 2; report.kept_degree >= 0; --report.kept_degree)
+    for (const std::vector<Real>* givers : {&near, &margin})
+      if (const auto gift = gifts<D>(X, *givers, wanted, report.kept_degree)) {
+        for (std::size_t A = 0; A < n; ++A) body.mass[A] -= (*gift)[A];
+        return report;
+      }
+  report.added = added / sum;
+  return report;
+}
+
+template MassReport lump_mass(Body<2>&, const std::vector<Real>&, const std::vector<Real>&);
+template MassReport lump_mass(Body<3>&, const std::vector<Real>&, const std::vector<Real>&);
+
+}  // namespace meniscus

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces fitted through the boundary nodes of a grid.
+#include "meniscus/body/recovered_surface.hpp"
+
+#include "meniscus/core/dense.hpp"
+#include "meniscus/core/error.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "facet_quadrature.hpp"
+
+namespace meniscus {
+namespace {
+
+/// xi of a corner of a facet.
+template <int D>
+Vec<D - 1> corner_place(std::size_t corner) {
+  Vec<D - 1> xi;
+  for (int k = 0; k < D - 1; ++k) xi[k] = corner_sign(static_cast<int>(corner), k);
+  return xi;
+}
+
+template <int D>
+struct BoundaryNodes {
+  std::vector<Index> node;              ///< of each boundary node, its number in the grid
+  std::vector<Index> number;            ///< the inverse; -1: inside the body
+  std::vector<std::set<Index>> beside;  ///< boundary nodes that share a facet
+  std::vector<Vec<D>> normal;           ///< mean of those of its facets, weighted by area
+};
+
+template <int D>
+BoundaryNodes<D> boundary_of(const Grid<D>& grid) {
+  BoundaryNodes<D> b;
+  b.node = boundary_nodes(grid);
+  b.number.assign(grid.X.size(), -1);
+  for (std::size_t i = 0; i < b.node.size(); ++i) at(b.number, b.node[i]) = static_cast<Index>(i);
+  b.beside.resize(b.node.size());
+  b.normal.assign(b.node.size(), Vec<D>::Zero());
+  for (const Facet<D>& facet : grid.facets) {
+    const FacetCorners<D> corners = facet_corners(facet, grid.X);
+    for (std::size_t a = 0; a < corners.size(); ++a) {
+      const Index i = at(b.number, facet.nodes[a]);
+      for (const Index other : facet.nodes)
+        if (other != facet.nodes[a]) at(b.beside, i).insert(at(b.number, other));
+      at(b.normal, i) += area_normal<D>(multilinear<D, D - 1>(corners, corner_place<D>(a)).J);
+    }
+  }
+  for (Vec<D>& n : b.normal) n.normalize();
+  return b;
+}
+
+template <int D>
+void require_smooth(const Grid<D>& grid, const BoundaryNodes<D>& b) {
+  constexpr Real least_cosine = 0.75;  // half of a right angle is an edge
+  for (const Facet<D>& facet : grid.facets) {
+    const FacetCorners<D> corners = facet_corners(facet, grid.X);
+    for (std::size_t a = 0; a < corners.size(); ++a) {
+      const Vec<D> normal = area_normal<D>(multilinear<D, D - 1>(corners, corner_place<D>(a)).J);
+      if (normal.normalized().dot(at(b.normal, at(b.number, facet.nodes[a]))) < least_cosine)
+        throw InputError(
+            fmt::format("the surface has an edge or corner at node {}; a surface can be recovered "
+                        "from facets where it is smooth only",
+                        facet.nodes[a]));
+    }
+  }
+}
+
+/// Of each boundary node, whether it is on a closed part whose normals point into its inside.
+template <int D>
+std::vector<char> inner_nodes(const Grid<D>& grid, const BoundaryNodes<D>& b) {
+  std::vector<Index> part(b.node.size());  // the least number of its part, found by flooding
+  std::iota(part.begin(), part.end(), 0);
+  std::vector<Index> open;
+  std::vector<char> seen(b.node.size(), 0);
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (seen[i]) continue;
+    open.assign(1, static_cast<Index>(i));
+    seen[i] = 1;
+    while (!open.empty()) {
+      const Index k = open.back();
+      open.pop_back();
+      at(part, k) = static_cast<Index>(i);
+      for (const Index other : at(b.beside, k))
+        if (!at(seen, other)) {
+          at(seen, other) = 1;
+          open.push_back(other);
+        }
+    }
+  }
+  std::vector<Real> volume(b.node.size(), 0.0);  // D times that within a part
+  for (const Facet<D>& facet : grid.facets) {
+    const auto p = multilinear<D, D - 1>(facet_corners(facet, grid.X), Vec<D - 1>::Zero());
+    const Index k = at(part, at(b.number, facet.nodes[0]));
+    at(volume, k) += (p.X - at(grid.X, at(b.node, k))).dot(area_normal<D>(p.J));
+  }
+  std::vector<char> inner;
+  for (const Index k : part) inner.push_back(at(volume, k) < 0);
+  return inner;
+}
+
+/// Boundary nodes within two rings of facets, without the node itself.
+std::set<Index> two_rings(const std::vector<std::set<Index>>& beside, Index i) {
+  std::set<Index> near = at(beside, i);
+  for (const Index k : at(beside, i)) near.insert(at(beside, k).begin(), at(beside, k).end());
+  near.erase(i);
+  return near;
+}
+
+template <int D>
+Eigen::Matrix<Real, D, D - 1> tangents_to(const Vec<D>& n) {
+  if constexpr (D == 2) {
+    return Vec<2>(-n[1], n[0]);
+  } else {
+    Eigen::Matrix<Real, 3, 2> t;
+    t.col(0) = n.unitOrthogonal();
+    t.col(1) = n.cross(Vec<3>(t.col(0)));
+    return t;
+  }
+}
+
+/// Slope and bend (upper triangle) of the best quadratic height.
+template <int D>
+Eigen::VectorXd fitted(const Grid<D>& grid, const BoundaryNodes<D>& b, Index i,
+                       const Eigen::Matrix<Real, D, D - 1>& t) {
+  constexpr int unknowns = D - 1 + D * (D - 1) / 2;
+  const Vec<D>& X = at(grid.X, at(b.node, i));
+  const std::set<Index> near = two_rings(b.beside, i);
+  Real reach = 0;
+  for (const Index k : near) reach = std::max(reach, (at(grid.X, at(b.node, k)) - X).norm());
+  reach *= 1.2;
+  Eigen::Matrix<Real, unknowns, unknowns> M = Eigen::Matrix<Real, unknowns, unknowns>::Zero();
+  Eigen::Matrix<Real, unknowns, 1> right = Eigen::Matrix<Real, unknowns, 1>::Zero();
+  for (const Index k : near) {
+    const Vec<D> r = (at(grid.X, at(b.node, k)) - X) / reach;
+    const Vec<D - 1> s = t.transpose() * r;
+    Eigen::Matrix<Real, unknowns, 1> p;
+    int row = 0;
+    for (int c = 0; c < D - 1; ++c) p[row++] = s[c];
+    for (int c = 0; c < D - 1; ++c)
+      for (int d = c; d < D - 1; ++d) p[row++] = c == d ? s[c] * s[c] / 2 : s[c] * s[d];
+    const Real weight = std::pow(1 - r.norm(), 2);
+    M += weight * p * p.transpose();
+    right += weight * at(b.normal, i).dot(r) * p;
+  }
+  Eigen::VectorXd height = solve_symmetric<unknowns>(M, right);
+  height.tail(unknowns - (D - 1)) /= reach;  // lengths were in units of the reach
+  return height;
+}
+
+}  // namespace
+
+/// A point of a facet with the derivatives of its place and of the normal.
+template <int D>
+struct RecoveredSurface<D>::Place {
+  Vec<D> X = Vec<D>::Zero();
+  Eigen::Matrix<Real, D, D - 1> J = Eigen::Matrix<Real, D, D - 1>::Zero();
+  Mat<D> grad_N = Mat<D>::Zero();
+};
+
+template <int D>
+RecoveredSurface<D>::RecoveredSurface(const Grid<D>& grid) {
+  const BoundaryNodes<D> b = boundary_of(grid);
+  require_smooth(grid, b);
+  const std::vector<char> inner = inner_nodes(grid, b);
+  number_ = b.number;
+  for (std::size_t i = 0; i < b.node.size(); ++i) {
+    Quadric q;
+    q.X = at(grid.X, b.node[i]);
+    q.n = b.normal[i];
+    q.t = tangents_to<D>(q.n);
+    const Eigen::VectorXd height = fitted<D>(grid, b, static_cast<Index>(i), q.t);
+    q.slope = height.head<D - 1>();
+    Eigen::Index row = D - 1;
+    for (int c = 0; c < D - 1; ++c)
+      for (int d = c; d < D - 1; ++d) q.bend(c, d) = q.bend(d, c) = height[row++];
+    q.inner = inner[i] != 0;
+    quadrics_.push_back(q);
+  }
+}
+
+template <int D>
+typename RecoveredSurface<D>::Place RecoveredSurface<D>::blended(const Grid<D>& grid,
+                                                                 const Facet<D>& facet,
+                                                                 const Vec<D - 1>& xi) const {
+  const auto flat = multilinear<D, D - 1>(facet_corners(facet, grid.X), xi);
+  Place place;
+  for (std::size_t a = 0; a < facet.nodes.size(); ++a) {
+    const Quadric& q = around(facet.nodes[a]);
+    const Vec<D - 1> s = q.t.transpose() * (flat.X - q.X), rise = q.slope + q.bend * s;
+    const Vec<D> X = q.X + q.t * s + q.n * (q.slope.dot(s) + 0.5 * s.dot(q.bend * s));
+    const Mat<D> derivative = (q.t + q.n * rise.transpose()) * q.t.transpose();
+    Real N = 1;
+    Vec<D - 1> dN = Vec<D - 1>::Ones();
+    for (int k = 0; k < D - 1; ++k) {
+      const Real sign = corner_sign(static_cast<int>(a), k), value = 0.5 * (1 + sign * xi[k]);
+      N *= value;
+      for (int l = 0; l < D - 1; ++l) dN[l] *= l == k ? 0.5 * sign : value;
+    }
+    place.X += N * X;
+    place.J += X * dN.transpose() + N * derivative * flat.J;
+    place.grad_N -= N / (q.n - q.t * rise).norm() * q.t * q.bend * q.t.transpose();
+  }
+  return place;
+}
+
+template <int D>
+SurfacePoints<D> RecoveredSurface<D>::points(const Grid<D>& grid, int k, SurfacePart part) const {
+  SurfacePoints<D> points;
+  points.exact = true;
+  const auto wanted = [&](const Facet<D>& facet) {
+    return part == SurfacePart::whole ||
+           around(facet.nodes[0]).inner == (part == SurfacePart::inner);
+  };
+  points.per_facet = for_facet_points(grid, k, wanted, [&](Index i, const auto& xi, Real w) {
+    const Place place = blended(grid, at(grid.facets, i), xi);
+    const Vec<D> normal = area_normal<D>(place.J), N = normal.normalized();
+    const Mat<D> along = Mat<D>::Identity() - N * N.transpose();
+    append<D>(points, place.X, N, along * place.grad_N * along, w * normal.norm(), i);
+  });
+  return points;
+}
+
+template <int D>
+Vec<D> RecoveredSurface<D>::point(const Grid<D>& grid, const Facet<D>& facet,
+                                  const Vec<D - 1>& xi) const {
+  return blended(grid, facet, xi).X;
+}
+
+template <int D>
+bool RecoveredSurface<D>::hollow() const {
+  return std::any_of(quadrics_.begin(), quadrics_.end(), [](const Quadric& q) { return q.inner; });
+}
+
+template <int D>
+std::shared_ptr<const Surface<D>> RecoveredSurface<D>::renumbered(
+    std::span<const Index> order) const {
+  auto surface = std::shared_ptr<RecoveredSurface>(new RecoveredSurface);
+  surface->quadrics_ = quadrics_;
+  for (const Index i : order) surface->number_.push_back(at(number_, i));
+  return surface;
+}
+
+template <int D>
+std::shared_ptr<const Surface<D>> RecoveredSurface<D>::mapped(const SmoothMap<D>&,
+                                                              const Grid<D>& grid) const {
+  return std::make_shared<RecoveredSurface>(grid);
+}
+
+template <int D>
+Geometry<D> recovered_geometry(Grid<D> grid) {
+  find_boundary(grid);
+  auto surface = std::make_shared<RecoveredSurface<D>>(grid);
+  Geometry<D> geometry{std::move(grid), std::move(surface)};
+  curve_boundary(geometry);
+  check_jacobians(geometry.grid, "the surface");
+  return geometry;
+}
+
+#define MENISCUS_INSTANTIATE(D)       \
+  template class RecoveredSurface<D>; \
+  template Geometry<D> recovered_geometry(Grid<D>);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places of the facets, nearest points, and forces on the corners.
+#include "meniscus/physics/contact_facets.hpp"
+
+#include "meniscus/approx/row_sums.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+/// Shares of the corners in the point of a segment that is nearest to x.
+template <int D>
+std::array<Real, 2> nearest_on_segment(const Vec<D>& x, const Vec<D>& a, const Vec<D>& b) {
+  const Vec<D> edge = b - a;
+  const Real t = std::clamp(edge.dot(x - a) / edge.squaredNorm(), 0.0, 1.0);
+  return {1 - t, t};
+}
+
+/// Of a facet.
+std::array<Real, 2> nearest_on(const Vec<2>& x, const std::array<Vec<2>, 2>& corner) {
+  return nearest_on_segment<2>(x, corner[0], corner[1]);
+}
+/// Below the inside of the triangle, or on one of its edges.
+std::array<Real, 3> nearest_on(const Vec<3>& x, const std::array<Vec<3>, 3>& corner) {
+  const Vec<3> ab = corner[1] - corner[0], ac = corner[2] - corner[0], ax = x - corner[0];
+  const Vec<3> n = ab.cross(ac);
+  const Real b = ax.cross(ac).dot(n) / n.squaredNorm(), c = ab.cross(ax).dot(n) / n.squaredNorm();
+  if (b >= 0 && c >= 0 && b + c <= 1) return {1 - b - c, b, c};
+  std::array<Real, 3> best{};
+  Real least = unbounded;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    const auto share = nearest_on_segment<3>(x, corner[k], corner[next]);
+    const Real square = (x - share[0] * corner[k] - share[1] * corner[next]).squaredNorm();
+    if (square >= least) continue;
+    least = square;
+    best = {};
+    best[k] = share[0];
+    best[next] = share[1];
+  }
+  return best;
+}
+
+}  // namespace
+
+template <int D>
+ContactFacets<D>::ContactFacets(const Body<D>& body)
+    : body_(body), simplices_(triangulate_boundary(body.geometry.grid)) {
+  std::vector<Index> number(static_cast<std::size_t>(body.size()), -1);
+  for (const Index A : boundary_nodes(body.geometry.grid)) {
+    at(number, A) = static_cast<Index>(X_.size());
+    X_.push_back(at(body.particles.X(), A));
+  }
+  for (auto& simplex : simplices_)
+    for (Index& A : simplex) A = at(number, A);
+  rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
+  windows_ = {rows_.start, rows_.particle, body.size()};
+}
+
+template <int D>
+typename ContactFacets<D>::Places ContactFacets<D>::at_rest() const {
+  Places places{X_, AlignedVector<Lanes>(simplices_.size() * D, Lanes::zero())};
+  sample(places);
+  return places;
+}
+
+template <int D>
+void ContactFacets<D>::move(const Motion& motion, Places& places) const {
+  const NodalVector* u = motion.u.data() + body_.first;
+  parallel_for(rows_.size(), [&](Index B) {
+    const Lanes moved = value_at(rows_, B, u);
+    for (int i = 0; i < D; ++i) at(places.corner, B)[i] = at(X_, B)[i] + moved[i];
+  });
+  sample(places);
+}
+
+template <int D>
+void ContactFacets<D>::sample(Places& places) const {
+  parallel_for(static_cast<Index>(simplices_.size()), [&](Index facet) {
+    Vec<D> middle = Vec<D>::Zero();
+    for (const Index corner : corners_of(facet)) middle += at(places.corner, corner) / D;
+    for (int lane = 0; lane < Lanes::width; ++lane) {
+      const Vec<D>& x = lane < D ? at(places.corner, at(corners_of(facet), lane)) : middle;
+      for (int i = 0; i < D; ++i) at(places.samples, facet * D + i).set(lane, x[i]);
+    }
+  });
+}
+
+template <int D>
+typename ContactFacets<D>::Foot ContactFacets<D>::foot(const Places& places, const Vec<D>& x,
+                                                       std::span<const Index> facets) const {
+  Foot best;
+  best.normal.setZero();
+  for (const Index facet : facets) {
+    std::array<Vec<D>, D> corner;
+    for (std::size_t k = 0; k < D; ++k) corner[k] = at(places.corner, corners_of(facet)[k]);
+    const std::array<Real, D> share = nearest_on(x, corner);
+    Vec<D> way = x;
+    for (std::size_t k = 0; k < D; ++k) way -= share[k] * corner[k];
+    const Real distance = way.norm();
+    if (distance < best.distance) best = {facet, distance, way / distance, share};
+  }
+  return best;
+}
+
+template <int D>
+void ContactFacets<D>::add_force(const std::vector<Vec<D>>& pull, std::span<NodalVector> force) {
+  windows_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    for (Index B = begin; B < end; ++B) {
+      if (at(pull, B).isZero(0)) continue;
+      Lanes load = Lanes::zero();
+      for (int i = 0; i < D; ++i) load.set(i, at(pull, B)[i]);
+      scatter_value(rows_, B, load, f);
+    }
+  });
+}
+
+template <int D>
+Real ContactFacets<D>::longest_edge() const {
+  Real longest = 0;
+  for (const auto& simplex : simplices_)
+    for (std::size_t k = 0; k < D; ++k)
+      longest = std::max(longest, (at(X_, simplex[k]) - at(X_, simplex[(k + 1) % D])).norm());
+  return longest;
+}
+
+template <int D>
+std::size_t ContactFacets<D>::bytes() const {
+  return rows_.bytes() + windows_.bytes() + X_.size() * sizeof(Vec<D>) +
+         simplices_.size() * sizeof(simplices_[0]);
+}
+
+template class ContactFacets<2>;
+template class ContactFacets<3>;
+
+}  // namespace meniscus

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values and coefficients of fields, and the inverse of a motion.
+#include "meniscus/remap/nodal_values.hpp"
+
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+template <int D>
+NodalVectors values_at(const PointRows<D>& rows, const NodalVector* c) {
+  NodalVectors values(static_cast<std::size_t>(rows.size()));
+  parallel_for(rows.size(), [&](Index q) { at(values, q) = value_at(rows, q, c); });
+  return values;
+}
+
+template <int D>
+NodalVectors shifted(const NodalVectors& f, const PointRows<D>& from, const PointRows<D>& to) {
+  NodalVectors result = f;
+  parallel_for(to.size(), [&](Index A) {
+    at(result, A) += value_at(to, A, f.data()) - value_at(from, A, f.data());
+  });
+  return result;
+}
+
+template <int D>
+NodalVectors coefficients_of(const PointRows<D>& at_particles, const NodalVectors& f,
+                             NodalVectors guess) {
+  constexpr int sweeps = 8;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const NodalVectors values = values_at(at_particles, guess.data());
+    parallel_for(static_cast<Index>(f.size()),
+                 [&](Index A) { at(guess, A) += at(f, A) - at(values, A); });
+  }
+  return guess;
+}
+
+template <int D>
+std::vector<Vec<D>> places(const Body<D>& body, const NodalVector* u) {
+  std::vector<Vec<D>> x;
+  for (Index A = 0; A < body.size(); ++A) {
+    const Lanes moved = value_at(body.at_particles, A, u);
+    x.push_back(at(body.particles.X(), A));
+    for (int i = 0; i < D; ++i) x.back()[i] += moved[i];
+  }
+  return x;
+}
+
+template <int D>
+std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
+                               std::span<const Vec<D>> x) {
+  constexpr int most_iterations = 30;
+  const Real spacing = mean_spacing(body.geometry.grid);
+  const auto reference = body.particles.X();
+  const std::vector<Vec<D>> now = places(body, u);
+  const NeighborSearch<D> search(now);
+  std::vector<Vec<D>> X;
+  std::vector<Index> near;
+  for (const Vec<D>& place : x) {
+    search.within(place, search.distance_of_nearest(place, 1) * (1 + 1e-12), near);
+    X.push_back(at(reference, near.front()));
+  }
+  std::vector<Real> left(X.size());
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const auto rows =
+        build_point_rows<D>(body.particles, X, {.value = true, .gradient = true}, body.name);
+    parallel_for(rows.size(), [&](Index q) {
+      const Lanes moved = value_at(rows, q, u);
+      const std::array<Lanes, D> gradient = gradient_at(rows, q, u);
+      Mat<D> F = Mat<D>::Identity();
+      Vec<D> miss = at(x, q) - at(X, q);
+      for (int i = 0; i < D; ++i) {
+        miss[i] -= moved[i];
+        for (int K = 0; K < D; ++K) F(i, K) += at(gradient, K)[i];
+      }
+      at(left, q) = miss.norm();
+      if (at(left, q) == 0) return;
+      // Far from the solution F may be that of another place.
+      Vec<D> step = F.inverse() * miss;
+      step *= std::min(1.0, spacing / step.norm());
+      if (at(left, q) > 1e-15 * spacing) at(X, q) += step;
+    });
+    if (*std::max_element(left.begin(), left.end()) <= 1e-13 * spacing) return X;
+  }
+  const auto worst = std::max_element(left.begin(), left.end());
+  std::string place;
+  for (int i = 0; i < D; ++i)
+    place += fmt::format("{}{:.6g}", i ? ", " : "", at(x, worst - left.begin())[i]);
+  throw SolveError(
+      fmt::format("body '{}': no point of it is at ({}); the nearest misses it by {:.3g}",
+                  body.name, place, *worst));
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                                  \
+  template NodalVectors values_at(const PointRows<D>&, const NodalVector*);                      \
+  template NodalVectors shifted(const NodalVectors&, const PointRows<D>&, const PointRows<D>&);  \
+  template NodalVectors coefficients_of(const PointRows<D>&, const NodalVectors&, NodalVectors); \
+  template std::vector<Vec<D>> places(const Body<D>&, const NodalVector*);                       \
+  template std::vector<Vec<D>> pre_images(const Body<D>&, const NodalVector*,                    \
+                                          std::span<const Vec<D>>);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rigid drift, and the flow in a fluid, as dynamic relaxation judges them.
+#include "meniscus/solve/rest.hpp"
+
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/box.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+constexpr Real round_off = 1e-8;  // of what cancels
+
+Eigen::Vector3d vector_of(const Lanes& x) {
+  return {x[0], x[1], x[2]};
+}
+
+template <int D>
+Eigen::Vector3d place_of(const Body<D>& body, const State& state, Index A) {
+  return spatial<D>(at(body.particles.X(), A)) + vector_of(at(state.u, body.first + A));
+}
+
+/// A velocity field about a centre.
+struct RigidField {
+  Eigen::Vector3d centre, translation, rotation;
+
+  Eigen::Vector3d at(const Eigen::Vector3d& x) const {
+    return translation + rotation.cross(x - centre);
+  }
+};
+
+/// The rigid field with the momenta of du.
+template <int D>
+RigidField rigid_part(const System<D>& system, const Body<D>& body, const State& state,
+                      const NodalVectors& du) {
+  Real mass = 0;
+  RigidField field{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  for (Index A = 0; A < body.size(); ++A) {
+    const Real m = meniscus::at(system.mass, body.first + A);
+    mass += m;
+    field.centre += m * place_of(body, state, A);
+    field.translation += m * vector_of(meniscus::at(du, body.first + A));
+  }
+  field.centre /= mass;
+  field.translation /= mass;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (Index A = 0; A < body.size(); ++A) {
+    const Real m = meniscus::at(system.mass, body.first + A);
+    const Eigen::Vector3d r = place_of(body, state, A) - field.centre;
+    inertia += m * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+    moment += m * r.cross(vector_of(meniscus::at(du, body.first + A)));
+  }
+  field.rotation = D == 3 ? Eigen::Vector3d(inertia.inverse() * moment)
+                          : Eigen::Vector3d(0, 0, moment.z() / inertia(2, 2));
+  return field;
+}
+
+}  // namespace
+
+template <int D>
+void remove_free_drift(const System<D>& system, const State& state, const NodalVectors& df,
+                       NodalVectors& du) {
+  for (const Body<D>& body : system.bodies) {
+    const RigidField drift = rigid_part(system, body, state, du);
+    Real work = 0, uncancelled = 0;
+    for (Index A = 0; A < body.size(); ++A) {
+      const Eigen::Vector3d f = vector_of(at(df, body.first + A)),
+                            w = drift.at(place_of(body, state, A));
+      work += f.dot(w);
+      uncancelled += (f.norm() + vector_of(at(state.force, body.first + A)).norm()) * w.norm();
+    }
+    if (std::abs(work) > round_off * uncancelled) continue;
+    Real left = 0, removed = 0;
+    for (Index A = 0; A < body.size(); ++A) {
+      const Eigen::Vector3d w = drift.at(place_of(body, state, A));
+      Lanes& change = at(du, body.first + A);
+      change -= Lanes(w.x(), w.y(), w.z(), 0);
+      left += sum(change * change);
+      removed += w.squaredNorm();
+    }
+    if (left > round_off * round_off * removed) continue;
+    for (NodalVector& change : body.part(std::span(du))) change = Lanes::zero();
+  }
+}
+
+template <int D>
+FluidRest<D>::FluidRest(const System<D>& system, const std::vector<bool>& fluid) {
+  for (std::size_t b = 0; b < fluid.size(); ++b) {
+    if (!fluid[b]) continue;
+    const Body<D>& body = system.bodies[b];
+    bodies_.push_back(&body);
+    for (const Real m : body.mass) mass_ += m;
+    extent_ = std::max(extent_, box_around<D>(body.particles.X()).extent().maxCoeff());
+  }
+}
+
+template <int D>
+bool FluidRest<D>::holds(Index particle) const {
+  return std::any_of(bodies_.begin(), bodies_.end(), [&](const Body<D>* body) {
+    return particle >= body->first && particle < body->first + body->size();
+  });
+}
+
+template <int D>
+std::vector<Real> FluidRest<D>::axes(const NodalVectors& u) const {
+  std::vector<Real> axes;
+  for (const Body<D>* body : bodies_) {
+    Real mass = 0;
+    Vec<D> first = Vec<D>::Zero();
+    Mat<D> second = Mat<D>::Zero();
+    for (Index A = 0; A < body->size(); ++A) {
+      const Lanes moved = value_at(body->at_particles, A, u.data() + body->first);
+      Vec<D> x = at(body->particles.X(), A);
+      for (int i = 0; i < D; ++i) x[i] += moved[i];
+      const Real m = at(body->mass, A);
+      mass += m;
+      first += m * x;
+      second += m * x * x.transpose();
+    }
+    const Mat<D> about_centre = second / mass - first * first.transpose() / (mass * mass);
+    const Vec<D> squares = Eigen::SelfAdjointEigenSolver<Mat<D>>(about_centre).eigenvalues();
+    for (int i = 0; i < D; ++i) axes.push_back(std::sqrt(std::max(0.0, squares[i])));
+  }
+  return axes;
+}
+
+template <int D>
+Real FluidRest<D>::change(const std::vector<Real>& before, const std::vector<Real>& after) const {
+  Real largest = 0;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    largest = std::max(largest, std::abs(after[k] - before[k]));
+  return largest / extent_;
+}
+
+template <int D>
+Real FluidRest<D>::clock(Real uncancelled) const {
+  return uncancelled > 0 ? std::sqrt(mass_ * extent_ / uncancelled) : 0;
+}
+
+template <int D>
+Real FluidRest<D>::force_of_power(const State& state, Real time) const {
+  Real power = std::abs(state.books.heat);
+  for (const Body<D>* body : bodies_)
+    for (Index A = body->first; A < body->first + body->size(); ++A)
+      power += std::abs(sum(at(state.force, A) * at(state.v, A)));
+  return power * time / extent_;
+}
+
+template <int D>
+std::string net_forces(const System<D>& system, const State& state) {
+  constexpr Real most = 0.1;
+  std::string text;
+  for (const Body<D>& body : system.bodies) {
+    Eigen::Vector3d net = Eigen::Vector3d::Zero();
+    Real sizes = 0;
+    for (Index A = body.first; A < body.first + body.size(); ++A) {
+      net += vector_of(at(state.force, A));
+      sizes += vector_of(at(state.force, A)).norm();
+    }
+    if (!(net.norm() > most * sizes)) continue;
+    text += text.empty() ? "net force (" : ", (";
+    for (int i = 0; i < D; ++i)
+      text += fmt::format("{}{:.4g}", i ? ", " : "",
+                          std::abs(net[i]) > round_off * net.norm() ? net[i] : 0.0);
+    text += fmt::format(") on body '{}'", body.name);
+  }
+  return text;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                        \
+  template void remove_free_drift(const System<D>&, const State&, const NodalVectors&, \
+                                  NodalVectors&);                                      \
+  template class FluidRest<D>;                                                         \
+  template std::string net_forces(const System<D>&, const State&);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cases: small scenes with everything that is registered, for the tests that run over all of it.
+// They are made of the examples that registered things bring for `meniscus keys`.
+#pragma once
+#include "meniscus/scene/simulation.hpp"
+
+#include <string>
+#include <vector>
+
+namespace meniscus::test {
+
+/// What the forces that a case is about are claimed to be.
+struct Claims {
+  bool gradient = false;  ///< minus the gradient of the energy that they store
+  bool balanced = false;  ///< without net force and net torque
+};
+
+struct Case {
+  std::string name;   ///< e.g. "load cavity"
+  std::string scene;  ///< text of the whole scene
+  Claims claims;
+  bool own_bodies = false;  ///< about the forces of the bodies themselves, too
+};
+
+/// All cases of D dimensions: every load, surface law, interaction with every rigid partner,
+/// material, shape and solver by its example, and variants of some.
+template <int D>
+const std::vector<Case>& cases();
+
+/// What is registered without an example, put into words; empty if nothing is.
+template <class Registry>
+std::vector<std::string> missing_examples(const Registry& registry, const std::string& what) {
+  std::vector<std::string> missing;
+  for (const auto& [name, entry] : registry)
+    if (entry.example.empty())
+      missing.push_back(
+          what + " '" + name +
+          "' brings no example: give its struct `static constexpr std::string_view example`, the "
+          "lines of a scene with the keys that it needs. Bodies of the tests are \"drop\", a ball "
+          "of radius 1 about the origin, \"other\", a second one beside it, and \"shell\"");
+  return missing;
+}
+
+/// A fluid ball (2D: disk) 'drop' of radius 1 about the origin.
+std::string one_drop(int D);
+/// And an elastic one, 'other', that moves towards it, their surfaces 0.2 apart.
+std::string two_drops(int D);
+/// A hollow elastic 'shell' of outer radius 2.
+std::string one_shell();
+
+template <int D>
+Scene<D> scene_of(const std::string& text) {
+  const SceneInput input = SceneInput::from_text(text);
+  scene_dimension(input);
+  return build_scene<D>(input);
+}
+
+/// The terms that a case is about; those of the bodies come first.
+template <int D>
+std::span<const std::unique_ptr<ForceTerm>> own_terms(const Case& c, const Scene<D>& scene) {
+  return std::span(scene.system.terms).subspan(c.own_bodies ? 0 : scene.system.bodies.size());
+}
+
+}  // namespace meniscus::test

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What holds for everything that is registered: its forces are what it claims, a run with it has
+// the same bits for any number of threads and through a restart, and a scene without it does not
+// have it.
+#include "meniscus/body/shapes.hpp"
+#include "meniscus/measure/measure_registry.hpp"
+#include "meniscus/physics/interaction_registry.hpp"
+#include "meniscus/physics/law_registry.hpp"
+#include "meniscus/physics/surface_registry.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include "cases.hpp"
+#include "support.hpp"
+
+namespace meniscus::test_registered {
+namespace {
+
+using test::Case;
+using test::missing_examples;
+using test::own_terms;
+
+/// Calls f(case, scene) for all cases.
+template <int D, class F>
+void for_all(F&& f) {
+  for (const Case& c : test::cases<D>()) {
+    SCOPED_TRACE(c.name + " in " + std::to_string(D) + "D");
+    Scene<D> scene = test::scene_of<D>(c.scene);
+    f(c, scene);
+  }
+}
+
+using Missing = std::vector<std::string>;
+
+TEST(Registered, EverythingBringsAnExample) {
+  EXPECT_EQ(missing_examples(loads<2>(), "load (2D)"), Missing());
+  EXPECT_EQ(missing_examples(loads<3>(), "load (3D)"), Missing());
+  EXPECT_EQ(missing_examples(surface_laws(), "surface law"), Missing());
+  EXPECT_EQ(missing_examples(interactions<2>(), "interaction"), Missing());
+  EXPECT_EQ(missing_examples(partners<2>(), "rigid partner (2D)"), Missing());
+  EXPECT_EQ(missing_examples(partners<3>(), "rigid partner (3D)"), Missing());
+  EXPECT_EQ(missing_examples(shapes<2>(), "shape (2D)"), Missing());
+  EXPECT_EQ(missing_examples(shapes<3>(), "shape (3D)"), Missing());
+  EXPECT_EQ(missing_examples(laws(), "material"), Missing());
+}
+
+TEST(Registered, WhatBringsNoExampleIsNamed) {
+  Registry<SurfaceLawEntry> registry;
+  registry.add({"with", "", "gamma = 1\n", {}, nullptr});
+  registry.add({"without", "", "", {}, nullptr});
+  const Missing missing = missing_examples(registry, "surface law");
+  ASSERT_EQ(missing.size(), 1u);
+  EXPECT_EQ(missing.front().find("surface law 'without' brings no example: give its struct "
+                                 "`static constexpr std::string_view example`"),
+            0u);
+}
+
+/// With their examples.
+TEST(Registered, EverythingIsInTheReferenceOfKeys) {
+  std::ostringstream out;
+  describe_keys(out);
+  const std::string keys = out.str();
+  const auto expect = [&](const std::string& text) {
+    EXPECT_NE(keys.find(text), std::string::npos) << text;
+  };
+  for (const auto& [name, load] : loads<3>()) {
+    expect("\n[[" + name + "]]: ");
+    expect("\n    [[" + name + "]]\n    " +
+           std::string(load.example.substr(0, load.example.find('\n'))) + "\n");
+  }
+  for (const auto& [name, law] : surface_laws()) expect("\n[surface.law] type = \"" + name + "\"");
+  for (const auto& [name, by] : interactions<3>()) expect("] interaction = \"" + name + "\"");
+  for (const auto& [name, partner] : partners<2>()) expect("[contact.partner] type = \"" + name);
+  for (const auto& [name, law] : laws()) expect("\n[body.material] type = \"" + name + "\"");
+  for (const auto& [name, shape] : shapes<2>()) expect("[[body]] shape = \"" + name + "\" (2D)");
+  for (const auto& [name, shape] : shapes<3>()) expect("[[body]] shape = \"" + name + "\" (3D)");
+}
+
+template <int D>
+void expect_gradients() {
+  for_all<D>([](const Case& c, Scene<D>& scene) {
+    const NodalVectors u = test::random_field<D>(scene.system.size(), 0.01, 5),
+                       way = test::random_field<D>(scene.system.size(), 1, 6);
+    for (const auto& term : own_terms(c, scene)) {
+      if (!c.claims.gradient || !term->stored_energy({0, u, test::zeros(u)})) continue;
+      SCOPED_TRACE(term->name());
+      constexpr Real h = 1e-5;
+      const Real slope = (test::energy_of(*term, test::sum_of(u, h, way)) -
+                          test::energy_of(*term, test::sum_of(u, -h, way))) /
+                         (2 * h);
+      const NodalVectors force = test::force_of(*term, u);
+      EXPECT_GT(test::norm(force), 0);
+      EXPECT_NEAR(test::dot(force, way), -slope, 2e-7 * test::norm(force) * test::norm(way));
+    }
+  });
+}
+
+TEST(Registered, ForcesAreTheGradientOfTheEnergyWhereClaimed) {
+  expect_gradients<2>();
+  expect_gradients<3>();
+}
+
+template <int D>
+void expect_tangents() {
+  for_all<D>([](const Case& c, Scene<D>& scene) {
+    const Index n = scene.system.size();
+    const NodalVectors u = test::random_field<D>(n, 0.01, 5), v = test::random_field<D>(n, 0.1, 6),
+                       du = test::random_field<D>(n, 0.1, 7), dv = test::random_field<D>(n, 0.1, 8);
+    for (const auto& term : own_terms(c, scene)) {
+      SCOPED_TRACE(term->name());
+      NodalVectors tangent = test::zeros(u);
+      term->add_tangent({0, u, v}, {0, du, dv}, tangent);
+      constexpr Real h = 1e-4;
+      const auto force = [&](Real s) {
+        return test::force_of(*term, test::sum_of(u, s, du), test::sum_of(v, s, dv));
+      };
+      const NodalVectors ahead = force(h);
+      const NodalVectors change = test::sum_of(ahead, -1, force(-h));
+      EXPECT_LT(test::norm(test::sum_of(change, -2 * h, tangent)),
+                1e-5 * test::norm(change) + 1e-13 * test::norm(ahead));
+    }
+  });
+}
+
+TEST(Registered, TangentsAreTheChangeOfForces) {
+  expect_tangents<2>();
+  expect_tangents<3>();
+}
+
+template <int D>
+void expect_balance() {
+  for_all<D>([](const Case& c, Scene<D>& scene) {
+    if (!c.claims.balanced) return;
+    const NodalVectors u = test::random_field<D>(scene.system.size(), 0.01, 7);
+    for (const auto& term : own_terms(c, scene)) {
+      const NodalVectors force = test::force_of(*term, u);
+      Eigen::Vector3d net = Eigen::Vector3d::Zero(), torque = net;
+      Real size = 0, moment = 0;
+      for (const Body<D>& body : scene.system.bodies)
+        for (Index A = 0; A < body.size(); ++A) {
+          const Eigen::Vector3d x = spatial<D>(at(body.particles.X(), A) +
+                                               vector_at<D>(u, body.first + A)),
+                                f = spatial<D>(vector_at<D>(force, body.first + A));
+          const Eigen::Vector3d arm(x[1] * f[2] - x[2] * f[1], x[2] * f[0] - x[0] * f[2],
+                                    x[0] * f[1] - x[1] * f[0]);
+          net += f;
+          torque += arm;
+          size += f.norm();
+          moment += arm.norm();
+        }
+      EXPECT_LT(net.norm(), 1e-12 * size);
+      EXPECT_LT(torque.norm(), 1e-12 * moment);
+    }
+  });
+}
+
+TEST(Registered, ForcesHaveNoNetForceAndTorqueWhereClaimed) {
+  expect_balance<2>();
+  expect_balance<3>();
+}
+
+/// Of a run of 24 steps.
+struct Outcome {
+  std::uint64_t state;
+  std::vector<Real> measures;
+  bool operator==(const Outcome& other) const {
+    return state == other.state && measures.size() == other.measures.size() &&
+           std::memcmp(measures.data(), other.measures.data(), measures.size() * sizeof(Real)) == 0;
+  }
+};
+
+/// `restart_at` > 0: the steps after it are done by another simulation, which starts from what the
+/// first one keeps.
+template <int D>
+Outcome run_of(const Case& c, int threads, int restart_at) {
+  constexpr int steps = 24;
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(threads);
+  std::optional<Snapshot> kept;
+  if (restart_at > 0) {
+    Scene<D> scene = test::scene_of<D>(c.scene);
+    Simulation<D> simulation(scene);
+    simulation.begin();
+    for (int k = 0; k < restart_at; ++k) simulation.advance();
+    kept = simulation.snapshot();
+    kept->require_finite();
+  }
+  Scene<D> scene = test::scene_of<D>(c.scene);
+  Simulation<D> simulation(scene);
+  if (kept) {
+    simulation.restore(*kept);
+    EXPECT_EQ(simulation.snapshot().hash(), kept->hash());
+  } else {
+    simulation.begin();
+  }
+  for (int k = restart_at; k < steps; ++k) simulation.advance();
+  Outcome outcome{simulation.snapshot().hash(), {}};
+  for (const MeasureSource& measure : scene.measures)
+    outcome.measures.push_back(measure.compute(simulation.state().motion()));
+  omp_set_num_threads(before);
+  return outcome;
+}
+
+template <int D>
+void expect_same_runs() {
+  for (const Case& c : test::cases<D>()) {
+    SCOPED_TRACE(c.name + " in " + std::to_string(D) + "D");
+    const Outcome one = run_of<D>(c, 1, 0);
+    EXPECT_TRUE(run_of<D>(c, 3, 0) == one);
+    EXPECT_TRUE(run_of<D>(c, 2, 11) == one);
+  }
+}
+
+TEST(Registered, RunsHaveTheSameBitsForAnyThreadsAndThroughARestart) {
+  expect_same_runs<2>();
+  expect_same_runs<3>();
+}
+
+/// Every group of measures is seen, on bodies of every shape.
+template <int D>
+void expect_measures() {
+  for (const auto& entry : measures<D>()) {
+    const auto& group = entry.second;
+    bool seen = false;
+    for_all<D>([&](const Case&, Scene<D>& scene) {
+      for (const Body<D>& body : scene.system.bodies)
+        for (const MeasureSource& measure : group.make(body, scene.units)) {
+          seen = true;
+          EXPECT_TRUE(std::isfinite(measure.compute(scene.initial.motion()))) << measure.name;
+        }
+    });
+    EXPECT_TRUE(seen) << "no shape has measures of the group '" << entry.first << "'";
+  }
+}
+
+TEST(Registered, MeasuresAreFinite) {
+  expect_measures<2>();
+  expect_measures<3>();
+}
+
+template <int D>
+void expect_nothing_when_absent() {
+  for_all<D>([](const Case& c, Scene<D>& with) {
+    if (c.own_bodies) return;
+    const std::size_t bodies_end = c.scene.find("[[", c.scene.rfind("[[body]]") + 2);
+    const Scene<D> scene = test::scene_of<D>(c.scene.substr(0, bodies_end));
+    EXPECT_EQ(scene.system.terms.size(), scene.system.bodies.size());
+    EXPECT_GT(with.system.terms.size() + with.measures.size() + with.remaps.size(),
+              scene.system.terms.size() + scene.measures.size());
+  });
+}
+
+TEST(Registered, LoadsAddNothingToASceneThatDoesNotNameThem) {
+  expect_nothing_when_absent<2>();
+  expect_nothing_when_absent<3>();
+}
+
+/// The table of a law is the shorthand of another: the same bits.
+TEST(Registered, SurfaceTensionIsTheSurfaceLawTension) {
+  const auto force = [](const std::string& name) {
+    const auto& all = test::cases<3>();
+    const auto c =
+        std::find_if(all.begin(), all.end(), [&](const Case& one) { return one.name == name; });
+    const Scene<3> scene = test::scene_of<3>(c->scene);
+    const NodalVectors u = test::random_field<3>(scene.system.size(), 0.01, 9);
+    return test::force_of(*own_terms(*c, scene).front(), u);
+  };
+  const NodalVectors one = force("load surface_tension, weak"),
+                     other = force("surface law tension");
+  EXPECT_EQ(std::memcmp(one.data(), other.data(), one.size() * sizeof(Lanes)), 0);
+}
+
+/// Of bodies without it, a field is zero; of the same name on the same body, it adds up.
+TEST(Registered, FieldsMayBeOfSomeBodiesOnly) {
+  const std::string springs = "[[demo_springs]]\nbody = \"other\"\nstiffness = 2\n";
+  const std::string bodies = "dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2);
+  for (const int loads : {1, 2}) {
+    const Scene<2> scene = test::scene_of<2>(bodies + springs + (loads == 2 ? springs : ""));
+    const NodalVectors u = test::random_field<2>(scene.system.size(), 0.01, 8);
+    const auto field = field_values(scene, "demo_stretch", {0, u, u});
+    ASSERT_EQ(field.size(), u.size());
+    const auto first_of_other = static_cast<std::size_t>(scene.system.bodies[1].first);
+    for (std::size_t A = 0; A < u.size(); ++A)
+      EXPECT_EQ(field[A], A < first_of_other ? 0 : loads * u[A][0]);
+  }
+  const Scene<2> scene = test::scene_of<2>(bodies + springs);
+  const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+  for (const Real J : field_values(scene, "J", {0, u, u})) EXPECT_NEAR(J, 1, 1e-12);
+  EXPECT_THROW(field_values(scene, "temperature", {0, u, u}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace meniscus::test_registered
