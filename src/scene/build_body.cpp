@@ -136,8 +136,6 @@ void build_body(const BodyPlan<D>& planned, std::shared_ptr<const Reference<D>> 
       system.bodies.emplace_back(settings.name, std::move(geometry), std::move(particles));
   body.first = system.size();
   body.reference = std::move(reference);
-  body.at_particles =
-      build_point_rows<D>(body.particles, body.particles.X(), {.value = true}, body.name);
   auto built = planned.material->build(
       body, {settings.integration, settings.gauss_points, settings.volumetric,
              planned.enclosed && planned.material->fluid()});

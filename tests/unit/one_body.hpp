@@ -17,8 +17,6 @@ struct OneBody {
     order_spatially(geometry);
     ParticleSet<D> particles(geometry.grid.X, Support<D>{}, Window::cubic_spline);
     auto& one = system.bodies.emplace_back("body", std::move(geometry), std::move(particles));
-    one.at_particles =
-        build_point_rows<D>(one.particles, one.particles.X(), {.value = true}, "body");
     system.terms.push_back(internal_force<D>(one, law, text));
     system.mass = one.mass;
     state.u.assign(system.mass.size(), Lanes::zero());

@@ -54,10 +54,7 @@ std::unique_ptr<Body<D>> body_of(Geometry<D> geometry, Support<D> support, Windo
   const auto centres = cell_gauss_points(geometry.grid, 1).X;
   probes.insert(probes.end(), centres.begin(), centres.end());
   particles.ensure_quality(probes, "body");
-  auto body = std::make_unique<Body<D>>("body", std::move(geometry), std::move(particles));
-  body->at_particles =
-      build_point_rows<D>(body->particles, body->particles.X(), {.value = true}, body->name);
-  return body;
+  return std::make_unique<Body<D>>("body", std::move(geometry), std::move(particles));
 }
 
 const std::map<std::string, std::string>& law_texts() {

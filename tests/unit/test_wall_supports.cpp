@@ -106,8 +106,6 @@ Deflated deflated(bool in_wall) {
   if (in_wall) keep_supports_in_wall(particles, geometry);
   particles.ensure_quality(geometry.grid.X, "cell");
   Body<3>& body = system.bodies.emplace_back("cell", std::move(geometry), std::move(particles));
-  body.at_particles =
-      build_point_rows<3>(body.particles, body.particles.X(), {.value = true}, body.name);
   system.terms.push_back(test::internal_force<3>(
       body, "liquid_crystal_elastomer",
       "# reference_director: by default the normals of the wall\ndensity = 1000\nmu = 1e4\n"

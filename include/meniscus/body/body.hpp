@@ -2,6 +2,7 @@
 // A body: particles, cells and surface in the reference configuration, and the operators that terms
 // build on them.
 #pragma once
+#include "meniscus/approx/point_rows.hpp"
 #include "meniscus/approx/stress_rules.hpp"
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/body/nodal_cells.hpp"
@@ -50,7 +51,8 @@ struct Body {
       : name(std::move(body_name)),
         geometry(std::move(body_geometry)),
         particles(std::move(body_particles)),
-        cells(geometry.grid) {}
+        cells(geometry.grid),
+        at_particles(build_point_rows<D>(particles, particles.X(), {.value = true}, name)) {}
 };
 
 /// q_scni: smoothed gradients with linear moments over nodal cells (RKPM note 5.3). Also returns
@@ -86,7 +88,7 @@ struct MassReport {
 /// m_A = integral of density N_A, with the floor m_A >= 0.3 density V_A (tiny and negative row sums
 /// at corners are unstable at any step; performance note 3). What the floor adds is taken from
 /// other particles, neighbours first, so that mass, first and second moments of the body stay those
-/// of the row sums, which are those of its volume. `density` per particle. Needs at_particles.
+/// of the row sums, which are those of its volume. `density` per particle.
 template <int D>
 MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
                      const std::vector<Real>& shape_integral);
