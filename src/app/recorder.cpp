@@ -30,7 +30,7 @@ ResultOptions result_options(const Simulation<D>& simulation, bool continued) {
 template <int D>
 struct ReferenceArrays {
   std::vector<Real> X, volume, support, mass;
-  std::vector<Index> facets;
+  std::vector<Index> cells, facets;
 
   explicit ReferenceArrays(const Body<D>& body) : mass(body.mass) {
     for (Index A = 0; A < body.size(); ++A) {
@@ -38,6 +38,9 @@ struct ReferenceArrays {
       volume.push_back(body.cells.volume(A));
       support.push_back(at(body.particles.support(), A));
     }
+    // From tensor order to that of VTK: around the lower face, then around the upper.
+    for (const auto& cell : body.geometry.grid.cells)
+      for (int a = 0; a < Grid<D>::corners; ++a) cells.push_back(at(cell, a ^ ((a >> 1) & 1)));
     for (const auto& facet : body.geometry.grid.facets)
       facets.insert(facets.end(), facet.nodes.begin(), facet.nodes.end());
   }
@@ -58,7 +61,9 @@ std::unique_ptr<ResultFile> make_result_file(const Simulation<D>& simulation,
                        {"volume", 1, scene.symbol_of_sum(dimension::volume), a.volume},
                        {"support", 1, unit(dimension::length), a.support},
                        {"mass", 1, scene.symbol_of_sum(dimension::mass), a.mass}},
-                      {{"surface", 1 << (D - 1), a.facets}}});
+                      Grid<D>::corners,
+                      a.cells,
+                      a.facets});
   }
   return std::make_unique<ResultFile>(directory, provenance, bodies,
                                       result_options(simulation, continued));

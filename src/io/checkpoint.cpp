@@ -144,7 +144,7 @@ std::string frames_with_state(const hdf5::Group& steps, std::int64_t first) {
     if (steps.group(fmt::format("{}", k)).has("state")) last = k;
   if (frames == 0) return "it has no frames";
   const std::string all = fmt::format("it has the frames {} to {}", first, first + frames - 1);
-  return last < 0 ? all + ", all without the state"
+  return last < 0 ? all + ", all without the state, which output.restartable = true stores"
                   : fmt::format("{}; the last one with the state is {}", all, first + last);
 }
 

@@ -81,7 +81,7 @@ std::vector<T> read_numbers(const Handle& array, const std::string& doing) {
 Type type_of(std::int64_t array, const std::string& doing) {
   const Handle type(H5Dget_type(array), doing);
   if (H5Tget_class(type) == H5T_STRING) return Type::text;
-  for (const Type known : {Type::float32, Type::float64, Type::int32, Type::int64})
+  for (const Type known : {Type::float32, Type::float64, Type::uint8, Type::int32, Type::int64})
     if (H5Tequal(type, file_type(known)) > 0) return known;
   throw FileError(fmt::format("cannot {}: it is neither numbers nor text", doing));
 }

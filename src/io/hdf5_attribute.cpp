@@ -62,6 +62,8 @@ hid_t file_type(Type type) {
       return H5T_IEEE_F32LE;
     case Type::float64:
       return H5T_IEEE_F64LE;
+    case Type::uint8:
+      return H5T_STD_U8LE;
     case Type::int32:
       return H5T_STD_I32LE;
     case Type::int64:

@@ -169,6 +169,12 @@ void Group::remove(const std::string& name) {
   check(H5Ldelete(handle_, name.c_str(), H5P_DEFAULT), doing("remove", name));
 }
 
+void Group::link(const std::string& name, const std::string& file, const std::string& target) {
+  check(H5Lcreate_external(file.c_str(), target.c_str(), handle_, name.c_str(), H5P_DEFAULT,
+                           H5P_DEFAULT),
+        doing("write", name));
+}
+
 File::File(Handle handle, const std::filesystem::path& path)
     : handle_(std::move(handle)), path_(path) {}
 

@@ -35,7 +35,7 @@ class Handle {
 /// Throws FileError as Handle does if `status` is negative.
 void check(std::int64_t status, std::string_view doing);
 
-enum class Type { float32, float64, int32, int64, text };
+enum class Type { float32, float64, uint8, int32, int64, text };
 
 /// How an array lies in the file.
 struct Storage {
@@ -72,6 +72,8 @@ class Group {
   Group create_group(const std::string& name);
   Group group(const std::string& name) const;
   void remove(const std::string& name);
+  /// A member that stands for the group or array `target` of another file beside this one.
+  void link(const std::string& name, const std::string& file, const std::string& target);
   /// Bytes of the file that the group lies in.
   std::uint64_t file_size() const;
 

@@ -21,6 +21,8 @@ const char* type_name(hdf5::Type type) {
       return "float32";
     case hdf5::Type::float64:
       return "float64";
+    case hdf5::Type::uint8:
+      return "uint8";
     case hdf5::Type::int32:
       return "int32";
     case hdf5::Type::int64:

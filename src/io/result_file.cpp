@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "hdf5_file.hpp"
 #include "meta.hpp"
@@ -79,7 +80,7 @@ std::string describe(const FrameLayout& layout) {
   std::vector<std::string> fields;
   for (const StoredField& f : layout.fields)
     fields.push_back(fmt::format("{} ({}, {})", f.name, f.components, f.unit));
-  return fmt::format("{} particles, {}, fields {}", layout.particles,
+  return fmt::format("{} particles, {} cells, {}, fields {}", layout.particles, layout.cells,
                      layout.precision == hdf5::Type::float32 ? "float32" : "float64",
                      joined(fields, ", "));
 }
@@ -99,6 +100,8 @@ class ResultFile::Writer {
     for (const BodyReference& body : bodies) {
       bodies_.push_back({body.name, particles_});
       particles_ += particle_count(body);
+      corners_ = body.corners;
+      cells_ += std::ssize(body.cells) / body.corners;
     }
     if (continuing_) {
       require_same_bodies(bodies);
@@ -113,6 +116,8 @@ class ResultFile::Writer {
       file_.flush();
       rename_file(temporary_name(path_), path_);  // a file of the series says of which epoch it is
     }
+    vtkhdf::write_view(path_);
+    if (!file_.root().has("VTKHDF")) mesh_ = mesh_of(bodies);
     file_.flush();
   }
 
@@ -130,7 +135,7 @@ class ResultFile::Writer {
     frame.set("time", time);
     for (const ResultField& field : fields) write_field(frame, field, storage());
     if (state) write_state(frame, *state);
-    if (!root.has("VTKHDF")) vtkhdf::create(root, *layout_, body_of_particle(), options_.time_unit);
+    if (mesh_) vtkhdf::create(root, *layout_, *std::exchange(mesh_, {}), options_.time_unit);
     vtkhdf::append(root, *layout_, frames_, time);
     file_.flush();
     vtkhdf::announce(root, frames_ + 1);
@@ -156,7 +161,7 @@ class ResultFile::Writer {
   }
 
   FrameLayout layout_of(std::span<const ResultField> fields) const {
-    FrameLayout layout{particles_, storage().type, {}};
+    FrameLayout layout{particles_, cells_, corners_, storage().type, {}};
     for (const ResultField& field : fields)
       layout.fields.push_back({field.name, stored_components(field), field.unit});
     std::sort(layout.fields.begin(), layout.fields.end(),
@@ -194,13 +199,18 @@ class ResultFile::Writer {
     }
   }
 
-  std::vector<std::int64_t> body_of_particle() const {
-    std::vector<std::int64_t> body;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const auto end = b + 1 < bodies_.size() ? bodies_[b + 1].first_particle : particles_;
-      body.resize(static_cast<std::size_t>(end), static_cast<std::int64_t>(b));
+  vtkhdf::Mesh mesh_of(std::span<const BodyReference> bodies) const {
+    vtkhdf::Mesh mesh;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const auto first = static_cast<std::size_t>(bodies_[b].first_particle);
+      const std::size_t end = first + static_cast<std::size_t>(particle_count(bodies[b]));
+      mesh.body.resize(end, static_cast<std::int64_t>(b));
+      mesh.surface.resize(end, 0);
+      for (const Index A : bodies[b].cells)
+        mesh.connectivity.push_back(bodies_[b].first_particle + A);
+      for (const Index A : bodies[b].facets) mesh.surface[first + static_cast<std::size_t>(A)] = 1;
     }
-    return body;
+    return mesh;
   }
 
   void write_reference(std::span<const BodyReference> bodies) {
@@ -216,11 +226,16 @@ class ResultFile::Writer {
         require_size(array, particle_count(bodies[b]));
         write_field(group, array, {hdf5::Type::float64, options_.compression});
       }
-      for (const Connectivity& c : bodies[b].connectivity)
-        group.write(c.name, std::vector<std::int64_t>(c.values.begin(), c.values.end()),
-                    {std::ssize(c.values) / c.columns, c.columns},
-                    {hdf5::Type::int32, options_.compression}, "1");
+      write_corners(group, "cells", bodies[b].cells, bodies[b].corners);
+      write_corners(group, "surface", bodies[b].facets, bodies[b].corners / 2);
     }
+  }
+
+  void write_corners(hdf5::Group& group, const std::string& name, std::span<const Index> corners,
+                     int columns) const {
+    group.write(name, std::vector<std::int64_t>(corners.begin(), corners.end()),
+                {std::ssize(corners) / columns, columns}, {hdf5::Type::int32, options_.compression},
+                "1");
   }
 
   void require_same_bodies(std::span<const BodyReference> bodies) const {
@@ -282,7 +297,9 @@ class ResultFile::Writer {
   bool continuing_;
   hdf5::File file_;
   std::vector<BodyRange> bodies_;
-  std::int64_t particles_ = 0, frames_ = 0, dropped_frames_ = 0;
+  std::int64_t particles_ = 0, cells_ = 0, frames_ = 0, dropped_frames_ = 0;
+  int corners_ = 8;
+  std::optional<vtkhdf::Mesh> mesh_;   ///< until the first frame
   std::optional<FrameLayout> layout_;  ///< of all frames; none before the first
 };
 

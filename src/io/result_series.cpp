@@ -43,7 +43,7 @@ void Sidecars::write() const {
   std::string list;
   for (const auto& [name, time] : files_)
     list += fmt::format("{}    {{ \"name\": \"{}\", \"time\": {:.17g} }}",
-                        list.empty() ? "" : ",\n", name, time);
+                        list.empty() ? "" : ",\n", view_of(name).string(), time);
   replace_file(series_,
                "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n" + list + "\n  ]\n}\n");
 }
@@ -61,7 +61,7 @@ std::filesystem::path place_in_series(const RunDirectory& directory, std::int64_
     add_frames(files[earlier], root, sidecars);
   }
   for (std::size_t k = files.size(); k > earlier + (present ? 1 : 0); --k)
-    remove_file(files[k - 1]);
+    remove_result(files[k - 1]);
   return directory.result_file(earlier);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files run.h5, run.1.h5, ... of a run whose bodies were referred anew, one per epoch, and
-// run.h5.series, which names them to ParaView as one.
+// run.vtkhdf.series, which names them to ParaView as one.
 #pragma once
 #include "meniscus/io/run_directory.hpp"
 
@@ -12,12 +12,12 @@
 
 namespace meniscus {
 
-/// What describes the frames of all files to viewers: run.xdmf, and run.h5.series if there is more
-/// than one file.
+/// What describes the frames of all files to viewers: run.xdmf, and run.vtkhdf.series if there is
+/// more than one file.
 class Sidecars {
  public:
   explicit Sidecars(const std::filesystem::path& directory)
-      : xdmf_(directory / "run.xdmf"), series_(directory / "run.h5.series") {}
+      : xdmf_(directory / "run.xdmf"), series_(directory / "run.vtkhdf.series") {}
 
   /// Frame k of a file in the same directory; frames follow each other.
   void add_frame(const std::string& file, std::int64_t k, Real time, const FrameLayout& layout);

@@ -17,7 +17,7 @@ namespace {
 
 /// Everything a run writes. One of the first four makes a directory count as used.
 constexpr const char* run_files[] = {"run.h5",      "checkpoint-a.h5", "checkpoint-b.h5",
-                                     "history.csv", "run.xdmf",        "run.h5.series",
+                                     "history.csv", "run.xdmf",        "run.vtkhdf.series",
                                      "run.log"};
 constexpr int telling_files = 4;
 
@@ -37,12 +37,17 @@ std::filesystem::path in_series(const std::filesystem::path& directory, std::siz
 /// What a run that was killed had not brought to its place yet.
 void remove_temporaries(const std::filesystem::path& directory) {
   for (const char* name : run_files) remove_file(temporary_name(directory / name));
-  remove_file(temporary_name(in_series(directory, result_series(directory).size())));
+  // The last file may have come without its view, the next one not at all.
+  const std::size_t next = result_series(directory).size();
+  for (std::size_t number = next > 0 ? next - 1 : 0; number <= next; ++number) {
+    const std::filesystem::path file = in_series(directory, number);
+    for (const auto& path : {file, view_of(file)}) remove_file(temporary_name(path));
+  }
 }
 
 void remove_run(const std::filesystem::path& directory) {
   const auto series = result_series(directory);
-  for (auto file = series.rbegin(); file != series.rend(); ++file) remove_file(*file);
+  for (auto file = series.rbegin(); file != series.rend(); ++file) remove_result(*file);
   for (const char* name : run_files) remove_file(directory / name);
 }
 
@@ -53,6 +58,15 @@ std::vector<std::filesystem::path> result_series(const std::filesystem::path& di
   while (std::filesystem::exists(in_series(directory, files.size())))
     files.push_back(in_series(directory, files.size()));
   return files;
+}
+
+std::filesystem::path view_of(const std::filesystem::path& result_file) {
+  return std::filesystem::path(result_file).replace_extension("vtkhdf");
+}
+
+void remove_result(const std::filesystem::path& result_file) {
+  remove_file(view_of(result_file));
+  remove_file(result_file);
 }
 
 RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)

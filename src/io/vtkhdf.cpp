@@ -2,34 +2,43 @@
 // The VTKHDF view of a result file.
 #include "vtkhdf.hpp"
 
+#include "meniscus/io/files.hpp"
+#include "meniscus/io/run_directory.hpp"
+
 #include <algorithm>
-#include <numeric>
 
 namespace meniscus::vtkhdf {
 namespace {
 
 using hdf5::Type;
 
-constexpr const char* cell_kinds[] = {"Vertices", "Lines", "Polygons", "Strips"};
+/// Point data that do not change.
 constexpr const char* body_array = "body";
+constexpr const char* surface_array = "surface";
 
-std::vector<std::int64_t> count_up(std::int64_t n) {
-  std::vector<std::int64_t> numbers(static_cast<std::size_t>(n));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  return numbers;
+bool is_constant(const std::string& array) {
+  return array == body_array || array == surface_array;
 }
 
-/// One vertex per particle, no other cells. The connectivity is stored once; VTK wants the counts
-/// for each step.
-void create_cells(hdf5::Group& view, std::int64_t particles) {
-  for (const char* kind : cell_kinds) {
-    const std::int64_t cells = kind == cell_kinds[0] ? particles : 0;
-    hdf5::Group group = view.create_group(kind);
-    group.write("Connectivity", count_up(cells), {cells}, {Type::int64}, "1");
-    group.write("Offsets", count_up(cells + 1), {cells + 1}, {Type::int64}, "1");
-    group.create_series("NumberOfCells", 1, Type::int64, cells, "1");
-    group.create_series("NumberOfConnectivityIds", 1, Type::int64, cells, "1");
-  }
+void write_integers(hdf5::Group& group, const std::string& name,
+                    const std::vector<std::int64_t>& values, Type type = Type::int64) {
+  group.write(name, values, {std::ssize(values)}, {type}, "1");
+}
+
+/// All steps share one part: its counts and its cells.
+void write_cells(hdf5::Group& view, const FrameLayout& layout, const Mesh& mesh) {
+  constexpr std::int64_t quadrilateral = 9, hexahedron = 12;  // numbers of VTK
+  const auto n = static_cast<std::size_t>(layout.cells);
+  std::vector<std::int64_t> offsets(n + 1);
+  for (std::size_t c = 0; c <= n; ++c) offsets[c] = static_cast<std::int64_t>(c) * layout.corners;
+  write_integers(view, "NumberOfPoints", {layout.particles});
+  write_integers(view, "NumberOfCells", {layout.cells});
+  write_integers(view, "NumberOfConnectivityIds", {offsets.back()});
+  write_integers(view, "Connectivity", mesh.connectivity);
+  write_integers(view, "Offsets", offsets);
+  write_integers(view, "Types",
+                 std::vector<std::int64_t>(n, layout.corners == 8 ? hexahedron : quadrilateral),
+                 Type::uint8);
 }
 
 void create_steps(hdf5::Group& view, const FrameLayout& layout, const std::string& time_unit) {
@@ -39,10 +48,11 @@ void create_steps(hdf5::Group& view, const FrameLayout& layout, const std::strin
   steps.create_series("NumberOfParts", 1, Type::int64, 1, "1");
   steps.create_series("PartOffsets", 1, Type::int64, 0, "1");
   steps.create_series("PointOffsets", 1, Type::int64, 0, "1");
-  steps.create_series("CellOffsets", 4, Type::int64, 0, "1");
-  steps.create_series("ConnectivityIdOffsets", 4, Type::int64, 0, "1");
+  steps.create_series("CellOffsets", 1, Type::int64, 0, "1");
+  steps.create_series("ConnectivityIdOffsets", 1, Type::int64, 0, "1");
   hdf5::Group offsets = steps.create_group("PointDataOffsets");
-  offsets.create_series(body_array, 1, Type::int64, 0, "1");
+  for (const char* name : {body_array, surface_array})
+    offsets.create_series(name, 1, Type::int64, 0, "1");
   for (const StoredField& field : layout.fields)
     if (field.name != "position") offsets.create_series(field.name, 1, Type::int64, 0, "1");
 }
@@ -57,30 +67,26 @@ std::vector<std::string> point_offset_series(const FrameLayout& layout) {
 
 void set_length(hdf5::Group& view, const FrameLayout& layout, std::int64_t length) {
   hdf5::Group steps = view.group("Steps");
-  view.resize_series("NumberOfPoints", length);
-  for (const std::string kind : cell_kinds) {
-    view.resize_series(kind + "/NumberOfCells", length);
-    view.resize_series(kind + "/NumberOfConnectivityIds", length);
-  }
-  for (const char* name : {"Values", "NumberOfParts", "PartOffsets", "CellOffsets",
-                           "ConnectivityIdOffsets", "PointDataOffsets/body"})
+  for (const char* name :
+       {"Values", "NumberOfParts", "PartOffsets", "CellOffsets", "ConnectivityIdOffsets",
+        "PointDataOffsets/body", "PointDataOffsets/surface"})
     steps.resize_series(name, length);
   for (const std::string& name : point_offset_series(layout)) steps.resize_series(name, length);
 }
 
 }  // namespace
 
-void create(hdf5::Group& root, const FrameLayout& layout,
-            std::span<const std::int64_t> body_of_particle, const std::string& time_unit) {
+void create(hdf5::Group& root, const FrameLayout& layout, const Mesh& mesh,
+            const std::string& time_unit) {
   hdf5::Group view = root.create_group("VTKHDF");
   constexpr std::int64_t version[] = {2, 0};
   view.set("Version", version);
-  view.set("Type", "PolyData");
-  view.create_series("NumberOfPoints", 1, Type::int64, layout.particles, "1");
-  create_cells(view, layout.particles);
+  view.set("Type", "UnstructuredGrid");
+  write_cells(view, layout, mesh);
   create_steps(view, layout, time_unit);
   hdf5::Group point_data = view.create_group("PointData");
-  point_data.write(body_array, body_of_particle, {layout.particles}, {Type::int64}, "1");
+  write_integers(point_data, body_array, mesh.body);
+  write_integers(point_data, surface_array, mesh.surface);
   for (const StoredField& field : layout.fields) {
     const std::string pattern = "/steps/%b/" + field.name;
     const hdf5::Shape shape{layout.particles, field.components};
@@ -96,7 +102,6 @@ void append(hdf5::Group& root, const FrameLayout& layout, std::int64_t k, Real t
   set_length(view, layout, k + 1);
   hdf5::Group steps = view.group("Steps");
   steps.set_series("Values", k, time);
-  steps.set_series("PartOffsets", k, static_cast<Real>(k));
   for (const std::string& name : point_offset_series(layout))
     steps.set_series(name, k, static_cast<Real>(k * layout.particles));
 }
@@ -114,17 +119,29 @@ FrameLayout layout(const hdf5::Group& root) {
   const hdf5::Group view = root.group("VTKHDF"), point_data = view.group("PointData");
   FrameLayout layout;
   layout.particles = point_data.info(body_array).shape.rows;
+  layout.cells = view.info("Types").shape.rows;
+  layout.corners =
+      layout.cells > 0 ? static_cast<int>(view.info("Connectivity").shape.rows / layout.cells) : 0;
   const hdf5::ArrayInfo points = view.info("Points");
   layout.precision = points.type;
   layout.fields.push_back({"position", points.shape.columns, points.unit});
   for (const std::string& name : point_data.names()) {
-    if (name == body_array) continue;
+    if (is_constant(name)) continue;
     const hdf5::ArrayInfo info = point_data.info(name);
     layout.fields.push_back({name, info.shape.columns, info.unit});
   }
   std::sort(layout.fields.begin(), layout.fields.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });
   return layout;
+}
+
+void write_view(const std::filesystem::path& result_file) {
+  const std::filesystem::path path = view_of(result_file);
+  const RemovedUnlessRenamed unfinished(temporary_name(path));
+  hdf5::File file = hdf5::File::create(temporary_name(path));
+  file.root().link("VTKHDF", result_file.filename().string(), "/VTKHDF");
+  file.close();
+  rename_file(temporary_name(path), path);
 }
 
 }  // namespace meniscus::vtkhdf

@@ -1,20 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The group /VTKHDF: the frames as a temporal PolyData of vertices. Field data are virtual datasets
-// over /steps/<k>/<field> that grow by themselves; only the small index arrays are written.
-// Source: VTK File Formats, "VTKHDF File Format" 2.x, sections PolyData and Temporal Data.
+// The group /VTKHDF: the frames as an unstructured grid that moves. Its cells are those of the
+// bodies and stand there once; field data are virtual datasets over /steps/<k>/<field> that grow by
+// themselves; only small index arrays are written.
+// Source: VTK File Formats, "VTKHDF File Format" 2.x, sections UnstructuredGrid and Temporal Data.
 #pragma once
 #include "meniscus/core/types.hpp"
 
-#include <span>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "frame_layout.hpp"
 
 namespace meniscus::vtkhdf {
 
-/// `body_of_particle` is shown as the point data "body". Throws FileError.
-void create(hdf5::Group& root, const FrameLayout& layout,
-            std::span<const std::int64_t> body_of_particle, const std::string& time_unit);
+/// What does not change from frame to frame.
+struct Mesh {
+  std::vector<std::int64_t> body;          ///< number of the body of each particle
+  std::vector<std::int64_t> surface;       ///< 1 for particles on the surface of their body, else 0
+  std::vector<std::int64_t> connectivity;  ///< corners of all cells in the order of VTK
+};
+
+/// The point data are the fields, `body` and `surface`. Throws FileError.
+void create(hdf5::Group& root, const FrameLayout& layout, const Mesh& mesh,
+            const std::string& time_unit);
+
+/// Writes the view of a result file, a link to its /VTKHDF under the name by which ParaView knows
+/// what it is. Throws FileError.
+void write_view(const std::filesystem::path& result_file);
 
 /// Makes frame `k` the last one: all index arrays get k + 1 rows.
 void append(hdf5::Group& root, const FrameLayout& layout, std::int64_t k, Real time);

@@ -46,15 +46,17 @@ void XdmfSidecar::add_frame(const std::string& hdf5_name, std::int64_t k, Real t
   };
   add(fmt::format(R"(<Grid Name="frame {}" GridType="Uniform">)", k));
   add(fmt::format(R"(<Time Value="{:.17g}"/>)", time));
-  add(fmt::format(
-      R"(<Topology TopologyType="Polyvertex" NumberOfElements="{}" NodesPerElement="1">)", n));
-  add(data_item(hdf5_name + ":/VTKHDF/Vertices/Connectivity", n, 1, hdf5::Type::int64) +
+  add(fmt::format(R"(<Topology TopologyType="{}" NumberOfElements="{}">)",
+                  layout.corners == 8 ? "Hexahedron" : "Quadrilateral", layout.cells));
+  add(data_item(hdf5_name + ":/VTKHDF/Connectivity", layout.cells * layout.corners, 1,
+                hdf5::Type::int64) +
       "</Topology>");
   add(R"(<Geometry GeometryType="XYZ">)");
   add(data_item(fmt::format("{}:/steps/{}/position", hdf5_name, k), n, 3, layout.precision) +
       "</Geometry>");
-  add_attribute("body", 1,
-                data_item(hdf5_name + ":/VTKHDF/PointData/body", n, 1, hdf5::Type::int64));
+  for (const std::string name : {"body", "surface"})
+    add_attribute(name, 1,
+                  data_item(hdf5_name + ":/VTKHDF/PointData/" + name, n, 1, hdf5::Type::int64));
   for (const StoredField& field : layout.fields)
     if (field.name != "position")
       add_attribute(field.name, field.components,
@@ -68,7 +70,7 @@ void XdmfSidecar::write() const {
 <!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>
 <Xdmf Version="3.0">
 <Domain>
-<Grid Name="particles" GridType="Collection" CollectionType="Temporal">
+<Grid Name="bodies" GridType="Collection" CollectionType="Temporal">
 {}</Grid>
 </Domain>
 </Xdmf>

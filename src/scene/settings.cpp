@@ -61,8 +61,9 @@ Rows<OutputSettings> OutputSettings::rows() {
                  "float64"),
       integer_row("compression", &S::compression, {0, 9}, "deflate level of run.h5", 0),
       flag_row("restartable", &S::restartable,
-               "whether each frame also holds the complete state, so that a run can go on from it",
-               true),
+               "whether each frame also holds the complete state, so that a run can go on from it; "
+               "checkpoints hold it anyway",
+               false),
       real_row("checkpoint_minutes", &S::checkpoint_minutes, dimension::none, range::positive,
                "wall-clock minutes between checkpoints", 10.0),
   };

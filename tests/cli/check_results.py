@@ -71,30 +71,39 @@ def check_units(file):
     file.visititems(visit)
 
 
+def hexahedra():
+    """Corners of the cells of result_writer."""
+    first = [*range(FIRST_BODY - 7), *range(FIRST_BODY, PARTICLES - 7)]
+    return np.array(first)[:, None] + np.arange(8)
+
+
 def check_vtkhdf(file):
-    """VTKHDF 2.0: PolyData, temporal."""
+    """VTKHDF 2.0: UnstructuredGrid, temporal."""
     view, n = file["VTKHDF"], PARTICLES
-    assert view.attrs["Type"] == b"PolyData" and list(view.attrs["Version"]) == [2, 0]
+    assert view.attrs["Type"] == b"UnstructuredGrid" and list(view.attrs["Version"]) == [2, 0]
     assert h5py.check_string_dtype(view.attrs.get_id("Type").dtype).encoding == "ascii"
     steps = view["Steps"]
     assert steps.attrs["NSteps"] == FRAMES
     k = np.arange(FRAMES)
     equal(steps["Values"], 0.5 * k, "times")
-    equal(steps["PartOffsets"], k, "PartOffsets")
+    equal(steps["PartOffsets"], 0 * k, "PartOffsets")
     equal(steps["NumberOfParts"], np.ones(FRAMES), "NumberOfParts")
     equal(steps["PointOffsets"], n * k, "PointOffsets")
     for name in ("CellOffsets", "ConnectivityIdOffsets"):
-        equal(steps[name], np.zeros((FRAMES, 4)), name)
-    equal(view["NumberOfPoints"], np.full(FRAMES, n), "NumberOfPoints")
-    for kind in ("Vertices", "Lines", "Polygons", "Strips"):
-        cells = n if kind == "Vertices" else 0
-        equal(view[kind]["NumberOfCells"], np.full(FRAMES, cells), kind)
-        equal(view[kind]["NumberOfConnectivityIds"], np.full(FRAMES, cells), kind)
-        equal(view[kind]["Connectivity"], np.arange(cells), kind)
-        equal(view[kind]["Offsets"], np.arange(cells + 1), kind)
-    assert set(view["PointData"]) == set(FIELDS) - {"position"} | {"body"}
+        equal(steps[name], np.zeros(FRAMES), name)
+    cells = hexahedra()
+    equal(view["NumberOfPoints"], [n], "NumberOfPoints")
+    equal(view["NumberOfCells"], [len(cells)], "NumberOfCells")
+    equal(view["NumberOfConnectivityIds"], [cells.size], "NumberOfConnectivityIds")
+    equal(view["Connectivity"], cells.ravel(), "Connectivity")
+    equal(view["Offsets"], 8 * np.arange(len(cells) + 1), "Offsets")
+    equal(view["Types"], np.full(len(cells), 12), "Types")
+    assert view["Types"].dtype == np.uint8
+    assert set(view["PointData"]) == set(FIELDS) - {"position"} | {"body", "surface"}
     assert set(steps["PointDataOffsets"]) == set(view["PointData"])
-    equal(view["PointData/body"], np.arange(n) >= FIRST_BODY, "body")
+    particle = np.arange(n)
+    equal(view["PointData/body"], particle >= FIRST_BODY, "body")
+    equal(view["PointData/surface"], particle - FIRST_BODY * (particle >= FIRST_BODY) < 4, "surface")
     for name, (written, stored, unit) in FIELDS.items():
         data = view["Points"] if name == "position" else view["PointData"][name]
         equal(data, np.concatenate([expected(i, written, stored) for i in k]), name)
@@ -112,8 +121,8 @@ def check_xdmf(directory, dtype):
     for k, grid in enumerate(grids):
         assert float(grid.find("Time").attrib["Value"]) == 0.5 * k
         topology = grid.find("Topology").attrib
-        assert topology["TopologyType"] == "Polyvertex"
-        assert int(topology["NumberOfElements"]) == PARTICLES
+        assert topology["TopologyType"] == "Hexahedron"
+        assert int(topology["NumberOfElements"]) == len(hexahedra())
         for item in grid.iter("DataItem"):
             name, path = item.text.strip().split(":")
             assert name == "run.h5", f"{name} is not a name beside the sidecar"
@@ -123,11 +132,11 @@ def check_xdmf(directory, dtype):
                 assert int(item.attrib["Precision"]) == data.dtype.itemsize
                 assert (item.attrib["NumberType"] == "Int") == (data.dtype.kind == "i")
         equal_name = {a.attrib["Name"]: a for a in grid.findall("Attribute")}
-        assert set(equal_name) == set(FIELDS) - {"position"} | {"body"}
+        assert set(equal_name) == set(FIELDS) - {"position"} | {"body", "surface"}
         for name, attribute in equal_name.items():
-            components = 1 if name == "body" else FIELDS[name][1]
+            components = FIELDS[name][1] if name in FIELDS else 1
             assert attribute.attrib["AttributeType"] == types[components]
-            if name != "body":
+            if name in FIELDS:
                 assert attribute.find("DataItem").text == f"run.h5:/steps/{k}/{name}"
 
 
@@ -169,7 +178,9 @@ def main():
             check_checkpoints(directory)
             check_history(directory)
             names = {path.name for path in directory.iterdir()}
-            assert names == {"run.h5", "run.xdmf", "history.csv", "checkpoint-a.h5"}, names
+            assert names == {"run.h5", "run.vtkhdf", "run.xdmf", "history.csv", "checkpoint-a.h5"}, names
+            with h5py.File(directory / "run.vtkhdf") as file:
+                equal(file["VTKHDF/Steps/Values"], 0.5 * np.arange(FRAMES), "times of run.vtkhdf")
     print("results are as written")
 
 

@@ -96,6 +96,11 @@ RELAXING_SHEET = SHEET.replace("end = 0.1", 'end = 20\nsolver = "relax"\ncheck_e
     "[[body]]", '[[body]]\ninitial_displacement = ["0.1*y^2", "0.05*y"]')
 
 
+def with_output(text, lines):
+    """The scene with further lines in [output]."""
+    return text.replace("[output]", f"[output]\n{lines}")
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a directory of its own, in which it runs the program."""
 

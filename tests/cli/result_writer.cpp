@@ -29,8 +29,17 @@ std::vector<Real> values(std::int64_t k, Index count, int components) {
   return all;
 }
 
-BodyReference body(const std::string& name, std::span<const Real> X, std::span<const Real> volume) {
-  return {name, {{"X", 3, "m", X}, {"volume", 1, "m^3", volume}}, {}};
+/// Corners of the cells A ... A + 7 for A = 0, 1, ...; the first facet is that of particles 0 to 3.
+std::vector<Index> corners(Index count) {
+  std::vector<Index> all;
+  for (Index A = 0; A + 8 <= count; ++A)
+    for (Index a = 0; a < 8; ++a) all.push_back(A + a);
+  return all;
+}
+
+BodyReference body(const std::string& name, std::span<const Real> X, std::span<const Real> volume,
+                   std::span<const Index> cells) {
+  return {name, {{"X", 3, "m", X}, {"volume", 1, "m^3", volume}}, 8, cells, cells.first(4)};
 }
 
 void write_run(const std::string& path, std::int64_t frames, const ResultOptions& options) {
@@ -38,9 +47,10 @@ void write_run(const std::string& path, std::int64_t frames, const ResultOptions
   const Provenance source = provenance("result_writer", "dimension = 3\n# \xce\xb3 = 0.0728 N/m\n");
   const auto X = values(0, particles, 3), volume = values(0, particles, 1);
   const std::span<const Real> all_X = X, all_volume = volume;
+  const std::vector<Index> cells[] = {corners(first_body), corners(particles - first_body)};
   const BodyReference bodies[] = {
-      body("drop", all_X.first(3 * first_body), all_volume.first(first_body)),
-      body("wall", all_X.subspan(3 * first_body), all_volume.subspan(first_body))};
+      body("drop", all_X.first(3 * first_body), all_volume.first(first_body), cells[0]),
+      body("wall", all_X.subspan(3 * first_body), all_volume.subspan(first_body), cells[1])};
   ResultFile result(directory, source, bodies, options);
   HistoryWriter history(directory.history_file(), {{"time", "s"}, {"kinetic_energy", "J"}});
   CheckpointWriter checkpoints(directory, source);

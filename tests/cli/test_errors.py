@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 import program
-from program import BLOCK, DROP, RELAXING_SHEET, SHEET, ProgramTest
+from program import BLOCK, DROP, RELAXING_SHEET, SHEET, ProgramTest, with_output
 
 
 class Usage(ProgramTest):
@@ -295,7 +295,7 @@ class Scenes(ProgramTest):
 class Files(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.file = self.scene(BLOCK)
+        self.file = self.scene(with_output(BLOCK, "restartable = true"))
         self.call("run", self.file, "--output", "out", "--until", "0.1")
 
     def test_no_overwriting(self):
@@ -359,7 +359,7 @@ class Failures(ProgramTest):
     def test_inversion(self):
         """A block that is pushed together far too fast."""
         text = BLOCK.replace("[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
-        text = text.replace("frames_every", 'fields = ["velocity", "J", "force"]\nframes_every')
+        text = with_output(text, 'restartable = true\nfields = ["velocity", "J", "force"]')
         message = self.assert_fails(text, "body 'block', particle ", "reference position", "now (",
                                     "J = det F", "F = [", "dt = ", "step ", "t = ")
         step = int(re.search(r"step (\d+)", message).group(1))

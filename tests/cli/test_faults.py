@@ -13,7 +13,7 @@ import time
 
 
 import program
-from program import BLOCK, ENVIRONMENT, SHEET, ProgramTest
+from program import BLOCK, ENVIRONMENT, SHEET, ProgramTest, with_output
 
 
 class FaultTest(ProgramTest):
@@ -98,7 +98,7 @@ class Disk(FaultTest):
     def test_file_size(self):
         """Ten limits on the size of files: exit code 5 with the reason, also in the log where it
         fits; what is there can be read, and a later run goes on from it."""
-        file = self.scene(BLOCK)
+        file = self.scene(with_output(BLOCK, "restartable = true"))
         whole = program.state_of(self.call("run", file, "--output", "whole"))
         largest = (self.directory / "whole/run.h5").stat().st_size
         continued = 0

@@ -12,15 +12,11 @@ import h5py
 import numpy as np
 
 import program
-from program import BLOCK, DROP, ENVIRONMENT, SHEET, ProgramTest, state_of
+from program import BLOCK, DROP, ENVIRONMENT, SHEET, ProgramTest, state_of, with_output
 
 FIELDS = {"displacement": (3, "m"), "velocity": (3, "m/s"), "force": (3, "N"), "J": (1, "1"),
           "F": (9, "1"), "pressure": (1, "Pa"), "von_mises": (1, "Pa"), "cauchy_stress": (9, "Pa")}
 ALL = "fields = [" + ", ".join(f'"{name}"' for name in FIELDS) + "]"
-
-
-def with_output(text, lines):
-    return text.replace("[output]", f"[output]\n{lines}")
 
 
 class Results(ProgramTest):
@@ -50,6 +46,27 @@ class Results(ProgramTest):
                                    rtol=1e-10, atol=1e-6)
         self.assertAlmostEqual(mass.sum(), 1000, delta=1e-6)
         self.assertFalse(np.array_equal(self.frames("out")[0]["position"], last["position"]))
+
+    def test_cells(self):
+        """What viewers draw: the cells of the body, right-handed, and its volume."""
+        for text, volume in ((BLOCK, 1), (SHEET, 2)):
+            self.call("run", self.scene(text), "--output", "out", "--overwrite")
+            with h5py.File(self.directory / "out/run.vtkhdf") as file:
+                view = file["VTKHDF"]
+                X, surface = view["Points"][:view["NumberOfPoints"][0]], view["PointData/surface"][:]
+                corners = X[view["Connectivity"][:].reshape(view["NumberOfCells"][0], -1)]
+            edges = corners[:, [1, 3, 4 if corners.shape[1] == 8 else 3]] - corners[:, :1]
+            if corners.shape[1] == 4:
+                edges[:, 2] = [0, 0, 1]
+                np.testing.assert_allclose(corners[:, 2], corners[:, 1] + corners[:, 3] - corners[:, 0])
+            else:
+                np.testing.assert_allclose(corners[:, 6], corners[:, 0] + edges.sum(axis=1), atol=1e-14)
+            size = np.linalg.det(edges)
+            self.assertTrue((size > 0).all())
+            self.assertAlmostEqual(size.sum(), volume, delta=1e-12)
+            low, high = X.min(axis=0), X.max(axis=0)
+            outside = ((X == low) | (X == high))[:, :2 if corners.shape[1] == 4 else 3].any(axis=1)
+            np.testing.assert_array_equal(surface, outside)
 
     def test_rigid_motion(self):
         """Positions are X + sum N u: exact for a uniform velocity."""
@@ -104,8 +121,8 @@ class Results(ProgramTest):
 
     def test_small_files(self):
         """float32, compressed, without states."""
-        text = with_output(BLOCK, 'precision = "float32"\ncompression = 6\nrestartable = false')
-        self.call("run", self.scene(BLOCK), "--output", "full")
+        text = with_output(BLOCK, 'precision = "float32"\ncompression = 6')
+        self.call("run", self.scene(with_output(BLOCK, "restartable = true")), "--output", "full")
         self.call("run", self.scene(text), "--output", "small")
         for small, full in zip(self.frames("small"), self.frames("full")):
             self.assertEqual(small["velocity"].dtype, np.float32)
@@ -115,7 +132,8 @@ class Results(ProgramTest):
             self.assertEqual(file["steps/1/velocity"].compression, "gzip")
         self.assertLess((self.directory / "small/run.h5").stat().st_size,
                         0.6 * (self.directory / "full/run.h5").stat().st_size)
-        self.refused(["run", self.scene(text), "--restart", "small", "--frame", "1"], 5, "state")
+        self.refused(["run", self.scene(text), "--restart", "small", "--frame", "1"], 5,
+                     "output.restartable = true")
 
     def test_units(self):
         """The same drop in other units."""
@@ -159,7 +177,7 @@ class Nodal(ProgramTest):
 
 class Reports(ProgramTest):
     def test_info(self):
-        self.call("run", self.scene(BLOCK), "--output", "out")
+        self.call("run", self.scene(with_output(BLOCK, "restartable = true")), "--output", "out")
         for path in ("out", "out/run.h5"):
             text = self.call("info", path).stdout
             for word in ("block", "125 particles", "velocity", "m/s", "frames    11", "with state",

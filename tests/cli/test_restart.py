@@ -9,13 +9,13 @@ import signal
 import numpy as np
 
 import program
-from program import BLOCK, DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of
+from program import BLOCK, DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of, with_output
 
 
 class Restart(ProgramTest):
     def reference(self, text):
-        """The uninterrupted run: scene, hash, history and frames."""
-        self.file = self.scene(text)
+        """The uninterrupted run: scene, hash, history and frames, each with the state."""
+        self.file = self.scene(with_output(text, "restartable = true"))
         self.end = re.search(r"end = (.*)", text).group(1).strip('"')
         self.whole = state_of(self.call("run", self.file, "--output", "whole"))
         self.whole_history = (self.directory / "whole/history.csv").read_text()
@@ -135,8 +135,11 @@ class RemappedDrop(EveryWay, Restart):
         self.reference(self.SCENE)
         names = ["run.h5", "run.1.h5", "run.2.h5"]
         self.assertEqual([file.name for file in self.result_files("whole")], names)
-        listed = json.loads((self.directory / "whole/run.h5.series").read_text())["files"]
-        self.assertEqual([file["name"] for file in listed], names)
+        listed = json.loads((self.directory / "whole/run.vtkhdf.series").read_text())["files"]
+        views = [name.replace(".h5", ".vtkhdf") for name in names]
+        self.assertEqual([file["name"] for file in listed], views)
+        for view in views:
+            self.assertTrue((self.directory / "whole" / view).exists())
         times = [frame["time"] for frame in self.whole_frames]
         self.assertTrue(all(a < b for a, b in zip(times, times[1:])))
         for file in listed:
@@ -163,7 +166,8 @@ class RemappedDrop(EveryWay, Restart):
         first = self.whole_frames[1]["time"] * (1 + 1e-9)
         self.call("run", self.file, "--restart", "whole", "--frame", "1", "--until", first)
         self.assertEqual(len(self.result_files("whole")), 1)
-        self.assertFalse((self.directory / "whole/run.h5.series").exists())
+        self.assertEqual([file.name for file in self.directory.glob("whole/run*.vtkhdf")], ["run.vtkhdf"])
+        self.assertFalse((self.directory / "whole/run.vtkhdf.series").exists())
         self.assert_same(self.call("run", self.file, "--restart", "whole"), "whole")
 
     def test_overwrite(self):

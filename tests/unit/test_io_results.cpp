@@ -24,7 +24,8 @@ class Results : public TemporaryDirectory {
   ResultFile open(const RunDirectory& directory, ResultOptions options = {}) {
     const ResultField drop[] = {{"X", 2, "m", std::span<const Real>(X_).first(4)}};
     const ResultField wall[] = {{"X", 2, "m", std::span<const Real>(X_).subspan(4)}};
-    const BodyReference bodies[] = {{"drop", {drop[0]}, {}}, {"wall", {wall[0]}, {}}};
+    const BodyReference bodies[] = {{"drop", {drop[0]}, 4, corners_, {}},
+                                    {"wall", {wall[0]}, 4, corners_, {}}};
     return {directory, provenance("test", input_), bodies, options};
   }
 
@@ -37,6 +38,7 @@ class Results : public TemporaryDirectory {
   }
 
   std::vector<Real> X_ = std::vector<Real>(2 * particles, 0.25);
+  const std::vector<Index> corners_ = {0, 1, 1, 0};
   std::string input_ = "dimension = 2\n";
 };
 
@@ -139,7 +141,8 @@ TEST_F(Results, EpochsStandInFilesOfTheirOwnAndAreCountedThrough) {
   EXPECT_EQ(read_checkpoint(path(), 3).checkpoint.step, 30);
   EXPECT_THROW_WITH(read_checkpoint(path(), 6), FileError, "frames 4 to 5");
   EXPECT_NE(content(path() / "run.xdmf").find("run.1.h5:/steps/1/position"), std::string::npos);
-  EXPECT_NE(content(path() / "run.h5.series").find("\"run.2.h5\", \"time\": 4"), std::string::npos);
+  EXPECT_NE(content(path() / "run.vtkhdf.series").find("\"run.2.vtkhdf\", \"time\": 4"),
+            std::string::npos);
   EXPECT_NE(describe_file(path()).find("  5     step 50"), std::string::npos);
   {  // What comes after goes.
     const RunDirectory directory(path(), ExistingRun::keep);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DIR/run.h5 and DIR/run.xdmf: the frames of a run, for people, plotting tools and ParaView. A run
 // whose bodies are referred anew goes on in run.1.h5, run.2.h5, ..., each whole in itself;
-// run.xdmf has the frames of all, and run.h5.series lists the files.
+// run.xdmf has the frames of all, and run.vtkhdf.series lists the files.
 //
 // run.h5:
 //   /steps/<k>/<field>      one array per field of frame k = 0, 1, ...; attributes step, time
 //   /steps/<k>/state/...    the complete state at double precision, if the frame has it
-//   /reference/<body>/...   X, volume, support, ...: what does not change
+//   /reference/<body>/...   X, volume, cells, surface, ...: what does not change
 //   /meta                   provenance and the complete input
-//   /VTKHDF                 the same frames as a temporal PolyData (VTK 9.3, ParaView 5.12 or
-//   newer)
+//   /VTKHDF                 the same frames as a mesh that moves (VTK 9.3, ParaView 5.12 or newer,
+//                           which open run.vtkhdf, a link to it)
 // Every array has an attribute "units". run.xdmf describes the frames to older ParaView.
 // After an interruption, even kill -9, the file opens and has every frame that write_frame() had
 // returned from. It can be read while the run goes on.
@@ -37,18 +37,16 @@ struct ResultField {
   std::span<const Real> values;
 };
 
-/// Particle numbers in rows, e.g. the corners of surface quads; counted from 0 inside the body.
-struct Connectivity {
-  std::string name;
-  int columns = 1;
-  std::span<const Index> values;
-};
-
-/// What does not change of a body. Particles of the bodies follow each other in every field.
+/// What does not change of a body. Particles of the bodies follow each other in every field; those
+/// of a body are counted from 0 in its cells and facets.
 struct BodyReference {
   std::string name;                 ///< not empty, without '/'
   std::vector<ResultField> arrays;  ///< at least one; all have one value per particle of the body
-  std::vector<Connectivity> connectivity;
+  int corners;                      ///< of a cell: 8 of a hexahedron, 4 of a quadrilateral
+  /// Corners of the cells in the order of VTK: around the face at the lower end of the third
+  /// direction, then around that at the upper.
+  std::span<const Index> cells;
+  std::span<const Index> facets;  ///< corners of the facets of the surface in tensor order
 };
 
 struct ResultOptions {

@@ -17,9 +17,14 @@ enum class ExistingRun {
 /// many as there are.
 std::vector<std::filesystem::path> result_series(const std::filesystem::path& directory);
 
-/// DIR/run.h5 (run.1.h5, ... after remaps), run.xdmf, history.csv, run.log, checkpoint-a.h5,
-/// checkpoint-b.h5. While the object lives no other program can write results there; the lock ends
-/// with the process, however it ends.
+/// run.vtkhdf of run.h5: what viewers open.
+std::filesystem::path view_of(const std::filesystem::path& result_file);
+/// Removes a result file and its view. Throws FileError.
+void remove_result(const std::filesystem::path& result_file);
+
+/// DIR/run.h5 (run.1.h5, ... after remaps), run.vtkhdf, run.xdmf, history.csv, run.log,
+/// checkpoint-a.h5, checkpoint-b.h5. While the object lives no other program can write results
+/// there; the lock ends with the process, however it ends.
 class RunDirectory {
  public:
   /// Makes the directory if needed. Throws FileError if it cannot be made or written to, is not a

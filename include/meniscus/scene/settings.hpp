@@ -26,7 +26,7 @@ struct OutputSettings {
   std::vector<std::string> fields, measures;
   std::string precision;
   int compression = 0;
-  bool restartable = true;
+  bool restartable = false;
   Real checkpoint_minutes = 0;
   static Rows<OutputSettings> rows();
 };
