@@ -152,7 +152,7 @@ class QuantityReader {
       if (at_end() || peek() == ')') return result;
       divide = take('/');
       if (!divide && !take('*') && divided)
-        fail("is ambiguous; put the units of the divisor in brackets, e.g. kg/(m s^2)");
+        fail("is ambiguous; expected the units of the divisor in brackets, e.g. kg/(m s^2)");
     }
   }
 

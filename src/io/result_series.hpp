@@ -21,7 +21,7 @@ class Sidecars {
 
   /// Frame k of a file in the same directory; frames follow each other.
   void add_frame(const std::string& file, std::int64_t k, Real time, const FrameLayout& layout);
-  /// Writes each file whole and puts it in place in one step. Throws FileError.
+  /// Writes each file whole and renames it into place. Throws FileError.
   void write() const;
 
  private:

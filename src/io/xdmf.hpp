@@ -20,7 +20,7 @@ class XdmfSidecar {
   /// Frame k of an HDF5 file in the directory of the sidecar.
   void add_frame(const std::string& hdf5_name, std::int64_t k, Real time,
                  const FrameLayout& layout);
-  /// Writes the whole file and puts it in place in one step. Throws FileError.
+  /// Writes the whole file and renames it into place. Throws FileError.
   void write() const;
 
  private:

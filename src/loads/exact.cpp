@@ -23,7 +23,7 @@ struct Exact final : Load<D> {
             expressions_row("velocity", &Exact::velocity, D, dimension::velocity,
                             "a formula of x, y, z, t for each component"),
             real_row("rate", &Exact::rate, dimension::rate, range::positive,
-                     "weighs displacements against velocities in the error; the frequency of an "
+                     "weight of displacements beside velocities in the error; the frequency of an "
                      "oscillation")};
   }
   std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }

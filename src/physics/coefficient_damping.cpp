@@ -29,7 +29,7 @@ class CoefficientDamping final : public ForceTerm {
   bool viscous() const override { return true; }
 
   Report add_force(const Motion& motion, Forces force) override {
-    const Rotation sums = take_off_places(motion);
+    const Rotation sums = subtract_places(motion);
     const Eigen::Vector3d w = sums.rate();
     Report report;
     report.heat = parallel_sum(body_.size(), 0.0, [&](Index A) {
@@ -70,7 +70,7 @@ class CoefficientDamping final : public ForceTerm {
   };
 
   /// d to slip_, e to offset_. Positions are quadratic fields: (I - N) x = (I - N) u.
-  Rotation take_off_places(const Motion& motion) {
+  Rotation subtract_places(const Motion& motion) {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
     return parallel_sum(body_.size(), Rotation{}, [&](Index A) {
       const PointRows<D>& rows = body_.at_particles;

@@ -27,7 +27,7 @@ struct Case {
 template <int D>
 const std::vector<Case>& cases();
 
-/// What is registered without an example, put into words; empty if nothing is.
+/// What is registered without an example, in words; empty if nothing is.
 template <class Registry>
 std::vector<std::string> missing_examples(const Registry& registry, const std::string& what) {
   std::vector<std::string> missing;

@@ -128,8 +128,9 @@ TEST(Units, MessagesAboutQuantities) {
   EXPECT_EQ(message(si, "5 kmin", time), "unknown unit 'kmin'; " + list);
   EXPECT_EQ(message(si, "5 kg/m3", density),
             "'5 kg/m3' has a digit behind a unit; powers are written as m^3");
-  EXPECT_EQ(message(si, "5 kg/m s^2", pressure),
-            "'5 kg/m s^2' is ambiguous; put the units of the divisor in brackets, e.g. kg/(m s^2)");
+  EXPECT_EQ(
+      message(si, "5 kg/m s^2", pressure),
+      "'5 kg/m s^2' is ambiguous; expected the units of the divisor in brackets, e.g. kg/(m s^2)");
   EXPECT_EQ(message(si, "m", length), "'m' does not begin with a number");
   EXPECT_EQ(message(si, "nan m", length), "'nan m' does not begin with a number");
   EXPECT_EQ(message(si, "", length), "'' does not begin with a number");

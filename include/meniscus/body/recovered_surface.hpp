@@ -23,7 +23,7 @@ class RecoveredSurface final : public Surface<D> {
   bool smooth() const override { return true; }
   bool hollow() const override;
   std::shared_ptr<const Surface<D>> renumbered(std::span<const Index> order) const override;
-  /// Recovered anew from the nodes where the map has put them.
+  /// Recovered anew from the mapped nodes.
   std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
                                            const Grid<D>& grid) const override;
 

@@ -39,7 +39,7 @@ class Surface {
 
   /// k Gauss points per direction of every boundary facet of that part.
   virtual SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const = 0;
-  /// The point of the surface at xi in [-1, 1]^(D-1) of a facet: where points() puts a Gauss point
+  /// The point of the surface at xi in [-1, 1]^(D-1) of a facet: where points() has a Gauss point
   /// xi. The same for all facets that share it.
   virtual Vec<D> point(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const = 0;
 

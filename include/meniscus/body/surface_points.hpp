@@ -12,7 +12,7 @@ template <int D>
 SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k,
                                 SurfacePart part = SurfacePart::whole);
 
-/// The point of the surface at xi in [-1, 1]^(D-1) of a facet: where surface_points() puts a Gauss
+/// The point of the surface at xi in [-1, 1]^(D-1) of a facet: where surface_points() has a Gauss
 /// point xi. On an edge between two patches it lies on both.
 template <int D>
 Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const Vec<D - 1>& xi);

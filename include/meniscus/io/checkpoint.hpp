@@ -2,7 +2,7 @@
 // Saved states of a run, and reading one to continue from it.
 //
 // DIR/checkpoint-a.h5 and DIR/checkpoint-b.h5 are written in turn, each beside its old version and
-// then put in its place: at every moment one complete checkpoint is on the disk. The first 512
+// then renamed: at every moment one complete checkpoint is on the disk. The first 512
 // bytes of a file are a text (`head -n 3`) with the serial number and a checksum over the rest;
 // then come /state, /meta with the complete input, and the attributes step and time.
 #pragma once

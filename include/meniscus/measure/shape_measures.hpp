@@ -18,7 +18,8 @@ std::vector<MeasureSource> shape_measures(const Body<D>& body, const UnitSystem&
 /// An exact solution to compare with.
 struct ExactSolution {
   std::vector<Expression> displacement, velocity;  ///< of reference position and time
-  Real rate = 0;  ///< weighs displacement against velocity, 1/time; the frequency of an oscillation
+  Real rate =
+      0;  ///< weight of displacements beside velocities, 1/time; the frequency of an oscillation
 };
 
 /// "state_error": sqrt(sum V [rate^2 |u - u_ex|^2 + |v - v_ex|^2] / sum V [rate^2 |u_ex|^2 +

@@ -14,7 +14,7 @@
 namespace meniscus {
 
 /// How the forces follow from the interaction of the points (CGCM notes 2 and 4). With G = b1 b2 in
-/// the weights V (area vectors) and r = x1 - x2, point 1 feels
+/// the weights V (area vectors) and r = x1 - x2, the force on point 1 is:
 enum class ContactForm {
   energy,       ///< the gradient of sum u(r) V1.V2: conserves energy and momenta exactly
   pressure,     ///< - V1 (r.V2) psi: disjoining pressure; conservative where the gap is resolved

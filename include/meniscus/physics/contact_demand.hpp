@@ -34,8 +34,8 @@ Approach approach(const ContactPoints<D>& first, const ContactPlaces<D>& at_firs
 template <int D>
 Approach approach(const Body<D>& body, Real distance, const Vec<D>& velocity, const Motion& motion);
 
-/// A step brings bodies that do not feel each other yet at most a quarter of the range into it: at
-/// any speed they feel each other before they meet.
+/// A step brings bodies that do not interact yet at most a quarter of the range into it: at any
+/// speed they interact before they meet.
 StepDemand approach_demand(const Approach& approach, Real range);
 
 /// The numbers of a contact that decide its stiffness.
@@ -47,10 +47,9 @@ struct ContactInertia {
 };
 
 /// A step closes at most 1/20 of the gap, and the stiffness is that of two planes at the gap it can
-/// reach (CGCM notes 3.1 and 8); (1 + 2 (spacing/gap)^(D-1)) K where the points of the
-/// other side are so far apart that single ones are felt. The step is at most half the stable one
-/// of that stiffness: so stiff a spring whose stiffness changes by multiples heats up at longer
-/// steps.
+/// reach (CGCM notes 3.1 and 8); (1 + 2 (spacing/gap)^(D-1)) K where the points of the other side
+/// are so far apart that the force of single ones shows. The step is at most half the stable one of
+/// that stiffness: so stiff a spring whose stiffness changes by multiples heats up at longer steps.
 StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed);
 
 /// A sentence if the points are more than half a gap apart where the interaction, of that range, is

@@ -10,7 +10,7 @@ namespace meniscus {
 /// (b/J per current volume) (CGCM note 2).
 enum class SiteDensity { constant, referential };
 
-/// Where contact points are and what they weigh at a motion.
+/// Places and weights of contact points at a motion.
 template <int D>
 struct ContactPlaces {
   Index size = 0;                  ///< points
@@ -30,12 +30,12 @@ struct ContactPlaces {
   }
 };
 
-/// Material points in clusters of four that are neighbours in space, a lane per point. What a point
-/// weighs is
+/// Material points in clusters of four that are neighbours in space, a lane per point. The weight
+/// of a point is
 /// - on the surface the area vector V = b cof(F) N dA (constant density) or b F^-T N dA
 ///   (referential), outward, D numbers;
 /// - in the volume b dV, one number.
-/// Lanes without a point lie on the last point and weigh nothing.
+/// Lanes without a point lie on the last point and have the weight 0.
 template <int D>
 class ContactPoints {
  public:

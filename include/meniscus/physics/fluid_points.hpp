@@ -22,7 +22,7 @@ concept FluidLaw = Law<L> && requires(const L law, const Lanes theta) {
 /// The energy of the points of a body whose surface encloses J_e times its reference volume is
 ///   sum w W,  W = [U(J) - U(J_e) - U'(J_e) (J - J_e)] + U(J_e).
 /// The bracket, a Bregman distance, is never negative and vanishes with its gradient where J = J_e:
-/// points of equal pressure feel no force, that of the surface does the work
+/// where the pressure is uniform there is no force but that on the surface, which does the work
 ///   dW/dJ = U'(J) - U'(J_e),   dW/dJ_e = U'(J_e) - U''(J_e) (J - J_e).
 /// As U'' is a power of J, the bracket is J_e^m U(1 + r) and dW/dJ = J_e^(m-1) U'(1 + r) with
 /// r = (J - J_e)/J_e: no cancellation. With J_e = 1, as at the beginning, W = U(J).

@@ -58,7 +58,7 @@ struct StepDemand {
 /// What a force call says besides the forces, about the motion it was called with.
 struct Report {
   Real heat = 0;  ///< power turned into heat
-  /// Power that the outside world puts in through what changes with time at fixed places:
+  /// Power supplied from outside by what changes with time at fixed places:
   /// ramps, partners that are moved. What a load does on the velocity is load_power().
   Real external_power = 0;
   StepDemand demand = {};

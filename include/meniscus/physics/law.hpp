@@ -106,8 +106,8 @@ concept WarningLaw = requires(const L law, const Tensor<Real> H) {
 };
 
 /// A law with a direction of its own. `director` is a unit vector of the reference, filled in by
-/// whoever puts the law on a body (reference_director.hpp); a law without a body has the one it was
-/// made with.
+/// whoever applies the law to a body (reference_director.hpp); a law without a body has the one it
+/// was made with.
 template <class L>
 concept DirectedLaw = requires(L law) {
   { law.director } -> std::same_as<std::array<Real, 3>&>;

@@ -30,7 +30,7 @@ struct Integration {
   bool enclosed = false;
 };
 
-/// A material read from a scene, ready to be put on a body.
+/// A material read from a scene, ready to be applied to a body.
 template <int D>
 class Material {
  public:
@@ -63,8 +63,8 @@ class MaterialOf final : public Material<D> {
       CellOperator<D> op = build_cell_rule(body);
       std::vector<Vec<D>> places;
       for (Index A = 0; A < body.size(); ++A) places.push_back(body.cell_origin(A));
-      return put(body, std::move(op.rule), laws_at(places, body.geometry), op.shape_integral,
-                 integration);
+      return integrated(body, std::move(op.rule), laws_at(places, body.geometry), op.shape_integral,
+                        integration);
     }
     const bool gauss = integration.rule == "gauss";
     const auto X = body.particles.X();
@@ -74,8 +74,8 @@ class MaterialOf final : public Material<D> {
     PointRule<D> rule =
         gauss ? build_gauss_rule(body, integration.gauss_points) : build_nodal_rule(body);
     if (!uniform()) rule.per_group = 1;
-    return put(body, std::move(rule), laws_at(places, body.geometry), shape_integrals(body),
-               integration);
+    return integrated(body, std::move(rule), laws_at(places, body.geometry), shape_integrals(body),
+                      integration);
   }
   bool fluid() const override { return FluidLaw<L>; }
 
@@ -112,9 +112,9 @@ class MaterialOf final : public Material<D> {
   }
 
   template <class Rule>
-  typename Material<D>::Built put(Body<D>& body, Rule rule, const std::vector<L>& laws,
-                                  const std::vector<Real>& shape_integral,
-                                  const Integration& integration) const {
+  typename Material<D>::Built integrated(Body<D>& body, Rule rule, const std::vector<L>& laws,
+                                         const std::vector<Real>& shape_integral,
+                                         const Integration& integration) const {
     std::vector<Real> density, viscosity;
     for (Index A = 0; A < body.size(); ++A) {
       const L law = law_.uniform() ? law_.base : law_at(body.origin(A), body.geometry);

@@ -11,7 +11,7 @@
 
 namespace meniscus {
 
-/// A law with its numbers, ready to be put on the surface of a body.
+/// A law with its numbers, ready to be applied to the surface of a body.
 class SurfaceMaterial {
  public:
   virtual ~SurfaceMaterial() = default;

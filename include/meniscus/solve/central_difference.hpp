@@ -12,7 +12,7 @@ namespace meniscus {
 template <int D>
 void start(System<D>& system, State& state);
 
-/// One step. Throws SolveError (System::compute_forces); `state` is then put back to the places
+/// One step. Throws SolveError (System::compute_forces); `state` is then set back to the places
 /// before the step, with the velocities of the half step, and its forces are not valid.
 template <int D>
 void advance(System<D>& system, State& state, Real dt);
