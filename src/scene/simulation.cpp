@@ -79,7 +79,7 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
 
 template <int D>
 bool Simulation<D>::finished() const {
-  return state_.time >= scene_.time.end || stepper_->arrived();
+  return state_.time >= scene_.time.end || stepper_->arrived() || stepper_->blocked();
 }
 
 /// A step of dt or, if that is rejected, of a half of it, and so on.
@@ -173,7 +173,7 @@ template <int D>
 void Simulation<D>::archive(const Archive& a) {
   state_.archive(a, D);
   a("last_step", last_step_, dimension::time);
-  require_saved(last_step_ >= 0, a, "last_step");
+  require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
   controller_.archive(a.in("step_control"));
   const Archive stepper = a.in("stepper").in(scene_.time.solver);
   if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's

@@ -45,7 +45,7 @@ Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances,
 
 template <int D>
 void Relaxation<D>::begin(const State& state) {
-  settled_windows_ = 0;
+  settled_windows_ = pulled_windows_ = 0;
   shape_change_ = 1;
   open_window(state, 0);
 }
@@ -96,11 +96,20 @@ void Relaxation<D>::judge(const State& state, Real dt) {
   const Change change = judged_window(state);
   const Real quarter = change.omega > 0 ? std::numbers::pi / (2 * change.omega) : 2 * elapsed;
   // A window that was much too short for the mode it has shown says nothing.
-  const bool settled = window_begin_ >= steady_after() && elapsed >= 0.25 * quarter &&
-                       shape_change_ <= tolerances_.shape &&
-                       force_residual(state) <= tolerances_.force;
+  const bool shaped = window_begin_ >= steady_after() && elapsed >= 0.25 * quarter &&
+                      shape_change_ <= tolerances_.shape;
+  const bool settled = shaped && force_residual(state) <= tolerances_.force;
   settled_windows_ = settled ? settled_windows_ + 1 : 0;
+  pulled_windows_ = shaped && !settled && pulled(state) ? pulled_windows_ + 1 : 0;
   open_window(state, ramps_ended ? 0 : std::min(0.5 * quarter, 2 * elapsed));
+}
+
+/// Whether a body is pulled, with nothing in its way that could stop it.
+template <int D>
+bool Relaxation<D>::pulled(const State& state) const {
+  return std::none_of(system_.terms.begin(), system_.terms.end(),
+                      [](const auto& term) { return term->stops_drift(); }) &&
+         !net_forces(system_, state).empty();
 }
 
 template <int D>
@@ -196,6 +205,8 @@ void Relaxation<D>::archive(const Archive& a, const State& state) {
   a("window_length", window_length_, dimension::time);
   a("shape_change", shape_change_);
   a("settled_windows", settled_windows_);
+  a("pulled_windows", pulled_windows_);
+  require_saved(settled_windows_ >= 0 && pulled_windows_ >= 0, a, "settled_windows");
 }
 
 template <int D>

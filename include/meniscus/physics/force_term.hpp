@@ -128,6 +128,8 @@ class ForceTerm {
   /// From when on the force depends on time through the motion only: the end of the last ramp;
   /// infinite for a load that never ceases to change.
   virtual Real steady_after() const { return 0; }
+  /// Whether bodies may drift to where the term stops them.
+  virtual bool stops_drift() const { return false; }
   /// Sum over the particles of the size of the forces on each before they cancel, to measure a
   /// residual by: integral of |P| / spacing for an internal force. Asked now and then only.
   virtual Real uncancelled_force(const Motion&) const { return 0; }

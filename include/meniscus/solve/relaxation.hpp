@@ -38,6 +38,8 @@ class Relaxation final : public Stepper<D> {
   void step(State& state, Real dt) override;
   /// Whether the bodies are at rest.
   bool arrived() const override { return settled_windows_ >= 2; }
+  /// Whether shapes have long been settled while bodies are pulled on by what nothing balances.
+  bool blocked() const override { return pulled_windows_ >= 10; }
   std::vector<Residual> residuals(const State& state) const override;
   std::string obstacle(const State& state) const override { return net_forces(system_, state); }
   void archive(const Archive& a, const State& state) override;
@@ -55,6 +57,7 @@ class Relaxation final : public Stepper<D> {
   void damp(State& state, Real dt);
   void open_window(const State& state, Real length);
   void judge(const State& state, Real dt);
+  bool pulled(const State& state) const;
   struct Change {
     Real omega;  ///< sqrt(- du.df / du.M du); 0 if there is no such frequency
     Real left;   ///< amplitude of that motion from now on, in units of du
@@ -76,7 +79,7 @@ class Relaxation final : public Stepper<D> {
   NodalVectors window_u_, window_force_;  ///< at the beginning of the window
   Real window_begin_ = 0, window_length_ = 0;
   Real shape_change_ = 1;
-  std::int64_t settled_windows_ = 0;
+  std::int64_t settled_windows_ = 0, pulled_windows_ = 0;  ///< in a row
 };
 
 }  // namespace meniscus

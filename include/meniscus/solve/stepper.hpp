@@ -31,6 +31,8 @@ class Stepper {
   virtual bool arrived() const { return false; }
   /// Of the present state, in the order of StepperEntry::residuals; none if it looks for nothing.
   virtual std::vector<Residual> residuals(const State&) const { return {}; }
+  /// Whether it cannot be reached any more, so that the run ends; obstacle() says why.
+  virtual bool blocked() const { return false; }
   /// What may keep the stepper from arriving; empty if it sees nothing.
   virtual std::string obstacle(const State&) const { return ""; }
 

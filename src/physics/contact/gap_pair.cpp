@@ -52,6 +52,7 @@ class GapPair final : public ForceTerm {
     return evaluated(first_, motion).energy() + evaluated(second_, motion).energy();
   }
   bool may_reject_steps() const override { return true; }
+  bool stops_drift() const override { return true; }
   std::optional<std::string> warning(const Motion& motion) const override {
     return unresolved_gap(name_, gap(motion), spacing(), range_);
   }

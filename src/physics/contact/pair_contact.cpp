@@ -79,6 +79,7 @@ class PairContact final : public ForceTerm {
   }
 
   bool may_reject_steps() const override { return true; }
+  bool stops_drift() const override { return true; }
 
   std::optional<std::string> warning(const Motion& motion) const override {
     return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {

@@ -59,6 +59,7 @@ class RigidContact final : public ForceTerm {
   Real steady_after() const override { return steady_after_; }
 
   bool may_reject_steps() const override { return true; }
+  bool stops_drift() const override { return true; }
 
   std::optional<std::string> warning(const Motion& motion) const override {
     return unresolved_gap(name_, evaluated(motion).gap(), points_.spacing(), interaction_->range());
