@@ -56,6 +56,16 @@ void EnergyResolution<D>::hold(Real allowed, std::int64_t step) {
   window_end_ = step + std::max(shortest_window, step / share_of_run);
 }
 
+template <int D>
+void EnergyResolution<D>::archive(const Archive& a) {
+  a("energy", energy_, of_sum(dimension::energy, D));
+  a("held", held_, dimension::time);
+  a("least", least_, dimension::time);
+  a("window_end", window_end_);
+  require_saved(energy_ >= 0 && held_ >= 0 && least_ >= 0 && window_end_ >= 0, a,
+                "energy_resolution");
+}
+
 template class EnergyResolution<2>;
 template class EnergyResolution<3>;
 

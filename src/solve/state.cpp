@@ -46,7 +46,7 @@ void State::archive(const Archive& a, int space_dimension) {
   a("time", time, dimension::time);
   a("step", step);
   a("epoch", epoch);
-  require_saved(time >= 0 && step >= 0, a, "time, step");
+  require_saved(time >= 0 && step >= 0 && step <= 1e15 && epoch >= 0, a, "time, step, epoch");
   a("displacement", u, space_dimension, dimension::length);
   a("velocity", v, space_dimension, dimension::velocity);
   a("force", force, space_dimension, of_sum(dimension::force, space_dimension));

@@ -115,16 +115,17 @@ void StepController<D>::archive(const Archive& a) {
   a("next_check", next_check_);
   a("last_check", last_check_);
   a("known_stiffness", known_stiffness_, {0, -2, 0});
-  require_saved(step_ > 0 && stable_.dt > 0 && stable_.of_fields > 0 && stable_.stiffness >= 0 &&
-                    stable_.viscosity >= 0 && first_limit_ > 0,
-                a, "step_control/step");
-  require_saved(interval_ > 0 && interval_ <= 1e9 && last_check_ >= 0 && next_check_ >= last_check_,
-                a, "step_control/interval");
   a("warned", warned_);
   std::optional<Real> fixed = choice_.fixed;
   Real safety = choice_.safety;
   a("fixed", fixed, dimension::time);
   a("safety", safety);
+  // What was fixed may have come to be above the limit since it was chosen.
+  require_saved(step_ > 0 && step_ <= fixed.value_or(stable_.dt), a, "step_control/step");
+  require_saved(first_limit_ > 0, a, "step_control/first_limit");
+  require_saved(interval_ > 0 && interval_ <= 1e9 && last_check_ >= 0 &&
+                    next_check_ >= last_check_ && next_check_ <= last_check_ + 1e9,
+                a, "step_control/interval");
   if (fixed != choice_.fixed || safety != choice_.safety) choose_step();
 }
 

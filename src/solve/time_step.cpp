@@ -61,6 +61,10 @@ void StableStep::archive(const Archive& a) {
   a("stiffness", stiffness, dimension::rate);
   a("viscosity", viscosity, dimension::rate);
   a("of_fields", of_fields, dimension::time);
+  const Real limit = 4 / (viscosity + std::sqrt(viscosity * viscosity + 4 * stiffness * stiffness));
+  require_saved(stiffness >= 0 && viscosity >= 0 && of_fields > 0 && dt > 0 &&
+                    dt <= std::min(limit * (1 + 1e-9), of_fields),
+                a, "stable/dt");
 }
 
 template <int D>

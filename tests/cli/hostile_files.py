@@ -26,10 +26,10 @@ def fnv(data, value=0xCBF29CE484222325):
 
 
 def state_hash(state):
-    """The hash that a group of flat arrays has to carry."""
-    value = 0xCBF29CE484222325
-    for name in sorted(state):
-        array = state[name][()]
+    """The hash that a group of arrays, of numbers, has to carry."""
+    value, arrays = 0xCBF29CE484222325, {}
+    state.visititems(lambda name, item: arrays.update({name: item[()]} if isinstance(item, h5py.Dataset) else {}))
+    for name, array in sorted(arrays.items()):
         kind = 0 if array.dtype.kind == "f" else 1
         value = fnv(struct.pack("<3Q", len(name), kind, array.nbytes), value)
         value = fnv(array.tobytes(), fnv(name.encode(), value))

@@ -6,9 +6,11 @@ import json
 import re
 import signal
 
+import h5py
 import numpy as np
 
 import program
+from hostile_files import sign
 from program import BLOCK, DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of, with_output
 
 
@@ -124,6 +126,44 @@ class EveryWay:
 
 class Drop(EveryWay, Restart):
     SCENE, TIME, LATER = DROP, "20.3 ps", "41 ps"
+
+
+class ChangedState(Restart):
+    """A state with the right hash that no run has is refused, by its name."""
+    NO_NUMBERS = {"nan": np.nan, "inf": np.inf}
+    LENGTHS = NO_NUMBERS | {"zero": 0.0, "negative": -1.0, "huge": 1e300}
+    CHANGES = {
+        "time": NO_NUMBERS | {"negative": -1.0},
+        "step": {"negative": -1, "huge": 1 << 62},
+        "epoch": {"negative": -1},
+        "last_step": NO_NUMBERS | {"negative": -1.0, "huge": 1e300},
+        "step_control/step": LENGTHS,
+        "step_control/stable/dt": LENGTHS,
+        "step_control/stable/stiffness": NO_NUMBERS | {"negative": -1.0, "huge": 1e300},
+        "step_control/stable/viscosity": NO_NUMBERS | {"negative": -1.0},
+        "step_control/first_limit": NO_NUMBERS | {"zero": 0.0, "negative": -1.0},
+        "step_control/interval": LENGTHS,
+        "step_control/next_check": {"negative": -1, "huge": 1 << 62},
+        "demand/longest": NO_NUMBERS | {"zero": 0.0, "negative": -1.0},
+        "stepper/dynamics/energy_resolution/energy": NO_NUMBERS | {"negative": -1.0},
+        "stepper/dynamics/energy_resolution/held": NO_NUMBERS | {"negative": -1.0},
+        "velocity": NO_NUMBERS,
+    }
+
+    def test_numbers_out_of_range(self):
+        scene = self.scene(with_output(DROP.replace('"60 ps"', '"15 ps"'), "restartable = true"))
+        self.call("run", scene, "--output", "whole")
+        original = (self.directory / "whole/run.h5").read_bytes()
+        path = self.directory / "changed.h5"
+        for name, changes in self.CHANGES.items():
+            for what, value in changes.items():
+                with self.subTest(name=name, change=what):
+                    path.write_bytes(original)
+                    with h5py.File(path, "r+") as file:
+                        file["steps/1/state"][name][-1] = value
+                        sign(file["steps/1"])
+                    self.refused(["run", scene, "--output", "on", "--restart", path, "--frame", 1], 5,
+                                 "out of range" if np.isfinite(value) else f"'{name}' is {value}")
 
 
 class RemappedDrop(EveryWay, Restart):

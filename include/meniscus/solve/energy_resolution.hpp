@@ -17,12 +17,7 @@ class EnergyResolution {
   /// caller needs a least step.
   Real longest_step(const System<D>& system, const State& state);
 
-  void archive(const Archive& a) {
-    a("energy", energy_, of_sum(dimension::energy, D));
-    a("held", held_, dimension::time);
-    a("least", least_, dimension::time);
-    a("window_end", window_end_);
-  }
+  void archive(const Archive& a);
 
  private:
   void hold(Real allowed, std::int64_t step);
