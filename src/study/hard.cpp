@@ -142,6 +142,7 @@ void run(StudyRun& study) {
   cases.stops("inverted from the start",
               box("[4, 4, 4]", "initial_displacement = [\"-1.5*x\", \"0\", \"0\"]\n" + solid, 1),
               "particle");
+  study::hard_solids(cases);
   study::hard_drops(cases);
   study::hard_contact(cases);
 }

@@ -40,6 +40,8 @@ void follow(Simulation<D>& simulation, const HardRun& how, HardOutcome& outcome)
     const Ledger ledger = simulation.audit_now();
     outcome.final_energy_error = std::abs(simulation.audit().balance_error(ledger));
     outcome.energy_error = std::max(outcome.energy_error, outcome.final_energy_error);
+    outcome.momentum_error =
+        std::max(outcome.momentum_error, simulation.audit().momentum_error(ledger));
     outcome.angular_momentum_error =
         std::max(outcome.angular_momentum_error, simulation.audit().angular_momentum_error(ledger));
   }

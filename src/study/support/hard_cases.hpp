@@ -15,7 +15,7 @@ struct HardOutcome {
   Real steps = 0;
   Real energy_error = 0;  ///< largest error of the energy balance
   Real final_energy_error = 0;
-  Real angular_momentum_error = 0;  ///< largest
+  Real momentum_error = 0, angular_momentum_error = 0;  ///< largest
   Real first_allowed_step = 0, least_allowed_step = unbounded;
   std::map<std::string, Real> least;  ///< smallest so far of the measures that are watched
   std::string stopped;                ///< message of the failure; empty if it ran to its end
@@ -50,6 +50,9 @@ class HardCases {
  private:
   StudyRun& study_;
 };
+
+/// Cases of solids of every law.
+void hard_solids(HardCases& cases);
 
 /// Cases of drops.
 void hard_drops(HardCases& cases);
