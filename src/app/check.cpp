@@ -5,6 +5,7 @@
 #include "meniscus/app/print.hpp"
 #include "meniscus/app/set_up.hpp"
 #include "meniscus/core/box.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/scene/simulation.hpp"
 
 #include <fmt/core.h>
@@ -34,8 +35,14 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     std::string ranges;
     for (int i = 0; i < D; ++i)
       ranges += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", box.low[i], box.high[i]);
-    say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}\n", body.name, ranges,
-        unit(dimension::length), least, largest, unit(dimension::length));
+    std::string stretched;
+    if (const Mat<D>* pressed = body.particles.pressed()) {
+      const Vec<D> shares = symmetric_eigenvalues<D>(*pressed);
+      stretched = fmt::format(", stretched by {:.4g} to {:.4g} as its cells", 1 / shares[D - 1],
+                              1 / shares[0]);
+    }
+    say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}{}\n", body.name, ranges,
+        unit(dimension::length), least, largest, unit(dimension::length), stretched);
   }
   for (const auto& term : scene.system.terms)
     say("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),

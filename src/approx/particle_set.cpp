@@ -2,6 +2,7 @@
 // Supports of particles and the deficiency monitor.
 #include "meniscus/approx/particle_set.hpp"
 
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
 
@@ -33,22 +34,42 @@ class FourPoints {
 }  // namespace
 
 template <int D>
-ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window)
-    : X_(std::move(X)), support_(X_.size()), window_(window), search_(X_) {
+auto ParticleSet<D>::press(const Mat<D>& stretch, std::span<const Vec<D>> X)
+    -> std::optional<Pressed> {
+  if (stretch == Mat<D>::Identity()) return {};
+  const Mat<D> inverse_stretch = inverse<D>(stretch);
+  std::vector<Vec<D>> places;
+  for (const Vec<D>& x : X) places.push_back(inverse_stretch * x);
+  NeighborSearch<D> search(places);
+  return Pressed{inverse_stretch, symmetric_eigenvalues<D>(inverse_stretch)[D - 1],
+                 std::move(places), std::move(search)};
+}
+
+template <int D>
+ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window,
+                            const Mat<D>& stretch)
+    : X_(std::move(X)),
+      support_(X_.size()),
+      window_(window),
+      search_(X_),
+      pressed_(press(stretch, X_)) {
   parallel_for(size(), [&](Index A) {
     // The particle is its own nearest point.
-    at(support_, A) = rule.factor * search_.distance_of_nearest(at(X_, A), rule.rank + 1);
+    at(support_, A) =
+        rule.factor * kernel_search().distance_of_nearest(at(kernel_X(), A), rule.rank + 1);
   });
   for (const Real support : support_) largest_support_ = std::max(largest_support_, support);
 }
 
 template <int D>
-ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, Window window)
+ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
+                            const Mat<D>& stretch)
     : X_(std::move(X)),
       support_(X_.size(), support),
       largest_support_(support),
       window_(window),
-      search_(X_) {}
+      search_(X_),
+      pressed_(press(stretch, X_)) {}
 
 template <int D>
 Index ParticleSet<D>::limit_supports(std::vector<Real> limit) {
@@ -68,28 +89,32 @@ void ParticleSet<D>::find(const Vec<D>& centre, Real radius, Keep&& keep,
                           std::vector<Candidate<D>>& found) const {
   thread_local std::vector<Index> near;
   // Supports differ: the search finds many more than it keeps, so it does not sort.
-  search_.within_unsorted(centre, radius + largest_support_, near);
-  std::erase_if(near, [&](Index A) { return !keep(at(X_, A), at(support_, A)); });
+  kernel_search().within_unsorted(centre, radius + largest_support_, near);
+  const auto X = kernel_X();
+  std::erase_if(near, [&](Index A) { return !keep(at(X, A), at(support_, A)); });
   std::sort(near.begin(), near.end());
   found.clear();
-  for (const Index A : near) found.push_back({A, at(support_, A), at(X_, A)});
+  for (const Index A : near) found.push_back({A, at(support_, A), at(X, A)});
 }
 
 template <int D>
 void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
                                 std::vector<Candidate<D>>& found) const {
+  const Vec<D> middle = kernel_place(centre);
+  const Real reach = pressed_ ? pressed_->growth * radius : radius;
   const auto keep = [&](const Vec<D>& X, Real support) {
-    return (X - centre).norm() < radius + support;
+    return (X - middle).norm() < reach + support;
   };
-  find(centre, radius, keep, found);
+  find(middle, reach, keep, found);
 }
 
 template <int D>
-void ParticleSet<D>::candidates(const std::array<Vec<D>, 4>& points,
+void ParticleSet<D>::candidates(const std::array<Vec<D>, 4>& x,
                                 std::vector<Candidate<D>>& found) const {
+  const std::array<Vec<D>, 4> points = kernel_places(x);
   const Vec<D> centre = 0.25 * ((points[0] + points[1]) + (points[2] + points[3]));
   Real radius = 0;
-  for (const Vec<D>& x : points) radius = std::max(radius, (x - centre).norm());
+  for (const Vec<D>& point : points) radius = std::max(radius, (point - centre).norm());
   find(centre, radius * (1 + 1e-12), FourPoints<D>(points), found);
 }
 
@@ -125,8 +150,9 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
       const Vec<D>& x = at(points, at(poor, k));
       candidates(x, 0, reaching);
       ReproducingKernel<D> kernel(window_);
+      const Vec<D> place = kernel_place(x);
       if (static_cast<int>(reaching.size()) >= kernel.basis_size)
-        kernel.evaluate({x, x, x, x}, reaching, Derivatives::none);
+        kernel.evaluate({place, place, place, place}, reaching, Derivatives::none);
       at(quality, at(poor, k)) = kernel.quality()[0];
     });
     std::erase_if(poor, [&](Index q) { return at(quality, q) >= poor_quality; });
@@ -135,11 +161,12 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
     // that do not reach it now, else no new neighbours would come in.
     growth *= 1.1;
     for (const Index q : poor) {
-      search_.within(at(points, q), growth * largest_asked_for, near);
+      const Vec<D> place = kernel_place(at(points, q));
+      kernel_search().within(place, growth * largest_asked_for, near);
       for (const Index A : near) {
         Real enlarged = growth * at(asked_for, A);
         if (!limit_.empty()) enlarged = std::min(enlarged, at(limit_, A));
-        if ((at(X_, A) - at(points, q)).norm() < enlarged)
+        if ((at(kernel_X(), A) - place).norm() < enlarged)
           at(support_, A) = std::max(at(support_, A), enlarged);
       }
     }

@@ -41,6 +41,24 @@ void append_row(PointRows<D>& rows, const std::vector<Candidate<D>>& candidates,
   rows.start.push_back(static_cast<Offset>(e));
 }
 
+/// Derivatives at places G x, N,i = N,k G_ki, to those at x; G symmetric.
+template <int D>
+void stretch_derivatives(PointRows<D>& rows, const Mat<D>& G) {
+  for (std::size_t e = 0; e < rows.gradient.size() / D; ++e) {
+    Eigen::Map<Vec<D>> gradient(&rows.gradient[e * D]);
+    gradient = (G * gradient).eval();
+  }
+  constexpr auto pairs = static_cast<std::size_t>(hessian_count(D));
+  for (std::size_t e = 0; e < rows.hessian.size() / pairs; ++e) {
+    Mat<D> H;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) H(i, j) = at(rows.hessian, e * pairs + hessian_index(D, i, j));
+    H = (G * H * G).eval();
+    for (int i = 0; i < D; ++i)
+      for (int j = i; j < D; ++j) at(rows.hessian, e * pairs + hessian_index(D, i, j)) = H(i, j);
+  }
+}
+
 template <int D, int Degree>
 PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
                         RowContent content, const std::string& body) {
@@ -59,7 +77,7 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   kernel.use(particles.window());
   if (candidates.size() < static_cast<std::size_t>(kernel.basis_size))
     particles.require_quality(0, batch[0], body);
-  kernel.evaluate(batch, candidates, order);
+  kernel.evaluate(particles.kernel_places(batch), candidates, order);
 
   PointRows<D> rows;
   rows.particle.reserve(candidates.size() * points.size());
@@ -72,6 +90,7 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
     particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane], body, least);
     append_row(rows, candidates, content, kernel, static_cast<int>(lane));
   }
+  if (particles.pressed()) stretch_derivatives(rows, *particles.pressed());
   return rows;
 }
 

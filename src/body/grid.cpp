@@ -149,6 +149,18 @@ Real mean_spacing(const Grid<D>& grid) {
 }
 
 template <int D>
+Mat<D> mean_stretch(const Grid<D>& grid) {
+  Mat<D> squares = Mat<D>::Zero();
+  for (Index e = 0; e < grid.cell_count(); ++e) {
+    const auto corners = grid.corner_points(at(grid.cells, e));
+    const Mat<D> J = cell_point<D>(corners, grid.bulge(e), Vec<D>::Zero()).J;
+    squares += J * J.transpose();
+  }
+  const Mat<D> U = square_root<D>(squares / std::pow(determinant<D>(squares), 1.0 / D));
+  return U.isApprox(Mat<D>::Identity(), 1e-9) ? Mat<D>(Mat<D>::Identity()) : U;
+}
+
+template <int D>
 std::vector<Index> boundary_nodes(const Grid<D>& grid) {
   std::vector<Index> nodes;
   for (const auto& facet : grid.facets)
@@ -201,6 +213,7 @@ CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
   template NodeCells cells_of_nodes<D>(const Grid<D>&);                               \
   template Real volume(const Grid<D>&);                                               \
   template Real mean_spacing(const Grid<D>&);                                         \
+  template Mat<D> mean_stretch(const Grid<D>&);                                       \
   template std::vector<Index> boundary_nodes(const Grid<D>&);                         \
   template std::vector<std::array<Index, D>> triangulate_boundary<D>(const Grid<D>&); \
   template CellPoints<D> cell_gauss_points(const Grid<D>&, int);

@@ -29,8 +29,9 @@ void add_integrals(const Body<D>& body, std::span<const Vec<D>> points,
       batch[lane] = points[std::min(q + lane, points.size() - 1)];
       if (q + lane < points.size()) batch_weight[lane] = weight[q + lane];
     }
-    select_near<D>(batch, candidates, near, number);
-    kernel.evaluate(batch, near, Derivatives::none);
+    const auto places = body.particles.kernel_places(batch);
+    select_near<D>(places, candidates, near, number);
+    kernel.evaluate(places, near, Derivatives::none);
     for (std::size_t lane = 0; lane < 4; ++lane)
       body.particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane],
                                      body.name);

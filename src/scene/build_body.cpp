@@ -21,12 +21,16 @@ ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& g
   Window window{};
   for (std::size_t k = 0; k < window_names.size(); ++k)
     if (window_names[k] == settings.window) window = static_cast<Window>(k);
+  // Cells of a body with edges or a cavity are made as its walls need them.
+  const bool round = geometry.surface->smooth() && !is_hollow(geometry);
+  const Mat<D> stretch = round ? mean_stretch(geometry.grid) : Mat<D>(Mat<D>::Identity());
   if (settings.support_spacings > 0)
-    return {geometry.grid.X, settings.support_spacings * mean_spacing(geometry.grid), window};
+    return {geometry.grid.X, settings.support_spacings * mean_spacing(geometry.grid), window,
+            stretch};
   typename ParticleSet<D>::AdaptiveSupport rule;
   rule.factor = settings.support_factor;
   if (settings.support_rank > 0) rule.rank = settings.support_rank;
-  return {geometry.grid.X, rule, window};
+  return {geometry.grid.X, rule, window, stretch};
 }
 
 /// Where the deficiency monitor looks: particles, cell centres, and a point per surface facet.

@@ -88,7 +88,9 @@ Rows<BodySettings> BodySettings::rows() {
           "automatic"),
       choice_row("window", &S::window, windows(), "window function of the kernel", "cubic_spline"),
       real_row("support_factor", &S::support_factor, dimension::none, {1, 10},
-               "support of a particle / distance to its neighbour of rank support_rank", 1.8),
+               "support of a particle / distance to its neighbour of rank support_rank; both are "
+               "measured after a round body, as an ellipsoid, is pressed back to a ball",
+               1.8),
       integer_row("support_rank", &S::support_rank, {0, 200},
                   "rank of that neighbour; 0: 20 in 3D, 8 in 2D", 0),
       real_row("support_spacings", &S::support_spacings, dimension::none, {0, 20},

@@ -42,6 +42,26 @@ TEST(ParticleSet, CandidatesReachTheBall) {
   }
 }
 
+/// Candidates of a ball are all that reach into it.
+TEST(ParticleSet, StretchedSupportsReachTheBall) {
+  Mat<2> stretch;
+  stretch << 2, 0, 0, 0.5;
+  const auto geometry = test::brick<2>({9, 8}, 0.3);
+  const ParticleSet<2> particles(geometry.grid.X, 2.1, Window::cubic_spline, stretch);
+  const Vec<2> centre(0.3, -1.1);
+  std::vector<Candidate<2>> found;
+  particles.candidates(centre, 0.7, found);
+  for (Index A = 0; A < particles.size(); ++A)
+    for (int k = 0; k < 100; ++k) {
+      const Real angle = 0.0628 * k;
+      const Vec<2> x = centre + 0.7 * Vec<2>(std::cos(angle), std::sin(angle)),
+                   d = at(particles.X(), A) - x;
+      if (std::hypot(d[0] / 2, 2 * d[1]) >= 2.1) continue;
+      EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                              [&](const Candidate<2>& c) { return c.particle == A; }));
+    }
+}
+
 TEST(ParticleSet, GoodSupportsAreLeftAlone) {
   const auto geometry = test::ball(4, 2);
   ParticleSet<3> particles(geometry.grid.X, ParticleSet<3>::AdaptiveSupport{},

@@ -104,6 +104,42 @@ TEST(Reproduction, WithEveryWindow) {
   }
 }
 
+template <int D>
+Geometry<D> stretched(const Geometry<D>& round) {
+  Mat<D> A = Mat<D>::Identity();
+  A(1, 1) = 4;
+  A(0, 1) = 0.7;
+  return apply_map<D>(affine_map<D>(A, Vec<D>::Constant(0.3)), round);
+}
+
+/// Supports that follow a stretch make the functions of the body before it.
+template <int D>
+void expect_functions_of(const Geometry<D>& round) {
+  const Geometry<D> geometry = stretched<D>(round);
+  const auto make = [](const Geometry<D>& g) {
+    return ParticleSet<D>(g.grid.X, test::Support<D>{}, Window::cubic_spline, mean_stretch(g.grid));
+  };
+  const ParticleSet<D> before = make(round), particles = make(geometry);
+  EXPECT_EQ(before.pressed(), nullptr);
+  ASSERT_NE(particles.pressed(), nullptr);
+  const auto points = test_points(geometry);
+  const auto rows = build_point_rows<D>(particles, points, everything, "body");
+  const Errors e = reproduction_errors<D>(particles, points, rows, mean_spacing(geometry.grid));
+  EXPECT_LT(e.value, 1e-13);
+  EXPECT_LT(e.gradient, 1e-12);
+  EXPECT_LT(e.hessian, 1e-11);
+  const auto at_nodes = build_point_rows<D>(particles, geometry.grid.X, {.value = true}, "body"),
+             as_before = build_point_rows<D>(before, round.grid.X, {.value = true}, "body");
+  ASSERT_EQ(at_nodes.particle, as_before.particle);
+  for (std::size_t k = 0; k < at_nodes.value.size(); ++k)
+    ASSERT_NEAR(at_nodes.value[k], as_before.value[k], 1e-12);
+}
+
+TEST(Reproduction, OfSupportsThatFollowAStretch) {
+  expect_functions_of<2>(test::disk(8, 4));
+  expect_functions_of<3>(test::ball(4, 2));
+}
+
 TEST(Reproduction, DoesNotDependOnTheUnits) {
   // A drop of nanometres in SI, far from the origin.
   const auto shift = affine_map<3>(1e-9 * Mat<3>::Identity(), Vec<3>(5e-8, 0, -3e-8));

@@ -4,6 +4,7 @@
 #include "meniscus/approx/neighbor_search.hpp"
 #include "meniscus/approx/reproducing_kernel.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace meniscus {
 
 /// Reference positions and supports, with the search tree over them. Never changes once rows are
 /// built on it.
+///
+/// Supports are balls after the body has been pressed back by a stretch U: shape functions are
+/// those of the places U^-1 X, N_A(x) = M_A(U^-1 x), and lengths of supports are measured there.
+/// Those of a stretched ball are then as good as those of the ball.
 template <int D>
 class ParticleSet {
  public:
@@ -20,9 +25,12 @@ class ParticleSet {
     int rank = D == 3 ? 20 : 8;
   };
 
-  ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window);
+  /// `stretch` U: symmetric, det U = 1.
+  ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window,
+              const Mat<D>& stretch = Mat<D>::Identity());
   /// The same support for all particles.
-  ParticleSet(std::vector<Vec<D>> X, Real support, Window window);
+  ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
+              const Mat<D>& stretch = Mat<D>::Identity());
 
   Index size() const { return static_cast<Index>(X_.size()); }
   std::span<const Vec<D>> X() const { return X_; }
@@ -30,11 +38,25 @@ class ParticleSet {
   Window window() const { return window_; }
   const NeighborSearch<D>& search() const { return search_; }
 
+  /// U^-1; null where supports are balls in space.
+  const Mat<D>* pressed() const { return pressed_ ? &pressed_->inverse_stretch : nullptr; }
+  /// U^-1 x: where kernels are evaluated.
+  Vec<D> kernel_place(const Vec<D>& x) const {
+    return pressed_ ? Vec<D>(pressed_->inverse_stretch * x) : x;
+  }
+  template <std::size_t n>
+  std::array<Vec<D>, n> kernel_places(std::array<Vec<D>, n> x) const {
+    if (pressed_)
+      for (Vec<D>& place : x) place = kernel_place(place);
+    return x;
+  }
+
   /// From now on no support exceeds `limit`, one number per particle, e.g. the distance to the
   /// other side of a cavity. Returns how many supports were shortened.
   Index limit_supports(std::vector<Real> limit);
 
-  /// All particles whose support reaches into the ball around `centre`, by ascending number.
+  /// All particles whose support reaches into the ball around `centre`, by ascending number; with
+  /// stretched supports also some that do not. Places of candidates are kernel places.
   void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
   /// All particles whose support reaches one of the points, by ascending number.
   void candidates(const std::array<Vec<D>, 4>& points, std::vector<Candidate<D>>& found) const;
@@ -56,6 +78,17 @@ class ParticleSet {
   static constexpr Real poor_quality = 1e-2;
 
  private:
+  /// The places U^-1 X of stretched supports.
+  struct Pressed {
+    Mat<D> inverse_stretch;
+    Real growth;  ///< of a length at most
+    std::vector<Vec<D>> X;
+    NeighborSearch<D> search;
+  };
+  static std::optional<Pressed> press(const Mat<D>& stretch, std::span<const Vec<D>> X);
+  std::span<const Vec<D>> kernel_X() const { return pressed_ ? pressed_->X : X_; }
+  const NeighborSearch<D>& kernel_search() const { return pressed_ ? pressed_->search : search_; }
+
   template <class Keep>
   void find(const Vec<D>& centre, Real radius, Keep&& keep, std::vector<Candidate<D>>& found) const;
   [[noreturn]] void refuse(Real quality, const Vec<D>& x, const std::string& body) const;
@@ -66,9 +99,11 @@ class ParticleSet {
   Real largest_support_ = 0;
   Window window_;
   NeighborSearch<D> search_;
+  std::optional<Pressed> pressed_;
 };
 
-/// The candidates whose support reaches one of the four points, and their numbers in `candidates`.
+/// The candidates whose support reaches one of the four kernel places, and their numbers in
+/// `candidates`.
 template <int D>
 void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
                  std::vector<Candidate<D>>& near, std::vector<std::size_t>& number);

@@ -147,6 +147,13 @@ Real volume(const Grid<D>& grid);
 template <int D>
 Real mean_spacing(const Grid<D>& grid);
 
+/// How the cells are stretched in the mean: U symmetric, det U = 1, U^2 proportional to the sum of
+/// J J^T at the centres of the cells. After a map A it is that of A U: where the cells of a unit
+/// shape point nowhere, as those of a ball, it is the left stretch of A. What deviates from I by
+/// less than 1e-9 is I.
+template <int D>
+Mat<D> mean_stretch(const Grid<D>& grid);
+
 /// Nodes that lie on a boundary facet, ascending.
 template <int D>
 std::vector<Index> boundary_nodes(const Grid<D>& grid);
