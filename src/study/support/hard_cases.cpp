@@ -26,6 +26,17 @@ void note_watched(const Simulation<D>& simulation, const HardRun& how, HardOutco
 }
 
 template <int D>
+void audit(Simulation<D>& simulation, HardOutcome& outcome) {
+  const Ledger ledger = simulation.audit_now();
+  const Audit& audit = simulation.audit();
+  outcome.final_energy_error = std::abs(audit.balance_error(ledger));
+  outcome.energy_error = std::max(outcome.energy_error, outcome.final_energy_error);
+  outcome.momentum_error = std::max(outcome.momentum_error, audit.momentum_error(ledger));
+  outcome.angular_momentum_error =
+      std::max(outcome.angular_momentum_error, audit.angular_momentum_error(ledger));
+}
+
+template <int D>
 void follow(Simulation<D>& simulation, const HardRun& how, HardOutcome& outcome) {
   const Real end = simulation.scene().time.end;
   simulation.begin();
@@ -36,15 +47,9 @@ void follow(Simulation<D>& simulation, const HardRun& how, HardOutcome& outcome)
     if (outcome.steps == 1) outcome.first_allowed_step = allowed;
     outcome.least_allowed_step = std::min(outcome.least_allowed_step, allowed);
     if (!how.watched.empty()) note_watched(simulation, how, outcome);
-    if (static_cast<std::int64_t>(outcome.steps) % 50) continue;
-    const Ledger ledger = simulation.audit_now();
-    outcome.final_energy_error = std::abs(simulation.audit().balance_error(ledger));
-    outcome.energy_error = std::max(outcome.energy_error, outcome.final_energy_error);
-    outcome.momentum_error =
-        std::max(outcome.momentum_error, simulation.audit().momentum_error(ledger));
-    outcome.angular_momentum_error =
-        std::max(outcome.angular_momentum_error, simulation.audit().angular_momentum_error(ledger));
+    if (static_cast<std::int64_t>(outcome.steps) % 50 == 0) audit(simulation, outcome);
   }
+  audit(simulation, outcome);
 }
 
 template <int D>
