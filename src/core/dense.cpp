@@ -48,6 +48,7 @@ MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE
 template Vec<2> solve_symmetric<2>(const Mat<2>&, const Vec<2>&);
 template Vec<3> solve_symmetric<3>(const Mat<3>&, const Vec<3>&);
+template Vec<4> solve_symmetric<4>(const Mat<4>&, const Vec<4>&);
 template Vec<5> solve_symmetric<5>(const Mat<5>&, const Vec<5>&);
 
 }  // namespace meniscus

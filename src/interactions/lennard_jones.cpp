@@ -82,20 +82,23 @@ class Model final : public ContactModel<D> {
   void check(const Block&, bool) const override {}
 
   std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
-                                     const ContactChoice& choice) const override {
+                                     const ContactChoice& choice,
+                                     const ContactSurfaces&) const override {
     return contact_pair<D>({first, k_.beta}, {second, k_.beta_other}, law(k_.cutoff), choice);
   }
   std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
-                                          const ContactChoice& choice) const override {
+                                          const ContactChoice& choice,
+                                          const ContactSurfaces&) const override {
     const ContactLaw uncut = law(std::numeric_limits<Real>::infinity());
     MovingPartner<D> partner{plan.shape->lennard_jones(uncut, k_.beta_other), plan.motion,
                              k_.beta_other, plan.velocity_step};
     return rigid_contact<D>({body, k_.beta}, std::move(partner), uncut, choice);
   }
-  PlaneContact flat(bool rigid) const override {
+  PlaneContact flat(bool rigid, const ContactSurfaces&) const override {
     return plane_contact(law(rigid ? std::numeric_limits<Real>::infinity() : k_.cutoff),
                          k_.beta * k_.beta_other);
   }
+  std::optional<std::string> doubt(const ContactSurfaces&) const override { return std::nullopt; }
 
  private:
   ContactLaw law(Real cutoff) const {

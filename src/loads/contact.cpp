@@ -2,6 +2,7 @@
 // Adhesive contact of two bodies, or of a body with a rigid partner.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/optional_rows.hpp"
+#include "meniscus/measure/wetting_measures.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 #include "meniscus/physics/contact_resolution.hpp"
 #include "meniscus/physics/containment.hpp"
@@ -101,6 +102,7 @@ struct Contact final : Load<D>, Keys {
   std::optional<Partner<D>> partner;  // none: between two bodies
 
   void read_inner(const Block& block) {
+    if (!block.has("interaction") && block.has("contact_angle")) interaction = "smooth_young";
     model = interactions<D>().at(interaction).read(block);
     if (const auto table = block.table("partner")) {
       partner = read<Partner<D>>(*table);
@@ -117,6 +119,10 @@ struct Contact final : Load<D>, Keys {
 
  private:
   ContactChoice choice(const Assembly<D>& assembly) const;
+  ContactSurfaces surfaces(const Assembly<D>& assembly) const;
+  PlaneContact flat(const Assembly<D>& assembly) const {
+    return model->flat(partner.has_value(), surfaces(assembly));
+  }
   ContactResolution resolution(const Assembly<D>& assembly) const;
   int points_chosen(const Assembly<D>& assembly) const;
   std::unique_ptr<ForceTerm> term(const Assembly<D>& assembly) const;
@@ -126,6 +132,7 @@ struct Contact final : Load<D>, Keys {
   void report_points(Assembly<D>& assembly) const;
   StateCheck containment(const Assembly<D>& assembly) const;
   void report(const ForceTerm& term, Assembly<D>& assembly) const;
+  void measure_wetting(Assembly<D>& assembly) const;
 };
 
 template <int D>
@@ -167,14 +174,19 @@ void Contact<D>::build(Assembly<D>& assembly) const {
     for (const std::string& body : bodies)
       assembly.keep_reference(body, "its [[contact]] has beta per volume of the reference");
   assembly.add(std::move(term), name);
+  measure_wetting(assembly);
+}
+
+template <int D>
+ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
+  Real facet = 0;
+  for (const std::string& body : bodies) facet = std::max(facet, facet_size(assembly.body(body)));
+  return {this->place, facet, assembly.surface_energy(bodies[0])};
 }
 
 template <int D>
 ContactResolution Contact<D>::resolution(const Assembly<D>& assembly) const {
-  Real facet = 0;
-  for (const std::string& body : bodies) facet = std::max(facet, facet_size(assembly.body(body)));
-  const bool rigid = partner.has_value();
-  return {facet, model->flat(rigid).equilibrium_gap, rigid};
+  return {surfaces(assembly).facet, flat(assembly).equilibrium_gap, partner.has_value()};
 }
 
 template <int D>
@@ -198,9 +210,10 @@ ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
 template <int D>
 std::unique_ptr<ForceTerm> Contact<D>::term(const Assembly<D>& assembly) const {
   const Body<D>& first = assembly.body(bodies[0]);
-  if (!partner) return model->between(first, assembly.body(bodies[1]), choice(assembly));
+  if (!partner)
+    return model->between(first, assembly.body(bodies[1]), choice(assembly), surfaces(assembly));
   return model->with_partner(first, {partner->shape, partner_motion(), 1e-4 * assembly.end_time()},
-                             choice(assembly));
+                             choice(assembly), surfaces(assembly));
 }
 
 template <int D>
@@ -269,7 +282,7 @@ StateCheck Contact<D>::containment(const Assembly<D>& assembly) const {
 template <int D>
 void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   const auto unit = [&](Dimension d) { return assembly.units().symbol(d); };
-  const PlaneContact flat = model->flat(partner.has_value());
+  const PlaneContact flat = this->flat(assembly);
   std::string note = fmt::format("contact '{}', {}, form {}: adhesion W = {:.6g} {}", name,
                                  interaction, form, flat.adhesion, unit(dimension::tension));
   if (flat.lost_adhesion() > 0)
@@ -285,6 +298,8 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   assembly.note(
       fmt::format("contact '{}': {:.1f} MB", name, 1e-6 * static_cast<Real>(term.bytes())));
   report_points(assembly);
+  if (const auto doubt = model->doubt(surfaces(assembly)))
+    assembly.warn(fmt::format("contact '{}': {}", name, *doubt));
   if (form == "dissertation")
     assembly.warn(fmt::format(
         "contact '{}': form = \"dissertation\" is not the gradient of an energy: energy drifts at "
@@ -295,6 +310,23 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
         "contact '{}': form = \"pressure\" conserves energy and momenta only where the points are "
         "closer than a third of the gap",
         name));
+}
+
+/// What a drop does on a wall.
+template <int D>
+void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
+  if (!partner || !assembly.surface_energy(bodies[0])) return;
+  for (MeasureSource& source :
+       wetted_measures<D>(assembly.measure_named(name + ".energy"), flat(assembly).adhesion))
+    assembly.measure(name, std::move(source));
+  if (!partner->shape->flat()) return;
+  for (MeasureSource& source : cap_measures<D>(
+           assembly.body(bodies[0]),
+           [shape = partner->shape, moved = partner_motion()](const Vec<D>&x, Real t) {
+             return shape->foot(x - moved.displacement(t)).distance;
+           },
+           flat(assembly).peak_gap))
+    assembly.measure(name, std::move(source));
 }
 
 const bool registered = register_load<Contact>(

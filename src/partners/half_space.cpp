@@ -28,6 +28,7 @@ struct HalfSpace final : PartnerShape<D> {
     const Vec<D> n = Vec<D>::Map(normal.data()).normalized();
     return {n.dot(x - Vec<D>::Map(point.data())), n, Mat<D>::Zero()};
   }
+  bool flat() const override { return true; }
   std::unique_ptr<RigidPartner<D>> lennard_jones(const ContactLaw& law, Real beta) const override {
     return rigid_half_space<D>(law, beta, Vec<D>::Map(point.data()), Vec<D>::Map(normal.data()));
   }

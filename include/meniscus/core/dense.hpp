@@ -27,7 +27,7 @@ Vec<D> symmetric_eigenvalues(const Mat<D>& S);
 template <int D>
 Mat<D> square_root(const Mat<D>& S);
 
-/// x of S x = b, S symmetric and not indefinite (L D L^T with pivots); n = 2, 3, 5.
+/// x of S x = b, S symmetric and not indefinite (L D L^T with pivots); n = 2 to 5.
 template <int n>
 Vec<n> solve_symmetric(const Mat<n>& S, const Vec<n>& b);
 

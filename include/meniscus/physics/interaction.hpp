@@ -4,6 +4,9 @@
 #pragma once
 #include "meniscus/core/types.hpp"
 
+#include <optional>
+#include <string>
+
 namespace meniscus {
 
 /// Two flat surfaces with a gap g between them: e(g) energy per area, zero far apart, p = -e'
@@ -38,6 +41,10 @@ class Interaction {
   /// Steps into a narrower gap are rejected.
   virtual Real least_gap() const = 0;
   virtual PlaneContact flat() const = 0;
+  /// Why it may be wrong on facets of that size, if it may.
+  virtual std::optional<std::string> doubt([[maybe_unused]] Real facet) const {
+    return std::nullopt;
+  }
 };
 
 }  // namespace meniscus

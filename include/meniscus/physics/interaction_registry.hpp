@@ -2,7 +2,7 @@
 // The registry of interactions by which a [[contact]] acts.
 //
 // A law of the gap is a struct derived from Interaction in its own file in src/interactions, with
-// rows() and an example, which ends with
+// rows(), an example and, if it needs them, check(block) and fitted(surfaces), which ends with
 //   const bool registered = register_interaction<MyLaw>("my_law", "what it is");
 // It then acts between two bodies, and between a body and rigid partners of any shape. A
 // ContactModel of its own is for interactions that know more than a law of the gap.
@@ -20,7 +20,15 @@ struct PartnerPlan {
   Real velocity_step;  ///< as in MovingPartner
 };
 
-/// An interaction with its numbers, ready to act between bodies.
+/// What an interaction can know of the surfaces between which it acts, for numbers that a scene
+/// leaves to it.
+struct ContactSurfaces {
+  std::string place;          ///< of the contact in the scene, for messages
+  Real facet;                 ///< edge of the larger facets
+  std::optional<Real> gamma;  ///< surface tension of the first body, if it has any
+};
+
+/// An interaction as a scene describes it, ready to act between bodies.
 template <int D>
 class ContactModel {
  public:
@@ -29,11 +37,15 @@ class ContactModel {
   /// Notes in the block what cannot be, between two bodies or of one with a rigid partner.
   virtual void check(const Block& block, bool rigid) const = 0;
   virtual std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
-                                             const ContactChoice& choice) const = 0;
+                                             const ContactChoice& choice,
+                                             const ContactSurfaces& surfaces) const = 0;
   virtual std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
-                                                  const ContactChoice& choice) const = 0;
+                                                  const ContactChoice& choice,
+                                                  const ContactSurfaces& surfaces) const = 0;
   /// What it means for flat surfaces.
-  virtual PlaneContact flat(bool rigid) const = 0;
+  virtual PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const = 0;
+  /// Why it may be wrong there, if it may.
+  virtual std::optional<std::string> doubt(const ContactSurfaces& surfaces) const = 0;
 };
 
 template <int D>
@@ -49,9 +61,12 @@ const Registry<InteractionEntry<D>>& interactions() {
   return Registry<InteractionEntry<D>>::all();
 }
 
+/// A law of the gap for given surfaces.
+using GapLaw = std::function<std::shared_ptr<const Interaction>(const ContactSurfaces&)>;
+
 /// A law of the gap on two bodies, or on a body and rigid partners.
 template <int D>
-std::unique_ptr<ContactModel<D>> gap_contact(std::shared_ptr<const Interaction> law);
+std::unique_ptr<ContactModel<D>> gap_contact(GapLaw law);
 
 /// The field of a law e(d) of the distance from a shape: S = -e(d) grad d, so that the energy S.n
 /// of a surface that faces the partner (n = -grad d) is e per area, and U = div S. Nearer than the
@@ -62,14 +77,21 @@ std::unique_ptr<RigidPartner<D>> distance_field(std::shared_ptr<const Interactio
 
 template <int D, class L>
 bool register_interaction_in(std::string_view name, std::string_view meaning) {
-  return register_entry(InteractionEntry<D>{name, meaning, example_of<L>(),
-                                            [] { return key_texts(L::rows()); },
-                                            [](const Block& block) {
-                                              auto law = std::make_shared<L>();
-                                              for (const auto& row : L::rows())
-                                                row.read(*law, block);
-                                              return gap_contact<D>(std::move(law));
-                                            }});
+  return register_entry(InteractionEntry<D>{
+      name, meaning, example_of<L>(), [] { return key_texts(L::rows()); },
+      [](const Block& block) {
+        auto law = std::make_shared<L>();
+        for (const auto& row : L::rows()) row.read(*law, block);
+        if constexpr (requires { law->check(block); })
+          if (block.in_order()) law->check(block);
+        return gap_contact<D>(
+            [law](const ContactSurfaces& surfaces) -> std::shared_ptr<const Interaction> {
+              if constexpr (requires { law->fitted(surfaces); })
+                return law->fitted(surfaces);
+              else
+                return law;
+            });
+      }});
 }
 
 template <class L>

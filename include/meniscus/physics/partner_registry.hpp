@@ -29,6 +29,8 @@ class PartnerShape {
     Mat<D> bend;
   };
   virtual Foot foot(const Vec<D>& x) const = 0;
+  /// Whether its surface is a plane, on which drops have a contact angle.
+  virtual bool flat() const { return false; }
   /// Places in the material of which one would be inside of a body that has run over the partner;
   /// none where no body can be around it.
   virtual std::vector<Vec<D>> places() const { return {}; }

@@ -46,7 +46,7 @@ class DistanceField final : public RigidPartner<D> {
 template <int D>
 class GapContact final : public ContactModel<D> {
  public:
-  explicit GapContact(std::shared_ptr<const Interaction> law) : law_(std::move(law)) {}
+  explicit GapContact(GapLaw law) : law_(std::move(law)) {}
 
   void check(const Block& block, bool rigid) const override {
     if (!rigid && block.has("form") && block.text("form", "energy") != "energy")
@@ -55,19 +55,27 @@ class GapContact final : public ContactModel<D> {
                     "alone; allowed is energy");
   }
   std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
-                                     const ContactChoice& choice) const override {
-    return gap_pair<D>(first, second, law_, choice);
+                                     const ContactChoice& choice,
+                                     const ContactSurfaces& surfaces) const override {
+    return gap_pair<D>(first, second, law_(surfaces), choice);
   }
   std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
-                                          const ContactChoice& choice) const override {
-    MovingPartner<D> partner{distance_field<D>(law_, plan.shape), plan.motion, 1,
+                                          const ContactChoice& choice,
+                                          const ContactSurfaces& surfaces) const override {
+    const auto law = law_(surfaces);
+    MovingPartner<D> partner{distance_field<D>(law, plan.shape), plan.motion, 1,
                              plan.velocity_step};
-    return rigid_contact<D>({body, 1}, std::move(partner), law_, choice);
+    return rigid_contact<D>({body, 1}, std::move(partner), law, choice);
   }
-  PlaneContact flat(bool) const override { return law_->flat(); }
+  PlaneContact flat(bool, const ContactSurfaces& surfaces) const override {
+    return law_(surfaces)->flat();
+  }
+  std::optional<std::string> doubt(const ContactSurfaces& surfaces) const override {
+    return law_(surfaces)->doubt(surfaces.facet);
+  }
 
  private:
-  std::shared_ptr<const Interaction> law_;
+  GapLaw law_;
 };
 
 }  // namespace
@@ -79,14 +87,14 @@ std::unique_ptr<RigidPartner<D>> distance_field(std::shared_ptr<const Interactio
 }
 
 template <int D>
-std::unique_ptr<ContactModel<D>> gap_contact(std::shared_ptr<const Interaction> law) {
+std::unique_ptr<ContactModel<D>> gap_contact(GapLaw law) {
   return std::make_unique<GapContact<D>>(std::move(law));
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                    \
   template std::unique_ptr<RigidPartner<D>> distance_field(                        \
       std::shared_ptr<const Interaction>, std::shared_ptr<const PartnerShape<D>>); \
-  template std::unique_ptr<ContactModel<D>> gap_contact(std::shared_ptr<const Interaction>);
+  template std::unique_ptr<ContactModel<D>> gap_contact(GapLaw);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wetting by Young's law: the energy of a surface falls by the adhesion W where it touches the
+// wall, smoothly over a range.
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/optional_rows.hpp"
+#include "meniscus/physics/interaction_registry.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meniscus {
+namespace {
+
+/// With t = (g - offset) / range (wetting note 1),
+///   e = - W (1 - 10 t^3 + 15 t^4 - 6 t^5) for 0 < t < 1, zero beyond;
+///   e = - W (1 - k |t|^3 / 3) for t < 0, k = 100: no deeper than the load asks for.
+struct SmoothYoung final : Interaction {
+  static constexpr std::string_view example = "adhesion = 1\noffset = 0.2\nlength = 0.3\n";
+  static constexpr Real core = 100;
+  std::optional<Real> angle, work, depth, film;  // as given
+  Real W = 0, ell = 0, g0 = 0;                   // adhesion, range, offset
+
+  static Rows<SmoothYoung> rows() {
+    return {
+        optional_row("contact_angle", &SmoothYoung::angle, dimension::none, {1, 179}, "by adhesion",
+                     "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension "
+                     "of the body"),
+        optional_row("adhesion", &SmoothYoung::work, dimension::tension, range::positive,
+                     "by contact_angle", "energy per area that contact releases"),
+        optional_row("length", &SmoothYoung::depth, dimension::length, range::positive,
+                     "half the size of a facet", "over which the interaction acts"),
+        optional_row("offset", &SmoothYoung::film, dimension::length, range::positive,
+                     "quarter of the size of a facet", "gap at which the surface rests")};
+  }
+  void check(const Block& block) const {
+    if (angle.has_value() == work.has_value())
+      block.problem("adhesion", angle ? "is given beside contact_angle; allowed is one of them"
+                                      : "and contact_angle are missing; one of them is needed");
+  }
+
+  /// With numbers for these surfaces. Throws InputError where the angle has no surface tension.
+  std::shared_ptr<const Interaction> fitted(const ContactSurfaces& surfaces) const {
+    auto law = std::make_shared<SmoothYoung>(*this);
+    if (angle && !surfaces.gamma)
+      throw InputError(
+          fmt::format("{}: contact_angle needs the surface tension of the first body, which has "
+                      "none; allowed are adhesion, or a [[surface_tension]] of it",
+                      surfaces.place));
+    law->W = work ? *work : *surfaces.gamma * (1 + std::cos(*angle * std::numbers::pi / 180));
+    law->ell = depth.value_or(surfaces.facet / 2);
+    law->g0 = film.value_or(surfaces.facet / 4);
+    return law;
+  }
+
+  PlaneState at(Real gap) const override {
+    const Real t = (gap - g0) / ell, s = 1 - t;
+    if (t >= 1) return {0, 0, 0};
+    if (t < 0)
+      return {-W * (1 + core * t * t * t / 3), W * core * t * t / ell,
+              -2 * W * core * t / (ell * ell)};
+    return {-W * (1 - t * t * t * (10 - t * (15 - 6 * t))), -30 * W * t * t * s * s / ell,
+            60 * W * t * s * (1 - 2 * t) / (ell * ell)};
+  }
+  Real range() const override { return g0 + ell; }
+  Real least_gap() const override { return g0 / 4; }
+  PlaneContact flat() const override {
+    const Real softest = (3 + std::numbers::sqrt3_v<Real>) / 6;  // largest -K
+    return {g0,
+            W,
+            1.875 * W / ell,
+            g0 + ell / 2,
+            0,
+            -at(g0 + softest * ell).stiffness,
+            g0 + softest * ell,
+            W};
+  }
+  std::optional<std::string> doubt(Real facet) const override {
+    if (ell >= facet / 3) return std::nullopt;
+    return fmt::format(
+        "its length {:.3g} is below a third of the size {:.3g} of the facets, so that the contact "
+        "line moves from facet to facet; allowed are larger lengths, or finer bodies",
+        ell, facet);
+  }
+};
+
+const bool registered = register_interaction<SmoothYoung>(
+    "smooth_young", "wetting: energy of the area in contact, for a given contact angle");
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wetted area, and the cap that a drop on a wall resembles.
+#include "meniscus/measure/wetting_measures.hpp"
+
+#include "meniscus/core/dense.hpp"
+#include "meniscus/physics/closed_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+namespace meniscus {
+namespace {
+
+constexpr Real pi = std::numbers::pi;
+
+template <int D>
+class Cap {
+ public:
+  using Height = std::function<Real(const Vec<D>&, Real)>;
+  Cap(const Body<D>& body, Height height_of, Real contact_gap)
+      : body_(body), height_of_(std::move(height_of)), contact_gap_(contact_gap) {}
+
+  Real film(const Motion& motion) { return points(motion).film; }
+  Real angle(const Motion& motion) {
+    const Sphere s = sphere(motion);
+    return std::acos(std::clamp(-s.centre / s.radius, -1.0, 1.0));
+  }
+  Real height(const Motion& motion) {
+    const Sphere s = sphere(motion);
+    return s.centre + s.radius;
+  }
+  Real angle_of_volume(const Motion& motion) {
+    return angle_of_cap<D>(surface().placed(motion).size.volume, height(motion));
+  }
+
+ private:
+  struct Points {
+    std::vector<Vec<D>> x;
+    std::vector<Real> area, height;
+    Real film, top;
+  };
+  /// Its centre over the plane of contact.
+  struct Sphere {
+    Real centre, radius;
+  };
+
+  const ClosedSurface<D>& surface() {
+    constexpr int per_direction = 6;
+    if (!surface_) surface_.emplace(body_, SurfacePart::outer, per_direction);
+    return *surface_;
+  }
+
+  Points points(const Motion& motion) {
+    const auto placed = surface().placed(motion);
+    const std::vector<Real>& reference = surface().reference().area;
+    Points points;
+    Real least = std::numeric_limits<Real>::max(), wet = 0, sum = 0;
+    points.top = -least;
+    for (std::size_t q = 0; q < reference.size(); ++q) {
+      const auto point = static_cast<Index>(q);
+      points.x.push_back(placed.place(point));
+      points.area.push_back(placed.area_vector(point).norm() * reference[q]);
+      points.height.push_back(height_of_(points.x.back(), motion.time));
+      const Real height = points.height.back();
+      least = std::min(least, height);
+      points.top = std::max(points.top, height);
+      if (height > contact_gap_) continue;
+      wet += points.area.back();
+      sum += points.area.back() * height;
+    }
+    points.film = wet > 0 ? sum / wet : least;
+    return points;
+  }
+
+  /// Least squares of |x|^2 - 2 c.x - k over the area above 0.35 of the height; places from their
+  /// mean.
+  Sphere sphere(const Motion& motion) {
+    constexpr Real free_above = 0.35;
+    const Points p = points(motion);
+    const Real least = p.film + free_above * (p.top - p.film);
+    Vec<D> mean = Vec<D>::Zero();
+    Real area = 0;
+    for (std::size_t q = 0; q < p.x.size(); ++q)
+      if (p.height[q] > least) {
+        mean += p.area[q] * p.x[q];
+        area += p.area[q];
+      }
+    mean /= area;
+    Mat<D + 1> normal = Mat<D + 1>::Zero();
+    Vec<D + 1> right = Vec<D + 1>::Zero();
+    for (std::size_t q = 0; q < p.x.size(); ++q)
+      if (p.height[q] > least) {
+        Vec<D + 1> row;
+        row << 2 * (p.x[q] - mean), 1;
+        normal += p.area[q] * row * row.transpose();
+        right += p.area[q] * (p.x[q] - mean).squaredNorm() * row;
+      }
+    const Vec<D + 1> solution = solve_symmetric<D + 1>(normal, right);
+    const Vec<D> c = solution.template head<D>();
+    return {height_of_(mean + c, motion.time) - p.film, std::sqrt(solution[D] + c.squaredNorm())};
+  }
+
+  const Body<D>& body_;
+  Height height_of_;
+  Real contact_gap_;
+  std::optional<ClosedSurface<D>> surface_;
+};
+
+}  // namespace
+
+template <int D>
+std::vector<MeasureSource> wetted_measures(std::function<Real(const Motion&)> energy,
+                                           Real adhesion) {
+  const auto area = [energy = std::move(energy), adhesion](const Motion& motion) {
+    return std::max(0.0, -energy(motion) / adhesion);
+  };
+  return {{"wetted_area", D == 3 ? dimension::area : dimension::length,
+           "area in full contact that has the energy of the interaction (2D: length)", area},
+          {"base_radius", dimension::length, "of a disk of that area (2D: half the length)",
+           [area](const Motion& motion) {
+             return D == 3 ? std::sqrt(area(motion) / pi) : area(motion) / 2;
+           }}};
+}
+
+template <int D>
+Real angle_of_cap(Real volume, Real height) {
+  if constexpr (D == 3) {
+    const Real square = (6 * volume / (pi * height) - height * height) / 3;  // of the base radius
+    return square > 0 ? 2 * std::atan(height / std::sqrt(square)) : pi;
+  } else {
+    // (theta - sin theta cos theta) / (1 - cos theta)^2 falls from infinity to pi / 4.
+    const Real ratio = volume / (height * height);
+    Real low = 0, high = pi;
+    for (int halving = 0; halving < 60; ++halving) {
+      const Real middle = (low + high) / 2, c = 1 - std::cos(middle);
+      const bool flatter = middle - std::sin(middle) * std::cos(middle) > ratio * c * c;
+      (flatter ? low : high) = middle;
+    }
+    return high;
+  }
+}
+
+template <int D>
+std::vector<MeasureSource> cap_measures(const Body<D>& body,
+                                        std::function<Real(const Vec<D>&, Real)> height_of,
+                                        Real contact_gap) {
+  const auto cap = std::make_shared<Cap<D>>(body, std::move(height_of), contact_gap);
+  constexpr Real degree = pi / 180;
+  return {{"film", dimension::length,
+           "mean gap where the surface is in contact; least gap where it is not",
+           [cap](const Motion& motion) { return cap->film(motion); }},
+          {"contact_angle", dimension::none,
+           "in degrees, of the sphere that fits the free surface best (2D: circle)",
+           [cap](const Motion& motion) { return cap->angle(motion) / degree; }},
+          {"contact_angle_vh", dimension::none, "in degrees, of the cap of this volume and height",
+           [cap](const Motion& motion) { return cap->angle_of_volume(motion) / degree; }},
+          {"height", dimension::length, "of the apex of that sphere over the film",
+           [cap](const Motion& motion) { return cap->height(motion); }}};
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                              \
+  template std::vector<MeasureSource> wetted_measures<D>(std::function<Real(const Motion&)>, \
+                                                         Real);                              \
+  template Real angle_of_cap<D>(Real, Real);                                                 \
+  template std::vector<MeasureSource> cap_measures(                                          \
+      const Body<D>&, std::function<Real(const Vec<D>&, Real)>, Real);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus
