@@ -10,27 +10,7 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCENE = """
-dimension = 2
-[time]
-end = 0.05
-[output]
-measures = ["drop.area"]
-[[body]]
-name = "drop"
-shape = "ellipse"
-semi_axes = [1.1, 0.9]
-core = 4
-rings = 2
-[body.material]
-type = "newtonian"
-density = 1
-bulk_modulus = 200
-viscosity = 0.1
-[[surface_tension]]
-body = "drop"
-gamma = 1
-"""
+SCENE = HERE.parent / "data/drop.toml"
 
 
 def run(*command):
@@ -49,12 +29,10 @@ def main():
         run("cmake", "-S", HERE, "-B", folder / "example", "-G", "Ninja",
             f"-DCMAKE_PREFIX_PATH={installed}", f"-DCMAKE_CXX_COMPILER={compiler}")  # fmt: skip
         run("cmake", "--build", folder / "example")
-        scene = folder / "scene.toml"
-        scene.write_text(SCENE)
-        step, measure = run(folder / "example/example", scene, "drop.area").split()
+        step, measure = run(folder / "example/example", SCENE, "drop.area").split()
 
         program = installed / "bin/meniscus"
-        run(program, "run", scene, "--output", folder / "out", "--quiet")
+        run(program, "run", SCENE, "--output", folder / "out", "--quiet")
         lines = (folder / "out/history.csv").read_text().splitlines()
         columns = lines[0].lstrip("# ").split(",")
         last = dict(zip(columns, lines[-1].split(",")))

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "cases.hpp"
 
@@ -89,38 +88,6 @@ void expect_equal_energies(const Ledger& a, const Ledger& b, Real tolerance) {
   for (const auto& [kind, energy] : a.stored)
     EXPECT_NEAR(energy, b.stored.at(kind), tolerance * std::max(std::abs(energy), a.kinetic))
         << kind;
-}
-
-template <int D>
-std::uint64_t state_after(Scene<D> scene, int steps) {
-  Simulation<D> simulation(scene);
-  simulation.begin();
-  for (int k = 0; k < steps; ++k) simulation.advance();
-  State state = simulation.state();
-  Snapshot snapshot;
-  state.archive(Archive::writing(snapshot), D);
-  return snapshot.hash();
-}
-
-template <int D>
-void expect_equal_builds() {
-  for (const test::Case& c : test::cases<D>()) {
-    SCOPED_TRACE(c.name);
-    const SceneInput input = SceneInput::from_text(c.scene);
-    scene_dimension(input);
-    const Plan<D> plan = read_plan<D>(input);
-    Scene<D> scene = build(plan);
-    References<D> references;
-    for (const Body<D>& body : scene.system.bodies)
-      references[body.name] = std::make_shared<const Reference<D>>(Reference<D>::of_scene(
-          body.geometry, std::accumulate(body.mass.begin(), body.mass.end(), 0.0)));
-    EXPECT_EQ(state_after(build(plan, references), 2), state_after(std::move(scene), 2));
-  }
-}
-
-TEST(References, ThoseOfTheSceneMakeTheSameBits) {
-  expect_equal_builds<2>();
-  expect_equal_builds<3>();
 }
 
 /// A body at u = 0, in motion, is where its reference is.

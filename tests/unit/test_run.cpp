@@ -12,29 +12,11 @@
 namespace meniscus::test_run {
 namespace {
 
-constexpr const char* drop = R"(
-dimension = 2
-[time]
-end = 1
-[[body]]
-name = "drop"
-shape = "ellipse"
-semi_axes = [1.1, 0.9]
-core = 4
-rings = 2
-[body.material]
-type = "newtonian"
-density = 1
-bulk_modulus = 200
-viscosity = 0.1
-[[surface_tension]]
-body = "drop"
-gamma = 1
-)";
+constexpr const char* drop = MENISCUS_TEST_DATA "/drop.toml";
 
 TEST(Run, HasTheNumbersOfASimulation) {
-  meniscus::Run run = meniscus::Run::from_text(drop, {"time.end=0.05"});
-  const SceneInput input = SceneInput::from_text(drop, "scene", {"time.end=0.05"});
+  meniscus::Run run = meniscus::Run::from_file(drop);
+  const SceneInput input = SceneInput::from_file(drop);
   ASSERT_EQ(scene_dimension(input), 2);
   Scene<2> scene = build_scene<2>(input);
   Simulation<2> simulation(scene);
@@ -51,7 +33,7 @@ TEST(Run, HasTheNumbersOfASimulation) {
 }
 
 TEST(Run, FieldsHaveANumberForEveryParticleAndComponent) {
-  const meniscus::Run run = meniscus::Run::from_text(drop);
+  const meniscus::Run run = meniscus::Run::from_file(drop);
   ASSERT_EQ(run.bodies(), std::vector<std::string>{"drop"});
   const std::size_t particles = run.field("drop", "mass").values.size();
   EXPECT_GT(particles, 20u);
@@ -71,10 +53,10 @@ TEST(Run, FieldsHaveANumberForEveryParticleAndComponent) {
 TEST(Run, SavedStatesContinueBitForBit) {
   const auto folder = std::filesystem::temp_directory_path() / "meniscus_test_run";
   std::filesystem::remove_all(folder);
-  meniscus::Run run = meniscus::Run::from_text(drop);
+  meniscus::Run run = meniscus::Run::from_file(drop);
   run.advance_to(0.02);
   run.save(folder.string());
-  meniscus::Run other = meniscus::Run::from_text(drop);
+  meniscus::Run other = meniscus::Run::from_file(drop);
   other.restore(folder.string());
   EXPECT_EQ(other.step(), run.step());
   run.advance_to(0.04);
@@ -88,7 +70,7 @@ TEST(Run, SavedStatesContinueBitForBit) {
 TEST(Run, NamesWhatIsWrong) {
   EXPECT_THROW(meniscus::Run::from_text("dimension = 4"), InputError);
   EXPECT_THROW(meniscus::Run::from_file("/no/such/scene.toml"), FileError);
-  const meniscus::Run run = meniscus::Run::from_text(drop);
+  const meniscus::Run run = meniscus::Run::from_file(drop);
   const auto message = [](const auto& call) -> std::string {
     try {
       call();
