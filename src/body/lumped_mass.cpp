@@ -2,8 +2,8 @@
 // Lumped masses: row sums with a floor, and what the floor adds taken from other particles.
 #include "meniscus/approx/monomials.hpp"
 #include "meniscus/body/body.hpp"
+#include "meniscus/core/dense.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -55,7 +55,7 @@ std::optional<std::vector<Real>> gifts(std::span<const Vec<D>> X, const std::vec
     const Eigen::VectorXd p = basis(X[A]).head(n);
     moments += margin[A] * p * p.transpose();
   }
-  const Eigen::VectorXd factor = moments.ldlt().solve(wanted.head(n));
+  const Eigen::VectorXd factor = solve_symmetric(moments, wanted.head(n));
   std::vector<Real> gift(X.size());
   Eigen::VectorXd left = wanted.head(n);
   for (std::size_t A = 0; A < X.size(); ++A) {

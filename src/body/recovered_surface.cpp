@@ -147,7 +147,7 @@ Eigen::VectorXd fitted(const Grid<D>& grid, const BoundaryNodes<D>& b, Index i,
     M += weight * p * p.transpose();
     right += weight * at(b.normal, i).dot(r) * p;
   }
-  Eigen::VectorXd height = solve_symmetric<unknowns>(M, right);
+  Eigen::VectorXd height = solve_symmetric(M, right);
   height.tail(unknowns - (D - 1)) /= reach;  // lengths were in units of the reach
   return height;
 }

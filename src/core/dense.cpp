@@ -3,6 +3,7 @@
 #include "meniscus/core/dense.hpp"
 
 #include <Eigen/Dense>
+#include <cmath>
 
 namespace meniscus {
 
@@ -16,18 +17,32 @@ Mat<D> inverse(const Mat<D>& A) {
   return A.inverse();
 }
 
-template <int D>
-Vec<D> symmetric_eigenvalues(const Mat<D>& S) {
-  return Eigen::SelfAdjointEigenSolver<Mat<D>>(S, Eigen::EigenvaluesOnly).eigenvalues();
+template <>
+Vec<2> symmetric_eigenvalues(const Mat<2>& S) {
+  const Real middle = 0.5 * (S(0, 0) + S(1, 1)),
+             radius = std::hypot(0.5 * (S(0, 0) - S(1, 1)), S(1, 0));
+  return {middle - radius, middle + radius};
 }
 
-template <int D>
-Mat<D> square_root(const Mat<D>& S) {
-  return Eigen::SelfAdjointEigenSolver<Mat<D>>(S).operatorSqrt();
+template <>
+Vec<3> symmetric_eigenvalues(const Mat<3>& S) {
+  return Eigen::SelfAdjointEigenSolver<Mat<3>>(S, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-template <int n>
-Vec<n> solve_symmetric(const Mat<n>& S, const Vec<n>& b) {
+template <>
+Mat<3> square_root(const Mat<3>& S) {
+  return Eigen::SelfAdjointEigenSolver<Mat<3>>(S).operatorSqrt();
+}
+
+/// By that in three dimensions: to compile Eigen's in two takes longer than all else here.
+template <>
+Mat<2> square_root(const Mat<2>& S) {
+  Mat<3> in_space = Mat<3>::Zero();
+  in_space.topLeftCorner<2, 2>() = S;
+  return square_root<3>(in_space).topLeftCorner<2, 2>();
+}
+
+Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& S, const Eigen::VectorXd& b) {
   return S.ldlt().solve(b);
 }
 
@@ -38,17 +53,9 @@ Mat<3> best_rotation(const Mat<3>& moment) {
   return svd.matrixU() * sign * svd.matrixV().transpose();
 }
 
-#define MENISCUS_INSTANTIATE(D)                            \
-  template Real determinant<D>(const Mat<D>&);             \
-  template Mat<D> inverse<D>(const Mat<D>&);               \
-  template Vec<D> symmetric_eigenvalues<D>(const Mat<D>&); \
-  template Mat<D> square_root<D>(const Mat<D>&);
-MENISCUS_INSTANTIATE(2)
-MENISCUS_INSTANTIATE(3)
-#undef MENISCUS_INSTANTIATE
-template Vec<2> solve_symmetric<2>(const Mat<2>&, const Vec<2>&);
-template Vec<3> solve_symmetric<3>(const Mat<3>&, const Vec<3>&);
-template Vec<4> solve_symmetric<4>(const Mat<4>&, const Vec<4>&);
-template Vec<5> solve_symmetric<5>(const Mat<5>&, const Vec<5>&);
+template Real determinant(const Mat<2>&);
+template Real determinant(const Mat<3>&);
+template Mat<2> inverse(const Mat<2>&);
+template Mat<3> inverse(const Mat<3>&);
 
 }  // namespace meniscus

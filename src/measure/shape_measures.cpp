@@ -55,7 +55,7 @@ class SurfacePlaces {
       normal += mode * mode.transpose();
       right += r * mode;
     }
-    return solve_symmetric<3>(normal, right);
+    return solve_symmetric(normal, right);
   }
 
  private:

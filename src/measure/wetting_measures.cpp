@@ -99,7 +99,7 @@ class Cap {
         normal += p.area[q] * row * row.transpose();
         right += p.area[q] * (p.x[q] - mean).squaredNorm() * row;
       }
-    const Vec<D + 1> solution = solve_symmetric<D + 1>(normal, right);
+    const Vec<D + 1> solution = solve_symmetric(normal, right);
     const Vec<D> c = solution.template head<D>();
     return {height_of_(mean + c, motion.time) - p.film, std::sqrt(solution[D] + c.squaredNorm())};
   }

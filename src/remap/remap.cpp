@@ -3,12 +3,12 @@
 #include "meniscus/remap/remap.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/remap/nodal_values.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -94,7 +94,7 @@ void restore_momenta(const Body<D>& body, const RigidSums& target, State& state)
   const Eigen::Vector3d spin_left = target.angular_momentum - now.angular_momentum -
                                     now.centre.cross(target.momentum - now.momentum);
   // In two dimensions the only spin is about z, where the inertia is that of the plane.
-  const Eigen::Vector3d w = D == 3 ? Eigen::Vector3d(now.inertia.ldlt().solve(spin_left))
+  const Eigen::Vector3d w = D == 3 ? Eigen::Vector3d(solve_symmetric(now.inertia, spin_left))
                                    : Eigen::Vector3d(0, 0, spin_left[2] / now.inertia(2, 2));
   for (Index A = 0; A < body.size(); ++A) {
     const Eigen::Vector3d dv = a + w.cross(spatial<D>(at(body.particles.X(), A)) - now.centre);

@@ -4,10 +4,11 @@
 
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/box.hpp"
+#include "meniscus/core/dense.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -124,7 +125,7 @@ std::vector<Real> FluidRest<D>::axes(const NodalVectors& u) const {
       second += m * x * x.transpose();
     }
     const Mat<D> about_centre = second / mass - first * first.transpose() / (mass * mass);
-    const Vec<D> squares = Eigen::SelfAdjointEigenSolver<Mat<D>>(about_centre).eigenvalues();
+    const Vec<D> squares = symmetric_eigenvalues<D>(about_centre);
     for (int i = 0; i < D; ++i) axes.push_back(std::sqrt(std::max(0.0, squares[i])));
   }
   return axes;

@@ -81,7 +81,7 @@ class Amplitude {
       normal += P * P.transpose();
       right += r * P;
     }
-    return solve_symmetric<5>(normal, right)[l_];
+    return solve_symmetric(normal, right)[l_];
   }
 
  private:

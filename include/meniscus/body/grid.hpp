@@ -101,8 +101,8 @@ CellPoint<D, D> cell_point(const std::array<Vec<D>, (1 << D)>& corners, const Bu
   CellPoint<D, D> point = multilinear<D, D>(corners, xi);
   if (bulge) {
     const BulgeFunctions<D> functions(xi);
-    point.X += bulge->deviation * functions.N;
-    point.J += bulge->deviation * functions.dN;
+    point.X += bulge->deviation.lazyProduct(functions.N);
+    point.J += bulge->deviation.lazyProduct(functions.dN);
   }
   return point;
 }

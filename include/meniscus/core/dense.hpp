@@ -27,9 +27,9 @@ Vec<D> symmetric_eigenvalues(const Mat<D>& S);
 template <int D>
 Mat<D> square_root(const Mat<D>& S);
 
-/// x of S x = b, S symmetric and not indefinite (L D L^T with pivots); n = 2 to 5.
-template <int n>
-Vec<n> solve_symmetric(const Mat<n>& S, const Vec<n>& b);
+/// x of S x = b, S symmetric and not indefinite (L D L^T with pivots). Of any size, so that there
+/// is one to compile; takes memory.
+Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& S, const Eigen::VectorXd& b);
 
 /// The rotation Q that brings Q A closest to B, from sum w B A^T (Kabsch 1976, by singular values).
 Mat<3> best_rotation(const Mat<3>& moment);

@@ -50,7 +50,7 @@ class Material {
   virtual bool fluid() const = 0;
 };
 
-/// A material with the law L.
+/// A material with the law L. What is done once is marked cold: it is compiled for every law.
 template <int D, Law L>
 class MaterialOf final : public Material<D> {
  public:
@@ -58,7 +58,8 @@ class MaterialOf final : public Material<D> {
   MaterialOf(Varying<L> law, std::optional<ReferenceDirector> director)
       : law_(std::move(law)), director_(std::move(director)) {}
 
-  typename Material<D>::Built build(Body<D>& body, const Integration& integration) const override {
+  [[gnu::cold]] typename Material<D>::Built build(Body<D>& body,
+                                                  const Integration& integration) const override {
     if (integration.rule == "q_scni") {
       CellOperator<D> op = build_cell_rule(body);
       std::vector<Vec<D>> places;
@@ -112,9 +113,10 @@ class MaterialOf final : public Material<D> {
   }
 
   template <class Rule>
-  typename Material<D>::Built integrated(Body<D>& body, Rule rule, const std::vector<L>& laws,
-                                         const std::vector<Real>& shape_integral,
-                                         const Integration& integration) const {
+  [[gnu::cold]] typename Material<D>::Built integrated(Body<D>& body, Rule rule,
+                                                       const std::vector<L>& laws,
+                                                       const std::vector<Real>& shape_integral,
+                                                       const Integration& integration) const {
     std::vector<Real> density, viscosity;
     for (Index A = 0; A < body.size(); ++A) {
       const L law = law_.uniform() ? law_.base : law_at(body.origin(A), body.geometry);
