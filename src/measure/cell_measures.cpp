@@ -30,10 +30,10 @@ class CellShape {
 
   MeanMeridian meridian(const Motion& m) { return built(meridians_, body_).mean(m); }
   ClosedSurface<3>::Size outer(const Motion& m) {
-    return built(outer_, body_, SurfacePart::outer, 2).placed(m).size;
+    return built(outer_, body_, SurfacePart::outer, 2).size(m);
   }
   ClosedSurface<3>::Size inner(const Motion& m) {
-    return built(inner_, body_, SurfacePart::inner, 2).placed(m).size;
+    return built(inner_, body_, SurfacePart::inner, 2).size(m);
   }
   struct Thickest {
     Real thickness, x;

@@ -21,7 +21,7 @@ class FineSurface {
   explicit FineSurface(const Body<D>& body) : body_(body) {}
 
   Real isoperimetric(const Motion& motion) {
-    const auto size = fine().placed(motion).size;
+    const auto size = fine().size(motion);
     return isoperimetric_ratio<D>(size.area, size.volume);
   }
   Real least_area_ratio(const Motion& motion) {

@@ -64,7 +64,7 @@ class Cavity final : public ForceTerm {
   Real steady_after() const override { return vented() ? 0 : filling_.ramp.end; }
   /// Pressure times area.
   Real uncancelled_force(const Motion& motion) const override {
-    const auto size = surface_.placed(motion).size;
+    const auto size = surface_.size(motion);
     return std::abs(pressure(motion.time, size.volume)) * size.area;
   }
 
@@ -85,7 +85,7 @@ class Cavity final : public ForceTerm {
 
  private:
   bool vented() const { return !filling_.pressure && !filling_.volume_target; }
-  Real volume(const Motion& motion) const { return surface_.placed(motion).size.volume; }
+  Real volume(const Motion& motion) const { return surface_.size(motion).volume; }
   /// dV/dd_A of the body's particles at the displacements u + s du.
   NodalVectors volume_gradient(const Motion& motion, Real s, const Motion& change) {
     NodalVectors u(motion.u.begin(), motion.u.end());

@@ -28,6 +28,13 @@ Vector cross(const Vector& a, const Vector& b) {
 Lanes weighted_sums(Lanes w, const Vector& a) {
   return {sum(w * a[0]), sum(w * a[1]), sum(w * a[2]), 0.0};
 }
+Sums sums_of(Lanes w, const Vector& x, const Vector& m) {
+  return {sum(w * dot(x, m)), sum(w * sqrt(dot(m, m))), weighted_sums(w, x), weighted_sums(w, m)};
+}
+/// `weight` of all points together.
+Real volume(const Sums& sums, Real weight) {
+  return sums.x_dot_m - sum(sums.x * sums.m) / weight;
+}
 Vector each_lane(Lanes a, Real factor) {
   return {Lanes(factor * a[0]), Lanes(factor * a[1]), Lanes(factor * a[2])};
 }
@@ -47,13 +54,12 @@ ClosedSurface<D>::ClosedSurface(const Body<D>& body, SurfacePart part, int point
   rule_.point_weight = reference_.area;
   windows_ = rule_.windows(body.size());
 
-  Real total = 0;
   origin_ = Vec<D>::Zero();
   for (Index q = 0; q < reference_.size(); ++q) {
-    total += at(reference_.area, q);
+    weight_ += at(reference_.area, q);
     origin_ += at(reference_.area, q) * at(reference_.X, q);
   }
-  origin_ /= total;
+  origin_ /= weight_;
   const std::size_t groups = static_cast<std::size_t>(rule_.groups());
   X_.assign(groups * D, Lanes::zero());
   N_ = X_;
@@ -99,15 +105,21 @@ void ClosedSurface<D>::place(const Motion& motion, Placed& placed) const {
   const NodalVector* u = motion.u.data() + body_.first;
   const Sums sums = parallel_sum(rule_.groups(), Sums{}, [&](Index g) {
     const Group& points = at(placed.groups, g) = evaluate(g, u);
-    const Lanes w = rule_.weight(g);
-    return Sums{sum(w * dot(points.x, points.m)), sum(w * sqrt(dot(points.m, points.m))),
-                weighted_sums(w, points.x), weighted_sums(w, points.m)};
+    return sums_of(rule_.weight(g), points.x, points.m);
   });
-  Real total = 0;
-  for (const Real w : rule_.point_weight) total += w;
-  placed.mean_x = each_lane(sums.x, 1 / total);
-  placed.mean_m = each_lane(sums.m, 1 / total);
-  placed.size = {share_ * (sums.x_dot_m - sum(sums.x * sums.m) / total), sums.area};
+  placed.mean_x = each_lane(sums.x, 1 / weight_);
+  placed.mean_m = each_lane(sums.m, 1 / weight_);
+  placed.size = {share_ * volume(sums, weight_), sums.area};
+}
+
+template <int D>
+typename ClosedSurface<D>::Size ClosedSurface<D>::size(const Motion& motion) const {
+  const NodalVector* u = motion.u.data() + body_.first;
+  const Sums sums = parallel_sum(rule_.groups(), Sums{}, [&](Index g) {
+    const Group points = evaluate(g, u);
+    return sums_of(rule_.weight(g), points.x, points.m);
+  });
+  return {share_ * volume(sums, weight_), sums.area};
 }
 
 /// dV/dd_A = +-1/D sum_q w_q [(m_q - mean m) N_A + d(x'.m)/dF grad N_A] with x' = x - mean x. With

@@ -73,7 +73,7 @@ Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
   const Real force = parallel_sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
   });
-  return force / mean_spacing(body_.geometry.grid);
+  return force / spacing_;
 }
 
 template <int D, class Rule>

@@ -69,10 +69,7 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
   start(scene_.system, state_);
   state_.books.remapped += take_ledger(scene_.system, state_).balance() -
                            take_ledger(before.scene_.system, before.state_).balance();
-  // Where u = 0 the damping of coefficients is no smooth function of u, but for v = 0.
-  State at_rest = state_;
-  std::fill(at_rest.v.begin(), at_rest.v.end(), Lanes::zero());
-  controller_.begin(at_rest);
+  controller_.begin(state_);
   audit_ = before.audit_;
   stepper_->begin(state_);
 }

@@ -41,7 +41,13 @@ Real kinetic_energy(const System<D>& system, const State& state) {
 template <int D>
 Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances,
                           const std::vector<bool>& fluid)
-    : system_(system), tolerances_(tolerances), fluids_(system, fluid) {}
+    : system_(system), tolerances_(tolerances), fluids_(system, fluid) {
+  const auto n = static_cast<std::size_t>(system.size());
+  for (NodalVectors* field : {&last_u_, &last_force_, &window_u_, &window_force_, &du_, &df_})
+    field->resize(n);
+  for (const Body<D>& body : system.bodies)
+    extents_.push_back(box_around<D>(body.particles.X()).extent().maxCoeff());
+}
 
 template <int D>
 void Relaxation<D>::begin(const State& state) {
@@ -114,21 +120,20 @@ bool Relaxation<D>::pulled(const State& state) const {
 
 template <int D>
 typename Relaxation<D>::Change Relaxation<D>::judged_window(const State& state) {
-  NodalVectors du(state.u.size()), df = du;
   for (Index A = 0; A < system_.size(); ++A) {
-    at(du, A) = at(state.u, A) - at(window_u_, A);
-    at(df, A) = at(state.force, A) - at(window_force_, A);
+    at(du_, A) = at(state.u, A) - at(window_u_, A);
+    at(df_, A) = at(state.force, A) - at(window_force_, A);
   }
-  remove_free_drift(system_, state, df, du);
+  remove_free_drift(system_, state, df_, du_);
   for (Index A = 0; A < system_.size(); ++A)
-    if (fluids_.holds(A)) at(du, A) = at(df, A) = Lanes::zero();
+    if (fluids_.holds(A)) at(du_, A) = at(df_, A) = Lanes::zero();
   Change change =
-      change_of([&](Index A) { return at(du, A); }, [&](Index A) { return at(df, A); }, state);
-  shape_change_ = change.left * largest_change(du);
+      change_of([&](Index A) { return at(du_, A); }, [&](Index A) { return at(df_, A); }, state);
+  shape_change_ = change.left * largest_change();
   if (!fluids_.any()) return change;
 
   const Real clock = fluids_.clock(uncancelled_force(state)), elapsed = state.time - window_begin_;
-  const Real flow = fluids_.change(fluids_.axes(window_u_), fluids_.axes(state.u)) / elapsed;
+  const Real flow = fluids_.change(window_u_, state.u) / elapsed;
   // A fluid that swings is at a turning point for less than the time of its clock.
   const bool long_enough = elapsed >= clock * (1 - 1e-9);
   shape_change_ = std::max(shape_change_, long_enough ? flow * clock : 1.0);
@@ -164,15 +169,16 @@ typename Relaxation<D>::Change Relaxation<D>::change_of(U&& du_of, F&& df_of,
 }
 
 template <int D>
-Real Relaxation<D>::largest_change(const NodalVectors& du) const {
+Real Relaxation<D>::largest_change() const {
   Real largest = 0;
-  for (const Body<D>& body : system_.bodies) {
+  for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
+    const Body<D>& body = system_.bodies[b];
     Real change = 0;
     for (Index A = 0; A < body.size(); ++A) {
-      const Lanes moved = value_at(body.at_particles, A, du.data() + body.first);
+      const Lanes moved = value_at(body.at_particles, A, du_.data() + body.first);
       change = std::max(change, std::sqrt(sum(moved * moved)));
     }
-    largest = std::max(largest, change / box_around<D>(body.particles.X()).extent().maxCoeff());
+    largest = std::max(largest, change / extents_[b]);
   }
   return largest;
 }

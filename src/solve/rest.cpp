@@ -109,33 +109,28 @@ bool FluidRest<D>::holds(Index particle) const {
 }
 
 template <int D>
-std::vector<Real> FluidRest<D>::axes(const NodalVectors& u) const {
-  std::vector<Real> axes;
-  for (const Body<D>* body : bodies_) {
-    Real mass = 0;
-    Vec<D> first = Vec<D>::Zero();
-    Mat<D> second = Mat<D>::Zero();
-    for (Index A = 0; A < body->size(); ++A) {
-      const Lanes moved = value_at(body->at_particles, A, u.data() + body->first);
-      Vec<D> x = at(body->particles.X(), A);
-      for (int i = 0; i < D; ++i) x[i] += moved[i];
-      const Real m = at(body->mass, A);
-      mass += m;
-      first += m * x;
-      second += m * x * x.transpose();
-    }
-    const Mat<D> about_centre = second / mass - first * first.transpose() / (mass * mass);
-    const Vec<D> squares = symmetric_eigenvalues<D>(about_centre);
-    for (int i = 0; i < D; ++i) axes.push_back(std::sqrt(std::max(0.0, squares[i])));
+Vec<D> FluidRest<D>::axes(const Body<D>& body, const NodalVectors& u) const {
+  Real mass = 0;
+  Vec<D> first = Vec<D>::Zero();
+  Mat<D> second = Mat<D>::Zero();
+  for (Index A = 0; A < body.size(); ++A) {
+    const Lanes moved = value_at(body.at_particles, A, u.data() + body.first);
+    Vec<D> x = at(body.particles.X(), A);
+    for (int i = 0; i < D; ++i) x[i] += moved[i];
+    const Real m = at(body.mass, A);
+    mass += m;
+    first += m * x;
+    second += m * x * x.transpose();
   }
-  return axes;
+  const Mat<D> about_centre = second / mass - first * first.transpose() / (mass * mass);
+  return symmetric_eigenvalues<D>(about_centre).cwiseMax(0).cwiseSqrt();
 }
 
 template <int D>
-Real FluidRest<D>::change(const std::vector<Real>& before, const std::vector<Real>& after) const {
+Real FluidRest<D>::change(const NodalVectors& before, const NodalVectors& after) const {
   Real largest = 0;
-  for (std::size_t k = 0; k < before.size(); ++k)
-    largest = std::max(largest, std::abs(after[k] - before[k]));
+  for (const Body<D>* body : bodies_)
+    largest = std::max(largest, (axes(*body, after) - axes(*body, before)).cwiseAbs().maxCoeff());
   return largest / extent_;
 }
 

@@ -20,7 +20,10 @@ constexpr Real shortest_interval = 5;
 
 template <int D>
 void StepController<D>::begin(const State& state) {
-  stable_ = estimator_.estimate(state);
+  // Where u = 0 the damping of coefficients is no smooth function of u, but for v = 0.
+  State at_rest = state;
+  std::fill(at_rest.v.begin(), at_rest.v.end(), Lanes::zero());
+  stable_ = estimator_.estimate(at_rest);
   first_limit_ = stable_.dt;
   interval_ = shortest_interval;
   plan_next_check(state);

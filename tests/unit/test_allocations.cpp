@@ -88,8 +88,6 @@ template <int D>
 void expect_none_with_anything() {
   constexpr int warm_up = 20, bodies_have_met = 400;
   for (const test::Case& c : test::cases<D>()) {
-    // At the end of a window it asks all terms how far from rest they are.
-    if (c.name == "solver relax") continue;
     if (allocations_of<D>(c.scene, warm_up) == 0) continue;
     // Lists of contacts grow until then.
     EXPECT_EQ(allocations_of<D>(c.scene, bodies_have_met), 0) << c.name << " in " << D << "D";

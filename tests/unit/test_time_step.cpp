@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stable step against dense eigenvalues, and against what central differences really do.
 #include "meniscus/core/error.hpp"
+#include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/solve/central_difference.hpp"
 #include "meniscus/solve/step_controller.hpp"
@@ -171,6 +172,35 @@ TEST(StableStep, IsWhereCentralDifferencesBlowUp) {
   expect_sharp_limit<2>(test::disk(4, 2), "newtonian", viscous);
   expect_sharp_limit<2>(test::disk(4, 2), "newtonian", mixed);
   expect_sharp_limit<3>(test::ball(2, 1), "mooney_rivlin", test::law_texts().at("mooney_rivlin"));
+}
+
+/// A fluid whose stable step is that of the damping of its coefficients.
+template <int D>
+OneBody<D> damped(Geometry<D> geometry) {
+  OneBody<D> one(std::move(geometry), "newtonian", mixed);
+  const std::vector<Real> viscosity(static_cast<std::size_t>(one.system.size()), 1);
+  one.system.terms.push_back(coefficient_damping<D>(one.body(), viscosity, 200));
+  return one;
+}
+
+/// Moving bodies have the same step: that damping is no smooth function of u at u = 0, but at rest.
+template <int D>
+void expect_step_of_damping(const Geometry<D>& geometry) {
+  OneBody<D> undamped(geometry, "newtonian", mixed), one = damped<D>(geometry);
+  const Real exact = exact_limit(one);
+  EXPECT_LT(exact, 0.5 * exact_limit(undamped));
+  EXPECT_LT(growth(damped<D>(geometry), 0.97 * exact, 3000), 100);
+  for (const Real speed : {0.0, 0.1}) {
+    one.state.v = test::random_field<D>(one.system.size(), speed, 5);
+    StepController<D> controller(one.system, {std::nullopt, 0.9, 100});
+    controller.begin(one.state);
+    EXPECT_NEAR(controller.stable().dt, exact, 0.01 * exact) << speed;
+  }
+}
+
+TEST(StableStep, CoversStrongDampingOfCoefficients) {
+  expect_step_of_damping<2>(test::disk(4, 2));
+  expect_step_of_damping<3>(test::ball(2, 1));
 }
 
 TEST(StepController, ArrivesExactlyAndRefusesAboveTheLimit) {

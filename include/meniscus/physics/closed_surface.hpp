@@ -46,6 +46,7 @@ class ClosedSurface {
   Placed placed(const Motion& motion) const;
   /// The same without taking memory: `placed` comes from this surface.
   void place(const Motion& motion, Placed& placed) const;
+  Size size(const Motion& motion) const;
 
   /// force_A += factor dV/dd_A, over the particles of the body.
   void add_volume_gradient(const Placed& placed, Real factor, std::span<NodalVector> force);
@@ -63,7 +64,8 @@ class ClosedSurface {
 
   const Body<D>& body_;
   SurfacePoints<D> reference_;
-  Real share_;  // +-1/D
+  Real share_;       // +-1/D
+  Real weight_ = 0;  // of all points
   Vec<D> origin_;
   PointRule<D> rule_;
   ForceWindows windows_;

@@ -36,7 +36,8 @@ class StressPointForce : public ForceTerm {
         rule_(std::move(rule)),
         windows_(rule_.windows(body.size())),
         laws_(std::move(laws)),
-        surface_(std::move(surface)) {}
+        surface_(std::move(surface)),
+        spacing_(mean_spacing(body.geometry.grid)) {}
 
   const Body<D>& body() const { return body_; }
   const Rule& rule() const { return rule_; }
@@ -83,6 +84,7 @@ class StressPointForce : public ForceTerm {
   ForceWindows windows_;
   std::unique_ptr<PointLaws> laws_;
   std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
+  Real spacing_;
 };
 
 extern template class StressPointForce<2, CellRule<2>>;

@@ -69,7 +69,8 @@ class Relaxation final : public Stepper<D> {
   Change change_of(U&& du_of, F&& df_of, const State& state) const;
   /// Sets shape_change_.
   Change judged_window(const State& state);
-  Real largest_change(const NodalVectors& du) const;
+  /// Of places, relative to the extent of the body, by du_.
+  Real largest_change() const;
   Real uncancelled_force(const State& state) const;
 
   System<D>& system_;
@@ -77,6 +78,8 @@ class Relaxation final : public Stepper<D> {
   FluidRest<D> fluids_;
   NodalVectors last_u_, last_force_;      ///< before the step
   NodalVectors window_u_, window_force_;  ///< at the beginning of the window
+  NodalVectors du_, df_;                  ///< of the window, free drift removed
+  std::vector<Real> extents_;             ///< of the bodies
   Real window_begin_ = 0, window_length_ = 0;
   Real shape_change_ = 1;
   std::int64_t settled_windows_ = 0, pulled_windows_ = 0;  ///< in a row

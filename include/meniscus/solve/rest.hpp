@@ -27,10 +27,8 @@ class FluidRest {
   bool any() const { return !bodies_.empty(); }
   bool holds(Index particle) const;
 
-  /// Lengths of the principal axes (roots of the second moments) of each fluid body, from places.
-  std::vector<Real> axes(const NodalVectors& u) const;
-  /// Largest change between such axes / extent of the bodies.
-  Real change(const std::vector<Real>& before, const std::vector<Real>& after) const;
+  /// Largest change of a principal axis between two displacements / extent of the bodies.
+  Real change(const NodalVectors& before, const NodalVectors& after) const;
 
   Real clock(Real uncancelled) const;
   /// The force that would do the power of the fluids, of their forces and of what is turned into
@@ -38,6 +36,9 @@ class FluidRest {
   Real force_of_power(const State& state, Real time) const;
 
  private:
+  /// Lengths of the principal axes (roots of the second moments) of a body, from places.
+  Vec<D> axes(const Body<D>& body, const NodalVectors& u) const;
+
   std::vector<const Body<D>*> bodies_;
   Real mass_ = 0, extent_ = 0;
 };
