@@ -17,6 +17,7 @@ import h5py
 import numpy as np
 
 MEMORY, SECONDS = 1 << 30, 20
+STACK = resource.getrlimit(resource.RLIMIT_STACK)
 
 
 def fnv(data, value=0xCBF29CE484222325):
@@ -214,6 +215,7 @@ class Files:
     def read(self, what, path, *refusing):
         def limit():
             resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+            resource.setrlimit(resource.RLIMIT_STACK, STACK)
             if self.limited:
                 resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         done = subprocess.run([self.reader, path], capture_output=True, text=True, preexec_fn=limit)
@@ -247,6 +249,8 @@ def combinations(files, count):
 
 def main():
     writer, reader, *options = sys.argv[1:]
+    # HDF5 goes through nested groups by recursion when it takes them out of a file again.
+    resource.setrlimit(resource.RLIMIT_STACK, (STACK[1], STACK[1]))
     sanitized, more = options == ["sanitized"], [int(option) for option in options if option.isdigit()]
     with tempfile.TemporaryDirectory() as name:
         files = Files(writer, reader, Path(name), not sanitized)
