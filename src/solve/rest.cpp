@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
