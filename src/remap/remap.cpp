@@ -75,7 +75,7 @@ RigidSums rigid_sums(const Body<D>& body, const State& state) {
     sums.mass += at(body.mass, A);
     sums.centre += at(body.mass, A) * x(A);
     sums.momentum += p;
-    sums.angular_momentum += x(A).cross(p);
+    sums.angular_momentum += cross(x(A), p);
   }
   sums.centre /= sums.mass;
   for (Index A = 0; A < body.size(); ++A) {
@@ -92,12 +92,12 @@ void restore_momenta(const Body<D>& body, const RigidSums& target, State& state)
   const RigidSums now = rigid_sums(body, state);
   const Eigen::Vector3d a = (target.momentum - now.momentum) / now.mass;
   const Eigen::Vector3d spin_left = target.angular_momentum - now.angular_momentum -
-                                    now.centre.cross(target.momentum - now.momentum);
+                                    cross(now.centre, target.momentum - now.momentum);
   // In two dimensions the only spin is about z, where the inertia is that of the plane.
   const Eigen::Vector3d w = D == 3 ? Eigen::Vector3d(solve_symmetric(now.inertia, spin_left))
                                    : Eigen::Vector3d(0, 0, spin_left[2] / now.inertia(2, 2));
   for (Index A = 0; A < body.size(); ++A) {
-    const Eigen::Vector3d dv = a + w.cross(spatial<D>(at(body.particles.X(), A)) - now.centre);
+    const Eigen::Vector3d dv = a + cross(w, spatial<D>(at(body.particles.X(), A)) - now.centre);
     at(state.v, body.first + A) += Lanes(dv[0], dv[1], D == 3 ? dv[2] : 0.0, 0);
   }
 }

@@ -8,7 +8,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -32,7 +31,7 @@ struct RigidField {
   Eigen::Vector3d centre, translation, rotation;
 
   Eigen::Vector3d at(const Eigen::Vector3d& x) const {
-    return translation + rotation.cross(x - centre);
+    return translation + cross(rotation, x - centre);
   }
 };
 
@@ -56,7 +55,7 @@ RigidField rigid_part(const System<D>& system, const Body<D>& body, const State&
     const Real m = meniscus::at(system.mass, body.first + A);
     const Eigen::Vector3d r = place_of(body, state, A) - field.centre;
     inertia += m * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
-    moment += m * r.cross(vector_of(meniscus::at(du, body.first + A)));
+    moment += m * cross(r, vector_of(meniscus::at(du, body.first + A)));
   }
   field.rotation = D == 3 ? Eigen::Vector3d(inertia.inverse() * moment)
                           : Eigen::Vector3d(0, 0, moment.z() / inertia(2, 2));
