@@ -17,7 +17,7 @@ namespace {
 ///   e = - W (1 - 10 t^3 + 15 t^4 - 6 t^5) for 0 < t < 1, zero beyond;
 ///   e = - W (1 - k |t|^3 / 3) for t < 0, k = 100: no deeper than the load asks for.
 struct SmoothYoung final : Interaction {
-  static constexpr std::string_view example = "adhesion = 0.05\noffset = 0.2\nlength = 0.3\n";
+  static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nlength = 0.3\n";
   static constexpr Real core = 100;
   std::optional<Real> angle, work, depth, film;  // as given
   Real W = 0, ell = 0, g0 = 0;                   // adhesion, range, offset

@@ -112,6 +112,7 @@ class Extents {
 
 struct OrderedFile : H5FD_t {
   int descriptor = -1;
+  bool writable = false;
   struct stat identity {};
   haddr_t end_of_addresses = 0;  ///< what HDF5 has given out
   haddr_t end_of_file = 0;       ///< on the disk
@@ -207,6 +208,7 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
   }
   auto* file = new OrderedFile{};
   file->descriptor = descriptor;
+  file->writable = mode & O_RDWR;
   fstat(descriptor, &file->identity);
   file->end_of_file = static_cast<haddr_t>(file->identity.st_size);
   file->flushed.add(0, file->end_of_file);
@@ -215,7 +217,7 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
 
 herr_t close_file(H5FD_t* file) {
   OrderedFile& ordered = self(file);
-  ordered.flush();
+  if (ordered.writable) ordered.flush();
   close(ordered.descriptor);
   delete &ordered;
   return done;

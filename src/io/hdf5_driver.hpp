@@ -11,12 +11,16 @@
 // HDF5 does not stand a write that fails (it crashes when the file is closed). The driver therefore
 // never reports one: it notes the reason, leaves the file as it was at the last flush, and keeps in
 // memory what comes later. Who flushes asks for write_error().
+//
+// Files are read through it, too: the buffer of metadata that HDF5 puts before its own driver
+// copies beyond its end where a damaged file says so.
 #pragma once
 #include <cstdint>
 
 namespace meniscus::hdf5 {
 
-/// Makes files opened with the access properties `access` be written this way. Throws FileError.
+/// Makes files opened with the access properties `access` be read and written this way. Throws
+/// FileError.
 void use_ordered_writes(std::int64_t access);
 
 /// Number (errno) of the first error in writing the open file `file`, 0 if there was none.

@@ -48,12 +48,12 @@ std::string reason() {
 /// Files are opened without HDF5's own locks: results can be looked at while a run writes them.
 /// Two writers are kept apart by RunDirectory. Version bounds stay at their defaults: a raised
 /// bound makes the file unreadable after an interruption.
-Handle access_properties(bool writing) {
+Handle access_properties() {
   be_quiet();
   Handle access(H5Pcreate(H5P_FILE_ACCESS), "prepare HDF5");
   check(H5Pset_file_locking(access, false, true), "prepare HDF5");
   check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "prepare HDF5");
-  if (writing) use_ordered_writes(access);
+  use_ordered_writes(access);
   return access;
 }
 
@@ -63,7 +63,7 @@ Handle open_file(const std::filesystem::path& path, unsigned mode) {
     throw FileError(fmt::format("cannot open '{}': there is no such file", path.string()));
   if (!std::filesystem::is_regular_file(path, ignored))
     throw FileError(fmt::format("cannot open '{}': it is not a file", path.string()));
-  const Handle access = access_properties(mode == H5F_ACC_RDWR);
+  const Handle access = access_properties();
   return {H5Fopen(path.c_str(), mode, access), fmt::format("open '{}'", path.string())};
 }
 
@@ -179,7 +179,7 @@ File::File(Handle handle, const std::filesystem::path& path)
     : handle_(std::move(handle)), path_(path) {}
 
 File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
-  const Handle access = access_properties(true);
+  const Handle access = access_properties();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), "prepare HDF5");
   check(H5Pset_userblock(creation, user_block), "prepare HDF5");
   // A new file in any case: what is written is not to follow a link of that name.

@@ -110,6 +110,7 @@ class GapPair final : public ForceTerm {
     std::vector<typename ContactFacets<D>::Foot> foot;  // [point]
     std::vector<Real> stored;                           // [point] energy
     std::vector<Vec<D>> pull;                           // [corner] force
+    std::vector<Index> near;  // clusters within the range: the list has more, as it was built
     Real gap = unbounded;
     Index nearest = 0;  // point
 
@@ -121,10 +122,12 @@ class GapPair final : public ForceTerm {
       foot.resize(static_cast<std::size_t>(places.size));
       stored.resize(foot.size());
       pull.resize(others.corner.size());
+      near.reserve(static_cast<std::size_t>(side.points.clusters()));
     }
     std::size_t bytes() const {
       return places.bytes() + (others.samples.size() + T.size() + S.size()) * sizeof(Lanes) +
-             foot.size() * (sizeof(foot[0]) + sizeof(Real)) + 2 * pull.size() * sizeof(Vec<D>);
+             foot.size() * (sizeof(foot[0]) + sizeof(Real)) + 2 * pull.size() * sizeof(Vec<D>) +
+             near.capacity() * sizeof(Index);
     }
     Real energy() const {
       return parallel_sum(places.size, 0.0, [&](Index q) { return at(stored, q); });
@@ -205,11 +208,13 @@ void GapPair<D>::evaluate(const Side& side, const ContactList<D>& list, const Mo
   // One after the other: many points push the same corner.
   std::fill(result.pull.begin(), result.pull.end(), Vec<D>::Zero());
   result.gap = unbounded;
+  result.near.clear();
   for (const Index c : active)
     for (int lane = 0; lane < side.points.points_in(c); ++lane) {
       const Index q = c * Lanes::width + lane;
       const auto& foot = at(result.foot, q);
       if (foot.facet < 0) continue;
+      if (result.near.empty() || result.near.back() != c) result.near.push_back(c);
       if (foot.distance < result.gap) {
         result.gap = foot.distance;
         result.nearest = q;
@@ -236,8 +241,8 @@ Report GapPair<D>::report(const Motion& motion) const {
                     first_.points.body().name, second_.points.body().name, gap, law_->least_gap()),
         true};
   }
-  const Real speed = closing_speed<D>(first_.points, first_.list.of_first().active, &second_.points,
-                                      second_.list.of_first().active, Vec<D>::Zero(), motion);
+  const Real speed = closing_speed<D>(first_.points, now_first_.near, &second_.points,
+                                      now_second_.near, Vec<D>::Zero(), motion);
   report.demand = contact_demand(
       {*law_, 1 / first_.points.inertia() + 1 / second_.points.inertia(), 0, D}, gap, speed);
   return report;
