@@ -17,7 +17,7 @@ namespace {
 ///   e = - W (1 - 10 t^3 + 15 t^4 - 6 t^5) for 0 < t < 1, zero beyond;
 ///   e = - W (1 - k |t|^3 / 3) for t < 0, k = 100: no deeper than the load asks for.
 struct SmoothYoung final : Interaction {
-  static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nlength = 0.3\n";
+  static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nrange = 0.3\n";
   static constexpr Real core = 100;
   std::optional<Real> angle, work, depth, film;  // as given
   Real W = 0, ell = 0, g0 = 0;                   // adhesion, range, offset
@@ -29,8 +29,9 @@ struct SmoothYoung final : Interaction {
                      "of the body"),
         optional_row("adhesion", &SmoothYoung::work, dimension::tension, range::positive,
                      "by contact_angle", "energy per area that contact releases"),
-        optional_row("length", &SmoothYoung::depth, dimension::length, range::positive,
-                     "half the size of a facet", "over which the interaction acts"),
+        optional_row("range", &SmoothYoung::depth, dimension::length, range::positive,
+                     "half the size of a facet",
+                     "beyond the offset, over which the interaction acts"),
         optional_row("offset", &SmoothYoung::film, dimension::length, range::positive,
                      "quarter of the size of a facet", "gap at which the surface rests")};
   }
@@ -79,8 +80,8 @@ struct SmoothYoung final : Interaction {
   std::optional<std::string> doubt(Real facet) const override {
     if (ell >= facet / 3) return std::nullopt;
     return fmt::format(
-        "its length {:.3g} is below a third of the size {:.3g} of the facets, so that the contact "
-        "line moves from facet to facet; allowed are larger lengths, or finer bodies",
+        "its range {:.3g} is below a third of the size {:.3g} of the facets, so that the contact "
+        "line moves from facet to facet; allowed are longer ranges, or finer bodies",
         ell, facet);
   }
 };

@@ -287,9 +287,10 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
                                  interaction, form, flat.adhesion, unit(dimension::tension));
   if (flat.lost_adhesion() > 0)
     note += fmt::format(" ({:.1f} % lost by the cut-off)", 100 * flat.lost_adhesion());
-  note += fmt::format(", equilibrium gap {:.4g} {}, peak traction {:.4g} {}, stiffness {:.4g} {}",
-                      flat.equilibrium_gap, unit(dimension::length), flat.peak_traction,
-                      unit(dimension::pressure), flat.stiffness, unit({-2, -2, 1}));
+  note += fmt::format(
+      ", equilibrium gap {:.4g} {}, peak traction {:.4g} {} at {:.4g} {}, stiffness {:.4g} {}",
+      flat.equilibrium_gap, unit(dimension::length), flat.peak_traction, unit(dimension::pressure),
+      flat.peak_gap, unit(dimension::length), flat.stiffness, unit({-2, -2, 1}));
   for (const std::string& body : bodies)
     if (const auto gamma = assembly.surface_energy(body))
       note += fmt::format(", contact angle of '{}': {}", body,

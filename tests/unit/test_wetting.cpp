@@ -37,12 +37,12 @@ TEST(SmoothYoung, TakesItsLengthsFromTheFacets) {
   EXPECT_DOUBLE_EQ(flat.equilibrium_gap, 0.05);
   EXPECT_DOUBLE_EQ(flat.peak_gap, 0.1);
   EXPECT_DOUBLE_EQ(flat.peak_traction, 1.875 * 2 / 0.1);
-  // The largest -K of a smooth step, 10/sqrt(3) W/length^2.
+  // The largest -K of a smooth step, 10/sqrt(3) W/range^2.
   EXPECT_NEAR(flat.softening, 10 / std::sqrt(3.0) * 2 / (0.1 * 0.1), 1e-10);
 }
 
-TEST(SmoothYoung, DoubtsALengthBelowAThirdOfAFacet) {
-  const auto law = model("adhesion = 1\nlength = 0.1");
+TEST(SmoothYoung, DoubtsARangeBelowAThirdOfAFacet) {
+  const auto law = model("adhesion = 1\nrange = 0.1");
   EXPECT_FALSE(law->doubt({"", 0.3, 1}));
   EXPECT_NE(law->doubt({"", 0.31, 1})->find("contact line"), std::string::npos);
 }
