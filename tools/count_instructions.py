@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 EFFECTS = {
-    "surface tension": r"SurfaceTension<|_surface_tension<",
+    "surface tension": r"SurfaceForce<|SurfaceTension<|_surface_tension<",
     "patches": r"SurfacePatches<[23]>::",
     "coefficient damping": r"CoefficientDamping<|coefficient_damping<",
     "curvature": r"CurvatureSurfaceTension<|hessian_along|\(meniscus::Derivatives\)2",
@@ -22,7 +22,7 @@ EFFECTS = {
     "viscosity": r"InternalForce<[23], (?!meniscus::WithoutViscosity).*Newtonian|viscous_stress",
     "cell average": r"InternalForce<[23], meniscus::CellAverage<",
     "internal force": r"InternalForce<",
-    "contact": r"(Pair|Rigid)Contact<|Contact(Points|List)<|sum_over_partners|contact_demand",
+    "contact": r"(Pair|Rigid)Contact<|GapPair<|Contact(Points|List)<|sum_over_partners|contact_demand",
 }
 
 BODY = """
@@ -66,6 +66,10 @@ SCENES = {
     "viscous drop, tension": (
         DROP + TENSION,
         {"internal force", "viscosity", "surface tension", "patches", "coefficient damping"},
+    ),
+    "viscous drop, tension at Gauss points": (
+        DROP + TENSION + 'form = "weak"\n',
+        {"internal force", "viscosity", "surface tension"},
     ),
     "viscous drop, tension by curvature": (
         DROP + TENSION + 'form = "curvature"\n',
@@ -115,7 +119,8 @@ def main():
             count = measure(program, text, pathlib.Path(folder))
             row = []
             for effect, pattern in EFFECTS.items():
-                own = sum(n for name, n in count.items() if re.search(pattern, name))
+                own = sum(n for name, n in count.items()
+                          if re.search(pattern, name) and "register_" not in name)
                 row.append(own)
                 if (own > 0) != (effect in has):
                     wrong.append(f"{scene}: {own} instructions of {effect}")
