@@ -8,6 +8,7 @@
   include each other in a cycle.
 """
 
+import argparse
 import os
 import pathlib
 import re
@@ -165,4 +166,7 @@ def main():
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    ).parse_args()
     sys.exit(main())

@@ -6,6 +6,7 @@ A list of numbers belongs to one note ("RKPM notes 3.1, 4 and 8"); the files of 
 out the word "note" and link instead. A sentence may be broken by lines of a comment.
 """
 
+import argparse
 import pathlib
 import re
 import sys
@@ -96,4 +97,7 @@ def main():
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    ).parse_args()
     sys.exit(main())

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""count_instructions.py PROGRAM: instructions of small scenes by effect (see tools/instructions).
+"""Instructions of small scenes by effect (see tools/instructions).
 
 A function belongs to an effect by its name, that of an outlined loop by the function it is in.
 Functions that register materials and describe keys run at every start and belong to none.
 """
 
+import argparse
 import collections
 import os
 import pathlib
@@ -111,7 +112,11 @@ def measure(program, text, folder):
 
 
 def main():
-    program, wrong = pathlib.Path(sys.argv[1]).resolve(), []
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("program", type=pathlib.Path, metavar="PROGRAM")
+    program, wrong = arguments.parse_args().program.resolve(), []
+    if not program.is_file():
+        arguments.error(f"there is no program {program}")
     print("| instructions of | " + " | ".join(EFFECTS) + " | all |")
     print("|---" * (len(EFFECTS) + 2) + "|")
     with tempfile.TemporaryDirectory() as folder:

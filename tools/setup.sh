@@ -5,6 +5,8 @@
 #   quietly LOG COMMAND...  run with all output into LOG; show its end only on failure, and on a
 #                           terminal how far it is: "building 61/120"
 #   configure DIR OPTION... configure the build tree DIR (relative to $root)
+#   refuse ARGUMENT...      exit 2 if there is an argument
+# and answers --help with the comment at the top of the script.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cores=$(nproc)
@@ -12,6 +14,17 @@ cores=$(nproc)
 fail() {
   printf '%s: %s\n' "${0##*/}" "$*" >&2
   exit 1
+}
+
+# The comment at the top of the script that was called.
+usage() {
+  sed -n '/^#!/d; /^#/!q; s/^# \{0,1\}//p' "$0"
+}
+
+refuse() {
+  (($#)) || return 0
+  printf "%s: unknown argument '%s'\n\n%s\n" "${0##*/}" "$1" "$(usage)" >&2
+  exit 2
 }
 
 # Prints the packages of the given sections, one per line.
@@ -75,3 +88,13 @@ configure() {
   shift
   cmake -S "$root" -B "$root/$dir" -G Ninja -DCMAKE_UNITY_BUILD=ON "$@"
 }
+
+# Sourced without arguments of its own, this has those of the script.
+for argument; do
+  case $argument in
+    -h | --help)
+      usage
+      exit
+      ;;
+  esac
+done

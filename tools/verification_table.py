@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""verification_table.py DIR...: Markdown tables of the studies in these directories: how many of
-their checks are met, and of each method the finest level: its first error, the observed order
-against the level before, wall time (set-up + method) and memory.
+"""Markdown tables of the studies in directories: how many of their checks are met, and of each
+method the finest level: its first error, the observed order against the level before, wall time
+(set-up + method) and memory.
 """
 
+import argparse
 import json
 import pathlib
-import sys
 
 
 def finest(measurements):
@@ -30,8 +30,13 @@ def row(study, m):
 
 
 def main():
-    studies = []
-    for folder in map(pathlib.Path, sys.argv[1:]):
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("folders", type=pathlib.Path, nargs="*", metavar="DIR",
+                           help="one without a study is passed over")
+    folders, studies = arguments.parse_args().folders, []
+    for folder in folders:
+        if not folder.is_dir():
+            arguments.error(f"there is no directory {folder}")
         if (folder / "study.json").is_file():
             studies.append(json.loads((folder / "study.json").read_text()))
     print("| study | checks met |")

@@ -254,7 +254,7 @@ def write_list(accepted):
 
 
 def main():
-    program, mode = sys.argv[1], (sys.argv[2:] or [""])[0]
+    program, mode = Path(sys.argv[1]).resolve(), (sys.argv[2:] or [""])[0]
     if mode == "--pairs":
         check_pairs(program, int(sys.argv[3]))
     mutants = list(all_mutants())
