@@ -127,9 +127,11 @@ std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double
   const std::int64_t steps = simulation.state().step - first_step;
   const Real particle_steps =
       static_cast<Real>(std::max<std::int64_t>(1, steps)) * simulation.scene().system.size();
+  const std::string effort = simulation.stepper().effort();
   return fmt::format(
-      "{} steps in {:.2f} s ({:.0f} ns per particle-step), set-up {:.2f} s, state {:016x}", steps,
-      seconds, 1e9 * seconds / particle_steps, set_up_seconds, simulation.snapshot().hash());
+      "{} steps in {:.2f} s ({:.0f} ns per particle-step{}{}), set-up {:.2f} s, state {:016x}",
+      steps, seconds, 1e9 * seconds / particle_steps, effort.empty() ? "" : ", ", effort,
+      set_up_seconds, simulation.snapshot().hash());
 }
 
 /// Says whether the bodies are at rest; false if they should be, but are not.

@@ -28,6 +28,20 @@ class CoefficientDamping final : public ForceTerm {
   std::string name() const override { return "coefficient damping of '" + body_.name + "'"; }
   bool viscous() const override { return true; }
 
+  void add_viscous(const Motion& motion, Forces force) override { add_force(motion, force); }
+  void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
+    const auto own = body_.part(diagonal);
+    windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* sum) {
+      const PointRows<D>& rows = body_.at_particles;
+      for (Index A = begin; A < end; ++A)
+        for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
+          const Index B = at(rows.particle, k);
+          const Real e = (A == B ? 1 : 0) - at(rows.value, k);
+          sum[B] += at(rate_, A) * e * e;
+        }
+    });
+  }
+
   Report add_force(const Motion& motion, Forces force) override {
     const Rotation sums = subtract_places(motion);
     const Eigen::Vector3d w = sums.rate();

@@ -43,4 +43,13 @@ void ForceTerm::add_tangent(const Motion& motion, const Motion& change, Forces f
     add(plus.fields[k].f, minus.fields[k].f, force.fields[k].f);
 }
 
+void ForceTerm::add_viscous(const Motion& motion, Forces force) {
+  const NodalVectors still(motion.v.size(), Lanes::zero());
+  NodalVectors elastic = still, all = still;
+  std::vector<Unknown> fields(motion.fields.begin(), motion.fields.end());
+  add_force({motion.time, motion.u, still, motion.fields}, {elastic, fields});
+  add_force(motion, {all, fields});
+  for (std::size_t A = 0; A < all.size(); ++A) force[A] += all[A] - elastic[A];
+}
+
 }  // namespace meniscus

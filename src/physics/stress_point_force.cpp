@@ -53,6 +53,19 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
 }
 
 template <int D, class Rule>
+void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diagonal) {
+  if (kept_.empty()) return;
+  accumulate(diagonal, [&](int, Index begin, Index end, NodalVector* sum) {
+    for (Index g = begin; g < end; ++g) {
+      const auto viscosity = laws_->viscosity(g, 0, at(kept_, g));
+      std::array<Tensor<Lanes>, D> weighted;
+      for (int i = 0; i < D; ++i) at(weighted, i) = rule_.weight(g) * at(viscosity, i);
+      rule_.add_diagonal(g, weighted, sum);
+    }
+  });
+}
+
+template <int D, class Rule>
 Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
   return parallel_sum(rule_.groups(), 0.0, [&](Index g) {

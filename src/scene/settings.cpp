@@ -31,6 +31,11 @@ Rows<TimeSettings> TimeSettings::rows() {
       integer_row("check_every", &S::check_every, {1, 1e9},
                   "most steps between two estimates of the stable step; fewer while it changes",
                   250),
+      choice_row("viscosity", &S::viscosity, {"explicit", "implicit"},
+                 "dynamics: viscous forces of the velocity before, which limit the step, or of the "
+                 "mean of those before and after, found by a few iterations per step: worth it "
+                 "where fine or stretched particles of a fluid make steps short",
+                 "explicit"),
       choice_row("solver", &S::solver, Registry<StepperEntry>::all().names(),
                  "motion as it is, or damped to the equilibrium: relax stops by itself, at the "
                  "latest at end, where a body that still moves is an error",

@@ -29,7 +29,12 @@ StepperChoice stepper_choice(const Scene<D>& scene) {
                        scene.time.force_tolerance,
                        scene.time.shape_tolerance,
                        {},
+                       scene.time.viscosity == "implicit",
                        scene.time.solver_place};
+  if (choice.implicit_viscosity && !scene.system.viscous())
+    throw InputError(scene.time.viscosity_place +
+                     ": implicit viscosity is for scenes with a viscous fluid, this has none; "
+                     "leave the key out");
   for (const std::vector<Real>& viscosity : scene.viscosity)
     choice.fluid.push_back(!viscosity.empty());
   return choice;
@@ -45,7 +50,7 @@ Simulation<D>::Simulation(Scene<D>& scene)
           scene.system.terms.begin(), scene.system.terms.end(),
           [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
       controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every,
-                                 scene.time.step_place}),
+                                 scene.time.step_place, scene.time.viscosity == "implicit"}),
       stepper_(Registry<StepperEntry>::all()
                    .at(scene.time.solver)
                    .make(scene.system, stepper_choice(scene))) {}

@@ -2,7 +2,12 @@
 // Dynamics: the motion as it is.
 #include "meniscus/solve/central_difference.hpp"
 #include "meniscus/solve/energy_resolution.hpp"
+#include "meniscus/solve/implicit_viscosity.hpp"
 #include "meniscus/solve/stepper.hpp"
+
+#include <fmt/core.h>
+
+#include <optional>
 
 namespace meniscus {
 namespace {
@@ -10,23 +15,37 @@ namespace {
 template <int D>
 class Dynamics final : public Stepper<D> {
  public:
-  explicit Dynamics(System<D>& system) : system_(system) {}
+  Dynamics(System<D>& system, bool implicit_viscosity) : system_(system) {
+    if (implicit_viscosity) viscosity_.emplace(system);
+  }
   Real longest_step(const State& state) override {
     return resolution_.longest_step(system_, state);
   }
-  void step(State& state, Real dt) override { advance(system_, state, dt); }
+  void step(State& state, Real dt) override {
+    if (viscosity_)
+      viscosity_->advance(state, dt);
+    else
+      advance(system_, state, dt);
+  }
+  std::string effort() const override {
+    return viscosity_ ? fmt::format("{:.2f} iterations of the viscosity per step",
+                                    viscosity_->mean_iterations())
+                      : "";
+  }
   void archive(const Archive& a, const State&) override {
     resolution_.archive(a.in("energy_resolution"));
+    if (viscosity_) viscosity_->archive(a.in("implicit_viscosity"));
   }
 
  private:
   System<D>& system_;
   EnergyResolution<D> resolution_;
+  std::optional<ImplicitViscosity<D>> viscosity_;
 };
 
 template <int D>
-std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice&) {
-  return std::make_unique<Dynamics<D>>(system);
+std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
+  return std::make_unique<Dynamics<D>>(system, choice.implicit_viscosity);
 }
 
 const bool registered = register_entry(StepperEntry{"dynamics", {}, make<2>, make<3>});

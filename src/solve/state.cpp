@@ -20,14 +20,11 @@ void Books::begin(const Report& report, Real power_of_loads) {
   load_power = power_of_loads;
 }
 
-/// The heat is that of the half-step velocities: over a step the viscous force does the work
-/// dt/2 (f_n + f_n+1).v_n+1/2, of which f_n+1.v_n+1/2 is the power computed last and f_n.v_n+1/2
-/// lies half-way between the power before and that.
-void Books::add(const Report& report, Real power_of_loads, Real dt) {
-  dissipated += dt / 4 * heat;
+void Books::add(const Report& report, Real power_of_loads, Real dt, Real last_share) {
+  dissipated += dt * (1 - last_share) * heat;
   external_work += dt / 2 * (external_power + load_power);
   begin(report, power_of_loads);
-  dissipated += 3 * dt / 4 * heat;
+  dissipated += dt * last_share * heat;
   external_work += dt / 2 * (external_power + load_power);
 }
 

@@ -68,8 +68,11 @@ void StableStep::archive(const Archive& a) {
 }
 
 template <int D>
-StableStepEstimator<D>::StableStepEstimator(System<D>& system)
-    : system_(system), spacing_(unbounded), mode_(rough_mode(system.size(), D)) {
+StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
+    : system_(system),
+      viscous_counts_(viscous),
+      spacing_(unbounded),
+      mode_(rough_mode(system.size(), D)) {
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A)
       spacing_ = std::min(
@@ -100,7 +103,7 @@ void StableStepEstimator<D>::force_change(const State& state, Real du, Real dv,
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(u_, A) = at(state.u, A) + du * at(mode_, A);
-      at(v_, A) = at(state.v, A) + dv * at(mode_, A);
+      at(v_, A) = viscous_counts_ ? at(state.v, A) + dv * at(mode_, A) : Lanes::zero();
     }
   });
   system_.add_up({state.time, u_, v_, state.fields}, {result, trial_});
@@ -117,10 +120,12 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
 
   base_.resize(mode_.size());
   trial_ = state.fields;
-  system_.add_up(state.motion(), {base_, trial_});
+  v_ = state.v;
+  if (!viscous_counts_) std::fill(v_.begin(), v_.end(), Lanes::zero());
+  system_.add_up({state.time, state.u, v_, state.fields}, {base_, trial_});
   base_fields_.resize(trial_.size());
   for (std::size_t k = 0; k < trial_.size(); ++k) base_fields_[k] = trial_[k].f;
-  const bool viscous = system_.viscous();
+  const bool viscous = viscous_counts_ && system_.viscous();
   StableStep best{0, 0, 0, 1};
   FallingLimit falling;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {

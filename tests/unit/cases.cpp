@@ -67,6 +67,11 @@ std::vector<Case> variants(int D) {
   add("contact", "pressure", pair + "form = \"pressure\"\n", none);
   // The force of the cut-off law jumps where its switch begins and ends: here far away.
   add("contact", "volume", pair + "form = \"volume\"\ncutoff = 20\n", all);
+  cases.push_back({"implicit viscosity",
+                   heading(D, "viscosity = \"implicit\"\n") + ball(D, "drop") + moving(D) + liquid +
+                       "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n",
+                   {false, false},
+                   true});
   return cases;
 }
 

@@ -132,6 +132,47 @@ TEST(Registered, TangentsAreTheChangeOfForces) {
   expect_tangents<3>();
 }
 
+/// - C v is what the velocity adds to the force; C is symmetric, has no negative squares, and no
+/// diagonal that is larger than it is.
+template <int D>
+void expect_viscosity() {
+  for_all<D>([](const Case&, Scene<D>& scene) {
+    const Index n = scene.system.size();
+    const NodalVectors u = test::random_field<D>(n, 0.01, 5), v = test::random_field<D>(n, 0.1, 6),
+                       w = test::random_field<D>(n, 0.1, 7), still = test::zeros(u);
+    for (const auto& term : scene.system.terms) {
+      if (!term->viscous()) continue;
+      SCOPED_TRACE(term->name());
+      term->expect_viscous_calls();
+      const NodalVectors at_rest = test::force_of(*term, u, still);
+      const auto resisted = [&](const NodalVectors& rate) {
+        NodalVectors f = still;
+        term->add_viscous({0, u, rate}, f);
+        return f;
+      };
+      const NodalVectors Cv = resisted(v), Cw = resisted(w);
+      NodalVectors diagonal = still;
+      term->add_viscous_diagonal(diagonal);
+      NodalVectors e = still;
+      at(e, n / 2).set(1, 1);
+      const Real entry = -at(resisted(e), n / 2)[1];
+      const NodalVectors difference = test::sum_of(test::force_of(*term, u, v), -1, at_rest);
+      EXPECT_LT(test::norm(test::sum_of(Cv, -1, difference)),
+                1e-12 * (test::norm(Cv) + test::norm(at_rest)));
+      EXPECT_GT(test::norm(Cv), 0);
+      EXPECT_NEAR(test::dot(w, Cv), test::dot(v, Cw), 1e-12 * test::norm(w) * test::norm(Cv));
+      EXPECT_LE(test::dot(v, Cv), 0);
+      EXPECT_GE(at(diagonal, n / 2)[1], 0);
+      EXPECT_LE(at(diagonal, n / 2)[1], entry * 1.2 + 1e-12);
+    }
+  });
+}
+
+TEST(Registered, ViscousForcesAreLinearAndSymmetric) {
+  expect_viscosity<2>();
+  expect_viscosity<3>();
+}
+
 template <int D>
 void expect_balance() {
   for_all<D>([](const Case& c, Scene<D>& scene) {

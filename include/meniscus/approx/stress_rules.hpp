@@ -20,6 +20,18 @@ inline const Real* components(const Lanes& x) {
 
 }  // namespace detail
 
+/// sum_i += the sum over lanes of S_i,KL g_K g_L.
+template <int D>
+void add_squares(const std::array<Tensor<Lanes>, D>& S, const std::array<Lanes, D>& g,
+                 NodalVector& sum) {
+  for (int i = 0; i < D; ++i) {
+    Lanes square = Lanes::zero();
+    for (int K = 0; K < D; ++K)
+      for (int L = 0; L < D; ++L) square += at(S, i)(K, L) * at(g, K) * at(g, L);
+    sum.set(i, sum[i] + meniscus::sum(square));
+  }
+}
+
 /// Nodal cells with linear moments, "q_scni" (RKPM note 5.3): in cell L the gradient of a field is
 /// sum_A f_A (a_A + B_A xi), evaluated at D + 1 points xi_q of equal weight that reproduce volume,
 /// centroid and covariance of the cell. A group is a cell.
@@ -94,6 +106,21 @@ struct CellRule {
     }
   }
 
+  /// sum_A,i += sum_q S_i,KL(q) g_AK(q) g_AL(q), g the gradients of shape functions: the diagonal
+  /// of what gather, P_iK = S_i,KL H_iL and scatter do to a field.
+  void add_diagonal(Index cell, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
+    const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
+    for (Offset e = at(start, cell); e < at(start, cell + 1); ++e) {
+      std::array<Lanes, D> g;
+      for (int K = 0; K < D; ++K) {
+        const Real* moment = detail::components(at(coefficient, e * D + K));
+        at(g, K) = Lanes(moment[0]);
+        for (int M = 0; M < D; ++M) at(g, K) += moment[M + 1] * xi[M];
+      }
+      add_squares<D>(S, g, sum[at(particle, e)]);
+    }
+  }
+
   ForceWindows windows(Index particles) const { return {start, particle, particles}; }
   Offset pairs() const { return start.back(); }
   std::size_t bytes() const {
@@ -157,6 +184,21 @@ struct PointRule {
         Lanes f = at(column[0], lane) * g[0];
         for (int K = 1; K < D; ++K) f += at(column[K], lane) * g[K];
         force[*A] += f;
+      }
+    }
+  }
+
+  /// As CellRule::add_diagonal.
+  void add_diagonal(Index group, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
+    for (int lane = 0; lane < count(group); ++lane) {
+      const Index q = group * per_group + lane;
+      for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
+        std::array<Lanes, D> g;
+        for (int K = 0; K < D; ++K) {
+          at(g, K) = Lanes::zero();
+          at(g, K).set(lane, at(rows.gradient, e * D + K));
+        }
+        add_squares<D>(S, g, sum[at(rows.particle, e)]);
       }
     }
   }

@@ -113,8 +113,19 @@ class ForceTerm {
   /// Keeps the history; without one, nothing.
   virtual void archive(const Archive&) {}
 
-  /// Whether the force depends on the velocity.
+  /// Whether the force depends on the velocity, of which it is then a linear function.
   virtual bool viscous() const { return false; }
+  /// For steps that solve for the velocity. What is linear in it is - C v with C symmetric and not
+  /// negative.
+  ///
+  /// Says that add_viscous() is going to be called after calls of add_force().
+  virtual void expect_viscous_calls() {}
+  /// force[A] += - C v, at the displacement of the last add_force(); asked of viscous terms only.
+  /// Without a function of its own the difference of two forces, which takes memory.
+  virtual void add_viscous(const Motion& motion, Forces force);
+  /// diagonal[A] += the entries of C for the components of particle A, at the displacement of the
+  /// last add_force(). What a term leaves out costs iterations.
+  virtual void add_viscous_diagonal(std::span<NodalVector>) {}
 
   /// Stored energy and the column of the audit it belongs to ("strain", "surface"); none if the
   /// force has no potential.

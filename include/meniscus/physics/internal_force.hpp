@@ -23,6 +23,9 @@ class InternalForce final : public StressPointForce<D, Rule> {
                                   std::move(surface)) {}
 
   bool viscous() const override { return L::viscous; }
+  void expect_viscous_calls() override {
+    if constexpr (L::viscous) this->keep_deformations();
+  }
 
   Report add_force(const Motion& motion, Forces force) override {
     auto& laws = static_cast<PointLawsOf<L>&>(this->laws());
@@ -34,12 +37,14 @@ class InternalForce final : public StressPointForce<D, Rule> {
     PerChunk<Index> failed(this->chunks(), this->no_group);
     this->accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
       Lanes::Mask folded{};
+      [[maybe_unused]] KeptDeformations kept(this->kept());
       Lanes heat = Lanes::zero();
       [[maybe_unused]] Lanes work = Lanes::zero(), on_enclosed = Lanes::zero();
       for (Index g = begin; g < end; ++g) {
         const Lanes w = rule.weight(g);
         Tensor<Lanes> H;
         rule.gather(g, u, H);
+        if constexpr (L::viscous) kept.take(g, H);
         folded |= ~((1.0 + volume_change(H)).v > 0.0);  // also true for not a number
         const auto& law = laws.at(g, motion.time);
         Tensor<Lanes> P = law.stress(H);
@@ -68,6 +73,22 @@ class InternalForce final : public StressPointForce<D, Rule> {
     for (const Real p : ramp_power) report.external_power += p;
     report.failure = this->failure_of(*std::min_element(failed.begin(), failed.end()), u);
     return report;
+  }
+
+  void add_viscous([[maybe_unused]] const Motion& motion, [[maybe_unused]] Forces force) override {
+    if constexpr (L::viscous) {
+      const auto& laws = static_cast<const PointLawsOf<L>&>(this->laws());
+      const Rule& rule = this->rule();
+      const NodalVector* v = motion.v.data() + this->body().first;
+      this->accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
+        for (Index g = begin; g < end; ++g) {
+          Tensor<Lanes> F_rate;
+          rule.gather(g, v, F_rate);
+          const auto& law = laws.at(g, motion.time);
+          rule.scatter(g, -rule.weight(g) * law.viscous_stress(this->kept()[g], F_rate), f);
+        }
+      });
+    }
   }
 };
 

@@ -7,6 +7,7 @@
 #include "meniscus/physics/law.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -49,6 +50,9 @@ class PointLaws {
   virtual Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H) const = 0;
   /// Exact. F_rate is looked at by viscous laws alone, J_e by an EnclosedLaw.
   virtual StressChange tangent(Index group, Real time, const DualDeformation& x) const = 0;
+  /// dP_iK/d(dF/dt)_iL of the viscous stress, for each i.
+  virtual std::array<Tensor<Lanes>, 3> viscosity(Index group, Real time,
+                                                 const Tensor<Lanes>& H) const = 0;
   /// Size of the stress of the reference law, without what ramps add: an active body is free of
   /// stress where that cancels. Stresses of round-off are no scale: those of a strain of 1e-9 count
   /// at least.
@@ -110,6 +114,21 @@ class PointLawsOf final : public PointLaws {
     if constexpr (L::viscous) P = P + law.viscous_stress(x.H, x.F_rate);
     change.P = derivative(P);
     return change;
+  }
+  [[gnu::cold]] std::array<Tensor<Lanes>, 3> viscosity(
+      [[maybe_unused]] Index group, [[maybe_unused]] Real time,
+      [[maybe_unused]] const Tensor<Lanes>& H) const override {
+    std::array<Tensor<Lanes>, 3> all;
+    all.fill(Tensor<Lanes>::zero());
+    if constexpr (L::viscous)
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) {
+          Tensor<Lanes> rate = Tensor<Lanes>::zero();
+          rate(i, k) = Lanes(1.0);
+          const Tensor<Lanes> P = at(group, time).viscous_stress(H, rate);
+          for (int K = 0; K < 3; ++K) meniscus::at(all, i)(K, k) = P(i, K);
+        }
+    return all;
   }
   Lanes stress_scale(Index group, const Tensor<Lanes>& H) const override {
     Tensor<Lanes> P;

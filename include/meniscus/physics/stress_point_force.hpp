@@ -11,6 +11,23 @@
 
 namespace meniscus {
 
+/// Where the loop over groups of stress points leaves their H = F - I; nowhere without `all`.
+class KeptDeformations {
+ public:
+  explicit KeptDeformations(Tensor<Lanes>* all)
+      : first_(all ? all : &last_), stride_(all ? 1 : 0) {}
+  KeptDeformations(const KeptDeformations&) = delete;
+  KeptDeformations& operator=(const KeptDeformations&) = delete;
+  [[gnu::always_inline]] void take(Index group, const Tensor<Lanes>& H) {
+    first_[group * stride_] = H;
+  }
+
+ private:
+  Tensor<Lanes> last_;
+  Tensor<Lanes>* first_;
+  std::ptrdiff_t stride_;
+};
+
 /// `Rule` is CellRule<D> or PointRule<D>.
 template <int D, class Rule>
 class StressPointForce : public ForceTerm {
@@ -25,8 +42,10 @@ class StressPointForce : public ForceTerm {
   std::vector<FieldSource> fields() const final;
   std::vector<MeasureSource> measures() const final;
   std::size_t bytes() const final {
-    return rule_.bytes() + windows_.bytes() + laws_->bytes() + (surface_ ? surface_->bytes() : 0);
+    return rule_.bytes() + windows_.bytes() + laws_->bytes() + (surface_ ? surface_->bytes() : 0) +
+           kept_.size() * sizeof(Tensor<Lanes>);
   }
+  void add_viscous_diagonal(std::span<NodalVector> diagonal) final;
   Offset pairs() const final { return rule_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
  protected:
@@ -60,6 +79,10 @@ class StressPointForce : public ForceTerm {
       surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
 
+  /// From now on add_force leaves H of all groups in kept().
+  void keep_deformations() { kept_.resize(static_cast<std::size_t>(rule_.groups())); }
+  Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data(); }
+
   static constexpr Index no_group = std::numeric_limits<Index>::max();
   /// The first of these groups with a point where J <= 0 or not a number; no_group if there is
   /// none. `u` is that of the body.
@@ -85,6 +108,7 @@ class StressPointForce : public ForceTerm {
   std::unique_ptr<PointLaws> laws_;
   std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
   Real spacing_;
+  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [group]
 };
 
 extern template class StressPointForce<2, CellRule<2>>;

@@ -10,12 +10,14 @@ namespace meniscus {
 /// [time]
 struct TimeSettings {
   Real end = 0;
-  std::optional<Real> step;  ///< given: checked against the stable step; else chosen
-  std::string step_place;    ///< where the scene gives it, to begin messages with
-  std::string solver_place;  ///< the same of `solver`
+  std::optional<Real> step;     ///< given: checked against the stable step; else chosen
+  std::string step_place;       ///< where the scene gives it, to begin messages with
+  std::string solver_place;     ///< the same of `solver`
+  std::string viscosity_place;  ///< the same of `viscosity`
   Real safety = 0.9;
-  int check_every = 0;  ///< most steps between estimates of the stable step
-  std::string solver;   ///< "dynamics" or "relax"
+  int check_every = 0;    ///< most steps between estimates of the stable step
+  std::string solver;     ///< "dynamics" or "relax"
+  std::string viscosity;  ///< "explicit" or "implicit"
   Real force_tolerance = 0, shape_tolerance = 0;  ///< of relax (solve/relaxation.hpp)
   static Rows<TimeSettings> rows();
 };

@@ -19,8 +19,9 @@ struct Books {
 
   /// The powers at the beginning of a run.
   void begin(const Report& report, Real load_power);
-  /// A step of dt ended with these powers.
-  void add(const Report& report, Real load_power, Real dt);
+  /// A step of dt ended with these powers; `last_share` of its heat came at the power of now, the
+  /// rest at that of before.
+  void add(const Report& report, Real load_power, Real dt, Real last_share = 0.5);
   void archive(const Archive& a, int dimension);
 };
 

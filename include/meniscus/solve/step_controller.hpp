@@ -13,18 +13,21 @@ template <int D>
 class StepController {
  public:
   struct Choice {
-    std::optional<Real> fixed;  ///< step asked for
-    Real safety = 0.9;          ///< else this fraction of the stable step
-    int check_every = 100;      ///< most steps between estimates
-    std::string place = {};     ///< of the fixed step in the scene, to begin a message with
+    std::optional<Real> fixed;        ///< step asked for
+    Real safety = 0.9;                ///< else this fraction of the stable step
+    int check_every = 100;            ///< most steps between estimates
+    std::string place = {};           ///< of the fixed step in the scene, to begin a message with
+    bool implicit_viscosity = false;  ///< viscosity does not limit the step
   };
 
-  StepController(System<D>& system, Choice choice) : estimator_(system), choice_(choice) {}
+  StepController(System<D>& system, Choice choice)
+      : estimator_(system, !choice.implicit_viscosity), choice_(choice) {}
 
   /// Estimates the stable step at the start of a run. Throws InputError if a fixed step exceeds it.
   void begin(const State& state);
 
-  /// The next step: not longer than `accurate`, down to a tenth of what is stable, unless it is
+  /// The next step: not longer than `accurate`, down to a tenth of what is stable (a thousandth
+  /// with implicit viscosity), unless it is
   /// fixed. The last two are shortened to arrive at `end` exactly. Throws SolveError when the
   /// stable step has collapsed to a millionth of the first.
   Real next(const State& state, Real end, Real accurate = unbounded);

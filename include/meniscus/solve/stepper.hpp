@@ -36,6 +36,9 @@ class Stepper {
   /// What may keep the stepper from arriving; empty if it sees nothing.
   virtual std::string obstacle(const State&) const { return ""; }
 
+  /// What the steps took beside forces, for the end of the log; empty if nothing.
+  virtual std::string effort() const { return ""; }
+
   /// Keeps what decides how the run goes on; `state` is that of the archive.
   virtual void archive(const Archive&, const State&) {}
 };
@@ -45,6 +48,7 @@ struct StepperChoice {
   Real end = 0;                                   ///< of the run
   Real force_tolerance = 0, shape_tolerance = 0;  ///< of Relaxation
   std::vector<bool> fluid = {};                   ///< which bodies are fluids; empty: none
+  bool implicit_viscosity = false;                ///< of Dynamics
   std::string place = {};                         ///< of the choice, to begin a message with
 };
 

@@ -24,7 +24,9 @@ struct StableStep {
 template <int D>
 class StableStepEstimator {
  public:
-  explicit StableStepEstimator(System<D>& system);
+  /// `viscous`: whether the viscous force, taken at the velocity of the half step before, counts;
+  /// without it the velocity is taken for zero.
+  explicit StableStepEstimator(System<D>& system, bool viscous = true);
 
   /// Throws SolveError if no finite limit can be found.
   StableStep estimate(const State& state);
@@ -39,6 +41,7 @@ class StableStepEstimator {
   Real dot(const NodalVectors& a, const NodalVectors& b) const;
 
   System<D>& system_;
+  bool viscous_counts_;
   Real spacing_;  ///< smallest particle distance: scale of the trial displacements
   NodalVectors mode_, u_, v_, base_, elastic_, viscous_;
   // Of the unknown fields.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dynamics with implicit viscosity: steps that only sound, tension and contact limit.
+#pragma once
+#include "meniscus/solve/system.hpp"
+
+namespace meniscus {
+
+/// Central differences whose viscous force is that of the mean of the velocities before and after a
+/// kick (Crank and Nicolson), with M the masses and C the viscous matrix at the places of the kick:
+///   M (v+ - v-) = dt (f - C (v- + v+)/2).
+/// As a step between states at whole steps, where v_n = (v- + v+)/2:
+///   v+ = v_n + dt/2 M^-1 (f_n - C v_n),   u_n+1 = u_n + dt v+,
+///   (M + dt/2 C) v_n+1 = M v+ + dt/2 f_n+1.
+/// The last by conjugate gradients with the diagonal as preconditioner; it begins with the
+/// acceleration of the step before. Stable where central differences without viscosity are. The
+/// heat of a kick is dt v_n . C v_n without error, and momentum and angular momentum are kept
+/// whatever is left of the residual: each body gets the rigid motion that it misses.
+template <int D>
+class ImplicitViscosity {
+ public:
+  explicit ImplicitViscosity(System<D>& system);
+
+  /// As meniscus::advance; also throws SolveError where no velocity is found.
+  void advance(State& state, Real dt);
+
+  /// Of all steps of this object so far, per step.
+  Real mean_iterations() const {
+    return steps_ > 0 ? static_cast<Real>(iterations_) / static_cast<Real>(steps_) : 0;
+  }
+  void archive(const Archive& a);
+
+ private:
+  Report forces_with_velocity(State& state, Real dt);
+  void renew_diagonal();
+  /// z = (M + dt/2 diagonal)^-1 r; returns r.z.
+  Real precondition(Real dt);
+  /// q = C p; returns p . (M p + dt/2 q).
+  Real apply(const State& state, Real dt);
+  void add_missing_rigid_motion(State& state) const;
+  Real dot(const NodalVectors& a, const NodalVectors& b) const;
+
+  System<D>& system_;
+  NodalVectors diagonal_;                       // of C
+  std::int64_t age_ = 0;                        // steps since it was computed
+  NodalVectors half_, e_, Ce_, r_, z_, p_, q_;  // v+, v - guess, C e, and those of the iteration
+  std::int64_t iterations_ = 0, steps_ = 0;
+};
+
+}  // namespace meniscus

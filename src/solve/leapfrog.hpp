@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of a step of central differences: places and velocities half a step apart.
+#pragma once
+#include "meniscus/core/parallel.hpp"
+#include "meniscus/solve/system.hpp"
+
+namespace meniscus::leapfrog {
+
+/// v += dt f / m
+inline void kick(NodalVectors& v, const NodalVectors& f, const std::vector<Real>& mass, Real dt) {
+  for_chunks(static_cast<Index>(v.size()), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(v, A) += (dt / at(mass, A)) * at(f, A);
+  });
+}
+inline void kick_fields(State& state, Real dt) {
+  for (Unknown& field : state.fields)
+    if (field.spec.evolution == Evolution::inertial) kick(field.rate, field.f, field.capacity, dt);
+}
+
+/// x += dt v
+inline void drift(NodalVectors& x, const NodalVectors& v, Real dt) {
+  for_chunks(static_cast<Index>(x.size()), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(x, A) += dt * at(v, A);
+  });
+}
+inline void drift(State& state, Real dt) {
+  drift(state.u, state.v, dt);
+  for (Unknown& field : state.fields) drift(field.x, field.rate, dt);
+  state.time += dt;
+}
+
+/// x' = f / c of the relaxational fields. The heat of the step of dt that ends: the work of the
+/// mean of both forces on the way that the old rate led.
+inline void settle(State& state, Real dt) {
+  for (Unknown& field : state.fields) {
+    if (field.spec.evolution != Evolution::relaxational) continue;
+    state.books.dissipated +=
+        dt / 2 * parallel_sum(static_cast<Index>(field.x.size()), 0.0, [&](Index A) {
+          Lanes& rate = at(field.rate, A);
+          const Real c = at(field.capacity, A);
+          const Real power = sum((at(field.f, A) + c * rate) * rate);
+          rate = at(field.f, A) / c;
+          return power;
+        });
+  }
+}
+
+/// The step of dt stands, with what its forces reported; `last_share` of its heat was that of now,
+/// the rest that of before.
+template <int D>
+void conclude(System<D>& system, State& state, const Report& report, Real dt, Real last_share) {
+  ++state.step;
+  system.commit(state.motion());
+  state.books.add(report, system.load_power(state.motion()), dt, last_share);
+  state.demand = report.demand;
+}
+
+}  // namespace meniscus::leapfrog
