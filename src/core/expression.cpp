@@ -154,8 +154,8 @@ Expression::Expression(std::string formula) : text_(std::move(formula)) {
     if (parsed->parser.GetNumResults() != 1)
       throw InputError(fmt::format("formula '{}': ',' outside of a function", text_));
     const auto& used = parsed->parser.GetUsedVar();
-    depends_on_time_ = used.count("t") != 0;
-    depends_on_place_ = used.size() > used.count("t");
+    for (std::size_t i = 0; i < variable_names.size(); ++i)
+      at(depends_on_, i) = used.count(variable_names[i]) != 0;
     if (!used.empty()) parsed_ = std::move(parsed);
   } catch (const mu::ParserError& error) {
     throw InputError(fmt::format("formula '{}': {}", text_, explain(error, parsed->parser, text_)));
@@ -174,6 +174,11 @@ Real Expression::operator()(const Eigen::Vector3d& X, Real t) const {
 
 void Expression::set_place(std::string place) {
   if (parsed_) parsed_->place = std::move(place);
+}
+
+const std::string& Expression::place() const {
+  static const std::string none;
+  return parsed_ ? parsed_->place : none;
 }
 
 Real Expression::unchecked(const Eigen::Vector3d& X, Real t) const {

@@ -3,6 +3,7 @@
 // wall, smoothly over a range.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/optional_rows.hpp"
+#include "meniscus/physics/adhesion.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 
 #include <fmt/core.h>
@@ -19,16 +20,27 @@ namespace {
 struct SmoothYoung final : Interaction {
   static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nrange = 0.3\n";
   static constexpr Real core = 100;
-  std::optional<Real> angle, work, depth, film;  // as given
-  Real W = 0, ell = 0, g0 = 0;                   // adhesion, range, offset
+  std::optional<Expression> angle, work, actin;  // as given
+  std::optional<Real> depth, film;
+  Real W = 0, ell = 0, g0 = 0;                     // adhesion, range, offset
+  Real W_below = 0;                                // below the centre of the body, at the start
+  std::shared_ptr<const AdhesionPattern> varying;  // then W is 1
 
   static Rows<SmoothYoung> rows() {
     return {
-        optional_row("contact_angle", &SmoothYoung::angle, dimension::none, {1, 179}, "by adhesion",
-                     "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension "
-                     "of the body"),
-        optional_row("adhesion", &SmoothYoung::work, dimension::tension, range::positive,
-                     "by contact_angle", "energy per area that contact releases"),
+        optional_expression_row(
+            "contact_angle", &SmoothYoung::angle, dimension::none, {1, 179}, "by adhesion",
+            "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension of the body; "
+            "like adhesion and actin a number, or with a rigid partner a formula of the time t and "
+            "the place x, y, z on the partner (a partner that is moved takes it along), smooth "
+            "over a hundredth of the range"),
+        optional_expression_row("adhesion", &SmoothYoung::work, dimension::tension,
+                                range::non_negative, "by contact_angle",
+                                "energy per area that contact releases"),
+        optional_expression_row("actin", &SmoothYoung::actin, dimension::tension, range::any, "0",
+                                "tension by which the front of a cell pulls itself outward, added "
+                                "to the adhesion; what its change with time supplies is external "
+                                "work"),
         optional_row("range", &SmoothYoung::depth, dimension::length, range::positive,
                      "half the size of a facet",
                      "beyond the offset, over which the interaction acts"),
@@ -41,17 +53,26 @@ struct SmoothYoung final : Interaction {
                                       : "and contact_angle are missing; one of them is needed");
   }
 
-  /// With numbers for these surfaces. Throws InputError where the angle has no surface tension.
+  /// With numbers for these surfaces. Throws InputError where the angle has no surface tension, or
+  /// where there is no adhesion.
   std::shared_ptr<const Interaction> fitted(const ContactSurfaces& surfaces) const {
     auto law = std::make_shared<SmoothYoung>(*this);
-    if (angle && !surfaces.gamma)
-      throw InputError(
-          fmt::format("{}: contact_angle needs the surface tension of the first body, which has "
-                      "none; allowed are adhesion, or a [[surface_tension]] of it",
-                      surfaces.place));
-    law->W = work ? *work : *surfaces.gamma * (1 + std::cos(*angle * std::numbers::pi / 180));
     law->ell = depth.value_or(surfaces.facet / 2);
     law->g0 = film.value_or(surfaces.facet / 4);
+    const AdhesionFormulas formulas{angle, work, actin};
+    const AdhesionPattern pattern(formulas, angle ? surfaces.tension() : 0, law->ell);
+    try {
+      law->W = law->W_below = pattern(surfaces.centre, 0);
+    } catch (const SolveError& error) {
+      throw InputError((formulas.constant() ? surfaces.place + ": " : "") + error.what());
+    }
+    if (!(law->W > 0))
+      throw InputError(fmt::format("{}: adhesion and actin are {:.4g} together{}; allowed is > 0",
+                                   surfaces.place, law->W,
+                                   formulas.constant() ? "" : " below the centre of the body"));
+    if (formulas.constant()) return law;
+    law->varying = std::make_shared<AdhesionPattern>(pattern);
+    law->W = 1;
     return law;
   }
 
@@ -68,14 +89,16 @@ struct SmoothYoung final : Interaction {
   Real least_gap() const override { return g0 / 4; }
   PlaneContact flat() const override {
     const Real softest = (3 + std::numbers::sqrt3_v<Real>) / 6;  // largest -K
-    return {g0,
-            W,
-            1.875 * W / ell,
-            g0 + ell / 2,
-            0,
-            -at(g0 + softest * ell).stiffness,
-            g0 + softest * ell,
-            W};
+    const Real softening = -at(g0 + softest * ell).stiffness * W_below / W;
+    return {g0, W_below,   1.875 * W_below / ell, g0 + ell / 2,
+            0,  softening, g0 + softest * ell,    W_below};
+  }
+  const AdhesionPattern* pattern() const override { return varying.get(); }
+  std::string described(const UnitSystem& units) const override {
+    const std::string unit = units.symbol(dimension::length);
+    std::string text = fmt::format("range {:.4g} {}, offset {:.4g} {}", ell, unit, g0, unit);
+    if (varying) text += "; W varies and is that below the centre of the body at t = 0";
+    return text;
   }
   std::optional<std::string> doubt(Real facet) const override {
     if (ell >= facet / 3) return std::nullopt;

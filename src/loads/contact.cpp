@@ -11,13 +11,15 @@
 
 #include <fmt/core.h>
 
+#include <numeric>
+
 namespace meniscus::contact_load {
 namespace {
 
 struct Keys {
   std::string name, form, density, interaction;
   std::vector<std::string> bodies;
-  Real skin = 0;
+  Real skin = 0, friction = 0;
   int points = 0;
   static Rows<Keys> rows();
 };
@@ -50,6 +52,10 @@ Rows<Keys> Keys::rows() {
                "reach of the list beyond the cut-off / sigma0 (a law of the gap: / quarter of its "
                "range)",
                0.4),
+      real_row("friction", &Keys::friction, {-2, -1, 1}, range::non_negative,
+               "with a rigid partner: traction along it per relative speed where the surfaces "
+               "touch, fading with the energy of the interaction",
+               0.0),
   };
 }
 
@@ -102,7 +108,8 @@ struct Contact final : Load<D>, Keys {
   std::optional<Partner<D>> partner;  // none: between two bodies
 
   void read_inner(const Block& block) {
-    if (!block.has("interaction") && block.has("contact_angle")) interaction = "smooth_young";
+    if (!block.has("interaction") && (block.has("contact_angle") || block.has("adhesion")))
+      interaction = "smooth_young";
     model = interactions<D>().at(interaction).read(block);
     if (const auto table = block.table("partner")) {
       partner = read<Partner<D>>(*table);
@@ -147,6 +154,8 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
   if (bodies.size() == 2 && bodies[0] == bodies[1])
     block.problem("bodies", fmt::format("'{}' cannot be in contact with itself", bodies[0]));
   model->check(block, partner.has_value());
+  if (friction > 0 && !partner)
+    block.problem("friction", "is for rigid partners; allowed between two bodies is 0");
   if (form != "volume") return;
   if (block.has("density") && density == "constant")
     block.problem("density",
@@ -181,7 +190,10 @@ template <int D>
 ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
   Real facet = 0;
   for (const std::string& body : bodies) facet = std::max(facet, facet_size(assembly.body(body)));
-  return {this->place, facet, assembly.surface_energy(bodies[0])};
+  const auto& X = assembly.body(bodies[0]).particles.X();
+  const Vec<D> sum = std::accumulate(X.begin(), X.end(), Vec<D>(Vec<D>::Zero()));
+  return {this->place, facet, assembly.surface_energy(bodies[0]),
+          spatial<D>(sum / static_cast<Real>(X.size()))};
 }
 
 template <int D>
@@ -204,6 +216,8 @@ ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
   choice.density = density == "constant" ? SiteDensity::constant : SiteDensity::referential;
   choice.points = points_chosen(assembly);
   choice.skin = skin;
+  choice.friction = friction;
+  choice.wets = assembly.surface_energy(bodies[0]).has_value();
   return choice;
 }
 
@@ -291,6 +305,9 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
       ", equilibrium gap {:.4g} {}, peak traction {:.4g} {} at {:.4g} {}, stiffness {:.4g} {}",
       flat.equilibrium_gap, unit(dimension::length), flat.peak_traction, unit(dimension::pressure),
       flat.peak_gap, unit(dimension::length), flat.stiffness, unit({-2, -2, 1}));
+  if (const std::string more = model->described(surfaces(assembly), assembly.units());
+      !more.empty())
+    note += ", " + more;
   for (const std::string& body : bodies)
     if (const auto gamma = assembly.surface_energy(body))
       note += fmt::format(", contact angle of '{}': {}", body,
@@ -317,16 +334,16 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
 template <int D>
 void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
   if (!partner || !assembly.surface_energy(bodies[0])) return;
-  for (MeasureSource& source :
-       wetted_measures<D>(assembly.measure_named(name + ".energy"), flat(assembly).adhesion))
+  for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area")))
     assembly.measure(name, std::move(source));
-  if (!partner->shape->flat()) return;
+  if (!partner->shape->round()) return;
   for (MeasureSource& source : cap_measures<D>(
            assembly.body(bodies[0]),
            [shape = partner->shape, moved = partner_motion()](const Vec<D>&x, Real t) {
-             return shape->foot(x - moved.displacement(t)).distance;
+             const auto foot = shape->foot(x - moved.displacement(t));
+             return WallHeight{foot.distance, foot.bend.trace() / (D - 1)};
            },
-           flat(assembly).peak_gap))
+           flat(assembly).peak_gap, partner->shape->flat()))
     assembly.measure(name, std::move(source));
 }
 

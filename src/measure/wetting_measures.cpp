@@ -17,17 +17,31 @@ namespace {
 
 constexpr Real pi = std::numbers::pi;
 
+/// The central difference of a length along the motion, over a way of a ten-thousandth of it.
+Real rate_of(const std::function<Real(const Motion&)>& length, const Motion& motion) {
+  Real square = 0;
+  for (const NodalVector& v : motion.v) square = std::max(square, sum(v * v));
+  const Real dt = square > 0 ? 1e-4 * length(motion) / std::sqrt(square) : 0;
+  if (!(dt > 0)) return 0;
+  const auto moved = [&](Real by) {
+    NodalVectors u(motion.u.begin(), motion.u.end());
+    for (std::size_t A = 0; A < u.size(); ++A) at(u, A) += by * at(motion.v, A);
+    return length({motion.time + by, u, motion.v, motion.fields});
+  };
+  return (moved(dt) - moved(-dt)) / (2 * dt);
+}
+
 template <int D>
 class Cap {
  public:
-  using Height = std::function<Real(const Vec<D>&, Real)>;
-  Cap(const Body<D>& body, Height height_of, Real contact_gap)
+  Cap(const Body<D>& body, HeightAbove<D> height_of, Real contact_gap)
       : body_(body), height_of_(std::move(height_of)), contact_gap_(contact_gap) {}
 
   Real film(const Motion& motion) { return points(motion).film; }
   Real angle(const Motion& motion) {
-    const Sphere s = sphere(motion);
-    return std::acos(std::clamp(-s.centre / s.radius, -1.0, 1.0));
+    const auto [z, r, bend] = sphere(motion);
+    const Real cosine = (bend * (r * r + z * z) - 2 * z) / (2 * r * (1 - bend * z));
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
   }
   Real height(const Motion& motion) {
     const Sphere s = sphere(motion);
@@ -43,9 +57,10 @@ class Cap {
     std::vector<Real> area, height;
     Real film, top;
   };
-  /// Its centre over the plane of contact.
+  /// Its centre over the film; the curvature of the wall as of a ball about the centre of the wall
+  /// through that of the sphere.
   struct Sphere {
-    Real centre, radius;
+    Real centre, radius, bend;
   };
 
   const ClosedSurface<D>& surface() {
@@ -64,7 +79,7 @@ class Cap {
       const auto point = static_cast<Index>(q);
       points.x.push_back(placed.place(point));
       points.area.push_back(placed.area_vector(point).norm() * reference[q]);
-      points.height.push_back(height_of_(points.x.back(), motion.time));
+      points.height.push_back(height_of_(points.x.back(), motion.time).height);
       const Real height = points.height.back();
       least = std::min(least, height);
       points.top = std::max(points.top, height);
@@ -101,11 +116,12 @@ class Cap {
       }
     const Vec<D + 1> solution = solve_symmetric(normal, right);
     const Vec<D> c = solution.template head<D>();
-    return {height_of_(mean + c, motion.time) - p.film, std::sqrt(solution[D] + c.squaredNorm())};
+    const auto [height, bend] = height_of_(mean + c, motion.time);
+    return {height - p.film, std::sqrt(solution[D] + c.squaredNorm()), bend};
   }
 
   const Body<D>& body_;
-  Height height_of_;
+  HeightAbove<D> height_of_;
   Real contact_gap_;
   std::optional<ClosedSurface<D>> surface_;
 };
@@ -113,17 +129,14 @@ class Cap {
 }  // namespace
 
 template <int D>
-std::vector<MeasureSource> wetted_measures(std::function<Real(const Motion&)> energy,
-                                           Real adhesion) {
-  const auto area = [energy = std::move(energy), adhesion](const Motion& motion) {
-    return std::max(0.0, -energy(motion) / adhesion);
+std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wetted_area) {
+  const auto radius = [area = std::move(wetted_area)](const Motion& motion) {
+    return D == 3 ? std::sqrt(area(motion) / pi) : area(motion) / 2;
   };
-  return {{"wetted_area", D == 3 ? dimension::area : dimension::length,
-           "area in full contact that has the energy of the interaction (2D: length)", area},
-          {"base_radius", dimension::length, "of a disk of that area (2D: half the length)",
-           [area](const Motion& motion) {
-             return D == 3 ? std::sqrt(area(motion) / pi) : area(motion) / 2;
-           }}};
+  return {{"base_radius", dimension::length, "of a disk of the wetted area (2D: half the length)",
+           radius},
+          {"line_speed", dimension::velocity, "rate of the base radius",
+           [radius](const Motion& motion) { return rate_of(radius, motion); }}};
 }
 
 template <int D>
@@ -145,29 +158,30 @@ Real angle_of_cap(Real volume, Real height) {
 }
 
 template <int D>
-std::vector<MeasureSource> cap_measures(const Body<D>& body,
-                                        std::function<Real(const Vec<D>&, Real)> height_of,
-                                        Real contact_gap) {
+std::vector<MeasureSource> cap_measures(const Body<D>& body, HeightAbove<D> height_of,
+                                        Real contact_gap, bool flat) {
   const auto cap = std::make_shared<Cap<D>>(body, std::move(height_of), contact_gap);
   constexpr Real degree = pi / 180;
-  return {{"film", dimension::length,
-           "mean gap where the surface is in contact; least gap where it is not",
-           [cap](const Motion& motion) { return cap->film(motion); }},
-          {"contact_angle", dimension::none,
-           "in degrees, of the sphere that fits the free surface best (2D: circle)",
-           [cap](const Motion& motion) { return cap->angle(motion) / degree; }},
-          {"contact_angle_vh", dimension::none, "in degrees, of the cap of this volume and height",
-           [cap](const Motion& motion) { return cap->angle_of_volume(motion) / degree; }},
-          {"height", dimension::length, "of the apex of that sphere over the film",
-           [cap](const Motion& motion) { return cap->height(motion); }}};
+  std::vector<MeasureSource> all{
+      {"film", dimension::length,
+       "mean gap where the surface is in contact; least gap where it is not",
+       [cap](const Motion& motion) { return cap->film(motion); }},
+      {"contact_angle", dimension::none,
+       "in degrees, of the sphere that fits the free surface best (2D: circle)",
+       [cap](const Motion& motion) { return cap->angle(motion) / degree; }},
+      {"height", dimension::length, "of the apex of that sphere over the film",
+       [cap](const Motion& motion) { return cap->height(motion); }}};
+  if (flat)
+    all.push_back({"contact_angle_vh", dimension::none,
+                   "in degrees, of the cap of this volume and height",
+                   [cap](const Motion& motion) { return cap->angle_of_volume(motion) / degree; }});
+  return all;
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                              \
-  template std::vector<MeasureSource> wetted_measures<D>(std::function<Real(const Motion&)>, \
-                                                         Real);                              \
+  template std::vector<MeasureSource> front_measures<D>(std::function<Real(const Motion&)>); \
   template Real angle_of_cap<D>(Real, Real);                                                 \
-  template std::vector<MeasureSource> cap_measures(                                          \
-      const Body<D>&, std::function<Real(const Vec<D>&, Real)>, Real);
+  template std::vector<MeasureSource> cap_measures(const Body<D>&, HeightAbove<D>, Real, bool);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

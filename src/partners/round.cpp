@@ -26,6 +26,7 @@ struct Round final : PartnerShape<D> {
     const Mat<D> across = Mat<D>::Identity() - k * k.transpose();
     return {sign * (r - radius), sign * k, r > 0 ? Mat<D>(sign / r * across) : Mat<D>::Zero()};
   }
+  bool round() const override { return true; }
   std::vector<Vec<D>> places() const override {
     if (hollow) return {};
     return {Vec<D>::Map(centre.data())};

@@ -72,6 +72,13 @@ std::vector<Case> variants(int D) {
                        "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n",
                    {false, false},
                    true});
+  add("contact", "adhesion by formulas, friction",
+      std::string("bodies = [\"drop\"]\nadhesion = \"0.3 + 0.1*x + 0.05*sin(40*t)\"\n"
+                  "actin = \"0.1*y\"\noffset = 0.2\nrange = 0.3\nfriction = 0.4\n"
+                  "[contact.partner]\ntype = \"ball\"\nradius = 0.7\n") +
+          (D == 3 ? "centre = [0, 0.2, -2]\ndisplacement = [\"0.1*t\", 0, 0]\n"
+                  : "centre = [0.2, -2]\ndisplacement = [\"0.1*t\", 0]\n"),
+      {});
   return cases;
 }
 

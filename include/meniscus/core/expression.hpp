@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/core/types.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -31,21 +32,25 @@ class Expression {
   Real unchecked(const Eigen::Vector3d& X, Real t = 0) const;
   /// Where the formula stands, "file:line:column: key", to begin messages with.
   void set_place(std::string place);
+  /// Empty if nobody said it, or of a constant.
+  const std::string& place() const;
 
   /// The formula as given; the shortest decimal that reads back as the same number for a constant.
   const std::string& text() const { return text_; }
   /// No variable occurs.
   bool constant() const { return parsed_ == nullptr; }
   /// The variable t occurs.
-  bool depends_on_time() const { return depends_on_time_; }
+  bool depends_on_time() const { return depends_on_[3]; }
   /// x, y or z occurs.
-  bool depends_on_place() const { return depends_on_place_; }
+  bool depends_on_place() const { return depends_on_[0] || depends_on_[1] || depends_on_[2]; }
+  /// x (0), y (1) or z (2) occurs.
+  bool depends_on_axis(int axis) const { return at(depends_on_, axis); }
 
  private:
   struct Parsed;
   std::string text_;
-  Real value_ = 0;  ///< of a constant
-  bool depends_on_time_ = false, depends_on_place_ = false;
+  Real value_ = 0;                    ///< of a constant
+  std::array<bool, 4> depends_on_{};  ///< x, y, z, t
   std::shared_ptr<Parsed> parsed_;
 };
 

@@ -17,6 +17,20 @@ Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension d
   return row;
 }
 
+/// A number, of which the range is checked, or a formula of place and time; may stay absent.
+template <class M>
+Row<M> optional_expression_row(std::string key, std::optional<Expression> M::*member,
+                               Dimension dimension, Range range, std::string fallback,
+                               std::string meaning) {
+  Row<M> row = real_row<M>(std::move(key), nullptr, dimension, range, std::move(meaning), 0.0);
+  row.type = "number or formula";
+  row.fallback = std::move(fallback);
+  row.read = [key = row.key, member, dimension, range](M& m, const Block& block) {
+    if (block.has(key)) m.*member = block.expression(key, dimension, std::nullopt, range);
+  };
+  return row;
+}
+
 /// `count` formulas of these variables (0: any number of them); none if left out, which means zero.
 template <class M>
 Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*member,

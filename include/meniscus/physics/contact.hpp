@@ -28,8 +28,10 @@ struct ContactChoice {
   std::string name;  ///< of the pair, in messages and measures
   ContactForm form = ContactForm::energy;
   SiteDensity density = SiteDensity::constant;
-  int points = 2;   ///< Gauss points per direction of a facet, or of a cell
-  Real skin = 0.4;  ///< of the list, / sigma0 (of a law of the gap: / quarter of its range)
+  int points = 2;     ///< Gauss points per direction of a facet, or of a cell
+  Real skin = 0.4;    ///< of the list, / sigma0 (of a law of the gap: / quarter of its range)
+  Real friction = 0;  ///< with a rigid partner: traction / speed along it where they touch
+  bool wets = false;  ///< the body has a surface tension: measures of wetting are of interest
 };
 
 /// A body with `beta` particles of the interaction per volume.
@@ -52,6 +54,9 @@ std::unique_ptr<ForceTerm> gap_pair(const Body<D>& first, const Body<D>& second,
                                     std::shared_ptr<const Interaction> law,
                                     const ContactChoice& choice);
 
+template <int D>
+class PartnerShape;
+
 /// A rigid partner in motion.
 template <int D>
 struct MovingPartner {
@@ -59,10 +64,15 @@ struct MovingPartner {
   RigidMotion<D> motion = {};
   Real beta = 1;
   Real velocity_step = 0;  ///< of the difference that gives its velocity: 1e-4 of the run
+  std::shared_ptr<const PartnerShape<D>> surface = nullptr;  ///< friction needs it
 };
 
 /// Contact of a body with a rigid partner, whose field is that of the interaction; any form but
-/// `volume`, for which InputError is thrown.
+/// `volume`, for which InputError is thrown. An interaction with a pattern needs the form `energy`;
+/// the energy is then the sum of W S.V over the points, x of W(x, t) in the frame of the partner,
+/// and what a change of W with time supplies is external power. Friction is the traction
+/// -friction chi v_t, v_t the velocity along the partner relative to it, on the area that faces it;
+/// chi is 1 where the surface rests, and falls with the energy of the interaction.
 template <int D>
 std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>& body, MovingPartner<D> partner,
                                          std::shared_ptr<const Interaction> interaction,

@@ -39,6 +39,9 @@ class LennardJones final : public Interaction {
 /// it adheres, cos theta = W/gamma - 1 (Young-Dupre); none where W >= 2 gamma: complete wetting.
 std::optional<Real> contact_angle(Real adhesion, Real gamma);
 
+/// gamma (1 + cos theta) of an angle in degrees.
+Real adhesion_of_angle(Real degrees, Real gamma);
+
 /// "61.3 degrees" or "complete wetting".
 std::string contact_angle_text(Real adhesion, Real gamma);
 

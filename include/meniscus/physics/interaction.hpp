@@ -3,6 +3,7 @@
 // functions of the gap between them.
 #pragma once
 #include "meniscus/core/types.hpp"
+#include "meniscus/core/units.hpp"
 
 #include <optional>
 #include <string>
@@ -30,6 +31,8 @@ struct PlaneContact {
   Real lost_adhesion() const { return 1 - adhesion / uncut_adhesion; }
 };
 
+class AdhesionPattern;
+
 class Interaction {
  public:
   virtual ~Interaction() = default;
@@ -41,6 +44,11 @@ class Interaction {
   /// Steps into a narrower gap are rejected.
   virtual Real least_gap() const = 0;
   virtual PlaneContact flat() const = 0;
+  /// The adhesion W(x, t) of a rigid partner, by which at() has to be multiplied; null: at() has
+  /// it. flat() has that of one place.
+  virtual const AdhesionPattern* pattern() const { return nullptr; }
+  /// Its lengths and formulas in words, for the log; empty: flat() says it all.
+  virtual std::string described(const UnitSystem&) const { return {}; }
   /// Why it may be wrong on facets of that size, if it may.
   virtual std::optional<std::string> doubt([[maybe_unused]] Real facet) const {
     return std::nullopt;

@@ -26,6 +26,10 @@ struct ContactSurfaces {
   std::string place;          ///< of the contact in the scene, for messages
   Real facet;                 ///< edge of the larger facets
   std::optional<Real> gamma;  ///< surface tension of the first body, if it has any
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the particles of the first body
+
+  /// gamma, for a contact angle; throws InputError if the first body has none.
+  Real tension() const;
 };
 
 /// An interaction as a scene describes it, ready to act between bodies.
@@ -44,6 +48,8 @@ class ContactModel {
                                                   const ContactSurfaces& surfaces) const = 0;
   /// What it means for flat surfaces.
   virtual PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const = 0;
+  /// The lengths that it chose, in words; empty: flat() says it all.
+  virtual std::string described(const ContactSurfaces&, const UnitSystem&) const { return {}; }
   /// Why it may be wrong there, if it may.
   virtual std::optional<std::string> doubt(const ContactSurfaces& surfaces) const = 0;
 };

@@ -29,8 +29,11 @@ class PartnerShape {
     Mat<D> bend;
   };
   virtual Foot foot(const Vec<D>& x) const = 0;
-  /// Whether its surface is a plane, on which drops have a contact angle.
+  /// Whether its surface is a plane.
   virtual bool flat() const { return false; }
+  /// Whether its surface has the same curvature in all places and directions, so that a drop on it
+  /// has one contact angle.
+  virtual bool round() const { return flat(); }
   /// Places in the material of which one would be inside of a body that has run over the partner;
   /// none where no body can be around it.
   virtual std::vector<Vec<D>> places() const { return {}; }

@@ -103,6 +103,10 @@ std::optional<Real> contact_angle(Real adhesion, Real gamma) {
   return std::acos(adhesion / gamma - 1);
 }
 
+Real adhesion_of_angle(Real degrees, Real gamma) {
+  return gamma * (1 + std::cos(degrees * std::numbers::pi / 180));
+}
+
 std::string contact_angle_text(Real adhesion, Real gamma) {
   const std::optional<Real> angle = contact_angle(adhesion, gamma);
   return angle ? fmt::format("{:.4g} degrees", *angle * 180 / std::numbers::pi)

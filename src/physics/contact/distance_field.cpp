@@ -57,18 +57,26 @@ class GapContact final : public ContactModel<D> {
   std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
                                      const ContactChoice& choice,
                                      const ContactSurfaces& surfaces) const override {
-    return gap_pair<D>(first, second, law_(surfaces), choice);
+    const auto law = law_(surfaces);
+    if (law->pattern())
+      throw InputError(surfaces.place +
+                       ": between two bodies adhesion cannot be a formula; allowed are numbers, or "
+                       "a [contact.partner]");
+    return gap_pair<D>(first, second, law, choice);
   }
   std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
                                           const ContactChoice& choice,
                                           const ContactSurfaces& surfaces) const override {
     const auto law = law_(surfaces);
-    MovingPartner<D> partner{distance_field<D>(law, plan.shape), plan.motion, 1,
-                             plan.velocity_step};
+    MovingPartner<D> partner{distance_field<D>(law, plan.shape), plan.motion, 1, plan.velocity_step,
+                             plan.shape};
     return rigid_contact<D>({body, 1}, std::move(partner), law, choice);
   }
   PlaneContact flat(bool, const ContactSurfaces& surfaces) const override {
     return law_(surfaces)->flat();
+  }
+  std::string described(const ContactSurfaces& surfaces, const UnitSystem& units) const override {
+    return law_(surfaces)->described(units);
   }
   std::optional<std::string> doubt(const ContactSurfaces& surfaces) const override {
     return law_(surfaces)->doubt(surfaces.facet);
@@ -79,6 +87,13 @@ class GapContact final : public ContactModel<D> {
 };
 
 }  // namespace
+
+Real ContactSurfaces::tension() const {
+  if (gamma) return *gamma;
+  throw InputError(place +
+                   ": contact_angle needs the surface tension of the first body, which has none; "
+                   "allowed are adhesion, or a [[surface_tension]] of it");
+}
 
 template <int D>
 std::unique_ptr<RigidPartner<D>> distance_field(std::shared_ptr<const Interaction> law,

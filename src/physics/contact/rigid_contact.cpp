@@ -11,6 +11,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "wall_effects.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -28,13 +30,17 @@ class RigidContact final : public ForceTerm {
       : name_(choice.name),
         interaction_(std::move(interaction)),
         form_(choice.form),
+        wets_(choice.wets),
         partner_(std::move(partner)),
+        effects_(*interaction_, partner_, choice.friction),
         points_(ContactPoints<D>::on_surface(body.body, body.beta, choice.density, choice.points)),
         all_(static_cast<std::size_t>(points_.clusters())),
         now_(points_) {
     std::iota(all_.begin(), all_.end(), Index{0});
     near_.reserve(all_.size());
     if (partner_.motion.moves()) steady_after_ = end_of_motion();
+    if (const auto* pattern = effects_.pattern(); pattern && pattern->depends_on_time())
+      steady_after_ = std::numeric_limits<Real>::infinity();
   }
 
   std::string name() const override { return "contact '" + name_ + "'"; }
@@ -42,6 +48,7 @@ class RigidContact final : public ForceTerm {
 
   Report add_force(const Motion& motion, Forces force) override {
     evaluate(motion, now_);
+    add_effects(motion, now_);
     const std::span<const Lanes> S =
         form_ == ContactForm::energy ? std::span<const Lanes>(now_.S) : std::span<const Lanes>();
     points_.add_force(now_.places, all_, now_.T, S, force);
@@ -49,19 +56,19 @@ class RigidContact final : public ForceTerm {
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
-    const Evaluation result = evaluated(motion);
-    return parallel_sum(points_.clusters(), 0.0, [&](Index c) {
-      Lanes E = Lanes::zero();
-      for (int i = 0; i < D; ++i) E += at(result.S, c * D + i) * result.places.weight_of(c)[i];
-      return sum(E);
-    });
+    return energy_of(evaluated(motion));
   }
   Real steady_after() const override { return steady_after_; }
 
+  void commit(const Motion& motion) override { effects_.commit(motion.time); }
+  void archive(const Archive& a) override { effects_.archive(a); }
+  bool viscous() const override { return effects_.rub(); }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
+  /// The field of a plane is that of the distance alone, and exact.
   std::optional<std::string> warning(const Motion& motion) const override {
+    if (partner_.surface && partner_.surface->flat()) return std::nullopt;
     return unresolved_gap(name_, evaluated(motion).gap(), points_.spacing(), interaction_->range());
   }
 
@@ -78,6 +85,7 @@ class RigidContact final : public ForceTerm {
     ContactPlaces<D> places;
     AlignedVector<Lanes> T, S;
     AlignedVector<Lanes> distances;  // [cluster] from the surface of the partner
+    WallSums sums;
 
     explicit Evaluation(const ContactPoints<D>& points) : places(points.at_rest()) {
       T.assign(static_cast<std::size_t>(points.clusters()) * D, Lanes::zero());
@@ -97,13 +105,37 @@ class RigidContact final : public ForceTerm {
   Real end_of_motion() const;
   void evaluate(const Motion& motion, Evaluation& result) const;
   void evaluate(Index cluster, const Vec<D>& shift, Evaluation& result) const;
+  void add_effects(const Motion& motion, Evaluation& result) const;
+  WallSums add_effects(Index cluster, const Motion& motion, const Vec<D>& shift,
+                       const Vec<D>& velocity, Evaluation& result) const;
   /// At any motion; takes memory.
   Evaluation evaluated(const Motion& motion) const {
     Evaluation result(points_);
     evaluate(motion, result);
+    add_effects(motion, result);
     return result;
   }
+  Real energy_of(const Evaluation& result) const {
+    return parallel_sum(points_.clusters(), 0.0, [&](Index c) {
+      Lanes E = Lanes::zero();
+      for (int i = 0; i < D; ++i) E += at(result.S, c * D + i) * result.places.weight_of(c)[i];
+      return sum(E);
+    });
+  }
+  Real wetted_area(const Motion& motion) const {
+    Evaluation uniform(points_);
+    evaluate(motion, uniform);
+    return std::max(0.0, -energy_of(uniform) / effects_.adhesion());
+  }
+  Vec<D> velocity(const Motion& motion) const {
+    return partner_.motion.velocity(motion.time, partner_.velocity_step);
+  }
   Report report(const Motion& motion);
+  /// Whether a point of the cluster is within the range.
+  bool near(const Evaluation& result, Index cluster) const {
+    const Lanes& d = at(result.distances, cluster);
+    return std::min(std::min(d[0], d[1]), std::min(d[2], d[3])) < interaction_->range();
+  }
 
   Vec<D> net_force(const Evaluation& result) const {
     Vec<D> force = Vec<D>::Zero();
@@ -116,7 +148,9 @@ class RigidContact final : public ForceTerm {
   std::string name_;
   std::shared_ptr<const Interaction> interaction_;
   ContactForm form_;
+  bool wets_;
   MovingPartner<D> partner_;
+  WallEffects<D> effects_;
   ContactPoints<D> points_;
   std::vector<Index> all_;  // clusters
   Real steady_after_ = 0;
@@ -168,6 +202,36 @@ void RigidContact<D>::evaluate(Index cluster, const Vec<D>& shift, Evaluation& r
   }
 }
 
+/// Adhesion that varies, and friction.
+template <int D>
+void RigidContact<D>::add_effects(const Motion& motion, Evaluation& result) const {
+  if (!effects_.any()) return;
+  const Vec<D> shift = partner_.motion.displacement(motion.time), velocity = this->velocity(motion);
+  result.sums = parallel_sum(points_.clusters(), WallSums(), [&](Index c) {
+    return near(result, c) ? add_effects(c, motion, shift, velocity, result) : WallSums();
+  });
+}
+
+template <int D>
+WallSums RigidContact<D>::add_effects(Index cluster, const Motion& motion, const Vec<D>& shift,
+                                      const Vec<D>& velocity, Evaluation& result) const {
+  const Lanes *x = result.places.x_of(cluster), *weight = result.places.weight_of(cluster);
+  Lanes v[D];
+  points_.velocity(cluster, motion, v);
+  WallPoints<D> points;
+  points.T = &at(result.T, cluster * D);
+  points.S = &at(result.S, cluster * D);
+  points.distance = at(result.distances, cluster);
+  for (std::size_t lane = 0; lane < Lanes::width; ++lane)
+    for (int i = 0; i < D; ++i) {
+      const int l = static_cast<int>(lane);
+      at(points.x, lane)[i] = x[i][l] - shift[i];
+      at(points.v, lane)[i] = v[i][l] - velocity[i];
+      at(points.V, lane)[i] = weight[i][l];
+    }
+  return effects_.add(points, motion.time);
+}
+
 /// Torque about the origin, -sum (x cross T + V cross S): turning the body turns x and V.
 template <int D>
 Eigen::Vector3d RigidContact<D>::net_torque(const Evaluation& result) const {
@@ -193,9 +257,11 @@ Report RigidContact<D>::report(const Motion& motion) {
   Report report;
   Vec<D> velocity = Vec<D>::Zero();
   if (partner_.motion.moves()) {
-    velocity = partner_.motion.velocity(motion.time, partner_.velocity_step);
+    velocity = this->velocity(motion);
     report.external_power = net_force(now_).dot(velocity);
   }
+  report.external_power += now_.sums.supplied;
+  report.heat = now_.sums.heat;
   const Index nearest = now_.nearest_point();
   const Real gap = now_.distance(nearest);
   if (!(gap < interaction_->range())) {
@@ -211,13 +277,11 @@ Report RigidContact<D>::report(const Motion& motion) {
                     points_.body().name, name_, gap, interaction_->least_gap()),
         true};
   near_.clear();
-  for (const Index c : all_) {
-    const Lanes& d = at(now_.distances, c);
-    if (std::min(std::min(d[0], d[1]), std::min(d[2], d[3])) < interaction_->range())
-      near_.push_back(c);
-  }
+  for (const Index c : all_)
+    if (near(now_, c)) near_.push_back(c);
   const Real speed = closing_speed<D>(points_, near_, nullptr, {}, velocity, motion);
-  report.demand = contact_demand({*interaction_, 1 / points_.inertia(), 0, D}, gap, speed);
+  const Real strength = effects_.pattern() ? now_.sums.adhesion : 1;
+  report.demand = contact_demand({*interaction_, strength / points_.inertia(), 0, D}, gap, speed);
   return report;
 }
 
@@ -242,6 +306,15 @@ std::vector<MeasureSource> RigidContact<D>::measures() const {
         {std::string("torque_") + "xyz"[i], dimension::energy,
          "torque on the body about the origin",
          looked_at([this, i](const Evaluation& result) { return net_torque(result)[i]; })});
+  if (wets_) {
+    for (int i = 0; i < D; ++i)
+      all.push_back(
+          {std::string("reaction_") + "xyz"[i], dimension::force, "force on the partner",
+           looked_at([this, i](const Evaluation& result) { return -net_force(result)[i]; })});
+    all.push_back({"wetted_area", D == 3 ? dimension::area : dimension::length,
+                   "area in full contact that has the energy of the interaction (2D: length)",
+                   [this](const Motion& motion) { return wetted_area(motion); }});
+  }
   if (partner_.motion.moves())
     for (int i = 0; i < D; ++i)
       all.push_back({std::string("displacement_") + "xyz"[i], dimension::length,
@@ -261,6 +334,10 @@ std::unique_ptr<ForceTerm> rigid_contact(const ContactBody<D>& body, MovingPartn
     throw InputError(
         "form = \"volume\" is for two deformable bodies; a rigid partner is known by its surface "
         "interaction (allowed are energy, pressure, dissertation)");
+  if (interaction->pattern() && choice.form != ContactForm::energy)
+    throw InputError("contact '" + choice.name +
+                     "': adhesion that varies has a force from its energy alone; use form = "
+                     "\"energy\", or numbers");
   return std::make_unique<RigidContact<D>>(body, std::move(partner), std::move(interaction),
                                            choice);
 }

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a rigid partner does to wetted points besides the interaction of uniform strength: adhesion
+// that varies over it and with time, and friction.
+#pragma once
+#include "meniscus/physics/adhesion.hpp"
+#include "meniscus/physics/contact.hpp"
+#include "meniscus/physics/partner_registry.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+
+/// Four points: places and velocities relative to the partner, area vectors, distances; their
+/// forces so far.
+template <int D>
+struct WallPoints {
+  std::array<Vec<D>, Lanes::width> x, v, V;
+  Lanes distance;
+  Lanes *T, *S;  ///< [i] dE/dx and dE/dV, as in contact_points.hpp
+};
+
+/// Powers of the effects, and the largest adhesion that was met.
+struct WallSums {
+  Real supplied = 0;  ///< by adhesion that changes with time
+  Real heat = 0;      ///< of friction
+  Real adhesion = 0;
+
+  friend WallSums operator+(const WallSums& a, const WallSums& b) {
+    return {a.supplied + b.supplied, a.heat + b.heat, std::max(a.adhesion, b.adhesion)};
+  }
+};
+
+template <int D>
+class WallEffects {
+ public:
+  WallEffects(const Interaction& interaction, const MovingPartner<D>& partner, Real friction)
+      : interaction_(interaction),
+        pattern_(interaction.pattern()),
+        surface_(partner.surface),
+        friction_(friction),
+        flat_(interaction.flat()),
+        last_step_(partner.velocity_step) {}
+
+  bool any() const { return pattern_ != nullptr || friction_ > 0; }
+  bool rub() const { return friction_ > 0; }
+  const AdhesionPattern* pattern() const { return pattern_; }
+  /// By which the interaction is multiplied for the energy of an area in full contact.
+  Real adhesion() const { return pattern_ ? 1 : flat_.adhesion; }
+
+  /// Adds to the forces of points; at `time`.
+  WallSums add(WallPoints<D>& points, Real time) const {
+    WallSums sums;
+    for (int lane = 0; lane < Lanes::width; ++lane) {
+      if (!(points.distance[lane] < interaction_.range())) continue;
+      if (pattern_) sums = sums + vary(points, lane, time);
+      if (friction_ > 0) sums.heat += rub(points, lane);
+    }
+    return sums;
+  }
+
+  void commit(Real time) {
+    if (committed_ && time > *committed_) last_step_ = time - *committed_;
+    committed_ = time;
+  }
+  void archive(const Archive& a) {
+    if (!pattern_ || !pattern_->depends_on_time()) return;
+    a("committed", committed_, dimension::time);
+    a("last_step", last_step_, dimension::time);
+  }
+
+ private:
+  /// From the forces of unit adhesion to those of W(x, t): E = W e, so that
+  ///   dE/dV = W S,   dE/dx = W T + (S.V) grad W.
+  WallSums vary(WallPoints<D>& points, int lane, Real time) const {
+    const Eigen::Vector3d x = spatial<D>(points.x[lane]);
+    const Real W = (*pattern_)(x, time);
+    const Eigen::Vector3d slope = pattern_->gradient(x, time);
+    Real e = 0;
+    for (int i = 0; i < D; ++i) e += points.S[i][lane] * points.V[lane][i];
+    for (int i = 0; i < D; ++i) {
+      points.T[i].set(lane, W * points.T[i][lane] + e * slope[i]);
+      points.S[i].set(lane, W * points.S[i][lane]);
+    }
+    WallSums sums;
+    sums.adhesion = W;
+    if (pattern_->depends_on_time()) sums.supplied = e * rate(x, time);
+    return sums;
+  }
+
+  /// Mean over a step about `time`: the sum over a run is the whole change, also of a W that jumps.
+  Real rate(const Eigen::Vector3d& x, Real time) const {
+    const Real step = committed_ && time > *committed_ ? time - *committed_ : last_step_;
+    return ((*pattern_)(x, time + step / 2) - (*pattern_)(x, time - step / 2)) / step;
+  }
+
+  /// The traction - friction chi v_t on the area that faces the partner; its heat.
+  Real rub(WallPoints<D>& points, int lane) const {
+    const Vec<D> n = surface_->foot(points.x[lane]).normal;
+    const Real faced = std::max(0.0, -n.dot(points.V[lane]));
+    const Vec<D> slip = points.v[lane] - n.dot(points.v[lane]) * n;
+    const Real drag = friction_ * wetted(points.distance[lane]) * faced;
+    for (int i = 0; i < D; ++i) points.T[i].set(lane, points.T[i][lane] + drag * slip[i]);
+    return drag * slip.squaredNorm();
+  }
+
+  /// chi: 1 where the surface rests, falls smoothly to 0 with the energy of the interaction.
+  Real wetted(Real gap) const {
+    if (gap <= flat_.equilibrium_gap) return 1;
+    return std::clamp(-interaction_.at(gap).energy / adhesion(), 0.0, 1.0);
+  }
+
+  const Interaction& interaction_;
+  const AdhesionPattern* pattern_;  // null: uniform and steady
+  std::shared_ptr<const PartnerShape<D>> surface_;
+  Real friction_;
+  PlaneContact flat_;
+  std::optional<Real> committed_;  // time of the last step that stands
+  Real last_step_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wetting in motion: energies and forces of adhesion that varies, cycles, friction, reactions.
+#include "meniscus/core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "cases.hpp"
+#include "io_helpers.hpp"
+#include "support.hpp"
+
+namespace meniscus::test_wetting_laws {
+namespace {
+
+/// A drop of radius 1 with its lowest point 0.1 above a wall, in tension, and a contact 'wall' with
+/// these lines.
+template <int D>
+std::string on_wall_text(const std::string& lines, const std::string& partner = {},
+                         const std::string& time = "end = 1e3") {
+  const std::string half_space =
+      D == 3 ? "type = \"half_space\"\npoint = [0, 0, -1.1]\nnormal = [0, 0, 1]\n"
+             : "type = \"half_space\"\npoint = [0, -1.1]\nnormal = [0, 1]\n";
+  return "dimension = " + std::to_string(D) + "\n[time]\n" + time + "\n" + test::one_drop(D) +
+         "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n"
+         "[[contact]]\nname = \"wall\"\nbodies = [\"drop\"]\n" +
+         lines + "[contact.partner]\n" + (partner.empty() ? half_space : partner);
+}
+template <int D>
+Scene<D> on_wall(const std::string& lines, const std::string& partner = {},
+                 const std::string& time = "end = 1e3") {
+  return test::scene_of<D>(on_wall_text<D>(lines, partner, time));
+}
+
+template <int D>
+ForceTerm& contact_of(Scene<D>& scene) {
+  return *scene.system.terms.back();
+}
+template <int D>
+Real measure(const Scene<D>& scene, const std::string& name, const Motion& motion) {
+  for (const MeasureSource& source : scene.measures)
+    if (source.name == name) return source.compute(motion);
+  throw std::logic_error("no measure " + name);
+}
+template <int D>
+Vec<D> net(const NodalVectors& force) {
+  Vec<D> sum = Vec<D>::Zero();
+  for (std::size_t A = 0; A < force.size(); ++A)
+    for (int i = 0; i < D; ++i) sum[i] += force[A][i];
+  return sum;
+}
+
+const std::string young = "interaction = \"smooth_young\"\noffset = 0.05\nrange = 0.25\n";
+const std::string varied =
+    young + "adhesion = \"0.8 + 0.2*x*z + 0.3*sin(2*y + t)\"\nactin = \"0.1*x^2 + 0.05*t\"\n";
+const std::string varied_in_plane =
+    young + "adhesion = \"0.8 + 0.2*x + 0.3*sin(2*y + t)\"\nactin = \"0.1*x^2 + 0.05*t\"\n";
+const std::string moving_ball =
+    "type = \"ball\"\nradius = 0.7\ncentre = [0.1, 0.2, -1.75]\n"
+    "displacement = [\"0.1*t\", \"0.05*sin(t)\", \"0.02*t\"]\n";
+const std::string moving_disk =
+    "type = \"ball\"\nradius = 0.7\ncentre = [0.2, -1.75]\ndisplacement = [\"0.1*t\", "
+    "\"0.02*t\"]\n";
+
+template <int D>
+void expect_gradient(const std::string& lines, const std::string& partner) {
+  Scene<D> scene = on_wall<D>(lines, partner);
+  ForceTerm& term = contact_of(scene);
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const NodalVectors u = test::random_field<D>(scene.system.size(), 0.03, seed),
+                       way = test::random_field<D>(scene.system.size(), 1, seed + 10);
+    EXPECT_LT(test::gradient_error(term, u, way, 1e-4), 1e-7) << lines << partner;
+  }
+}
+
+TEST(WettingLaws, ForcesAreTheGradientOfTheEnergy) {
+  for (const std::string& lines :
+       {young + "contact_angle = 60\n", young + "contact_angle = \"60 + 20*x - 5*y^2\"\n", varied,
+        std::string("interaction = \"scaled_lennard_jones\"\ncontact_angle = 75\nsigma0 = 0.15\n")})
+    for (const std::string& partner : {std::string(), moving_ball})
+      expect_gradient<3>(lines, partner);
+  for (const std::string& partner : {std::string(), moving_disk})
+    expect_gradient<2>(varied_in_plane, partner);
+}
+
+/// With all particles held, the power from outside is the change of the energy.
+template <int D>
+void expect_power(const std::string& lines, const std::string& partner) {
+  Scene<D> scene = on_wall<D>(lines, partner, "end = 1");
+  ForceTerm& term = contact_of(scene);
+  const NodalVectors u = test::random_field<D>(scene.system.size(), 0.03, 4), v = test::zeros(u);
+  constexpr Real t = 0.6, h = 1e-3;
+  const auto energy = [&](Real time) { return *term.stored_energy({time, u, v}); };
+  const Real rate =
+      (8 * (energy(t + h) - energy(t - h)) - (energy(t + 2 * h) - energy(t - 2 * h))) / (12 * h);
+  NodalVectors force = test::zeros(u);
+  const Real power = term.add_force({t, u, v}, force).external_power;
+  EXPECT_GT(std::abs(rate), 0.01);
+  EXPECT_NEAR(power, rate, 1e-7 * std::abs(rate));
+}
+
+TEST(WettingLaws, WhatChangesWithTimeIsExternalPower) {
+  expect_power<3>(varied, {});
+  expect_power<3>(varied, moving_ball);
+  expect_power<2>(varied_in_plane, moving_disk);
+}
+
+/// Of a W that jumps or ramps between two steps all is booked, whatever the steps are.
+TEST(WettingLaws, WorkOfAdhesionThatJumpsIsBooked) {
+  Scene<2> scene = on_wall<2>(young + "adhesion = \"0.5 + (t > 0.5 ? 0.7 : 0)\"\n");
+  ForceTerm& term = contact_of(scene);
+  NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size())), force = u;
+  Real work = 0, before = 0, t = 0;
+  const Real E0 = *term.stored_energy({0, u, u});
+  for (int k = 0; k <= 40; ++k) {
+    const Real dt = 0.02 + 0.001 * (k % 3);
+    if (k > 0) t += dt;
+    const Real power = term.add_force({t, u, u}, force).external_power;
+    if (k > 0) work += dt / 2 * (before + power);
+    before = power;
+    term.commit({t, u, u});
+  }
+  const Real change = *term.stored_energy({t, u, u}) - E0;
+  EXPECT_NEAR(change, E0 * 0.7 / 0.5, 1e-12);
+  EXPECT_NEAR(work, change, 0.08 * std::abs(change));
+}
+
+/// The work of the contact when a drop is widened far away, lowered, narrowed on the wall, raised.
+struct Cycle {
+  Real net = 0, done = 0, spared = 0;  // wetted area less for the narrow drop
+};
+Cycle cycle(const std::string& lines, Real gap, int parts) {
+  const Scene<2> scene = on_wall<2>(lines);
+  ForceTerm& term = *scene.system.terms.back();
+  const auto state = [&](Real wide, Real up) {
+    return test::field_on<2>(scene.system.bodies.front(), [&](const Vec<2>& X) -> Vec<2> {
+      const Real below = std::max(0.0, -X[1]);
+      return {wide * X[0], up - 0.4 + gap + 0.3 * below * below * below};
+    });
+  };
+  const NodalVectors corners[] = {state(0, 1), state(0.3, 1), state(0.3, 0), state(0, 0)};
+  constexpr std::array<Real, 4> place{0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                      0.9305681557970263},
+      weight{0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
+  Cycle sum;  // each side in parts with 4 Gauss points
+  for (std::size_t side = 0; side < 4; ++side) {
+    const NodalVectors way = test::sum_of(corners[(side + 1) % 4], -1, corners[side]);
+    for (int part = 0; part < parts; ++part)
+      for (std::size_t q = 0; q < 4; ++q) {
+        const NodalVectors u = test::sum_of(corners[side], (part + at(place, q)) / parts, way);
+        const Real work = at(weight, q) / parts * test::dot(test::force_of(term, u), way);
+        sum.net += work;
+        sum.done += std::abs(work);
+      }
+  }
+  const auto wetted = [&](const NodalVectors& u) {
+    return measure(scene, "wall.wetted_area", {0, u, test::zeros(u)});
+  };
+  sum.spared = wetted(corners[2]) - wetted(corners[3]);
+  return sum;
+}
+
+TEST(WettingLaws, AClosedCycleDoesNoWork) {
+  const Cycle c = cycle(young + "contact_angle = 70\npoints = 2\n", 0.06, 1000);
+  EXPECT_GT(c.done, 0.5);
+  EXPECT_LT(std::abs(c.net), 1e-10 * c.done);
+}
+
+/// The traction of the dissertation pulls the wide drop down and lets the narrow one go.
+TEST(WettingLaws, AClosedCycleGainsTheAdhesionWithTheTractionOfTheDissertation) {
+  const Cycle c = cycle(
+      "interaction = \"scaled_lennard_jones\"\nadhesion = 2\nsigma0 = 0.2\n"
+      "form = \"dissertation\"\npoints = 4\n",
+      0.127, 100);
+  EXPECT_GT(c.spared, 0.1);
+  EXPECT_NEAR(c.net, 2 * c.spared, 0.1 * c.net);
+}
+
+/// Of a W that grows evenly the net force is its slope times the wetted area, and the wall has it.
+TEST(WettingLaws, AGradientPullsByTheWettedArea) {
+  const Scene<3> scene = on_wall<3>(young + "adhesion = \"1 + 0.05*x\"\n");
+  const NodalVectors u = test::random_field<3>(scene.system.size(), 0.02, 6), v = test::zeros(u);
+  const Motion motion{0, u, v};
+  const Vec<3> force = net<3>(test::force_of(*scene.system.terms.back(), u));
+  EXPECT_NEAR(force[0], 0.05 * measure(scene, "wall.wetted_area", motion), 1e-9 * force[0]);
+  EXPECT_LT(std::abs(force[1]), 1e-9);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(force[i] + measure(scene, std::string("wall.reaction_") + "xyz"[i], motion), 0,
+                1e-13 * force.norm());
+}
+
+/// A drop on W that grows to the right, and its mirror image: places of the middle.
+TEST(WettingLaws, AGradientAndItsMirrorImageDriveMirroredDrops) {
+  const auto way = [](const char* sign) {
+    std::string text = on_wall_text<2>(young + "adhesion = \"1 " + sign + " 0.2*x\"\n", {},
+                                       "end = 1e3\nstep = 2e-3");
+    // Points of viscous stress are mirrored to 1e-6 only.
+    text.replace(text.find("viscosity = 0.3"), 15, "viscosity = 0.0");
+    Scene<2> scene = test::scene_of<2>(text);
+    Simulation<2> simulation(scene);
+    simulation.begin();
+    Real pushed = 0;
+    const auto pull = [&] { return measure(scene, "wall.force_x", simulation.state().motion()); };
+    const auto momentum = [&] {
+      Real p = 0;
+      for (std::size_t A = 0; A < scene.system.mass.size(); ++A)
+        p += scene.system.mass[A] * simulation.state().v[A][0];
+      return p;
+    };
+    Real before = pull(), time = 0;
+    while (simulation.state().time < 0.5) {
+      simulation.advance();
+      const Real now = pull(), dt = simulation.state().time - time;
+      pushed += dt / 2 * (before + now);
+      before = now;
+      time = simulation.state().time;
+    }
+    EXPECT_NEAR(momentum(), pushed, 1e-10 * std::abs(pushed));
+    return momentum();
+  };
+  const Real right = way("+"), left = way("-");
+  EXPECT_GT(right, 0.01);
+  EXPECT_NEAR(left, -right, 1e-8 * right);
+}
+
+/// A drop that slides as a whole: force, reaction, heat, and the power of a wall that is moved.
+TEST(WettingLaws, FrictionBrakesByTheWettedArea) {
+  for (const Real wall : {0.0, 0.2}) {
+    const Scene<3> scene = on_wall<3>(
+        young + "contact_angle = 60\nfriction = 3\n",
+        "type = \"half_space\"\npoint = [0, 0, -1.1]\nnormal = [0, 0, 1]\ndisplacement = [\"" +
+            std::to_string(wall) + "*t\", 0, 0]\n");
+    ForceTerm& term = *scene.system.terms.back();
+    EXPECT_TRUE(term.viscous());
+    const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+    const NodalVectors v = test::field_on<3>(scene.system.bodies.front(),
+                                             [](const Vec<3>&) { return Vec<3>(0.5, 0, 0.1); });
+    const Motion motion{0, u, v};
+    NodalVectors force = u;
+    const Report report = term.add_force(motion, force);
+    const Vec<3> braked =
+        net<3>(force) -
+        net<3>(test::force_of(term, u,
+                              test::field_on<3>(scene.system.bodies.front(), [&](const Vec<3>&) {
+                                return Vec<3>(wall, 0, 0);
+                              })));
+    const Real area = measure(scene, "wall.wetted_area", motion), slip = 0.5 - wall;
+    EXPECT_GT(area, 0.1);
+    EXPECT_NEAR(braked[0], -3 * area * slip, 0.02 * std::abs(braked[0]));
+    EXPECT_LT(std::abs(braked[1]) + std::abs(braked[2]), 1e-10);
+    EXPECT_NEAR(report.heat, -braked[0] * slip, 1e-10 * report.heat);
+    EXPECT_NEAR(report.external_power, net<3>(force)[0] * wall, 1e-9);
+  }
+}
+
+TEST(WettingLaws, TheLineMovesAsTheBaseGrows) {
+  const Scene<3> scene = on_wall<3>(young + "contact_angle = 60\n");
+  const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+  const NodalVectors v = test::field_on<3>(scene.system.bodies.front(), [](const Vec<3>& X) {
+    return Vec<3>(0.3 * X[0], 0.3 * X[1], 0.1);
+  });
+  constexpr Real h = 1e-3;
+  const auto radius = [&](Real by) {
+    return measure(scene, "wall.base_radius", {0, test::sum_of(u, by, v), v});
+  };
+  const Real speed = (radius(h) - radius(-h)) / (2 * h);
+  EXPECT_GT(std::abs(speed), 0.05);
+  EXPECT_NEAR(measure(scene, "wall.line_speed", {0, u, v}), speed, 1e-4 * std::abs(speed));
+  EXPECT_EQ(measure(scene, "wall.line_speed", {0, u, u}), 0);
+}
+
+TEST(WettingLaws, FormulasAreCheckedWhereTheyAreUsed) {
+  Scene<2> scene = on_wall<2>(young + "adhesion = \"1 + log(1 - t)\"\n");
+  const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+  NodalVectors force = u;
+  const auto at_time = [&](Real t) { scene.system.terms.back()->add_force({t, u, u}, force); };
+  EXPECT_THROW_WITH(at_time(2), SolveError, "adhesion: formula '1 + log(1 - t)' is not a number");
+  EXPECT_THROW_WITH(at_time(0.9), SolveError, "adhesion is -1.3");
+  Scene<2> angle = on_wall<2>(young + "contact_angle = \"90 + 100*t\"\n");
+  EXPECT_THROW_WITH(angle.system.terms.back()->add_force({0.95, u, u}, force), SolveError,
+                    "contact_angle is 185");
+}
+
+TEST(WettingLaws, WhatCannotBeIsRefused) {
+  EXPECT_THROW_WITH(on_wall<2>(young + "adhesion = \"1 + x\"\nform = \"pressure\"\n"), InputError,
+                    "use form = \"energy\", or numbers");
+  EXPECT_THROW_WITH(on_wall<2>(young + "adhesion = 0.5\nactin = -0.6\n"), InputError,
+                    "adhesion with actin is -0.1 at");
+  EXPECT_THROW_WITH(on_wall<2>("interaction = \"scaled_lennard_jones\"\nsigma0 = 0.2\n"),
+                    InputError, "one of them is needed");
+  const std::string pair = "dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
+                           "[[contact]]\nbodies = [\"drop\", \"other\"]\n";
+  EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = \"1 + x\"\n"), InputError,
+                    "between two bodies adhesion cannot be a formula");
+  EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = 1\nfriction = 2\n"), InputError,
+                    "friction: is for rigid partners");
+}
+
+}  // namespace
+}  // namespace meniscus::test_wetting_laws
