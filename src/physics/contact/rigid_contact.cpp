@@ -62,7 +62,8 @@ class RigidContact final : public ForceTerm {
 
   void commit(const Motion& motion) override { effects_.commit(motion.time); }
   void archive(const Archive& a) override { effects_.archive(a); }
-  bool viscous() const override { return effects_.rub(); }
+  bool viscous() const override { return effects_.rubs(); }
+  void add_viscous(const Motion& motion, Forces force) override;
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
@@ -106,8 +107,8 @@ class RigidContact final : public ForceTerm {
   void evaluate(const Motion& motion, Evaluation& result) const;
   void evaluate(Index cluster, const Vec<D>& shift, Evaluation& result) const;
   void add_effects(const Motion& motion, Evaluation& result) const;
-  WallSums add_effects(Index cluster, const Motion& motion, const Vec<D>& shift,
-                       const Vec<D>& velocity, Evaluation& result) const;
+  WallPoints<D> wall_points(Index cluster, const Motion& motion, const Vec<D>& shift,
+                            const Vec<D>& velocity, Evaluation& result) const;
   /// At any motion; takes memory.
   Evaluation evaluated(const Motion& motion) const {
     Evaluation result(points_);
@@ -156,7 +157,7 @@ class RigidContact final : public ForceTerm {
   Real steady_after_ = 0;
   // Work space of a force.
   Evaluation now_;
-  std::vector<Index> near_;  // clusters that the step demand looks at
+  std::vector<Index> near_;  // clusters within the range at the last force
 };
 
 /// From when on the partner stays where it is, to 1e-4 of the run; infinite if it never does.
@@ -208,13 +209,15 @@ void RigidContact<D>::add_effects(const Motion& motion, Evaluation& result) cons
   if (!effects_.any()) return;
   const Vec<D> shift = partner_.motion.displacement(motion.time), velocity = this->velocity(motion);
   result.sums = parallel_sum(points_.clusters(), WallSums(), [&](Index c) {
-    return near(result, c) ? add_effects(c, motion, shift, velocity, result) : WallSums();
+    if (!near(result, c)) return WallSums();
+    WallPoints<D> points = wall_points(c, motion, shift, velocity, result);
+    return effects_.add(points, motion.time);
   });
 }
 
 template <int D>
-WallSums RigidContact<D>::add_effects(Index cluster, const Motion& motion, const Vec<D>& shift,
-                                      const Vec<D>& velocity, Evaluation& result) const {
+WallPoints<D> RigidContact<D>::wall_points(Index cluster, const Motion& motion, const Vec<D>& shift,
+                                           const Vec<D>& velocity, Evaluation& result) const {
   const Lanes *x = result.places.x_of(cluster), *weight = result.places.weight_of(cluster);
   Lanes v[D];
   points_.velocity(cluster, motion, v);
@@ -222,14 +225,25 @@ WallSums RigidContact<D>::add_effects(Index cluster, const Motion& motion, const
   points.T = &at(result.T, cluster * D);
   points.S = &at(result.S, cluster * D);
   points.distance = at(result.distances, cluster);
-  for (std::size_t lane = 0; lane < Lanes::width; ++lane)
+  for (int lane = 0; lane < Lanes::width; ++lane)
     for (int i = 0; i < D; ++i) {
-      const int l = static_cast<int>(lane);
-      at(points.x, lane)[i] = x[i][l] - shift[i];
-      at(points.v, lane)[i] = v[i][l] - velocity[i];
-      at(points.V, lane)[i] = weight[i][l];
+      at(points.x, lane)[i] = x[i][lane] - shift[i];
+      at(points.v, lane)[i] = v[i][lane] - velocity[i];
+      at(points.V, lane)[i] = weight[i][lane];
     }
-  return effects_.add(points, motion.time);
+  return points;
+}
+
+/// Friction by this velocity at the places of the last force, whose T are not needed any more.
+template <int D>
+void RigidContact<D>::add_viscous(const Motion& motion, Forces force) {
+  const Vec<D> shift = partner_.motion.displacement(motion.time);
+  std::fill(now_.T.begin(), now_.T.end(), Lanes::zero());
+  parallel_for(static_cast<Index>(near_.size()), [&](Index k) {
+    WallPoints<D> points = wall_points(at(near_, k), motion, shift, Vec<D>::Zero(), now_);
+    effects_.rub(points);
+  });
+  points_.add_force(now_.places, near_, now_.T, {}, force);
 }
 
 /// Torque about the origin, -sum (x cross T + V cross S): turning the body turns x and V.
@@ -262,6 +276,9 @@ Report RigidContact<D>::report(const Motion& motion) {
   }
   report.external_power += now_.sums.supplied;
   report.heat = now_.sums.heat;
+  near_.clear();
+  for (const Index c : all_)
+    if (near(now_, c)) near_.push_back(c);
   const Index nearest = now_.nearest_point();
   const Real gap = now_.distance(nearest);
   if (!(gap < interaction_->range())) {
@@ -276,9 +293,6 @@ Report RigidContact<D>::report(const Motion& motion) {
                     "is {:.4g}, least is {:.4g}",
                     points_.body().name, name_, gap, interaction_->least_gap()),
         true};
-  near_.clear();
-  for (const Index c : all_)
-    if (near(now_, c)) near_.push_back(c);
   const Real speed = closing_speed<D>(points_, near_, nullptr, {}, velocity, motion);
   const Real strength = effects_.pattern() ? now_.sums.adhesion : 1;
   report.demand = contact_demand({*interaction_, strength / points_.inertia(), 0, D}, gap, speed);

@@ -42,7 +42,7 @@ class WallEffects {
         last_step_(partner.velocity_step) {}
 
   bool any() const { return pattern_ != nullptr || friction_ > 0; }
-  bool rub() const { return friction_ > 0; }
+  bool rubs() const { return friction_ > 0; }
   const AdhesionPattern* pattern() const { return pattern_; }
   /// By which the interaction is multiplied for the energy of an area in full contact.
   Real adhesion() const { return pattern_ ? 1 : flat_.adhesion; }
@@ -56,6 +56,13 @@ class WallEffects {
       if (friction_ > 0) sums.heat += rub(points, lane);
     }
     return sums;
+  }
+  /// Adds friction alone; returns its heat.
+  Real rub(WallPoints<D>& points) const {
+    Real heat = 0;
+    for (int lane = 0; lane < Lanes::width; ++lane)
+      if (points.distance[lane] < interaction_.range()) heat += rub(points, lane);
+    return heat;
   }
 
   void commit(Real time) {
@@ -72,11 +79,11 @@ class WallEffects {
   /// From the forces of unit adhesion to those of W(x, t): E = W e, so that
   ///   dE/dV = W S,   dE/dx = W T + (S.V) grad W.
   WallSums vary(WallPoints<D>& points, int lane, Real time) const {
-    const Eigen::Vector3d x = spatial<D>(points.x[lane]);
+    const Eigen::Vector3d x = spatial<D>(at(points.x, lane));
     const Real W = (*pattern_)(x, time);
     const Eigen::Vector3d slope = pattern_->gradient(x, time);
     Real e = 0;
-    for (int i = 0; i < D; ++i) e += points.S[i][lane] * points.V[lane][i];
+    for (int i = 0; i < D; ++i) e += points.S[i][lane] * at(points.V, lane)[i];
     for (int i = 0; i < D; ++i) {
       points.T[i].set(lane, W * points.T[i][lane] + e * slope[i]);
       points.S[i].set(lane, W * points.S[i][lane]);
@@ -95,9 +102,9 @@ class WallEffects {
 
   /// The traction - friction chi v_t on the area that faces the partner; its heat.
   Real rub(WallPoints<D>& points, int lane) const {
-    const Vec<D> n = surface_->foot(points.x[lane]).normal;
-    const Real faced = std::max(0.0, -n.dot(points.V[lane]));
-    const Vec<D> slip = points.v[lane] - n.dot(points.v[lane]) * n;
+    const Vec<D> n = surface_->foot(at(points.x, lane)).normal;
+    const Real faced = std::max(0.0, -n.dot(at(points.V, lane)));
+    const Vec<D> slip = at(points.v, lane) - n.dot(at(points.v, lane)) * n;
     const Real drag = friction_ * wetted(points.distance[lane]) * faced;
     for (int i = 0; i < D; ++i) points.T[i].set(lane, points.T[i][lane] + drag * slip[i]);
     return drag * slip.squaredNorm();
