@@ -36,7 +36,7 @@ Rows<Keys> Keys::rows() {
       choice_row("form", &Keys::form, {contact_form_names.begin(), contact_form_names.end()},
                  "gradient of the surface energy (conserves energy and momenta exactly); "
                  "disjoining pressure; forces between volume points; traction of the dissertation "
-                 "(not the gradient of any energy)",
+                 "(not the gradient of any energy), the only one of legacy_switch",
                  "energy"),
       choice_row("density", &Keys::density, {"constant", "referential"},
                  "surface forms: beta per current volume, or per reference volume (beta/J); the "
@@ -111,6 +111,7 @@ struct Contact final : Load<D>, Keys {
     if (!block.has("interaction") && (block.has("contact_angle") || block.has("adhesion")))
       interaction = "smooth_young";
     model = interactions<D>().at(interaction).read(block);
+    if (!block.has("form")) form = model->usual_form();
     if (const auto table = block.table("partner")) {
       partner = read<Partner<D>>(*table);
       table->done();
@@ -193,7 +194,7 @@ ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
   const auto& X = assembly.body(bodies[0]).particles.X();
   const Vec<D> sum = std::accumulate(X.begin(), X.end(), Vec<D>(Vec<D>::Zero()));
   return {this->place, facet, assembly.surface_energy(bodies[0]),
-          spatial<D>(sum / static_cast<Real>(X.size()))};
+          spatial<D>(sum / static_cast<Real>(X.size())), assembly.tension_form(bodies[0])};
 }
 
 template <int D>
@@ -308,8 +309,9 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   if (const std::string more = model->described(surfaces(assembly), assembly.units());
       !more.empty())
     note += ", " + more;
+  // The traction along the normal of the wall does no work on the line of contact.
   for (const std::string& body : bodies)
-    if (const auto gamma = assembly.surface_energy(body))
+    if (const auto gamma = assembly.surface_energy(body); gamma && form != "dissertation")
       note += fmt::format(", contact angle of '{}': {}", body,
                           contact_angle_text(flat.adhesion, *gamma));
   assembly.note(note);

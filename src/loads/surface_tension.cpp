@@ -71,6 +71,7 @@ struct SurfaceTension final : Load<D>, Keys {
         std::any_of(viscosity.begin(), viscosity.end(), [](Real mu) { return mu > 0; }))
       assembly.add(meniscus::coefficient_damping(on, viscosity, this->coefficient_damping), body);
     assembly.set_surface_energy(body, gamma);
+    assembly.set_tension_form(body, form);
     if (!viscosity.empty())
       assembly.drop({&on, gamma, assembly.measure_named(body + ".area"),
                      assembly.measure_named(body + ".volume"), form == "triangles"});

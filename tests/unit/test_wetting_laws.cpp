@@ -270,6 +270,74 @@ TEST(WettingLaws, TheLineMovesAsTheBaseGrows) {
   EXPECT_EQ(measure(scene, "wall.line_speed", {0, u, u}), 0);
 }
 
+/// Next to no traction: the tensions alone.
+const std::string switched =
+    "interaction = \"legacy_switch\"\ncontact_angle = 60\nadhesion = 1e-12\nsigma0 = 0.3\n"
+    "switch_gap = 0.6\n";
+template <int D>
+Scene<D> switching(const std::string& lines = switched, const std::string& form = "triangles") {
+  std::string text = on_wall_text<D>(lines);
+  text.replace(text.find("gamma = 1\n"), 10, "gamma = 1\nform = \"" + form + "\"\n");
+  return test::scene_of<D>(text);
+}
+
+template <int D>
+void expect_switched_tensions() {
+  const Scene<D> scene = switching<D>();
+  ForceTerm& term = *scene.system.terms.back();
+  const NodalVectors u = test::random_field<D>(scene.system.size(), 0.003, 1),
+                     way = test::random_field<D>(scene.system.size(), 1, 2), v = test::zeros(u);
+  EXPECT_GT(measure(scene, "wall.wet_triangles", {0, u, v}), 1);
+  EXPECT_LT(test::gradient_error(term, u, way, 1e-6), 1e-7);
+}
+
+TEST(WettingLaws, SwitchedTensionsAreTheGradientWhileNothingSwitches) {
+  expect_switched_tensions<2>();
+  expect_switched_tensions<3>();
+}
+
+/// A drop lowered onto the wall at once: W = gamma (1 + cos theta) times the area that becomes wet
+/// is lost, and comes back when it is raised.
+TEST(WettingLaws, EnergyOfSwitchesIsCounted) {
+  const Scene<3> scene = switching<3>();
+  ForceTerm& term = *scene.system.terms.back();
+  const NodalVectors at_rest = test::zeros(NodalVectors(scene.system.mass.size()));
+  const auto lowered = [&](Real by) {
+    return test::field_on<3>(scene.system.bodies.front(),
+                             [&](const Vec<3>&) { return Vec<3>(0, 0, -by); });
+  };
+  const auto count = [&](const char* name) { return measure(scene, name, {0, at_rest, at_rest}); };
+  const auto energy = [&](Real by) { return test::energy_of(term, lowered(by)); };
+  const auto stands = [&](Real by) {
+    const NodalVectors u = lowered(by);
+    term.commit({0, u, at_rest});
+  };
+  stands(-1);
+  EXPECT_EQ(count("wall.switches"), 0);
+  EXPECT_FALSE(term.warning({0, at_rest, at_rest}));
+  stands(0);
+  const Real wet = count("wall.wet_triangles");
+  EXPECT_EQ(count("wall.switches"), wet);
+  EXPECT_NEAR(count("wall.switch_loss"), -energy(0), 1e-9);
+  EXPECT_GT(count("wall.switch_loss"), 0.1);
+  EXPECT_NE(term.warning({0, at_rest, at_rest})->find("switched"), std::string::npos);
+  stands(-1);
+  EXPECT_EQ(count("wall.switches"), 2 * wet);
+  EXPECT_NEAR(count("wall.switch_loss"), 0, 1e-9);
+}
+
+TEST(WettingLaws, SwitchedTensionsGoWithTheirTriangles) {
+  EXPECT_THROW_WITH(switching<3>(switched, "balanced"), InputError,
+                    "'drop' has none (its form is balanced); allowed is a [[surface_tension]] of "
+                    "it with form = \"triangles\"");
+  EXPECT_THROW_WITH(switching<3>(switched + "form = \"energy\"\n"), InputError,
+                    "form: with legacy_switch the angle comes from the tensions");
+  EXPECT_THROW_WITH(on_wall<3>(switched, moving_ball), InputError, "legacy_switch is for planes");
+  EXPECT_THROW_WITH(test::scene_of<2>("dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
+                                      "[[contact]]\nbodies = [\"drop\", \"other\"]\n" + switched),
+                    InputError, "legacy_switch is for a body and a half space");
+}
+
 TEST(WettingLaws, FormulasAreCheckedWhereTheyAreUsed) {
   Scene<2> scene = on_wall<2>(young + "adhesion = \"1 + log(1 - t)\"\n");
   const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));

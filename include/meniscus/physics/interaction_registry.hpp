@@ -27,6 +27,7 @@ struct ContactSurfaces {
   Real facet;                 ///< edge of the larger facets
   std::optional<Real> gamma;  ///< surface tension of the first body, if it has any
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the particles of the first body
+  std::string tension_form = {};  ///< of its [[surface_tension]]; empty: it has none
 
   /// gamma, for a contact angle; throws InputError if the first body has none.
   Real tension() const;
@@ -38,6 +39,8 @@ class ContactModel {
  public:
   virtual ~ContactModel() = default;
 
+  /// The form of its forces where a scene names none.
+  virtual std::string usual_form() const { return "energy"; }
   /// Notes in the block what cannot be, between two bodies or of one with a rigid partner.
   virtual void check(const Block& block, bool rigid) const = 0;
   virtual std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,

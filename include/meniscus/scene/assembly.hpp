@@ -47,6 +47,14 @@ class Assembly {
   /// Says, or asks, the energy per area of the free surface of a body; none if nobody said it.
   void set_surface_energy(const std::string& body, Real gamma) { surface_energy_[body] = gamma; }
   std::optional<Real> surface_energy(const std::string& body) const;
+  /// The same of the form of a [[surface_tension]]; empty if there is none.
+  void set_tension_form(const std::string& body, std::string form) {
+    tension_form_[body] = std::move(form);
+  }
+  std::string tension_form(const std::string& body) const {
+    const auto found = tension_form_.find(body);
+    return found == tension_form_.end() ? std::string() : found->second;
+  }
 
   const UnitSystem& units() const { return scene_.units; }
   Real end_time() const { return scene_.time.end; }
@@ -63,6 +71,7 @@ class Assembly {
   Scene<D>& scene_;
   bool begins_;
   std::map<std::string, Real> surface_energy_;
+  std::map<std::string, std::string> tension_form_;
 };
 
 }  // namespace meniscus
