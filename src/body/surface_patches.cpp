@@ -75,23 +75,32 @@ std::vector<Index> supporters(const Facet<D>& facet, const Vec<D - 1>& xi) {
 }  // namespace
 
 template <int D>
-SurfacePatches<D>::SurfacePatches(const Body<D>& body)
-    : patches_(static_cast<Index>(body.geometry.grid.facets.size())) {
-  const TensorRule<D - 1> rule = tensor_rule<D - 1>(3);
-  for (int q = 0; q < nodes; ++q) {
-    Functions& f = at(gauss_, q);
-    f.weight = at(rule.w, q);
-    for (int a = 0; a < nodes; ++a) {
+std::vector<PatchFunctions<D>> patch_functions(int points) {
+  const TensorRule<D - 1> rule = tensor_rule<D - 1>(points);
+  std::vector<PatchFunctions<D>> all(rule.x.size());
+  for (std::size_t q = 0; q < all.size(); ++q) {
+    PatchFunctions<D>& f = all[q];
+    f.weight = rule.w[q];
+    for (int a = 0; a < f.nodes; ++a) {
       at(f.L, a) = 1;
       for (auto& slope : f.dL) at(slope, a) = 1;
       for (int k = 0, rest = a; k < D - 1; ++k, rest /= 3) {
-        const Real xi = at(rule.x, q)[k];
+        const Real xi = rule.x[q][k];
         const Real value = at(lagrange(xi), rest % 3), slope = at(lagrange_slopes(xi), rest % 3);
         at(f.L, a) *= value;
         for (int l = 0; l < D - 1; ++l) at(at(f.dL, l), a) *= l == k ? slope : value;
       }
     }
   }
+  return all;
+}
+template std::vector<PatchFunctions<2>> patch_functions<2>(int);
+template std::vector<PatchFunctions<3>> patch_functions<3>(int);
+
+template <int D>
+SurfacePatches<D>::SurfacePatches(const Body<D>& body)
+    : gauss_(patch_functions<D>(3)),
+      patches_(static_cast<Index>(body.geometry.grid.facets.size())) {
   number_points(body.geometry);
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
   windows_ = {rows_.start, rows_.particle, body.size()};
@@ -100,7 +109,7 @@ SurfacePatches<D>::SurfacePatches(const Body<D>& body)
   for (Index q = 0; q < point_count(); ++q) set_vector<D>(x_, q, at(X_, q));
   area_ = size_of_all(Size::area, x_);
   volume_ = size_of_all(Size::volume, x_);
-  gradient_.assign(static_cast<std::size_t>(groups()) * nodes * D, Lanes::zero());
+  gradient_.assign(static_cast<std::size_t>(group_count()) * nodes * D, Lanes::zero());
 }
 
 template <int D>
@@ -179,7 +188,7 @@ T SurfacePatches<D>::group_size(Size size, const Corners<T>& place, T* gradient)
   if (gradient) std::fill_n(gradient, nodes * D, zero);
 
   T total = zero;
-  for (const Functions& f : gauss_) {
+  for (const PatchFunctions<D>& f : gauss_) {
     Vector<T> p;
     std::array<Vector<T>, D - 1> t;
     p.fill(zero);
@@ -234,7 +243,7 @@ Real SurfacePatches<D>::measure(Size size, const NodalVector* u) const {
 
 template <int D>
 Real SurfacePatches<D>::size_of_all(Size size, const NodalVectors& x) const {
-  return parallel_sum(groups(), 0.0, [&](Index g) {
+  return parallel_sum(group_count(), 0.0, [&](Index g) {
     return sum_of_patches(g, group_size<Lanes>(size, corners(g, x), nullptr));
   });
 }
@@ -245,7 +254,7 @@ Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
   NodalVectors x(X_.size());
   place(u, x);
   const NodalVectors dx = values(du);
-  return parallel_sum(groups(), Dual<Real>(0.0), [&](Index g) -> Dual<Real> {
+  return parallel_sum(group_count(), Dual<Real>(0.0), [&](Index g) -> Dual<Real> {
     const auto sizes = group_size<Dual<Lanes>>(size, corners(g, x, dx), nullptr);
     return {sum_of_patches(g, sizes.v), sum_of_patches(g, sizes.d)};
   });
@@ -254,7 +263,7 @@ Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
 template <int D>
 Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
   place(u, x_);
-  return parallel_sum(groups(), 0.0, [&](Index g) {
+  return parallel_sum(group_count(), 0.0, [&](Index g) {
     return sum_of_patches(g,
                           group_size(size, corners(g, x_),
                                      gradient_.data() + static_cast<std::size_t>(g) * nodes * D));
@@ -263,7 +272,7 @@ Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
 
 template <int D>
 void SurfacePatches<D>::add_gradient(Real factor, std::span<NodalVector> force) {
-  scatter(factor, gradient_, force);
+  add_to_particles(factor, gradient_, force);
 }
 
 template <int D>
@@ -274,18 +283,18 @@ void SurfacePatches<D>::add_gradient_change(Size size, const NodalVector* u, con
   place(u, x);
   const NodalVectors dx = values(du);
   AlignedVector<Lanes> change(gradient_.size());
-  parallel_for(groups(), [&](Index g) {
+  parallel_for(group_count(), [&](Index g) {
     std::array<Dual<Lanes>, nodes * D> gradient;
     group_size(size, corners(g, x, dx), gradient.data());
     for (int k = 0; k < nodes * D; ++k)
       at(change, g * nodes * D + k) = factor.v * at(gradient, k).d + factor.d * at(gradient, k).v;
   });
-  scatter(1, change, force);
+  add_to_particles(1, change, force);
 }
 
 template <int D>
-void SurfacePatches<D>::scatter(Real factor, const AlignedVector<Lanes>& gradient,
-                                std::span<NodalVector> force) {
+void SurfacePatches<D>::add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
+                                         std::span<NodalVector> force) {
   windows_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index q = begin; q < end; ++q) {
       Lanes sum = Lanes::zero();
@@ -294,7 +303,7 @@ void SurfacePatches<D>::scatter(Real factor, const AlignedVector<Lanes>& gradien
         for (int i = 0; i < D; ++i)
           sum.set(i, sum[i] + gradient[share.entry + static_cast<std::size_t>(i)][share.lane]);
       }
-      scatter_value(rows_, q, factor * sum, f);
+      if (meniscus::sum(sum * sum) != 0) scatter_value(rows_, q, factor * sum, f);
     }
   });
 }

@@ -87,6 +87,8 @@ struct SmoothYoung final : Interaction {
   }
   Real range() const override { return g0 + ell; }
   Real least_gap() const override { return g0 / 4; }
+  bool hardens() const override { return false; }
+  bool ends() const override { return true; }
   PlaneContact flat() const override {
     const Real softest = (3 + std::numbers::sqrt3_v<Real>) / 6;  // largest -K
     const Real softening = -at(g0 + softest * ell).stiffness * W_below / W;

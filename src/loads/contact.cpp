@@ -215,6 +215,8 @@ ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
   for (std::size_t k = 0; k < contact_form_names.size(); ++k)
     if (contact_form_names[k] == form) choice.form = static_cast<ContactForm>(k);
   choice.density = density == "constant" ? SiteDensity::constant : SiteDensity::referential;
+  for (std::size_t side = 0; side < bodies.size(); ++side)
+    choice.on_patches[side] = assembly.tension_form(bodies[side]) == "balanced";
   choice.points = points_chosen(assembly);
   choice.skin = skin;
   choice.friction = friction;

@@ -10,6 +10,18 @@
 
 namespace meniscus {
 
+/// The functions of a patch at a Gauss point: L_a, their derivatives, and the weight.
+template <int D>
+struct PatchFunctions {
+  static constexpr int nodes = D == 3 ? 9 : 3;
+  Real weight;
+  std::array<Real, nodes> L;
+  std::array<std::array<Real, nodes>, D - 1> dL;
+};
+/// At `points` Gauss points per direction.
+template <int D>
+std::vector<PatchFunctions<D>> patch_functions(int points);
+
 /// Every boundary facet is the Lagrange patch x(xi) = sum_a L_a(xi) x_a, xi in [-1, 1]^(D-1), with
 /// nodes at -1, 0, 1 per direction: the places x_a = X_a + sum_A N_A(X_a) u_A of points X_a of the
 /// exact reference surface. Neighbouring facets share points, so that the surface is closed.
@@ -43,24 +55,33 @@ class SurfacePatches {
   void add_gradient_change(Size size, const NodalVector* u, const NodalVector* du,
                            const Dual<Real>& factor, std::span<NodalVector> force);
 
+  /// force_A += factor sum_a N_A(X_a) g_a, where g_a is the sum over the patches of a point of
+  /// `gradient`, which is [group of four patches][a][i], a lane per patch. Points whose g_a is zero
+  /// cost nothing.
+  void add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
+                        std::span<NodalVector> force);
+
   Index point_count() const { return static_cast<Index>(X_.size()); }
   Index patch_count() const { return patches_; }
+  Index group_count() const { return (patches_ + 3) / 4; }
+  /// The points of a patch, the first direction fastest.
+  const std::array<Index, PatchFunctions<D>::nodes>& points_of(Index patch) const {
+    return at(node_, patch);
+  }
+  /// Shape functions at the points.
+  const PointRows<D>& rows() const { return rows_; }
+  /// Of a point in the reference.
+  const Vec<D>& reference_place(Index point) const { return at(X_, point); }
   Offset pairs() const { return rows_.entries(); }
   std::size_t bytes() const;
 
  private:
-  static constexpr int nodes = D == 3 ? 9 : 3;
+  static constexpr int nodes = PatchFunctions<D>::nodes;
   template <class T>
   using Vector = std::array<T, D>;
   /// Places of the nodes of four patches, a lane per patch.
   template <class T>
   using Corners = std::array<Vector<T>, nodes>;
-  /// A Gauss point: L_a, its derivatives and the weight.
-  struct Functions {
-    Real weight;
-    std::array<Real, nodes> L;
-    std::array<std::array<Real, nodes>, D - 1> dL;
-  };
   /// Where a component of the gradient with respect to a point is added up from.
   struct Share {
     std::size_t entry;  // in gradient_, of the first component
@@ -83,11 +104,8 @@ class SurfacePatches {
   T group_size(Size size, const Corners<T>& place, T* gradient) const;
   /// Of the patches of a group: the last may have lanes without one.
   Real sum_of_patches(Index group, const Lanes& size) const;
-  /// force_A += factor gradient, which is [group][a][i].
-  void scatter(Real factor, const AlignedVector<Lanes>& gradient, std::span<NodalVector> force);
-  Index groups() const { return (patches_ + 3) / 4; }
 
-  std::array<Functions, nodes> gauss_;
+  std::vector<PatchFunctions<D>> gauss_;
   Index patches_ = 0;
   std::vector<std::array<Index, nodes>> node_;  // [patch][a]: number of a point
   std::vector<Vec<D>> X_;                       // [point]

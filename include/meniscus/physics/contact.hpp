@@ -28,11 +28,23 @@ struct ContactChoice {
   std::string name;  ///< of the pair, in messages and measures
   ContactForm form = ContactForm::energy;
   SiteDensity density = SiteDensity::constant;
+  /// [body] whether its points are those of patches (ContactPoints::on_patches), as they should be
+  /// where the tension of its surface is that of the same patches.
+  std::array<bool, 2> on_patches{false, false};
   int points = 2;     ///< Gauss points per direction of a facet, or of a cell
   Real skin = 0.4;    ///< of the list, / sigma0 (of a law of the gap: / quarter of its range)
   Real friction = 0;  ///< with a rigid partner: traction / speed along it where they touch
   bool wets = false;  ///< the body has a surface tension: measures of wetting are of interest
 };
+
+/// Points of the surface of a body, the first (0) or second (1) of a contact, with `beta` per area.
+template <int D>
+ContactPoints<D> surface_contact_points(const Body<D>& body, Real beta, const ContactChoice& choice,
+                                        std::size_t side) {
+  if (choice.on_patches[side] && choice.density == SiteDensity::constant)
+    return ContactPoints<D>::on_patches(body, beta, choice.points);
+  return ContactPoints<D>::on_surface(body, beta, choice.density, choice.points);
+}
 
 /// A body with `beta` particles of the interaction per volume.
 template <int D>

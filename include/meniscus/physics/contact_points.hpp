@@ -4,6 +4,8 @@
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
 
+#include <memory>
+
 namespace meniscus {
 
 /// Whether the density of interaction sites stays b per current volume, or b per reference volume
@@ -17,6 +19,9 @@ struct ContactPlaces {
   int components = 0;              ///< of a weight
   AlignedVector<Lanes> x, weight;  ///< [cluster][i], [cluster][component]
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> inverse;  ///< [cluster] F^-1
+  // Of patches.
+  NodalVectors nodes = {}, node_v = {};   ///< places and velocities of their nodes
+  std::vector<std::uint8_t> wanted = {};  ///< [node] work space
 
   const Lanes* x_of(Index cluster) const { return &at(x, cluster * D); }
   const Lanes* weight_of(Index cluster) const { return &at(weight, cluster * components); }
@@ -26,14 +31,19 @@ struct ContactPlaces {
     return y;
   }
   std::size_t bytes() const {
-    return (x.size() + weight.size()) * sizeof(Lanes) + inverse.size() * sizeof(Tensor<Lanes>);
+    return (x.size() + weight.size() + nodes.size()) * sizeof(Lanes) +
+           inverse.size() * sizeof(Tensor<Lanes>);
   }
 };
+
+template <int D>
+class PatchPoints;
 
 /// Material points in clusters of four that are neighbours in space, a lane per point. The weight
 /// of a point is
 /// - on the surface the area vector V = b cof(F) N dA (constant density) or b F^-T N dA
 ///   (referential), outward, D numbers;
+/// - on patches (SurfacePatches) b m dA, outward, D numbers: of the surface of the patches;
 /// - in the volume b dV, one number.
 /// Lanes without a point lie on the last point and have the weight 0.
 template <int D>
@@ -41,12 +51,18 @@ class ContactPoints {
  public:
   /// `points` Gauss points per direction of every facet of the surface, all sides included.
   static ContactPoints on_surface(const Body<D>& body, Real beta, SiteDensity density, int points);
+  /// `points` Gauss points per direction of every patch; of constant density.
+  static ContactPoints on_patches(const Body<D>& body, Real beta, int points);
   /// `points` Gauss points per direction of every cell.
   static ContactPoints in_volume(const Body<D>& body, Real beta, int points);
 
+  ContactPoints(ContactPoints&&) noexcept;
+  ContactPoints& operator=(ContactPoints&&) noexcept;
+  ~ContactPoints();
+
   const Body<D>& body() const { return *body_; }
-  Index size() const { return rule_.rows.size(); }
-  Index clusters() const { return rule_.groups(); }
+  Index size() const { return static_cast<Index>(rule_.point_weight.size()); }
+  Index clusters() const { return (size() + Lanes::width - 1) / Lanes::width; }
   Index points_in(Index cluster) const {
     return std::min<Index>(Lanes::width, size() - cluster * Lanes::width);
   }
@@ -60,6 +76,10 @@ class ContactPoints {
   ContactPlaces<D> at_rest() const;
   /// Moves all points along with the body.
   void move(const Motion& motion, ContactPlaces<D>& places) const;
+  /// Moves the points of these clusters.
+  void move(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places) const;
+  /// No point moves farther than this times the largest change of a displacement coefficient.
+  Real gain() const { return gain_; }
   /// Brings the weights of these clusters up to date.
   void update_weights(std::span<const Index> clusters, const Motion& motion,
                       ContactPlaces<D>& places) const;
@@ -67,8 +87,14 @@ class ContactPoints {
   /// The particle nearest to a point, counted over all bodies.
   Index particle_at(Index point) const { return body_->first + at(rule_.point_owner, point); }
 
+  /// To be called before velocity() for these clusters.
+  void prepare_velocities(std::span<const Index> clusters, const Motion& motion,
+                          ContactPlaces<D>& places) const;
   /// Velocities of the points of a cluster.
-  void velocity(Index cluster, const Motion& motion, Lanes* v) const;
+  void velocity(Index cluster, const Motion& motion, const ContactPlaces<D>& places,
+                Lanes* v) const;
+  /// The same without preparation; on patches of places nearby.
+  void velocity_nearby(Index cluster, const Motion& motion, Lanes* v) const;
 
   /// Adds the forces -dE/du of these clusters, given dE/dx = T ([cluster][i]) and, on the surface,
   /// dE/dV = S: f_A = - sum_s { N_A T + (S.V) g_A [constant density only] - (S.g_A) V } with
@@ -77,12 +103,25 @@ class ContactPoints {
                  std::span<const Lanes> T, std::span<const Lanes> S, std::span<NodalVector> force);
 
   std::size_t bytes() const;
-  Offset pairs() const { return rule_.rows.entries(); }
+  Offset pairs() const;
 
  private:
-  ContactPoints(const Body<D>& body, int components) : body_(&body), components_(components) {}
+  ContactPoints(const Body<D>& body, int components);
+  /// The points `order` of X, which carry `measure`.
   void place_points(const std::vector<Vec<D>>& X, const std::vector<Index>& order,
-                    const std::vector<Real>& measure, RowContent content);
+                    const std::vector<Real>& measure);
+  void build_rows(RowContent content);
+  void take_inertia();
+  /// Calls f(A, value) for the shape functions at a point, or parts of them.
+  template <class F>
+  void for_shape_functions(Index point, F&& f) const;
+  void want_nodes(std::span<const Index> clusters, ContactPlaces<D>& places) const;
+  void move(Index cluster, const NodalVector* u, ContactPlaces<D>& places) const;
+  void move_on_patches(Index cluster, ContactPlaces<D>& places) const;
+  void update_weights(Index cluster, const NodalVector* u, ContactPlaces<D>& places) const;
+  void add_force_on_patches(const ContactPlaces<D>& places, std::span<const Index> clusters,
+                            std::span<const Lanes> T, std::span<const Lanes> S,
+                            std::span<NodalVector> force);
   static std::size_t offset(Index cluster, int count) {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);
   }
@@ -91,9 +130,13 @@ class ContactPoints {
   const Body<D>* body_;
   int components_;  // of a weight: D on the surface, 1 in the volume
   SiteDensity density_ = SiteDensity::referential;
+  Real beta_ = 1;      // of patches: weight per area
   PointRule<D> rule_;  // a group is a cluster
   ForceWindows windows_;
-  Real spacing_ = 0, inertia_ = 0;
+  std::unique_ptr<PatchPoints<D>> patches_;   // null: points by shape functions
+  std::vector<Index> on_patch_;               // [point] its number there
+  std::vector<std::vector<Index>> of_group_;  // [group of patches] points
+  Real spacing_ = 0, inertia_ = 0, gain_ = 0;
   AlignedVector<Lanes> X_, reference_;  // [cluster][i]: places, weights in the reference state
   std::vector<std::uint8_t> pushed_;    // [cluster] 1 while its force is added
 };

@@ -43,6 +43,11 @@ class Interaction {
   virtual Real range() const = 0;
   /// Steps into a narrower gap are rejected.
   virtual Real least_gap() const = 0;
+  /// Whether its stiffness may grow by multiples within a step that closes a twentieth of the gap,
+  /// so that a step has to resolve the motion in it; otherwise stability alone limits steps.
+  virtual bool hardens() const { return true; }
+  /// Whether there is nothing at all beyond range().
+  virtual bool ends() const { return false; }
   virtual PlaneContact flat() const = 0;
   /// The adhesion W(x, t) of a rigid partner, by which at() has to be multiplied; null: at() has
   /// it. flat() has that of one place.

@@ -26,7 +26,7 @@ Vec<D> mean_velocity(const ContactPoints<D>& points, std::span<const Index> acti
   Vec<D> mean = Vec<D>::Zero();
   Lanes v[D];
   for (const Index c : active) {
-    points.velocity(c, motion, v);
+    points.velocity_nearby(c, motion, v);
     for (int i = 0; i < D; ++i) mean[i] += sum(v[i]);
   }
   return mean / (4 * std::max<Real>(1, static_cast<Real>(active.size())));
@@ -37,7 +37,7 @@ Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> ac
                        const Vec<D>& from, const Motion& motion) {
   Lanes largest = Lanes::zero(), v[D];
   for (const Index c : active) {
-    points.velocity(c, motion, v);
+    points.velocity_nearby(c, motion, v);
     Lanes square = Lanes::zero();
     for (int i = 0; i < D; ++i) square += (v[i] - from[i]) * (v[i] - from[i]);
     largest = max(square, largest);
@@ -145,7 +145,7 @@ StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_
   const Real K = contact.interaction.at(reached).stiffness;
   const Real single = 1 + 2 * std::pow(contact.spacing / reached, contact.dimension - 1);
   demand.stiffness = std::max(0.0, K) * single * contact.inverse_inertia;
-  if (demand.stiffness > 0)
+  if (demand.stiffness > 0 && contact.interaction.hardens())
     demand.longest = std::min(demand.longest, 1 / std::sqrt(demand.stiffness));
   return demand;
 }

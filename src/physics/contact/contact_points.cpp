@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "patch_points.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -40,43 +42,32 @@ std::vector<Index> clustered_order(const std::vector<Vec<D>>& X) {
   return order;
 }
 
-/// Smallest m_A / (sum_s w_s |N_A| sum_B |N_B|): what a row of the contact stiffness pulls at.
-template <int D>
-Real least_inertia(const PointRows<D>& rows, const std::vector<Real>& weight,
-                   const std::vector<Real>& mass) {
-  std::vector<Real> carried(mass.size(), 0);
-  for (Index q = 0; q < rows.size(); ++q) {
-    Real row = 0;
-    for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
-      row += std::abs(at(rows.value, e));
-    for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
-      at(carried, at(rows.particle, e)) += at(weight, q) * std::abs(at(rows.value, e)) * row;
-  }
-  Real least = std::numeric_limits<Real>::infinity();
-  for (std::size_t A = 0; A < mass.size(); ++A)
-    if (carried[A] > 0) least = std::min(least, mass[A] / carried[A]);
-  return least;
-}
-
 }  // namespace
 
 template <int D>
+ContactPoints<D>::ContactPoints(const Body<D>& body, int components)
+    : body_(&body), components_(components) {}
+template <int D>
+ContactPoints<D>::ContactPoints(ContactPoints&&) noexcept = default;
+template <int D>
+ContactPoints<D>& ContactPoints<D>::operator=(ContactPoints&&) noexcept = default;
+template <int D>
+ContactPoints<D>::~ContactPoints() = default;
+
+template <int D>
 void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vector<Index>& order,
-                                    const std::vector<Real>& measure, RowContent content) {
+                                    const std::vector<Real>& measure) {
   std::vector<Vec<D>> places;
   for (const Index q : order) {
     places.push_back(at(X, q));
     rule_.point_weight.push_back(at(measure, q));
   }
-  rule_.rows = build_point_rows<D>(body_->particles, places, content, body_->name);
   std::vector<Index> nearest;
   for (const Vec<D>& x : places) {
     body_->particles.search().within(
         x, body_->particles.search().distance_of_nearest(x, 1) * (1 + 1e-12), nearest);
     rule_.point_owner.push_back(nearest.front());
   }
-  windows_ = rule_.windows(body_->size());
-  inertia_ = least_inertia(rule_.rows, rule_.point_weight, body_->mass);
   const Real total = std::accumulate(measure.begin(), measure.end(), Real{0});
   spacing_ = std::pow(total / size(), 1.0 / (components_ == 1 ? D : D - 1));
   X_.assign(offset(clusters(), D), Lanes::zero());
@@ -90,13 +81,61 @@ void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vec
 }
 
 template <int D>
+void ContactPoints<D>::build_rows(RowContent content) {
+  std::vector<Vec<D>> places;
+  for (Index q = 0; q < size(); ++q) {
+    Vec<D> x;
+    for (int i = 0; i < D; ++i) x[i] = at(X_, q / Lanes::width * D + i)[q % Lanes::width];
+    places.push_back(x);
+  }
+  rule_.rows = build_point_rows<D>(body_->particles, places, content, body_->name);
+  windows_ = rule_.windows(body_->size());
+  take_inertia();
+}
+
+template <int D>
+template <class F>
+void ContactPoints<D>::for_shape_functions(Index point, F&& f) const {
+  if (patches_) return patches_->for_shape_functions(at(on_patch_, point), f);
+  const PointRows<D>& rows = rule_.rows;
+  for (Offset e = at(rows.start, point); e < at(rows.start, point + 1); ++e)
+    f(at(rows.particle, e), at(rows.value, e));
+}
+
+/// Inertia: the smallest m_A / (sum_s w_s |N_A| sum_B |N_B|), what a row of the contact stiffness
+/// pulls at. Gain: the largest sum_B |N_B|.
+template <int D>
+void ContactPoints<D>::take_inertia() {
+  std::vector<Real> carried(body_->mass.size(), 0), sum(carried);
+  std::vector<Index> touched;
+  for (Index q = 0; q < size(); ++q) {
+    touched.clear();
+    for_shape_functions(q, [&](Index A, Real N) {
+      if (at(sum, A) == 0) touched.push_back(A);
+      at(sum, A) += N;
+    });
+    Real row = 0;
+    for (const Index A : touched) row += std::abs(at(sum, A));
+    gain_ = std::max(gain_, row);
+    for (const Index A : touched) {
+      at(carried, A) += at(rule_.point_weight, q) * std::abs(at(sum, A)) * row;
+      at(sum, A) = 0;
+    }
+  }
+  inertia_ = std::numeric_limits<Real>::infinity();
+  for (std::size_t A = 0; A < carried.size(); ++A)
+    if (carried[A] > 0) inertia_ = std::min(inertia_, body_->mass[A] / carried[A]);
+}
+
+template <int D>
 ContactPoints<D> ContactPoints<D>::on_surface(const Body<D>& body, Real beta, SiteDensity density,
                                               int points) {
   const SurfacePoints<D> surface = surface_points(body.geometry, points);
   const std::vector<Index> order = clustered_order<D>(surface.X);
   ContactPoints contact(body, D);
   contact.density_ = density;
-  contact.place_points(surface.X, order, surface.area, {.value = true, .gradient = true});
+  contact.place_points(surface.X, order, surface.area);
+  contact.build_rows({.value = true, .gradient = true});
   for (Index q = 0; q < contact.size(); ++q)
     for (int i = 0; i < D; ++i)
       at(contact.reference_, q / Lanes::width * D + i)
@@ -106,11 +145,39 @@ ContactPoints<D> ContactPoints<D>::on_surface(const Body<D>& body, Real beta, Si
 }
 
 template <int D>
+ContactPoints<D> ContactPoints<D>::on_patches(const Body<D>& body, Real beta, int points) {
+  ContactPoints contact(body, D);
+  contact.density_ = SiteDensity::constant;
+  contact.beta_ = beta;
+  contact.patches_ = std::make_unique<PatchPoints<D>>(body, points);
+  const PatchPoints<D>& patches = *contact.patches_;
+  std::vector<Vec<D>> X, V;
+  std::vector<Real> area;
+  for (Index q = 0; q < patches.size(); ++q) {
+    X.push_back(patches.place(q, patches.reference_nodes()));
+    V.push_back(patches.area_vector(q, patches.reference_nodes()));
+    area.push_back(V.back().norm());
+  }
+  contact.on_patch_ = clustered_order<D>(X);
+  contact.place_points(X, contact.on_patch_, area);
+  contact.take_inertia();
+  contact.of_group_.resize(static_cast<std::size_t>(patches.group_count()));
+  for (Index q = 0; q < contact.size(); ++q)
+    at(contact.of_group_, patches.group(at(contact.on_patch_, q))).push_back(q);
+  for (Index q = 0; q < contact.size(); ++q)
+    for (int i = 0; i < D; ++i)
+      at(contact.reference_, q / Lanes::width * D + i)
+          .set(q % Lanes::width, beta * at(V, at(contact.on_patch_, q))[i]);
+  return contact;
+}
+
+template <int D>
 ContactPoints<D> ContactPoints<D>::in_volume(const Body<D>& body, Real beta, int points) {
   const CellPoints<D> cells = cell_gauss_points(body.geometry.grid, points);
   const std::vector<Index> order = clustered_order<D>(cells.X);
   ContactPoints contact(body, 1);
-  contact.place_points(cells.X, order, cells.weight, {.value = true});
+  contact.place_points(cells.X, order, cells.weight);
+  contact.build_rows({.value = true});
   for (Index q = 0; q < contact.size(); ++q)
     at(contact.reference_, q / Lanes::width)
         .set(q % Lanes::width, beta * at(cells.weight, at(order, q)));
@@ -120,23 +187,58 @@ ContactPoints<D> ContactPoints<D>::in_volume(const Body<D>& body, Real beta, int
 template <int D>
 ContactPlaces<D> ContactPoints<D>::at_rest() const {
   ContactPlaces<D> places{size(), components_, X_, reference_, {}};
-  if (components_ == D)
+  if (patches_) {
+    places.nodes = patches_->reference_nodes();
+    places.wanted.assign(places.nodes.size(), 0);
+  } else if (components_ == D) {
     places.inverse.assign(static_cast<std::size_t>(clusters()), Tensor<Lanes>::identity());
+  }
   return places;
+}
+
+template <int D>
+void ContactPoints<D>::move(Index c, const NodalVector* u, ContactPlaces<D>& places) const {
+  for (Index lane = 0; lane < Lanes::width; ++lane) {
+    const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
+    const Lanes moved = value_at(rule_.rows, q, u);
+    for (int i = 0; i < D; ++i)
+      at(places.x, c * D + i).set(lane, at(X_, c * D + i)[lane] + moved[i]);
+  }
+}
+
+template <int D>
+void ContactPoints<D>::move_on_patches(Index c, ContactPlaces<D>& places) const {
+  for (Index lane = 0; lane < Lanes::width; ++lane) {
+    const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
+    const Vec<D> x = patches_->place(at(on_patch_, q), places.nodes);
+    for (int i = 0; i < D; ++i) at(places.x, c * D + i).set(lane, x[i]);
+  }
 }
 
 template <int D>
 void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places) const {
   const NodalVector* u = motion.u.data() + body_->first;
+  if (patches_) patches_->place_nodes(u, {}, places.nodes);
   for_chunks(clusters(), [&](Index, Index begin, Index end) {
-    for (Index c = begin; c < end; ++c)
-      for (Index lane = 0; lane < Lanes::width; ++lane) {
-        const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
-        const Lanes moved = value_at(rule_.rows, q, u);
-        for (int i = 0; i < D; ++i)
-          at(places.x, c * D + i).set(lane, at(X_, c * D + i)[lane] + moved[i]);
-      }
+    for (Index c = begin; c < end; ++c) patches_ ? move_on_patches(c, places) : move(c, u, places);
   });
+}
+
+template <int D>
+void ContactPoints<D>::move(std::span<const Index> clusters, const Motion& motion,
+                            ContactPlaces<D>& places) const {
+  const NodalVector* u = motion.u.data() + body_->first;
+  if (patches_) {
+    want_nodes(clusters, places);
+    patches_->place_nodes(u, places.wanted, places.nodes);
+  }
+  parallel_for(
+      static_cast<Index>(clusters.size()),
+      [&](Index k) {
+        const Index c = at(clusters, k);
+        patches_ ? move_on_patches(c, places) : move(c, u, places);
+      },
+      16);
 }
 
 template <int D>
@@ -146,30 +248,69 @@ void ContactPoints<D>::update_weights(std::span<const Index> clusters, const Mot
   const NodalVector* u = motion.u.data() + body_->first;
   parallel_for(
       static_cast<Index>(clusters.size()),
-      [&](Index k) {
-        const Index c = at(clusters, k);
-        Tensor<Lanes> H;
-        rule_.gather(c, u, H);
-        Tensor<Lanes> cof = cofactor_of_deformation(H);
-        const Lanes one_over_J = 1.0 / (1.0 + volume_change(H));
-        at(places.inverse, c) = one_over_J * transpose(cof);
-        if (density_ == SiteDensity::referential) cof = one_over_J * cof;
-        const Lanes* N = reference_.data() + offset(c, D);
-        for (int i = 0; i < D; ++i) {
-          Lanes V = cof(i, 0) * N[0];
-          for (int K = 1; K < D; ++K) V += cof(i, K) * N[K];
-          at(places.weight, c * D + i) = V;
-        }
-      },
-      16);
+      [&](Index k) { update_weights(at(clusters, k), u, places); }, 16);
 }
 
 template <int D>
-void ContactPoints<D>::velocity(Index cluster, const Motion& motion, Lanes* v) const {
+void ContactPoints<D>::update_weights(Index c, const NodalVector* u,
+                                      ContactPlaces<D>& places) const {
+  if (patches_) {
+    for (Index lane = 0; lane < points_in(c); ++lane) {
+      const Vec<D> V =
+          beta_ * patches_->area_vector(at(on_patch_, c * Lanes::width + lane), places.nodes);
+      for (int i = 0; i < D; ++i) at(places.weight, c * D + i).set(lane, V[i]);
+    }
+    return;
+  }
+  Tensor<Lanes> H;
+  rule_.gather(c, u, H);
+  Tensor<Lanes> cof = cofactor_of_deformation(H);
+  const Lanes one_over_J = 1.0 / (1.0 + volume_change(H));
+  at(places.inverse, c) = one_over_J * transpose(cof);
+  if (density_ == SiteDensity::referential) cof = one_over_J * cof;
+  const Lanes* N = reference_.data() + offset(c, D);
+  for (int i = 0; i < D; ++i) {
+    Lanes V = cof(i, 0) * N[0];
+    for (int K = 1; K < D; ++K) V += cof(i, K) * N[K];
+    at(places.weight, c * D + i) = V;
+  }
+}
+
+template <int D>
+void ContactPoints<D>::want_nodes(std::span<const Index> clusters, ContactPlaces<D>& places) const {
+  std::fill(places.wanted.begin(), places.wanted.end(), std::uint8_t{0});
+  for (const Index c : clusters)
+    for (Index lane = 0; lane < points_in(c); ++lane)
+      patches_->want(at(on_patch_, c * Lanes::width + lane), places.wanted);
+}
+
+template <int D>
+void ContactPoints<D>::prepare_velocities(std::span<const Index> clusters, const Motion& motion,
+                                          ContactPlaces<D>& places) const {
+  if (!patches_) return;
+  want_nodes(clusters, places);
+  places.node_v.resize(places.nodes.size());
+  patches_->values(motion.v.data() + body_->first, places.wanted, places.node_v);
+}
+
+template <int D>
+void ContactPoints<D>::velocity(Index cluster, const Motion& motion, const ContactPlaces<D>& places,
+                                Lanes* v) const {
+  if (!patches_) return velocity_nearby(cluster, motion, v);
+  for (Index lane = 0; lane < Lanes::width; ++lane) {
+    const Index q = cluster * Lanes::width + std::min(lane, points_in(cluster) - 1);
+    const Vec<D> rate = patches_->place(at(on_patch_, q), places.node_v);
+    for (int i = 0; i < D; ++i) v[i].set(lane, rate[i]);
+  }
+}
+
+template <int D>
+void ContactPoints<D>::velocity_nearby(Index cluster, const Motion& motion, Lanes* v) const {
   const NodalVector* field = motion.v.data() + body_->first;
   for (Index lane = 0; lane < Lanes::width; ++lane) {
     const Index q = cluster * Lanes::width + std::min(lane, points_in(cluster) - 1);
-    const Lanes rate = value_at(rule_.rows, q, field);
+    const Lanes rate = patches_ ? patches_->velocity_nearby(at(on_patch_, q), field)
+                                : value_at(rule_.rows, q, field);
     for (int i = 0; i < D; ++i) v[i].set(lane, rate[i]);
   }
 }
@@ -195,6 +336,7 @@ void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const
                                  std::span<const Lanes> T, std::span<const Lanes> S,
                                  std::span<NodalVector> force) {
   if (clusters.empty()) return;
+  if (patches_) return add_force_on_patches(places, clusters, T, S, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
   windows_.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
     for (Index c = begin; c < end; ++c) {
@@ -210,8 +352,37 @@ void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const
 }
 
 template <int D>
+void ContactPoints<D>::add_force_on_patches(const ContactPlaces<D>& places,
+                                            std::span<const Index> clusters,
+                                            std::span<const Lanes> T, std::span<const Lanes> S,
+                                            std::span<NodalVector> force) {
+  for (const Index c : clusters) at(pushed_, c) = 1;
+  parallel_for(static_cast<Index>(of_group_.size()), [&](Index group) {
+    patches_->begin_force(group);
+    for (const Index q : at(of_group_, group)) {
+      const Index c = q / Lanes::width, lane = q % Lanes::width;
+      if (!at(pushed_, c)) continue;
+      Vec<D> pull, turn = Vec<D>::Zero();
+      for (int i = 0; i < D; ++i) {
+        pull[i] = T[offset(c, D) + static_cast<std::size_t>(i)][lane];
+        if (!S.empty()) turn[i] = beta_ * S[offset(c, D) + static_cast<std::size_t>(i)][lane];
+      }
+      patches_->add(at(on_patch_, q), pull, turn, places.nodes);
+    }
+  });
+  patches_->end_force(body_->part(force));
+  for (const Index c : clusters) at(pushed_, c) = 0;
+}
+
+template <int D>
+Offset ContactPoints<D>::pairs() const {
+  return patches_ ? patches_->pairs() : rule_.rows.entries();
+}
+
+template <int D>
 std::size_t ContactPoints<D>::bytes() const {
-  return rule_.bytes() + windows_.bytes() + (X_.size() + reference_.size()) * sizeof(Lanes);
+  return rule_.bytes() + windows_.bytes() + (X_.size() + reference_.size()) * sizeof(Lanes) +
+         on_patch_.size() * sizeof(Index) + (patches_ ? patches_->bytes() : 0);
 }
 
 template class ContactPoints<2>;

@@ -27,8 +27,8 @@ class GapPair final : public ForceTerm {
       : name_(choice.name),
         law_(std::move(law)),
         range_(law_->range()),
-        first_(first, second, range_, choice),
-        second_(second, first, range_, choice),
+        first_(first, second, range_, choice, 0),
+        second_(second, first, range_, choice, 1),
         now_first_(first_),
         now_second_(second_) {}
 
@@ -88,8 +88,9 @@ class GapPair final : public ForceTerm {
     ContactFacets<D> facets;
     ContactList<D> list;  // clusters of points, facets
 
-    Side(const Body<D>& body, const Body<D>& other, Real range, const ContactChoice& choice)
-        : points(ContactPoints<D>::on_surface(body, 1, SiteDensity::constant, choice.points)),
+    Side(const Body<D>& body, const Body<D>& other, Real range, const ContactChoice& choice,
+         std::size_t side)
+        : points(surface_contact_points(body, 1, choice, side)),
           facets(other),
           // No point of a facet that has not doubled its size is farther than that from its
           // samples.

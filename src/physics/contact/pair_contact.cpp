@@ -35,10 +35,10 @@ struct PairPlaces {
 };
 
 template <int D>
-ContactPoints<D> points_of(const ContactBody<D>& b, const ContactChoice& choice) {
+ContactPoints<D> points_of(const ContactBody<D>& b, const ContactChoice& choice, std::size_t side) {
   if (choice.form == ContactForm::volume)
     return ContactPoints<D>::in_volume(b.body, b.beta, choice.points);
-  return ContactPoints<D>::on_surface(b.body, b.beta, choice.density, choice.points);
+  return surface_contact_points(b.body, b.beta, choice, side);
 }
 
 template <int D, class Form, PairKernel K>
@@ -50,8 +50,8 @@ class PairContact final : public ForceTerm {
         law_(law),
         pair_law_(law),
         interaction_(law, first.beta * second.beta),
-        first_(points_of(first, choice)),
-        second_(points_of(second, choice)),
+        first_(points_of(first, choice, 0)),
+        second_(points_of(second, choice, 1)),
         list_(law.reach(), choice.skin * law.sigma0),
         now_{first_.at_rest(), second_.at_rest()},
         first_result_(first_.clusters(), Form::moment),

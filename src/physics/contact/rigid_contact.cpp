@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "reach_list.hpp"
 #include "wall_effects.hpp"
 
 namespace meniscus {
@@ -33,9 +34,10 @@ class RigidContact final : public ForceTerm {
         wets_(choice.wets),
         partner_(std::move(partner)),
         effects_(*interaction_, partner_, choice.friction),
-        points_(ContactPoints<D>::on_surface(body.body, body.beta, choice.density, choice.points)),
+        points_(surface_contact_points(body.body, body.beta, choice, 0)),
         all_(static_cast<std::size_t>(points_.clusters())),
-        now_(points_) {
+        now_(points_),
+        list_(interaction_->range()) {
     std::iota(all_.begin(), all_.end(), Index{0});
     near_.reserve(all_.size());
     if (partner_.motion.moves()) steady_after_ = end_of_motion();
@@ -47,11 +49,12 @@ class RigidContact final : public ForceTerm {
   std::string_view energy_kind() const override { return "contact"; }
 
   Report add_force(const Motion& motion, Forces force) override {
-    evaluate(motion, now_);
-    add_effects(motion, now_);
+    const std::span<const Index> visited = in_reach(motion);
+    evaluate(motion, visited, now_);
+    add_effects(motion, visited, now_);
     const std::span<const Lanes> S =
         form_ == ContactForm::energy ? std::span<const Lanes>(now_.S) : std::span<const Lanes>();
-    points_.add_force(now_.places, all_, now_.T, S, force);
+    points_.add_force(now_.places, visited, now_.T, S, force);
     return report(motion);
   }
 
@@ -76,7 +79,8 @@ class RigidContact final : public ForceTerm {
   std::vector<MeasureSource> measures() const override;
 
   std::size_t bytes() const override {
-    return points_.bytes() + now_.places.bytes() + (now_.T.size() + now_.S.size()) * sizeof(Lanes);
+    return points_.bytes() + now_.places.bytes() + (now_.T.size() + now_.S.size()) * sizeof(Lanes) +
+           list_.bytes();
   }
   Offset pairs() const override { return points_.pairs() + points_.size(); }
 
@@ -104,16 +108,18 @@ class RigidContact final : public ForceTerm {
   };
 
   Real end_of_motion() const;
-  void evaluate(const Motion& motion, Evaluation& result) const;
+  std::span<const Index> in_reach(const Motion& motion);
+  void evaluate(const Motion& motion, std::span<const Index> clusters, Evaluation& result) const;
   void evaluate(Index cluster, const Vec<D>& shift, Evaluation& result) const;
-  void add_effects(const Motion& motion, Evaluation& result) const;
+  void take_all_distances(const Motion& motion);
+  void add_effects(const Motion& motion, std::span<const Index> clusters, Evaluation& result) const;
   WallPoints<D> wall_points(Index cluster, const Motion& motion, const Vec<D>& shift,
                             const Vec<D>& velocity, Evaluation& result) const;
   /// At any motion; takes memory.
   Evaluation evaluated(const Motion& motion) const {
     Evaluation result(points_);
-    evaluate(motion, result);
-    add_effects(motion, result);
+    evaluate(motion, all_, result);
+    add_effects(motion, all_, result);
     return result;
   }
   Real energy_of(const Evaluation& result) const {
@@ -125,7 +131,7 @@ class RigidContact final : public ForceTerm {
   }
   Real wetted_area(const Motion& motion) const {
     Evaluation uniform(points_);
-    evaluate(motion, uniform);
+    evaluate(motion, all_, uniform);
     return std::max(0.0, -energy_of(uniform) / effects_.adhesion());
   }
   Vec<D> velocity(const Motion& motion) const {
@@ -134,8 +140,11 @@ class RigidContact final : public ForceTerm {
   Report report(const Motion& motion);
   /// Whether a point of the cluster is within the range.
   bool near(const Evaluation& result, Index cluster) const {
+    return nearest_of(result, cluster) < interaction_->range();
+  }
+  static Real nearest_of(const Evaluation& result, Index cluster) {
     const Lanes& d = at(result.distances, cluster);
-    return std::min(std::min(d[0], d[1]), std::min(d[2], d[3])) < interaction_->range();
+    return std::min(std::min(d[0], d[1]), std::min(d[2], d[3]));
   }
 
   Vec<D> net_force(const Evaluation& result) const {
@@ -157,6 +166,7 @@ class RigidContact final : public ForceTerm {
   Real steady_after_ = 0;
   // Work space of a force.
   Evaluation now_;
+  ReachList<D> list_;
   std::vector<Index> near_;  // clusters within the range at the last force
 };
 
@@ -173,13 +183,48 @@ Real RigidContact<D>::end_of_motion() const {
   return k == steps_of_run ? std::numeric_limits<Real>::infinity() : k * partner_.velocity_step;
 }
 
+/// Clusters that may feel the partner; all of them, for an interaction without end. Those are kept
+/// in a list for as long as no other point can have come within the range.
 template <int D>
-void RigidContact<D>::evaluate(const Motion& motion, Evaluation& result) const {
-  points_.move(motion, result.places);
-  points_.update_weights(all_, motion, result.places);
+std::span<const Index> RigidContact<D>::in_reach(const Motion& motion) {
+  if (!interaction_->ends()) return all_;
+  const Vec<D> shift = partner_.motion.displacement(motion.time);
+  if (!list_.holds(points_, motion, shift)) {
+    take_all_distances(motion);
+    list_.begin(points_, motion, shift);
+    for (const Index c : all_)
+      if (nearest_of(now_, c) < list_.distance()) list_.add(c);
+    std::fill(now_.T.begin(), now_.T.end(), Lanes::zero());
+    std::fill(now_.S.begin(), now_.S.end(), Lanes::zero());
+  }
+  return list_.clusters();
+}
+
+template <int D>
+void RigidContact<D>::evaluate(const Motion& motion, std::span<const Index> clusters,
+                               Evaluation& result) const {
+  points_.move(clusters, motion, result.places);
+  points_.update_weights(clusters, motion, result.places);
   const Vec<D> shift = partner_.motion.displacement(motion.time);
   parallel_for(
-      points_.clusters(), [&](Index c) { evaluate(c, shift, result); }, 16);
+      static_cast<Index>(clusters.size()),
+      [&](Index k) { evaluate(at(clusters, k), shift, result); }, 16);
+}
+
+template <int D>
+void RigidContact<D>::take_all_distances(const Motion& motion) {
+  points_.move(motion, now_.places);
+  const Vec<D> shift = partner_.motion.displacement(motion.time);
+  parallel_for(
+      points_.clusters(),
+      [&](Index c) {
+        for (int lane = 0; lane < Lanes::width; ++lane) {
+          Vec<D> place;
+          for (int i = 0; i < D; ++i) place[i] = now_.places.x_of(c)[i][lane] - shift[i];
+          at(now_.distances, c).set(lane, partner_.shape->distance(place));
+        }
+      },
+      16);
 }
 
 /// T and S of the four points of a cluster: T = grad S V, with S forming the energy S.V, or T = U V
@@ -205,9 +250,11 @@ void RigidContact<D>::evaluate(Index cluster, const Vec<D>& shift, Evaluation& r
 
 /// Adhesion that varies, and friction.
 template <int D>
-void RigidContact<D>::add_effects(const Motion& motion, Evaluation& result) const {
+void RigidContact<D>::add_effects(const Motion& motion, std::span<const Index> visited,
+                                  Evaluation& result) const {
   if (!effects_.any()) return;
   const Vec<D> shift = partner_.motion.displacement(motion.time), velocity = this->velocity(motion);
+  points_.prepare_velocities(visited, motion, result.places);
   result.sums = parallel_sum(points_.clusters(), WallSums(), [&](Index c) {
     if (!near(result, c)) return WallSums();
     WallPoints<D> points = wall_points(c, motion, shift, velocity, result);
@@ -220,7 +267,7 @@ WallPoints<D> RigidContact<D>::wall_points(Index cluster, const Motion& motion, 
                                            const Vec<D>& velocity, Evaluation& result) const {
   const Lanes *x = result.places.x_of(cluster), *weight = result.places.weight_of(cluster);
   Lanes v[D];
-  points_.velocity(cluster, motion, v);
+  points_.velocity(cluster, motion, result.places, v);
   WallPoints<D> points;
   points.T = &at(result.T, cluster * D);
   points.S = &at(result.S, cluster * D);
@@ -239,6 +286,7 @@ template <int D>
 void RigidContact<D>::add_viscous(const Motion& motion, Forces force) {
   const Vec<D> shift = partner_.motion.displacement(motion.time);
   std::fill(now_.T.begin(), now_.T.end(), Lanes::zero());
+  points_.prepare_velocities(near_, motion, now_.places);
   parallel_for(static_cast<Index>(near_.size()), [&](Index k) {
     WallPoints<D> points = wall_points(at(near_, k), motion, shift, Vec<D>::Zero(), now_);
     effects_.rub(points);
@@ -279,6 +327,8 @@ Report RigidContact<D>::report(const Motion& motion) {
   near_.clear();
   for (const Index c : all_)
     if (near(now_, c)) near_.push_back(c);
+  // Distances of points beyond reach are those of when the list was made.
+  if (near_.empty() && interaction_->ends()) take_all_distances(motion);
   const Index nearest = now_.nearest_point();
   const Real gap = now_.distance(nearest);
   if (!(gap < interaction_->range())) {

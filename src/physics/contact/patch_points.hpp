@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact points on the patches of a closed surface: the surface whose area the balanced tension
+// takes (static-drop note 2), so that tension, enclosed volume and contact see one and the same.
+#pragma once
+#include "meniscus/body/surface_patches.hpp"
+
+#include <cstdint>
+
+namespace meniscus {
+
+template <int D>
+class PatchPoints {
+ public:
+  /// `points` Gauss points per direction and patch; a point is numbered patch by patch.
+  PatchPoints(const Body<D>& body, int points);
+
+  Index size() const { return surface_.patch_count() * per_patch(); }
+  Index node_count() const { return surface_.point_count(); }
+  /// In the reference.
+  const NodalVectors& reference_nodes() const { return reference_; }
+
+  /// Values of a nodal field at the nodes of patches with `wanted`.
+  void values(const NodalVector* field, std::span<const std::uint8_t> wanted,
+              NodalVectors& nodes) const;
+  /// Places of all nodes, or of those with `wanted` alone.
+  void place_nodes(const NodalVector* u, std::span<const std::uint8_t> wanted,
+                   NodalVectors& nodes) const;
+  /// wanted[node] = 1 for the nodes of the patch of a point.
+  void want(Index point, std::span<std::uint8_t> wanted) const;
+
+  /// Of a point, by the places of the nodes; as well any other field by its values there.
+  Vec<D> place(Index point, const NodalVectors& nodes) const;
+  /// m dA, outward.
+  Vec<D> area_vector(Index point, const NodalVectors& nodes) const;
+  /// Velocity at the node nearest to the point.
+  Lanes velocity_nearby(Index point, const NodalVector* v) const;
+  /// Calls f(A, value) with what a displacement of particle A moves a point by, in parts: one value
+  /// per node of the patch.
+  template <class F>
+  void for_shape_functions(Index point, F&& f) const {
+    const PointRows<D>& rows = surface_.rows();
+    for (int a = 0; a < nodes; ++a) {
+      const Index node = at(surface_.points_of(patch(point)), a);
+      for (Offset e = at(rows.start, node); e < at(rows.start, node + 1); ++e)
+        f(at(rows.particle, e), at(functions(point).L, a) * at(rows.value, e));
+    }
+  }
+
+  /// Patches come in groups of four.
+  Index group_count() const { return surface_.group_count(); }
+  Index group(Index point) const { return patch(point) / Lanes::width; }
+  /// For the points of a group, collects what a change of a point costs: T per place, S per area
+  /// vector m dA.
+  void begin_force(Index group);
+  void add(Index point, const Vec<D>& T, const Vec<D>& S, const NodalVectors& nodes);
+  /// force_A -= what was collected.
+  void end_force(std::span<NodalVector> force) { surface_.add_to_particles(-1, gradient_, force); }
+
+  std::size_t bytes() const {
+    return surface_.bytes() + (reference_.size() + gradient_.size()) * sizeof(Lanes);
+  }
+  Offset pairs() const { return surface_.pairs(); }
+
+ private:
+  static constexpr int nodes = PatchFunctions<D>::nodes;
+
+  Index per_patch() const { return static_cast<Index>(functions_.size()); }
+  Index patch(Index point) const { return point / per_patch(); }
+  const PatchFunctions<D>& functions(Index point) const {
+    return at(functions_, point % per_patch());
+  }
+  /// dx/dxi_k
+  std::array<Vec<D>, D - 1> tangents(Index point, const NodalVectors& nodes) const;
+
+  SurfacePatches<D> surface_;
+  std::vector<PatchFunctions<D>> functions_;
+  NodalVectors reference_;
+  AlignedVector<Lanes> gradient_;  // [group of patches][a][i], a lane per patch
+};
+
+}  // namespace meniscus
