@@ -112,7 +112,8 @@ std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
       fmt::format("J = det F = {:.6g} at a stress point, F = [{:.4g} {:.4g} {:.4g}; {:.4g} {:.4g} "
                   "{:.4g}; {:.4g} {:.4g} {:.4g}]",
                   1 + volume_change(lane_of(H, lane)), F(0, 0), F(0, 1), F(0, 2), F(1, 0), F(1, 1),
-                  F(1, 2), F(2, 0), F(2, 1), F(2, 2))};
+                  F(1, 2), F(2, 0), F(2, 1), F(2, 2)),
+      true};
 }
 
 template <int D, class Rule>

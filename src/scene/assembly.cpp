@@ -4,6 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace meniscus {
@@ -36,6 +37,9 @@ void Assembly<D>::field(const std::string& body, FieldSource source) {
 template <int D>
 void Assembly<D>::measure(const std::string& prefix, MeasureSource source) {
   source.name = prefix + "." + source.name;
+  if (std::any_of(scene_.measures.begin(), scene_.measures.end(),
+                  [&](const MeasureSource& other) { return other.name == source.name; }))
+    throw std::logic_error("there are two measures called '" + source.name + "'");
   scene_.measures.push_back(std::move(source));
 }
 

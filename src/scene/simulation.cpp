@@ -53,7 +53,9 @@ Simulation<D>::Simulation(Scene<D>& scene)
                                  scene.time.step_place, scene.time.viscosity == "implicit"}),
       stepper_(Registry<StepperEntry>::all()
                    .at(scene.time.solver)
-                   .make(scene.system, stepper_choice(scene))) {}
+                   .make(scene.system, stepper_choice(scene))) {
+  keeps_state_before_ |= !scene.time.step && stepper_->may_reject_steps();
+}
 
 template <int D>
 void Simulation<D>::begin() {
@@ -84,7 +86,8 @@ bool Simulation<D>::finished() const {
   return state_.time >= scene_.time.end || stepper_->arrived() || stepper_->blocked();
 }
 
-/// A step of dt or, if that is rejected, of a half of it, and so on.
+/// A step of dt or, if that is rejected, of a half of it, and so on. What no step is short enough
+/// for, as a blow, is taken as it is.
 template <int D>
 void Simulation<D>::step(Real dt) {
   constexpr int most_halvings = 6;
@@ -92,7 +95,10 @@ void Simulation<D>::step(Real dt) {
   for (int halvings = 0;; ++halvings) {
     last_step_ = dt;
     try {
-      stepper_->step(state_, dt);
+      if (halvings == most_halvings || scene_.time.step)
+        stepper_->step(state_, dt);
+      else
+        stepper_->try_step(state_, dt);
       if (halvings > 0) controller_.shorten(dt);
       return;
     } catch (StepError& e) {

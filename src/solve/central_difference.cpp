@@ -25,7 +25,8 @@ void start(System<D>& system, State& state) {
 }
 
 template <int D>
-void advance(System<D>& system, State& state, Real dt) {
+void advance(System<D>& system, State& state, Real dt,
+             const std::function<void(const State&)>& judge) {
   kick(system, state, dt / 2);
   leapfrog::drift(state, dt);
   Report report;
@@ -37,6 +38,7 @@ void advance(System<D>& system, State& state, Real dt) {
   }
   leapfrog::settle(state, dt);
   kick(system, state, dt / 2);
+  if (judge) judge(state);
   // Over a step the viscous force does the work dt/2 (f_n + f_n+1).v_n+1/2, of which f_n+1.v_n+1/2
   // is the power computed last and f_n.v_n+1/2 lies half-way between the power before and that.
   leapfrog::conclude(system, state, report, dt, 0.75);
@@ -44,7 +46,7 @@ void advance(System<D>& system, State& state, Real dt) {
 
 template void start(System<2>&, State&);
 template void start(System<3>&, State&);
-template void advance(System<2>&, State&, Real);
-template void advance(System<3>&, State&, Real);
+template void advance(System<2>&, State&, Real, const std::function<void(const State&)>&);
+template void advance(System<3>&, State&, Real, const std::function<void(const State&)>&);
 
 }  // namespace meniscus

@@ -27,6 +27,14 @@ class Dynamics final : public Stepper<D> {
     else
       advance(system_, state, dt);
   }
+  void try_step(State& state, Real dt) override {
+    if (viscosity_)
+      viscosity_->advance(state, dt);
+    else
+      advance<D>(system_, state, dt,
+                 [&](const State& after) { resolution_.judge(system_, after, dt); });
+  }
+  bool may_reject_steps() const override { return true; }
   std::string effort() const override {
     return viscosity_ ? fmt::format("{:.2f} iterations of the viscosity per step",
                                     viscosity_->mean_iterations())

@@ -2,7 +2,10 @@
 // The step that resolves the exchange of energy.
 #include "meniscus/solve/energy_resolution.hpp"
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,31 +17,76 @@ namespace {
 /// default scene then exceeds 1e-2 (study hard).
 constexpr Real eta = 5e-3;
 
-/// Kinetic energy, and S = sum f^2/m.
+/// Kinetic energy, S = sum f^2/m, and the power sum f.v.
 struct Sums {
-  Real kinetic = 0, S = 0;
-  friend Sums operator+(const Sums& a, const Sums& b) { return {a.kinetic + b.kinetic, a.S + b.S}; }
+  Real kinetic = 0, S = 0, power = 0;
+  friend Sums operator+(const Sums& a, const Sums& b) {
+    return {a.kinetic + b.kinetic, a.S + b.S, a.power + b.power};
+  }
 };
 
 Sums sums(const NodalVectors& v, const NodalVectors& f, const std::vector<Real>& mass) {
   return parallel_sum(static_cast<Index>(v.size()), Sums{}, [&](Index A) {
     const Real m = at(mass, A);
-    return Sums{m / 2 * sum(at(v, A) * at(v, A)), sum(at(f, A) * at(f, A)) / m};
+    return Sums{m / 2 * sum(at(v, A) * at(v, A)), sum(at(f, A) * at(f, A)) / m,
+                sum(at(f, A) * at(v, A))};
   });
+}
+
+template <int D>
+Sums sums(const System<D>& system, const State& state) {
+  Sums all = sums(state.v, state.force, system.mass);
+  for (const Unknown& field : state.fields)
+    if (field.spec.evolution == Evolution::inertial)
+      all = all + sums(field.rate, field.f, field.capacity);
+  return all;
 }
 
 }  // namespace
 
 template <int D>
 Real EnergyResolution<D>::longest_step(const System<D>& system, const State& state) {
-  Sums all = sums(state.v, state.force, system.mass);
-  for (const Unknown& field : state.fields)
-    if (field.spec.evolution == Evolution::inertial)
-      all = all + sums(field.rate, field.f, field.capacity);
+  const Sums all = sums(system, state);
   energy_ =
       std::max(energy_, all.kinetic + state.books.dissipated + std::abs(state.books.external_work));
-  hold(all.S > 0 ? std::sqrt(8 * eta * energy_ / all.S) : unbounded, state.step);
+  if (time_ < 0) {
+    remember(all.S, all.power, state.time);
+    return 0;
+  }
+  // On average S is half of S + v.Kv, and it never exceeds that.
+  const Real S = std::max(all.S, exchanged(all.S, all.power, state.time) / 2);
+  remember(all.S, all.power, state.time);
+  hold(S > 0 ? std::sqrt(8 * eta * energy_ / S) : unbounded, state.step);
   return held_;
+}
+
+template <int D>
+void EnergyResolution<D>::judge(const System<D>& system, const State& state, Real dt) const {
+  constexpr Real considerably = 2;
+  const Sums all = sums(system, state);
+  // A load that sets bodies in motion all at once does so in a step of any length.
+  const bool set_in_motion = all.kinetic > 4 * energy_;
+  const Real disturbance = dt * dt / 8 * std::abs(all.S - S_);
+  if (time_ < 0 || set_in_motion || disturbance <= considerably * eta * energy_) return;
+  StepFailure failure;
+  failure.cause =
+      fmt::format("the step disturbs the balance of energy by {:.2g} of the energy in motion",
+                  disturbance / energy_);
+  failure.of_step = true;
+  throw StepError(failure);
+}
+
+template <int D>
+void EnergyResolution<D>::remember(Real S, Real power, Real time) {
+  S_ = S;
+  power_ = power;
+  time_ = time;
+}
+
+/// S + v.Kv in the middle of the step that has ended, from d(f.v)/dt = S - v.Kv.
+template <int D>
+Real EnergyResolution<D>::exchanged(Real S, Real power, Real time) const {
+  return time > time_ ? S + S_ - (power - power_) / (time - time_) : 0;
 }
 
 /// Every change of step disturbs the balance a little, and following each oscillation would make it
@@ -58,11 +106,14 @@ void EnergyResolution<D>::hold(Real allowed, std::int64_t step) {
 
 template <int D>
 void EnergyResolution<D>::archive(const Archive& a) {
+  a("S", S_, of_sum({2, -4, 1}, D));
+  a("power", power_, of_sum(dimension::power, D));
+  a("time", time_, dimension::time);
   a("energy", energy_, of_sum(dimension::energy, D));
   a("held", held_, dimension::time);
   a("least", least_, dimension::time);
   a("window_end", window_end_);
-  require_saved(energy_ >= 0 && held_ >= 0 && least_ >= 0 && window_end_ >= 0, a,
+  require_saved(S_ >= 0 && energy_ >= 0 && held_ >= 0 && least_ >= 0 && window_end_ >= 0, a,
                 "energy_resolution");
 }
 

@@ -31,8 +31,8 @@ std::string ellipsoid(const std::string& axes, int core) {
 /// Ends as a sphere whose facets have kept their sizes.
 void is_round(HardCases& cases, const std::string& name, const HardOutcome& outcome,
               Real tolerance) {
-  cases.study().require(name + ": isoperimetric - 1", outcome.measure("body.isoperimetric") - 1,
-                        {-1e-6, tolerance});
+  cases.require(name, "isoperimetric - 1", outcome.measure("body.isoperimetric") - 1,
+                {-1e-6, tolerance});
 }
 
 void left_alone(HardCases& cases, bool full) {
@@ -43,8 +43,8 @@ void left_alone(HardCases& cases, bool full) {
     const auto outcome =
         cases.stays_stable(name, drop(ellipsoid("[1, 1.2, 1]", core), Oh, end), 1e-2);
     if (Oh > 0.1) is_round(cases, name, outcome, 1e-4);
-    cases.study().require(name + ": error of the angular momentum", outcome.angular_momentum_error,
-                          {0, 1e-10});
+    cases.require(name, "error of the angular momentum", outcome.angular_momentum_error,
+                  {0, 1e-10});
   }
 }
 
@@ -63,8 +63,8 @@ void stretched(HardCases& cases, bool full) {
                              1e-2);
       is_round(cases, name, outcome, full ? 1e-3 : 1e-2);
       // K = 200, pressure 2: 0.99 at rest.
-      cases.study().require(name + ": volume / reference volume",
-                            outcome.measure("body.volume") / 4.18879, {0.988, 0.992});
+      cases.require(name, "volume / reference volume", outcome.measure("body.volume") / 4.18879,
+                    {0.988, 0.992});
     }
   const std::string flat = "drop 1 : 4 in the plane";
   is_round(cases, flat,
@@ -98,9 +98,9 @@ void fluids(HardCases& cases, bool full) {
     const std::string name = "drop 1 : 1.5 : 1, " + f.name;
     const HardOutcome outcome =
         cases.stays_stable(name, drop(shape, f.Oh, f.end, f.keys, f.fluid, f.tension), 1e-2);
-    cases.study().require(name + ": error of the momentum", outcome.momentum_error, {0, 1e-10});
-    cases.study().require(name + ": isoperimetric - 1", outcome.measure("body.isoperimetric") - 1,
-                          {-1e-4, 0.031});
+    cases.require(name, "error of the momentum", outcome.momentum_error, {0, 1e-10});
+    cases.require(name, "isoperimetric - 1", outcome.measure("body.isoperimetric") - 1,
+                  {-1e-4, 0.031});
   }
 }
 
@@ -124,8 +124,7 @@ void spun(HardCases& cases, bool full) {
                          drop(ellipsoid("[1, 1, 1]", 4), 0.93, full ? 40 : 5,
                               "initial_velocity = [\"-0.3*y\", \"0.3*x\", \"0\"]\n"),
                          1e-2);
-  cases.study().require(name + ": error of the angular momentum", outcome.angular_momentum_error,
-                        {0, 1e-10});
+  cases.require(name, "error of the angular momentum", outcome.angular_momentum_error, {0, 1e-10});
 }
 
 /// Two drops that van der Waals forces hold to each other: they come closer, flatten where they
@@ -144,9 +143,9 @@ void held_together(HardCases& cases, bool full) {
   const std::string name = "two drops held to each other";
   const auto outcome = cases.stays_stable(name, text, 1e-2);
   for (const std::string side : {"left", "right"})
-    cases.study().require(name + ": capillary number of the " + side + " one",
-                          outcome.measure(side + ".ca"), {0, 1e-4});
-  cases.study().require(name + ": gap / sigma0", outcome.measure("contact.gap") / 0.3, {0.5, 0.75});
+    cases.require(name, "capillary number of the " + side + " one", outcome.measure(side + ".ca"),
+                  {0, 1e-4});
+  cases.require(name, "gap / sigma0", outcome.measure("contact.gap") / 0.3, {0.5, 0.75});
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ class Assembly {
   /// Adds a term; its measures are called `prefix`.NAME. Its fields, if it has any, are of the body
   /// of that name.
   void add(std::unique_ptr<ForceTerm> term, const std::string& prefix);
-  /// Adds a field of a body.
+  /// Adds a field of a body; fields of one name are summed.
   void field(const std::string& body, FieldSource source);
-  /// Adds a measure called `prefix`.NAME.
+  /// Adds a measure called `prefix`.NAME. Throws std::logic_error if there is one.
   void measure(const std::string& prefix, MeasureSource source);
   /// The measure of that full name; it has been added.
   std::function<Real(const Motion&)> measure_named(const std::string& name) const;

@@ -26,6 +26,11 @@ class Stepper {
   virtual Real longest_step(const State&) { return unbounded; }
   /// From state.time to state.time + dt. Throws as advance().
   virtual void step(State& state, Real dt) = 0;
+  /// The same, but throws a StepError `of_step` where a shorter step is called for. The state is
+  /// then to be taken back by the caller.
+  virtual void try_step(State& state, Real dt) { step(state, dt); }
+  /// Whether try_step() may ask for a shorter step.
+  virtual bool may_reject_steps() const { return false; }
 
   /// Whether the state that the stepper looks for is reached, so that the run ends.
   virtual bool arrived() const { return false; }

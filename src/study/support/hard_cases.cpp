@@ -86,25 +86,32 @@ Real HardOutcome::measure(const std::string& name) const {
 
 HardOutcome HardCases::stays_stable(const std::string& name, const std::string& scene, Real bound,
                                     const HardRun& how) {
+  if (!wants(name)) return {};
   const Stopwatch clock;
   const HardOutcome outcome = attempt(scene, how);
   record(name, outcome, clock.seconds());
-  study_.require(name + ": runs to its end", outcome.stopped.empty(), yes);
-  study_.require(name + ": largest error of the energy balance", outcome.energy_error, {0, bound});
+  require(name, "runs to its end", outcome.stopped.empty(), yes);
+  require(name, "largest error of the energy balance", outcome.energy_error, {0, bound});
   return outcome;
 }
 
 void HardCases::stops(const std::string& name, const std::string& scene, const std::string& cause) {
+  if (!wants(name)) return;
   const Stopwatch clock;
   const HardOutcome outcome = attempt(scene, {});
   record(name, outcome, clock.seconds());
-  study_.require(fmt::format("{}: stops and names '{}'", name, cause),
-                 outcome.stopped.find(cause) != std::string::npos, yes);
+  require(name, "stops and names '" + cause + "'", outcome.stopped.find(cause) != std::string::npos,
+          yes);
+}
+
+void HardCases::require(const std::string& name, const std::string& what, Real value,
+                        Range allowed) {
+  if (wants(name)) study_.require(name + ": " + what, value, allowed);
 }
 
 void HardCases::says(const std::string& name, const HardOutcome& outcome, const std::string& text) {
-  study_.require(fmt::format("{}: the log says '{}'", name, text),
-                 outcome.remarks.find(text) != std::string::npos, yes);
+  require(name, "the log says '" + text + "'", outcome.remarks.find(text) != std::string::npos,
+          yes);
 }
 
 void HardCases::record(const std::string& name, const HardOutcome& outcome, Real seconds) {

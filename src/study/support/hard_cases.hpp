@@ -32,16 +32,21 @@ struct HardRun {
   std::vector<std::string> watched = {};  ///< measures looked at after every step
 };
 
-/// Runs cases and states what should become of them.
+/// Runs cases and states what should become of them. Those whose name does not contain `chosen` are
+/// passed over, with all that is said about them.
 class HardCases {
  public:
-  explicit HardCases(StudyRun& study) : study_(study) {}
+  HardCases(StudyRun& study, std::string chosen) : study_(study), chosen_(std::move(chosen)) {}
+
+  bool wants(const std::string& name) const { return name.find(chosen_) != std::string::npos; }
 
   /// Runs `scene` and states that it ends, with an energy balance within `bound`.
   HardOutcome stays_stable(const std::string& name, const std::string& scene, Real bound,
                            const HardRun& how = {});
   /// States that `scene` stops, or is refused, with a message that contains `cause`.
   void stops(const std::string& name, const std::string& scene, const std::string& cause);
+  /// States that a value of the case `name` is `allowed`.
+  void require(const std::string& name, const std::string& what, Real value, Range allowed);
   void says(const std::string& name, const HardOutcome& outcome, const std::string& text);
   void record(const std::string& name, const HardOutcome& outcome, Real seconds);
 
@@ -49,6 +54,7 @@ class HardCases {
 
  private:
   StudyRun& study_;
+  std::string chosen_;
 };
 
 /// Cases of solids of every law.
