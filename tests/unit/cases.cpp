@@ -67,6 +67,24 @@ std::vector<Case> variants(int D) {
   add("contact", "pressure", pair + "form = \"pressure\"\n", none);
   // The force of the cut-off law jumps where its switch begins and ends: here far away.
   add("contact", "volume", pair + "form = \"volume\"\ncutoff = 20\n", all);
+  // Contact on the patches of the tension.
+  const std::string on_patches =
+      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\ncoefficient_damping = 0\n";
+  const std::string young = "interaction = \"smooth_young\"\ncontact_angle = 80\nrange = 0.4\n";
+  cases.push_back(
+      {"contact of patches with a partner",
+       with_load(D, "contact",
+                 "bodies = [\"drop\"]\n" + young + "[contact.partner]\ntype = \"half_space\"\n" +
+                     (D == 3 ? "point = [0, 0, -1.2]\nnormal = [0, 0, 1]\n"
+                             : "point = [0, -1.2]\nnormal = [0, 1]\n") +
+                     on_patches),
+       {true, false}});
+  cases.push_back(
+      {"contact of patches with a body",
+       with_load(D, "contact", "bodies = [\"drop\", \"other\"]\nskin = 10\n" + young + on_patches),
+       all});
+  cases.push_back(
+      {"Lennard-Jones contact of patches", with_load(D, "contact", pair + on_patches), all});
   cases.push_back({"implicit viscosity",
                    heading(D, "viscosity = \"implicit\"\n") + ball(D, "drop") + moving(D) + liquid +
                        "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n",
