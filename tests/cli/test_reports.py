@@ -230,7 +230,7 @@ class Reports(ProgramTest):
                   for heading, keys in re.findall(r"^(\S.*)\n((?:  .*\n)+)", text, re.M)}
         for heading, keys in {
                 "top level": "title dimension", "[units]": "system",
-                "[time]": "end step safety check_every solver force_tolerance shape_tolerance",
+                "[time]": "end step safety check_every viscosity solver force_tolerance shape_tolerance",
                 "[output]": "frames_every history_every fields measures precision compression "
                             "restartable checkpoint_minutes",
                 "[[body]]": "name integration gauss_points volumetric window support_factor support_rank "
