@@ -5,8 +5,9 @@
 
 namespace meniscus {
 
-/// Central differences whose viscous force is that of the mean of the velocities before and after a
-/// kick (Crank and Nicolson), with M the masses and C the viscous matrix at the places of the kick:
+/// (performance note 4.1) Central differences whose viscous force is that of the mean of the
+/// velocities before and after a kick (Crank and Nicolson), with M the masses and C the viscous
+/// matrix at the places of the kick:
 ///   M (v+ - v-) = dt (f - C (v- + v+)/2).
 /// As a step between states at whole steps, where v_n = (v- + v+)/2:
 ///   v+ = v_n + dt/2 M^-1 (f_n - C v_n),   u_n+1 = u_n + dt v+,
