@@ -21,9 +21,11 @@ EFFECTS = {
     "curvature": r"CurvatureSurfaceTension<|hessian_along|\(meniscus::Derivatives\)2",
     # Its stress is inlined into the loop over stress points of a viscous law.
     "viscosity": r"InternalForce<[23], (?!meniscus::WithoutViscosity).*Newtonian|viscous_stress",
+    "implicit viscosity": r"ImplicitViscosity<|add_viscous",
     "cell average": r"InternalForce<[23], meniscus::CellAverage<",
     "internal force": r"InternalForce<",
-    "contact": r"(Pair|Rigid)Contact<|GapPair<|Contact(Points|List)<|sum_over_partners|contact_demand",
+    "contact": r"(Pair|Rigid)Contact<|GapPair<|(Contact|Patch)Points<|(Contact|Reach)List<|sum_over_partners|"
+    r"contact_demand",
 }
 
 BODY = """
@@ -55,6 +57,10 @@ SCENES = {
     ),
     "drop without viscosity": (DROP.replace("viscosity = 0.3", "viscosity = 0"), {"internal force"}),
     "viscous drop": (DROP, {"internal force", "viscosity"}),
+    "viscous drop, implicit": (
+        DROP.replace("end = 0.5", 'end = 0.5, viscosity = "implicit"'),
+        {"internal force", "viscosity", "implicit viscosity"},
+    ),
     "elastic cube on a plate": (CUBE + SOLID + PLATE, {"internal force", "contact"}),
     "elastic cube, tension": (
         CUBE + SOLID + TENSION,

@@ -57,6 +57,13 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     say("stiffness alone {:.3g}, viscosity alone {:.3g}; ", 2 / stable.stiffness,
         2 / stable.viscosity);
   say("used: {:.6g})\n", dt);
+  constexpr Real worth_it = 2;
+  if (const Real ratio = 2 / (stable.stiffness * stable.dt);
+      stable.viscosity > 0 && scene.time.solver == "dynamics" && ratio > worth_it)
+    say("viscosity limits the step: time.viscosity = \"implicit\" allows up to {:.1f} times as "
+        "long "
+        "ones, for a few iterations per step\n",
+        ratio);
 
   const auto begin = std::chrono::steady_clock::now();
   constexpr int trial_steps = 10;
