@@ -338,6 +338,20 @@ TEST(WettingLaws, SwitchedTensionsGoWithTheirTriangles) {
                     InputError, "legacy_switch is for a body and a half space");
 }
 
+/// Few points do no harm where the field of the partner is smooth.
+TEST(WettingLaws, UnresolvedGapsAreOfPartnersWithCorners) {
+  const std::string few =
+      "interaction = \"scaled_lennard_jones\"\nadhesion = 1\nsigma0 = 0.15\npoints = 1\n";
+  const auto warns = [&](const std::string& partner) {
+    const Scene<2> scene = on_wall<2>(few, partner);
+    const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+    return scene.system.terms.back()->warning({0, u, u}).has_value();
+  };
+  EXPECT_FALSE(warns({}));
+  EXPECT_FALSE(warns("type = \"ball\"\nradius = 0.7\ncentre = [0, -1.8]\n"));
+  EXPECT_TRUE(warns("type = \"frame\"\nlow = [-1.1, -1.1]\nhigh = [1.1, 1.1]\n"));
+}
+
 TEST(WettingLaws, FormulasAreCheckedWhereTheyAreUsed) {
   Scene<2> scene = on_wall<2>(young + "adhesion = \"1 + log(1 - t)\"\n");
   const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));

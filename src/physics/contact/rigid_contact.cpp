@@ -70,9 +70,10 @@ class RigidContact final : public ForceTerm {
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
-  /// The field of a plane is that of the distance alone, and exact.
+  /// Fields of planes and spheres are smooth over many gaps, and exact: few points do no harm
+  /// there.
   std::optional<std::string> warning(const Motion& motion) const override {
-    if (partner_.surface && partner_.surface->flat()) return std::nullopt;
+    if (partner_.surface && partner_.surface->round()) return std::nullopt;
     return unresolved_gap(name_, evaluated(motion).gap(), points_.spacing(), interaction_->range());
   }
 
