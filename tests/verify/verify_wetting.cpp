@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The drop of inputs/sessile_drop.toml at rest against the profile of a liquid under its weight
+// (Bashforth and Adams): the whole outline, not only what the scene expects.
+#include "meniscus/body/surface_patches.hpp"
+#include "meniscus/scene/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../unit/support.hpp"
+
+namespace meniscus::verify_wetting {
+namespace {
+
+/// Half the outline of a plane drop, by its depth below the top, until the surface is vertical:
+/// dx/ds = cos p, dz/ds = sin p, dp/ds = k0 + z (rho = g = gamma = 1).
+std::vector<Vec<2>> outline(Real k0) {
+  const auto rate = [k0](const Vec<3>& y) {
+    return Vec<3>(std::cos(y[2]), std::sin(y[2]), k0 + y[1]);
+  };
+  constexpr Real ds = 1e-3;
+  std::vector<Vec<2>> points;
+  for (Vec<3> y = Vec<3>::Zero(); y[2] < std::numbers::pi / 2;) {
+    points.emplace_back(y[0], y[1]);
+    const Vec<3> a = rate(y), b = rate(y + ds / 2 * a), c = rate(y + ds / 2 * b),
+                 d = rate(y + ds * c);
+    y += ds / 6 * (a + 2 * b + 2 * c + d);
+  }
+  return points;
+}
+
+Real area(const std::vector<Vec<2>>& points) {
+  Real sum = 0;
+  for (std::size_t k = 1; k < points.size(); ++k)
+    sum += (points[k][0] + points[k - 1][0]) * (points[k][1] - points[k - 1][1]);
+  return sum;
+}
+
+/// Of a drop of area pi.
+std::vector<Vec<2>> profile() {
+  Real low = 0.1, high = 1;
+  for (int k = 0; k < 50; ++k) {
+    const Real middle = (low + high) / 2;
+    (area(outline(middle)) > std::numbers::pi ? low : high) = middle;
+  }
+  return outline(low);
+}
+
+TEST(SessileDrop, HasTheProfileOfBashforthAndAdams) {
+  const std::vector<Vec<2>> exact = profile();
+  const Real height = exact.back()[1];
+  EXPECT_NEAR(height, 1.12208, 1e-3);
+  const SceneInput input =
+      SceneInput::from_file(MENISCUS_SOURCE_DIR "/inputs/sessile_drop.toml",
+                            {"time.end=8", "body[0].core=8", "body[0].rings=4"});
+  scene_dimension(input);
+  Scene<2> scene = build_scene<2>(input);
+  Simulation<2> simulation(scene);
+  simulation.begin();
+  while (!simulation.finished()) simulation.advance();
+  const Body<2>& body = scene.system.bodies.front();
+  const SurfacePatches<2> patches(body);
+  Real farthest = 0, lowest = 0;
+  std::vector<Vec<2>> places;
+  for (Index a = 0; a < patches.point_count(); ++a) {
+    const Lanes u = value_at(patches.rows(), a, simulation.state().u.data());
+    places.emplace_back(patches.reference_place(a) + Vec<2>(u[0], u[1]));
+    lowest = std::min(lowest, places.back()[1]);
+  }
+  int compared = 0;
+  for (const Vec<2>& x : places) {
+    const Real above = x[1] - lowest;
+    if (above < 0.1) continue;  // bent by the range of the wall
+    Real distance = unbounded;
+    for (const Vec<2>& y : exact)
+      distance = std::min(distance, (y - Vec<2>(std::abs(x[0]), height - above)).norm());
+    farthest = std::max(farthest, distance);
+    ++compared;
+  }
+  EXPECT_GT(compared, 20);
+  EXPECT_LT(farthest, 2e-3);
+}
+
+}  // namespace
+}  // namespace meniscus::verify_wetting
