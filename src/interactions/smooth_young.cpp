@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,13 +17,16 @@ namespace {
 
 /// With t = (g - offset) / range (wetting note 1),
 ///   e = - W (1 - 10 t^3 + 15 t^4 - 6 t^5) for 0 < t < 1, zero beyond;
-///   e = - W (1 - k |t|^3 / 3) for t < 0, k = 100: no deeper than the load asks for.
+///   e = - W + C k |t|^3 / 3 for t < 0: no deeper than the load asks for. C = W or, where W varies,
+/// what it is at most without complete wetting: the wall is one also where nothing adheres. k =
+/// 100, or more where the offset is short: a surface that falls into the well must not come
+/// through.
 struct SmoothYoung final : Interaction {
   static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nrange = 0.3\n";
-  static constexpr Real core = 100;
   std::optional<Expression> angle, work, actin;  // as given
   std::optional<Real> depth, film;
   Real W = 0, ell = 0, g0 = 0;                     // adhesion, range, offset
+  Real core = 0;                                   // C k
   Real W_below = 0;                                // below the centre of the body, at the start
   std::shared_ptr<const AdhesionPattern> varying;  // then W is 1
 
@@ -70,7 +74,12 @@ struct SmoothYoung final : Interaction {
       throw InputError(fmt::format("{}: adhesion and actin are {:.4g} together{}; allowed is > 0",
                                    surfaces.place, law->W,
                                    formulas.constant() ? "" : " below the centre of the body"));
+    // At least_gap() the core has taken up 1.6 C.
+    const Real depth_of_core = 0.75 * law->g0 / law->ell;
+    const Real k = std::max(100.0, 4.8 / (depth_of_core * depth_of_core * depth_of_core));
+    law->core = k * law->W;
     if (formulas.constant()) return law;
+    law->core = k * std::max(law->W, 2 * surfaces.gamma.value_or(0));
     law->varying = std::make_shared<AdhesionPattern>(pattern);
     law->W = 1;
     return law;
@@ -79,9 +88,7 @@ struct SmoothYoung final : Interaction {
   PlaneState at(Real gap) const override {
     const Real t = (gap - g0) / ell, s = 1 - t;
     if (t >= 1) return {0, 0, 0};
-    if (t < 0)
-      return {-W * (1 + core * t * t * t / 3), W * core * t * t / ell,
-              -2 * W * core * t / (ell * ell)};
+    if (t < 0) return {-W - core * t * t * t / 3, core * t * t / ell, -2 * core * t / (ell * ell)};
     return {-W * (1 - t * t * t * (10 - t * (15 - 6 * t))), -30 * W * t * t * s * s / ell,
             60 * W * t * s * (1 - 2 * t) / (ell * ell)};
   }

@@ -345,7 +345,7 @@ Report RigidContact<D>::report(const Motion& motion) {
                     points_.body().name, name_, gap, interaction_->least_gap()),
         true};
   const Real speed = closing_speed<D>(points_, near_, nullptr, {}, velocity, motion);
-  const Real strength = effects_.pattern() ? now_.sums.adhesion : 1;
+  const Real strength = effects_.varies_at(gap) ? now_.sums.adhesion : 1;
   report.demand = contact_demand({*interaction_, strength / points_.inertia(), 0, D}, gap, speed);
   return report;
 }

@@ -44,6 +44,8 @@ class WallEffects {
   bool any() const { return pattern_ != nullptr || friction_ > 0; }
   bool rubs() const { return friction_ > 0; }
   const AdhesionPattern* pattern() const { return pattern_; }
+  /// Whether the stiffness of that gap is of the adhesion, not of the core.
+  bool varies_at(Real gap) const { return pattern_ && gap >= flat_.equilibrium_gap; }
   /// By which the interaction is multiplied for the energy of an area in full contact.
   Real adhesion() const { return pattern_ ? 1 : flat_.adhesion; }
 
@@ -78,15 +80,27 @@ class WallEffects {
  private:
   /// From the forces of unit adhesion to those of W(x, t): E = W e, so that
   ///   dE/dV = W S,   dE/dx = W T + (S.V) grad W.
+  /// Nearer than the equilibrium gap there is the core beside it, which does not vary: there the
+  /// adhesion has the field n.
   WallSums vary(WallPoints<D>& points, int lane, Real time) const {
     const Eigen::Vector3d x = spatial<D>(at(points.x, lane));
     const Real W = (*pattern_)(x, time);
     const Eigen::Vector3d slope = pattern_->gradient(x, time);
     Real e = 0;
-    for (int i = 0; i < D; ++i) e += points.S[i][lane] * at(points.V, lane)[i];
-    for (int i = 0; i < D; ++i) {
-      points.T[i].set(lane, W * points.T[i][lane] + e * slope[i]);
-      points.S[i].set(lane, W * points.S[i][lane]);
+    if (points.distance[lane] < flat_.equilibrium_gap) {
+      const auto foot = surface_->foot(at(points.x, lane));
+      e = foot.normal.dot(at(points.V, lane));
+      const Vec<D> turned = foot.bend * at(points.V, lane);
+      for (int i = 0; i < D; ++i) {
+        points.T[i].set(lane, points.T[i][lane] + (W - 1) * turned[i] + e * slope[i]);
+        points.S[i].set(lane, points.S[i][lane] + (W - 1) * foot.normal[i]);
+      }
+    } else {
+      for (int i = 0; i < D; ++i) e += points.S[i][lane] * at(points.V, lane)[i];
+      for (int i = 0; i < D; ++i) {
+        points.T[i].set(lane, W * points.T[i][lane] + e * slope[i]);
+        points.S[i].set(lane, W * points.S[i][lane]);
+      }
     }
     WallSums sums;
     sums.adhesion = W;

@@ -63,6 +63,9 @@ void hard_solids(HardCases& cases);
 /// Cases of drops.
 void hard_drops(HardCases& cases);
 
+/// Cases of drops on walls (wetting note).
+void hard_wetting(HardCases& cases);
+
 /// Cases of contact (CGCM notes 7 and 10).
 void hard_contact(HardCases& cases);
 

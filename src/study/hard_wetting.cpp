@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hard cases of drops on walls: angles near both ends, complete wetting, ranges and supports that
+// hardly resolve the line, impact, lift-off, two drops that meet.
+#include <fmt/core.h>
+
+#include "support/hard_cases.hpp"
+
+namespace meniscus::study {
+namespace {
+
+std::string drop(const std::string& name, Real x, const std::string& keys = "") {
+  return fmt::format(
+      "[[body]]\nname = \"{0}\"\nshape = \"ball\"\nradius = 1\ncore = 4\nlayers = 2\ncentre = "
+      "[{1}, 0, 0]\n{2}material = {{ type = \"newtonian\", density = 1, bulk_modulus = 151, "
+      "viscosity = 1 }}\n[[surface_tension]]\nbody = \"{0}\"\ngamma = 1\n",
+      name, x, keys);
+}
+
+std::string wall(const std::string& name, const std::string& keys, Real height = -1.08) {
+  return fmt::format(
+      "[[contact]]\nname = \"{0}-wall\"\nbodies = [\"{0}\"]\n{1}points = "
+      "3\n[contact.partner]\ntype "
+      "= \"half_space\"\npoint = [0, 0, {2}]\nnormal = [0, 0, 1]\n",
+      name, keys, height);
+}
+
+std::string heading(Real end) {
+  return fmt::format("dimension = 3\n[time]\nend = {}\nviscosity = \"implicit\"\n", end);
+}
+
+const std::string lengths = "offset = 0.05\nrange = 0.15\n";
+
+void angles(HardCases& cases, bool full) {
+  const Real end = full ? 6 : 1;
+  for (const int angle : {30, 150}) {
+    const std::string name = fmt::format("drop on a wall, {} degrees", angle);
+    const auto outcome =
+        cases.stays_stable(name,
+                           heading(end) + drop("drop", 0) +
+                               wall("drop", fmt::format("contact_angle = {}\n", angle) + lengths),
+                           1e-2);
+    if (full)
+      cases.require(name, "angle of the cap", outcome.measure("drop-wall.contact_angle_vh"),
+                    angle == 150 ? Range{143, 153} : Range{28, 45});
+  }
+  const std::string complete = "drop on a wall, adhesion of water on copper";
+  cases.says(complete,
+             cases.stays_stable(
+                 complete,
+                 heading(full ? 4 : 1) + drop("drop", 0) +
+                     wall("drop", "interaction = \"smooth_young\"\nadhesion = 2.75\n" + lengths),
+                 1e-2),
+             "complete wetting");
+}
+
+void lengths_too_short(HardCases& cases, bool full) {
+  const Real end = full ? 6 : 1;
+  const std::string narrow = "drop on a wall, range 0.28 of a facet";
+  cases.says(
+      narrow,
+      cases.stays_stable(narrow,
+                         heading(end) + drop("drop", 0) +
+                             wall("drop", "contact_angle = 90\noffset = 0.05\nrange = 0.1\n"),
+                         1e-2),
+      "contact line moves from facet to facet");
+  const std::string coarse = "drop on a Lennard-Jones wall, R / sigma0 = 5";
+  cases.stays_stable(coarse,
+                     heading(end) + drop("drop", 0) +
+                         wall("drop",
+                              "interaction = \"scaled_lennard_jones\"\ncontact_angle = 90\nsigma0 "
+                              "= 0.2\n",
+                              -1.15),
+                     1e-2);
+}
+
+void motions(HardCases& cases, bool full) {
+  const Real end = full ? 6 : 1;
+  const std::string impact = "drop of water meets a wall at 50 m/s";
+  cases.stays_stable(impact,
+                     heading(end) + drop("drop", 0, "initial_velocity = [0, 0, -0.414]\n") +
+                         wall("drop", "contact_angle = 90\n" + lengths, -1.3),
+                     1e-2);
+  const std::string lift = "drop is let go by a wall that loses its adhesion";
+  const auto outcome = cases.stays_stable(
+      lift,
+      heading(full ? 6 : 2) + drop("drop", 0) +
+          wall("drop", "interaction = \"smooth_young\"\nadhesion = \"exp(-2*t)\"\n" + lengths),
+      1e-2);
+  cases.require(lift, "wetted area / (pi R^2)", outcome.measure("drop-wall.wetted_area") / 3.14159,
+                {0, full ? 0.1 : 0.6});
+  const std::string two = "two drops meet on a wall";
+  cases.stays_stable(
+      two,
+      heading(full ? 4 : 1) + drop("left", -1.2) + drop("right", 1.2) +
+          wall("left", "contact_angle = 60\n" + lengths) +
+          wall("right", "contact_angle = 60\n" + lengths) +
+          "[[contact]]\nname = \"between\"\nbodies = [\"left\", \"right\"]\ninteraction = "
+          "\"smooth_young\"\nadhesion = 0.5\noffset = 0.1\nrange = 0.2\npoints = 3\n",
+      1e-2);
+}
+
+}  // namespace
+
+void hard_wetting(HardCases& cases) {
+  const bool full = !cases.study().brief();
+  angles(cases, full);
+  lengths_too_short(cases, full);
+  motions(cases, full);
+}
+
+}  // namespace meniscus::study
