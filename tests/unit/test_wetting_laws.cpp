@@ -56,6 +56,10 @@ const std::string varied =
     young + "adhesion = \"0.8 + 0.2*x*z + 0.3*sin(2*y + t)\"\nactin = \"0.1*x^2 + 0.05*t\"\n";
 const std::string varied_in_plane =
     young + "adhesion = \"0.8 + 0.2*x + 0.3*sin(2*y + t)\"\nactin = \"0.1*x^2 + 0.05*t\"\n";
+/// The lowest points are in the core.
+const std::string varied_in_core =
+    "interaction = \"smooth_young\"\noffset = 0.16\nrange = 0.25\n"
+    "adhesion = \"0.8 + 0.2*x*z + 0.3*sin(2*y + t)\"\n";
 const std::string moving_ball =
     "type = \"ball\"\nradius = 0.7\ncentre = [0.1, 0.2, -1.75]\n"
     "displacement = [\"0.1*t\", \"0.05*sin(t)\", \"0.02*t\"]\n";
@@ -77,6 +81,7 @@ void expect_gradient(const std::string& lines, const std::string& partner) {
 TEST(WettingLaws, ForcesAreTheGradientOfTheEnergy) {
   for (const std::string& lines :
        {young + "contact_angle = 60\n", young + "contact_angle = \"60 + 20*x - 5*y^2\"\n", varied,
+        varied_in_core,
         std::string("interaction = \"scaled_lennard_jones\"\ncontact_angle = 75\nsigma0 = 0.15\n")})
     for (const std::string& partner : {std::string(), moving_ball})
       expect_gradient<3>(lines, partner);
@@ -103,6 +108,7 @@ void expect_power(const std::string& lines, const std::string& partner) {
 TEST(WettingLaws, WhatChangesWithTimeIsExternalPower) {
   expect_power<3>(varied, {});
   expect_power<3>(varied, moving_ball);
+  expect_power<3>(varied_in_core, moving_ball);
   expect_power<2>(varied_in_plane, moving_disk);
 }
 
