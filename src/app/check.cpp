@@ -43,6 +43,12 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     }
     say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}{}\n", body.name, ranges,
         unit(dimension::length), least, largest, unit(dimension::length), stretched);
+    constexpr Real least_drawn = 1e-6;
+    if (box.extent().maxCoeff() < least_drawn)
+      say("body '{}': viewers that compute in single precision, ParaView among them, draw lengths "
+          "below "
+          "{:g} black; other units show it, such as [units] system = \"nm-ps-ag\"\n",
+          body.name, least_drawn);
   }
   for (const auto& term : scene.system.terms)
     say("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),
