@@ -22,7 +22,7 @@ void Books::begin(const Report& report, Real power_of_loads) {
 
 void Books::add(const Report& report, Real power_of_loads, Real dt, Real last_share) {
   dissipated += dt * (1 - last_share) * heat;
-  external_work += dt / 2 * (external_power + load_power);
+  external_work += report.external_work + dt / 2 * (external_power + load_power);
   begin(report, power_of_loads);
   dissipated += dt * last_share * heat;
   external_work += dt / 2 * (external_power + load_power);

@@ -82,7 +82,7 @@ struct MovingPartner {
 /// Contact of a body with a rigid partner, whose field is that of the interaction; any form but
 /// `volume`, for which InputError is thrown. An interaction with a pattern needs the form `energy`;
 /// the energy is then the sum of W S.V over the points, x of W(x, t) in the frame of the partner,
-/// and what a change of W with time supplies is external power. Friction is the traction
+/// and what a change of W with time supplies is external work. Friction is the traction
 /// -friction chi v_t, v_t the velocity along the partner relative to it, on the area that faces it;
 /// chi is 1 where the surface rests, and falls with the energy of the interaction.
 template <int D>

@@ -61,6 +61,8 @@ struct Report {
   /// Power supplied from outside by what changes with time at fixed places:
   /// ramps, partners that are moved. What a load does on the velocity is load_power().
   Real external_power = 0;
+  /// Work supplied since the last step that stands, of what may jump in time.
+  Real external_work = 0;
   StepDemand demand = {};
   std::optional<Failure> failure = {};
 
@@ -68,6 +70,7 @@ struct Report {
   Report& operator+=(Report other) {
     heat += other.heat;
     external_power += other.external_power;
+    external_work += other.external_work;
     demand += other.demand;
     if (!failure) failure = std::move(other.failure);
     return *this;

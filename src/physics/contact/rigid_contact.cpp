@@ -49,6 +49,7 @@ class RigidContact final : public ForceTerm {
   std::string_view energy_kind() const override { return "contact"; }
 
   Report add_force(const Motion& motion, Forces force) override {
+    effects_.begin(motion.time);
     const std::span<const Index> visited = in_reach(motion);
     evaluate(motion, visited, now_);
     add_effects(motion, visited, now_);
@@ -63,7 +64,8 @@ class RigidContact final : public ForceTerm {
   }
   Real steady_after() const override { return steady_after_; }
 
-  void commit(const Motion& motion) override { effects_.commit(motion.time); }
+  /// The last force was that of this motion.
+  void commit(const Motion& motion) override { effects_.commit(motion.time, now_.sums); }
   void archive(const Archive& a) override { effects_.archive(a); }
   bool viscous() const override { return effects_.rubs(); }
   void add_viscous(const Motion& motion, Forces force) override;
@@ -323,7 +325,7 @@ Report RigidContact<D>::report(const Motion& motion) {
     velocity = this->velocity(motion);
     report.external_power = net_force(now_).dot(velocity);
   }
-  report.external_power += now_.sums.supplied;
+  report.external_work = effects_.work(now_.sums);
   report.heat = now_.sums.heat;
   near_.clear();
   for (const Index c : all_)

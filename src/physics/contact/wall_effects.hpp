@@ -19,14 +19,16 @@ struct WallPoints {
   Lanes *T, *S;  ///< [i] dE/dx and dE/dV, as in contact_points.hpp
 };
 
-/// Powers of the effects, and the largest adhesion that was met.
+/// Of all points.
 struct WallSums {
-  Real supplied = 0;  ///< by adhesion that changes with time
-  Real heat = 0;      ///< of friction
-  Real adhesion = 0;
+  Real supplied = 0;  ///< work of adhesion that changes with time, since the middle of the step
+  Real ahead = 0;     ///< the same until the middle of the next step
+  Real heat = 0;      ///< power of friction
+  Real adhesion = 0;  ///< the largest
 
   friend WallSums operator+(const WallSums& a, const WallSums& b) {
-    return {a.supplied + b.supplied, a.heat + b.heat, std::max(a.adhesion, b.adhesion)};
+    return {a.supplied + b.supplied, a.ahead + b.ahead, a.heat + b.heat,
+            std::max(a.adhesion, b.adhesion)};
   }
 };
 
@@ -38,8 +40,7 @@ class WallEffects {
         pattern_(interaction.pattern()),
         surface_(partner.surface),
         friction_(friction),
-        flat_(interaction.flat()),
-        last_step_(partner.velocity_step) {}
+        flat_(interaction.flat()) {}
 
   bool any() const { return pattern_ != nullptr || friction_ > 0; }
   bool rubs() const { return friction_ > 0; }
@@ -67,14 +68,26 @@ class WallEffects {
     return heat;
   }
 
-  void commit(Real time) {
-    if (committed_ && time > *committed_) last_step_ = time - *committed_;
+  /// The work of adhesion that changes, since the last step that stands. With the energies e of
+  /// unit adhesion at the times t_n of steps and a time m_n half a step after each,
+  ///   sum of e_n (W(t_n) - W(m_n-1)), this step, and e_n-1 (W(m_n-1) - W(t_n-1)), kept since the
+  /// last one: all changes of W add up, also jumps, whatever the steps are.
+  Real work(const WallSums& sums) const { return kept_ + sums.supplied; }
+  /// A run begins.
+  void begin(Real time) {
+    if (!middle_) middle_ = committed_ = time;
+  }
+  /// The step to `time`, with these sums, stands.
+  void commit(Real time, const WallSums& sums) {
+    middle_ = middle_after(time);
     committed_ = time;
+    kept_ = sums.ahead;
   }
   void archive(const Archive& a) {
     if (!pattern_ || !pattern_->depends_on_time()) return;
     a("committed", committed_, dimension::time);
-    a("last_step", last_step_, dimension::time);
+    a("middle", middle_, dimension::time);
+    a("kept_work", kept_, of_sum(dimension::energy, D));
   }
 
  private:
@@ -104,15 +117,14 @@ class WallEffects {
     }
     WallSums sums;
     sums.adhesion = W;
-    if (pattern_->depends_on_time()) sums.supplied = e * rate(x, time);
+    if (pattern_->depends_on_time()) {
+      sums.supplied = e * (W - (*pattern_)(x, middle_.value_or(time)));
+      sums.ahead = e * ((*pattern_)(x, middle_after(time)) - W);
+    }
     return sums;
   }
-
-  /// Mean over a step about `time`: the sum over a run is the whole change, also of a W that jumps.
-  Real rate(const Eigen::Vector3d& x, Real time) const {
-    const Real step = committed_ && time > *committed_ ? time - *committed_ : last_step_;
-    return ((*pattern_)(x, time + step / 2) - (*pattern_)(x, time - step / 2)) / step;
-  }
+  /// Half a step, as long as that to `time`, after it.
+  Real middle_after(Real time) const { return time + (time - committed_.value_or(time)) / 2; }
 
   /// The traction - friction chi v_t on the area that faces the partner; its heat.
   Real rub(WallPoints<D>& points, int lane) const {
@@ -136,7 +148,8 @@ class WallEffects {
   Real friction_;
   PlaneContact flat_;
   std::optional<Real> committed_;  // time of the last step that stands
-  Real last_step_;
+  std::optional<Real> middle_;     // half a step after that
+  Real kept_ = 0;                  // work between both
 };
 
 }  // namespace meniscus
