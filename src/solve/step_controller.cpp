@@ -59,8 +59,9 @@ void StepController<D>::reconsider(const State& state) {
   interval_ *= tolerated / std::max(slowest, std::abs(std::log(stable_.dt / before)));
   plan_next_check(state);
   if (stable_.dt < 1e-6 * first_limit_)
-    throw SolveError(fmt::format("the stable time step has collapsed from {:.3g} to {:.3g}",
-                                 first_limit_, stable_.dt));
+    throw estimator_.failure(fmt::format("the stable time step has collapsed from {:.3g} to {:.3g}",
+                                         first_limit_, stable_.dt),
+                             state);
   if (choice_.fixed) {
     if (!warned_ && step_ > 0.98 * stable_.dt) {
       warning_ = fmt::format("step {}: time.step = {:.4g} has reached the stable step {:.4g}",

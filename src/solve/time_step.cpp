@@ -168,11 +168,24 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
   if (!(best.dt > 0) || !std::isfinite(best.dt)) {
     // Names the place if a cell is folded.
     system_.compute_forces(state.motion(), {base_, trial_});
-    throw SolveError(
+    throw failure(
         "no stable time step can be found: the forces at the current state do not make "
-        "sense (are all moduli positive and all cells unfolded?)");
+        "sense (are all moduli positive and all cells unfolded?)",
+        state);
   }
   return best;
+}
+
+template <int D>
+StepError StableStepEstimator<D>::failure(std::string cause, const State& state) const {
+  Index stiffest = 0;
+  Real largest = -1;
+  for (Index A = 0; A < system_.size(); ++A)
+    if (const Real square = sum(at(mode_, A) * at(mode_, A)); square > largest) {
+      stiffest = A;
+      largest = square;
+    }
+  return StepError(system_.located({stiffest, std::move(cause)}, state.motion()));
 }
 
 /// 2 / the largest rate of c x' = f, or 2 / the largest frequency of c x'' = f.

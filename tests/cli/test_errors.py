@@ -341,6 +341,9 @@ class Files(ProgramTest):
         self.assertEqual(len(self.frames("out")), frames)
 
 
+PUSHED = BLOCK.replace("[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
+
+
 class Failures(ProgramTest):
     def assert_fails(self, text, *words):
         """Exit code 4 with all of `words`; everything that was written is finite."""
@@ -357,8 +360,8 @@ class Failures(ProgramTest):
         return done.stderr
 
     def test_inversion(self):
-        """A block that is pushed together far too fast."""
-        text = BLOCK.replace("[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
+        """A block that is pushed together far too fast for its step."""
+        text = PUSHED.replace("[time]", "[time]\nstep = 0.008")
         text = with_output(text, 'restartable = true\nfields = ["velocity", "J", "force"]')
         message = self.assert_fails(text, "body 'block', particle ", "reference position", "now (",
                                     "J = det F", "F = [", "dt = ", "step ", "t = ")
@@ -370,6 +373,11 @@ class Failures(ProgramTest):
         with h5py.File(self.directory / "out/run.h5") as file:
             self.assertIn("state", file["steps/0"])
             self.assertNotIn("state", file[f"steps/{len(frames) - 1}"])
+
+    def test_collapse_of_the_step(self):
+        """Shorter steps follow the block until nothing resolves what is left of it."""
+        self.assert_fails(PUSHED, "the stable time step has collapsed from", "body 'block', particle ",
+                          "reference position", "now (", "dt = ", "step ", "t = ")
 
     def test_unstable_initial_state(self):
         text = BLOCK.replace("[[body]]", '[[body]]\ninitial_displacement = ["-2*x", 0, 0]')

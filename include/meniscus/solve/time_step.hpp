@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The largest stable step of central differences, from the discretised operator itself.
 #pragma once
+#include "meniscus/core/error.hpp"
 #include "meniscus/solve/system.hpp"
 
 namespace meniscus {
@@ -30,6 +31,8 @@ class StableStepEstimator {
 
   /// Throws SolveError if no finite limit can be found.
   StableStep estimate(const State& state);
+  /// `cause` at the particle that the critical mode found last moves most.
+  StepError failure(std::string cause, const State& state) const;
 
   /// Keeps the modes found last, from which later estimates start.
   void archive(const Archive& a);
