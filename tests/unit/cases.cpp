@@ -70,20 +70,15 @@ std::vector<Case> variants(int D) {
   // Contact on the patches of the tension.
   const std::string on_patches =
       "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\ncoefficient_damping = 0\n";
-  const std::string young = "interaction = \"smooth_young\"\nrange = 0.4\n";
-  cases.push_back(
-      {"contact of patches with a partner",
-       with_load(D, "contact",
-                 "bodies = [\"drop\"]\n" + young + "[contact.partner]\ntype = \"half_space\"\n" +
-                     (D == 3 ? "point = [0, 0, -1.2]\nnormal = [0, 0, 1]\n"
-                             : "point = [0, -1.2]\nnormal = [0, 1]\n") +
-                     on_patches),
-       {true, false}});
-  cases.push_back({"contact of patches with a body",
+  const std::string young = "interaction = \"smooth_young\"\noffset = 0.2\nrange = 0.3\n";
+  cases.push_back({"contact of patches with a partner",
                    with_load(D, "contact",
-                             "bodies = [\"drop\", \"other\"]\nskin = 10\nadhesion = 0.2\n" + young +
+                             "bodies = [\"drop\"]\ncontact_angle = 80\n" + young +
+                                 "[contact.partner]\ntype = \"half_space\"\n" +
+                                 (D == 3 ? "point = [0, 0, -1.25]\nnormal = [0, 0, 1]\n"
+                                         : "point = [0, -1.25]\nnormal = [0, 1]\n") +
                                  on_patches),
-                   all});
+                   {true, false}});
   cases.push_back(
       {"Lennard-Jones contact of patches", with_load(D, "contact", pair + on_patches), all});
   cases.push_back({"implicit viscosity",

@@ -89,6 +89,22 @@ TEST(WettingLaws, ForcesAreTheGradientOfTheEnergy) {
     expect_gradient<2>(varied_in_plane, partner);
 }
 
+TEST(WettingLaws, ForcesBetweenBodiesOnPatchesAreTheGradientToo) {
+  Scene<3> scene = test::scene_of<3>(
+      "dimension = 3\n[time]\nend = 1\n" + test::two_drops(3) +
+      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[contact]]\nbodies = [\"drop\", "
+      "\"other\"]\nskin = 10\nadhesion = 1\n" +
+      young);
+  ForceTerm& term = contact_of(scene);
+  for (const unsigned seed : {1u, 2u}) {
+    const NodalVectors u = test::random_field<3>(scene.system.size(), 0.02, seed),
+                       way = test::random_field<3>(scene.system.size(), 1, seed + 10);
+    EXPECT_LT(test::gradient_error(term, u, way, 1e-4), 1e-7);
+    const NodalVectors force = test::force_of(term, u);
+    EXPECT_LT(net<3>(force).norm(), 1e-12 * test::norm(force));
+  }
+}
+
 /// With all particles held, the supply from outside against the change of the energy.
 struct Supply {
   Real booked = 0, change = 0;
