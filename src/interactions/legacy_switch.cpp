@@ -2,6 +2,7 @@
 // Wetting as in the dissertation: triangles of the surface switch their tension where they touch a
 // wall, and a Lennard-Jones wall pulls along its normal. For replication only (wetting note 5).
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/boundary_simplices.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/optional_rows.hpp"
@@ -32,20 +33,15 @@ class LegacySwitch final : public ForceTerm {
 
   LegacySwitch(const Body<D>& body, const PartnerPlan<D>& plan, Tensions tensions, Real gap,
                std::unique_ptr<ForceTerm> traction)
-      : body_(body), plan_(plan), tensions_(tensions), gap_(gap), traction_(std::move(traction)) {
-    std::vector<Index> number(static_cast<std::size_t>(body.size()), -1);
-    for (const Index A : boundary_nodes(body.geometry.grid)) {
-      at(number, A) = static_cast<Index>(X_.size());
-      X_.push_back(at(body.particles.X(), A));
-    }
-    simplices_ = triangulate_boundary(body.geometry.grid);
-    for (auto& simplex : simplices_)
-      for (Index& A : simplex) A = at(number, A);
-    rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
-    windows_ = {rows_.start, rows_.particle, body.size()};
-    load_.resize(X_.size());
-    x_.resize(X_.size());
-    committed_.assign(simplices_.size(), unknown);
+      : body_(body),
+        plan_(plan),
+        tensions_(tensions),
+        gap_(gap),
+        traction_(std::move(traction)),
+        boundary_(body) {
+    load_.resize(boundary_.X.size());
+    x_.resize(boundary_.X.size());
+    committed_.assign(boundary_.corners.size(), unknown);
   }
 
   std::string name() const override { return traction_->name(); }
@@ -55,18 +51,14 @@ class LegacySwitch final : public ForceTerm {
     Report report = traction_->add_force(motion, force);
     find_places(motion, x_);
     std::fill(load_.begin(), load_.end(), Lanes::zero());
-    for (const auto& simplex : simplices_) {
+    for (const auto& simplex : boundary_.corners) {
       if (!wet(simplex, x_, motion.time)) continue;
       const auto pull = pull_of(corners(simplex, x_));
       for (std::size_t k = 0; k < D; ++k)
         for (int i = 0; i < D; ++i)
           at(load_, simplex[k]).set(i, at(load_, simplex[k])[i] + pull.force[k][i]);
     }
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)),
-                        [&](int, Index begin, Index end, NodalVector* f) {
-                          for (Index B = begin; B < end; ++B)
-                            scatter_value(rows_, B, at(load_, B), f);
-                        });
+    boundary_.scatter(load_, body_.part(std::span<NodalVector>(force)));
     return report;
   }
 
@@ -75,11 +67,11 @@ class LegacySwitch final : public ForceTerm {
   void commit(const Motion& motion) override {
     traction_->commit(motion);
     find_places(motion, x_);
-    for (std::size_t s = 0; s < simplices_.size(); ++s) {
-      const Real now = wet(simplices_[s], x_, motion.time) ? 1 : 0;
+    for (std::size_t s = 0; s < boundary_.corners.size(); ++s) {
+      const Real now = wet(boundary_.corners[s], x_, motion.time) ? 1 : 0;
       if (committed_[s] != unknown && committed_[s] != now) {
         ++switches_;
-        lost_ += (committed_[s] - now) * pull_of(corners(simplices_[s], x_)).energy;
+        lost_ += (committed_[s] - now) * pull_of(corners(boundary_.corners[s], x_)).energy;
       }
       committed_[s] = now;
     }
@@ -92,10 +84,10 @@ class LegacySwitch final : public ForceTerm {
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
-    std::vector<Vec<D>> x(X_.size());
+    std::vector<Vec<D>> x(boundary_.X.size());
     find_places(motion, x);
     Real energy = *traction_->stored_energy(motion);
-    for (const auto& simplex : simplices_)
+    for (const auto& simplex : boundary_.corners)
       if (wet(simplex, x, motion.time)) energy += pull_of(corners(simplex, x)).energy;
     return energy;
   }
@@ -119,21 +111,20 @@ class LegacySwitch final : public ForceTerm {
                    [this](const Motion&) { return lost_; }});
     all.push_back({"wet_triangles", dimension::none, "number (2D: of segments)",
                    [this](const Motion& motion) {
-                     std::vector<Vec<D>> x(X_.size());
+                     std::vector<Vec<D>> x(boundary_.X.size());
                      find_places(motion, x);
                      return static_cast<Real>(
-                         std::count_if(simplices_.begin(), simplices_.end(),
+                         std::count_if(boundary_.corners.begin(), boundary_.corners.end(),
                                        [&](const auto& s) { return wet(s, x, motion.time); }));
                    }});
     return all;
   }
 
   std::size_t bytes() const override {
-    return traction_->bytes() + rows_.bytes() + windows_.bytes() +
-           X_.size() * (2 * sizeof(Vec<D>) + sizeof(Lanes)) +
-           simplices_.size() * (sizeof(simplices_[0]) + sizeof(Real));
+    return traction_->bytes() + boundary_.bytes() +
+           boundary_.X.size() * (sizeof(Vec<D>) + sizeof(Lanes)) + committed_.size() * sizeof(Real);
   }
-  Offset pairs() const override { return traction_->pairs() + rows_.entries(); }
+  Offset pairs() const override { return traction_->pairs() + boundary_.rows.entries(); }
 
  private:
   using Corners = std::array<Vec<D>, D>;
@@ -143,16 +134,10 @@ class LegacySwitch final : public ForceTerm {
   };
 
   void find_places(const Motion& motion, std::vector<Vec<D>>& x) const {
-    const NodalVector* u = motion.u.data() + body_.first;
-    parallel_for(rows_.size(), [&](Index B) {
-      const Lanes moved = value_at(rows_, B, u);
-      for (int i = 0; i < D; ++i) at(x, B)[i] = at(X_, B)[i] + moved[i];
-    });
+    boundary_.find_places(motion.u.data() + body_.first, x);
   }
   static Corners corners(const std::array<Index, D>& simplex, const std::vector<Vec<D>>& x) {
-    Corners places;
-    for (std::size_t k = 0; k < D; ++k) places[k] = at(x, simplex[k]);
-    return places;
+    return BoundarySimplices<D>::places_of(simplex, x);
   }
   bool wet(const std::array<Index, D>& simplex, const std::vector<Vec<D>>& x, Real time) const {
     const Vec<D> shift = plan_.motion.displacement(time);
@@ -186,10 +171,7 @@ class LegacySwitch final : public ForceTerm {
   Tensions tensions_;
   Real gap_;
   std::unique_ptr<ForceTerm> traction_;
-  std::vector<Vec<D>> X_;
-  std::vector<std::array<Index, D>> simplices_;  // of numbers in X_
-  PointRows<D> rows_;
-  ForceWindows windows_;
+  BoundarySimplices<D> boundary_;
   std::vector<Real> committed_;  // [simplex] 1 wet, 0 dry at the last step that stands
   std::int64_t switches_ = 0;
   Real lost_ = 0;

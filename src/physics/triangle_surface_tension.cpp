@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface tension of the polyhedron (2D: polygon) through the places of the boundary particles.
-#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/boundary_simplices.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/physics/tension_form.hpp"
@@ -56,25 +56,16 @@ template <int D>
 class TriangleSurfaceTension final : public TensionForm<D> {
  public:
   TriangleSurfaceTension(const Body<D>& body, Real gamma)
-      : TensionForm<D>(body, gamma), nodes_(boundary_nodes(body.geometry.grid)) {
-    std::vector<Index> number(static_cast<std::size_t>(body.size()), -1);
-    for (const Index A : nodes_) {
-      at(number, A) = static_cast<Index>(X_.size());
-      X_.push_back(at(body.particles.X(), A));
-    }
-    simplices_ = triangulate_boundary(body.geometry.grid);
-    for (auto& simplex : simplices_)
-      for (Index& A : simplex) A = at(number, A);
-    rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
-    windows_ = {rows_.start, rows_.particle, body.size()};
-    pull_.resize(X_.size());
-    load_.resize(X_.size());
+      : TensionForm<D>(body, gamma), boundary_(body) {
+    x_.resize(boundary_.X.size());
+    pull_.resize(boundary_.X.size());
+    load_.resize(boundary_.X.size());
   }
 
   Report add_force(const Motion& motion, Forces force) override {
     find_places(motion, x_);
     std::fill(pull_.begin(), pull_.end(), Vec<D>::Zero());
-    for (const auto& simplex : simplices_) {
+    for (const auto& simplex : boundary_.corners) {
       const FlatPull<D> pull = flat_pull<D>(corners(simplex, x_));
       for (std::size_t k = 0; k < D; ++k) at(pull_, simplex[k]) += gamma_ * pull.force[k];
     }
@@ -83,11 +74,12 @@ class TriangleSurfaceTension final : public TensionForm<D> {
   }
 
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
-    std::vector<Vec<D>> x, dx(X_.size()), pull(X_.size(), Vec<D>::Zero());
+    const std::size_t n = boundary_.X.size();
+    std::vector<Vec<D>> x(n), dx(n), pull(n, Vec<D>::Zero());
     find_places(motion, x);
-    for (Index B = 0; B < rows_.size(); ++B)
-      at(dx, B) = displacement(B, this->displacements(change));
-    for (const auto& simplex : simplices_) {
+    for (Index B = 0; B < boundary_.rows.size(); ++B)
+      at(dx, B) = boundary_.displacement(B, this->displacements(change));
+    for (const auto& simplex : boundary_.corners) {
       const auto dp = flat_pull_change<D>(corners(simplex, x), corners(simplex, dx));
       for (std::size_t k = 0; k < D; ++k) at(pull, simplex[k]) += gamma_ * dp[k];
     }
@@ -95,53 +87,34 @@ class TriangleSurfaceTension final : public TensionForm<D> {
   }
 
   std::size_t bytes() const override {
-    return rows_.bytes() + windows_.bytes() + X_.size() * (3 * sizeof(Vec<D>) + sizeof(Lanes)) +
-           simplices_.size() * sizeof(simplices_[0]);
+    return boundary_.bytes() + boundary_.X.size() * (2 * sizeof(Vec<D>) + sizeof(Lanes));
   }
-  Offset pairs() const override { return rows_.entries(); }
+  Offset pairs() const override { return boundary_.rows.entries(); }
 
  private:
   using TensionForm<D>::body_;
   using TensionForm<D>::gamma_;
 
-  /// x = places x(X_B) of the boundary particles.
   void find_places(const Motion& motion, std::vector<Vec<D>>& x) const {
-    const NodalVector* u = this->displacements(motion);
-    x.resize(X_.size());
-    parallel_for(rows_.size(), [&](Index B) { at(x, B) = at(X_, B) + displacement(B, u); });
+    boundary_.find_places(this->displacements(motion), x);
   }
-  Vec<D> displacement(Index B, const NodalVector* u) const {
-    const Lanes sum = value_at(rows_, B, u);
-    Vec<D> x;
-    for (int i = 0; i < D; ++i) x[i] = sum[i];
-    return x;
-  }
-  /// force_A += sum_B N_A(X_B) pull_B
   void scatter(const std::vector<Vec<D>>& pull, std::span<NodalVector> force) {
-    for (Index B = 0; B < rows_.size(); ++B) set_vector<D>(load_, B, at(pull, B));
-    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
-      for (Index B = begin; B < end; ++B) scatter_value(rows_, B, at(load_, B), f);
-    });
+    for (Index B = 0; B < boundary_.rows.size(); ++B) set_vector<D>(load_, B, at(pull, B));
+    boundary_.scatter(load_, this->own_part(force));
   }
   static std::array<Vec<D>, D> corners(const std::array<Index, D>& simplex,
                                        const std::vector<Vec<D>>& x) {
-    std::array<Vec<D>, D> places;
-    for (std::size_t k = 0; k < D; ++k) places[k] = at(x, simplex[k]);
-    return places;
+    return BoundarySimplices<D>::places_of(simplex, x);
   }
   Real area(const Motion& motion) const override {
-    std::vector<Vec<D>> x;
+    std::vector<Vec<D>> x(boundary_.X.size());
     find_places(motion, x);
     Real sum = 0;
-    for (const auto& simplex : simplices_) sum += flat_pull<D>(corners(simplex, x)).area;
+    for (const auto& simplex : boundary_.corners) sum += flat_pull<D>(corners(simplex, x)).area;
     return sum;
   }
 
-  std::vector<Index> nodes_;
-  std::vector<Vec<D>> X_;
-  std::vector<std::array<Index, D>> simplices_;  // numbers in nodes_
-  PointRows<D> rows_;
-  ForceWindows windows_;
+  BoundarySimplices<D> boundary_;
   // Work space of a force: places of the boundary particles and the pull on them.
   std::vector<Vec<D>> x_, pull_;
   NodalVectors load_;
