@@ -70,6 +70,7 @@ struct SurfaceTension final : Load<D>, Keys {
     if (form == "balanced" && this->coefficient_damping > 0 &&
         std::any_of(viscosity.begin(), viscosity.end(), [](Real mu) { return mu > 0; }))
       assembly.add(meniscus::coefficient_damping(on, viscosity, this->coefficient_damping), body);
+    require_stiffness(assembly);
     assembly.set_surface_energy(body, gamma);
     assembly.set_tension_form(body, form);
     if (!viscosity.empty())
@@ -78,6 +79,25 @@ struct SurfaceTension final : Load<D>, Keys {
   }
 
  private:
+  /// A body under tension alone has the mean pressure (D - 1) gamma area / (D volume) (the virial
+  /// of its forces). What cannot resist it would collapse, in as many steps as there are.
+  void require_stiffness(const Assembly<D>& assembly) const {
+    if (!assembly.initial()) return;
+    const Motion motion = assembly.initial()->motion();
+    const Real area = assembly.measure_named(body + ".area")(motion),
+               volume = assembly.measure_named(body + ".volume")(motion),
+               pressure = (D - 1) * gamma * area / (D * volume), K = assembly.bulk_modulus(body);
+    const auto text = [&](Real value, Dimension d) {
+      return fmt::format("{:.4g} {}", value, assembly.units().symbol(d));
+    };
+    if (pressure > K)
+      throw InputError(fmt::format(
+          "{}: gamma compresses '{}' by a pressure of {}, which is above its bulk modulus of {}; "
+          "expected is gamma below {}, or a stiffer body",
+          this->place, body, text(pressure, dimension::pressure), text(K, dimension::pressure),
+          text(gamma * K / pressure, dimension::tension)));
+  }
+
   std::unique_ptr<ForceTerm> term(const Body<D>& on) const {
     if (form == "balanced") return balanced_surface_tension(on, gamma);
     if (form == "weak") return weak_surface_tension(on, gamma, points);

@@ -52,9 +52,12 @@ std::function<Real(const Motion&)> Assembly<D>::measure_named(const std::string&
 
 template <int D>
 const std::vector<Real>& Assembly<D>::viscosity(const std::string& name) const {
-  for (std::size_t b = 0; b < scene_.viscosity.size(); ++b)
-    if (scene_.system.bodies[b].name == name) return scene_.viscosity[b];
-  throw std::logic_error("there is no body '" + name + "'");
+  return scene_.viscosity.at(number_of(name));
+}
+
+template <int D>
+Real Assembly<D>::bulk_modulus(const std::string& name) const {
+  return scene_.bulk_modulus.at(number_of(name));
 }
 
 template <int D>

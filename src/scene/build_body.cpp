@@ -147,6 +147,7 @@ void build_body(const BodyPlan<D>& planned, std::shared_ptr<const Reference<D>> 
   system.mass.insert(system.mass.end(), body.mass.begin(), body.mass.end());
   report(body, built, settings, assembly);
   scene.viscosity.push_back(std::move(built.viscosity));
+  scene.bulk_modulus.push_back(built.bulk_modulus);
   if (!planned.material->fluid())
     assembly.keep_reference(body.name, "the stress of a solid depends on its first reference");
   if (settings.integration != "q_scni")

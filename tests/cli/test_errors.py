@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is wrong is said where it is wrong, before anything is computed or overwritten, with the
 exit code of its kind. Usage: test_errors.py PROGRAM"""
+import math
 import re
 import resource
 
@@ -209,6 +210,24 @@ class Scenes(ProgramTest):
         self.assert_refused(DROP + '[[surface_tension]]\nbody = "drop"\ngamma = 1\n', "surface_tension[1]",
                             "already")
         self.assert_refused(self.change(BLOCK, ("[[body]]", "[[body]]\njitter = 0.6")), "body[0].jitter")
+
+    def test_tension_above_the_bulk_modulus(self):
+        tension = "gamma = %s\n"
+        drop = DROP.replace('gamma = "72.8 mN/m"\n', tension)
+        said = self.assert_refused(drop % 9999999999, "surface_tension[0]", "'drop'", "bulk modulus of 2.2e+09 Pa")
+        bound = float(re.search(r"gamma below (\S+) N/m", said).group(1))
+        volume = 4 / 3 * math.pi * 5 * 7.5 * 5 * 1e-27
+        self.assertGreater(bound, 2.2e9 * 3 * volume / 2 / self.area_of_ellipsoid(5e-9, 7.5e-9) * 0.99)
+        self.assertLess(bound, 2.2e9 * 3 * volume / 2 / self.area_of_ellipsoid(5e-9, 7.5e-9) * 1.01)
+        self.assert_refused(drop % (1.01 * bound), "surface_tension[0]")
+        solid = SHEET + '[[surface_tension]]\nbody = "sheet"\ngamma = 1e12\n'
+        self.assert_refused(solid, "surface_tension[0]", "'sheet'", "bulk modulus")
+
+    @staticmethod
+    def area_of_ellipsoid(a, c):
+        """Prolate, semi-axes a, a, c."""
+        e = math.sqrt(1 - (a / c) ** 2)
+        return 2 * math.pi * a * a * (1 + c / (a * e) * math.asin(e))
 
     def test_support_too_small(self):
         self.assert_refused(self.change(BLOCK, ("[[body]]", "[[body]]\nsupport_factor = 0.5")),

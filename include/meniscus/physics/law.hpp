@@ -98,6 +98,14 @@ std::optional<Real> bulk_over_shear(const L& law) {
     return {};
 }
 
+/// Bulk modulus at the reference state; the modulus of p-waves for laws that do not tell it from
+/// that, which for fluids is the same.
+template <Law L>
+Real bulk_modulus(const L& law) {
+  const std::optional<Real> ratio = bulk_over_shear(law);
+  return law.p_wave_modulus() * (ratio ? *ratio / (*ratio + 4.0 / 3.0) : 1);
+}
+
 /// A law with a member warning(H): why it should not be trusted at H = F - I, e.g. a loss of
 /// ellipticity. Asked at output times only.
 template <class L>

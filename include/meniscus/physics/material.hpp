@@ -42,6 +42,7 @@ class Material {
     std::optional<std::string> note;     ///< for the log
     std::optional<std::string> warning;  ///< for the log, of what is doubtful
     std::vector<Real> viscosity;  ///< shear viscosity of a fluid, per particle; empty: a solid
+    Real bulk_modulus;            ///< the least of the body
   };
   /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
   /// InputError (a formula leaves its range somewhere in the body).
@@ -112,6 +113,12 @@ class MaterialOf final : public Material<D> {
            });
   }
 
+  static Real least_bulk_modulus(const std::vector<L>& laws) {
+    Real least = unbounded;
+    for (const L& law : laws) least = std::min(least, meniscus::bulk_modulus(law));
+    return least;
+  }
+
   template <class Rule>
   [[gnu::cold]] typename Material<D>::Built integrated(Body<D>& body, Rule rule,
                                                        const std::vector<L>& laws,
@@ -135,7 +142,8 @@ class MaterialOf final : public Material<D> {
             averaged,
             std::move(note),
             std::move(warning),
-            std::move(viscosity)};
+            std::move(viscosity),
+            least_bulk_modulus(laws)};
   }
 
   /// A nodal cell has one law: the director of its centre.

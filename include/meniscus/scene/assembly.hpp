@@ -40,6 +40,8 @@ class Assembly {
   void check(StateCheck check) { scene_.checks.push_back(std::move(check)); }
   /// Shear viscosity of each particle of a fluid; empty for a solid.
   const std::vector<Real>& viscosity(const std::string& body) const;
+  /// The least bulk modulus of a body at its reference state.
+  Real bulk_modulus(const std::string& body) const;
   /// For the log: what was decided, and what is doubtful.
   void note(std::string sentence) { scene_.notes.push_back(std::move(sentence)); }
   void warn(std::string sentence) { scene_.warnings.push_back(std::move(sentence)); }

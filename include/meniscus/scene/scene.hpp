@@ -42,6 +42,7 @@ struct Scene : RunSettings {
   System<D> system;
   State initial;
   std::vector<std::vector<Real>> viscosity;  ///< [body][particle]; empty: a solid
+  std::vector<Real> bulk_modulus;            ///< [body], the least of each
   std::vector<Drop<D>> drops;
   std::vector<StateCheck> checks;
   /// Measures by full name, e.g. "drop.aspect".
