@@ -4,6 +4,7 @@
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/app/print.hpp"
 #include "meniscus/app/set_up.hpp"
+#include "meniscus/body/face_cells.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/scene/simulation.hpp"
@@ -43,6 +44,10 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     }
     say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}{}\n", body.name, ranges,
         unit(dimension::length), least, largest, unit(dimension::length), stretched);
+    std::string faces;
+    for (const auto& [name, facets] : face_names(body.geometry))
+      faces += fmt::format("{}{} ({} facets)", faces.empty() ? "" : ", ", name, facets);
+    if (!faces.empty()) say("body '{}': faces {}\n", body.name, faces);
     constexpr Real least_drawn = 1e-6;
     if (box.extent().maxCoeff() < least_drawn)
       say("body '{}': viewers that compute in single precision, ParaView among them, draw lengths "

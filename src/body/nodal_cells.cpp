@@ -191,12 +191,15 @@ void NodalCells<D>::facet_points(Index node, CellQuadrature<D>& q) const {
       append_facet<D>(q, map, map.table().inner(corner, k), k, -corner_sign(corner, k));
   }
   q.body_facets_begin = q.facet_X.size();
+  q.body_facets.clear();
   for (const auto& [cell, corner] : octants_.of(node))
     for (int k = 0; k < D; ++k) {
       const int side = 2 * k + ((corner >> k) & 1);
       if (!((at(boundary_sides_, cell) >> side) & 1)) continue;
       const CellMap<D> map(*grid_, cell);
+      const std::size_t begin = q.facet_X.size();
       append_facet<D>(q, map, map.table().outer(corner, k), k, corner_sign(corner, k));
+      q.body_facets.push_back({cell, side, begin, q.facet_X.size()});
     }
 }
 

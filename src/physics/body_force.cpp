@@ -23,6 +23,12 @@ class BodyForce final : public ForceTerm {
     return {};
   }
   void add_tangent(const Motion&, const Motion&, Forces) override {}  // the same everywhere
+  std::optional<Real> potential(const Motion& motion) override {
+    evaluate(motion.time);
+    return -parallel_sum(body_.size(), 0.0, [&](Index A) {
+      return sum(at(load_, A) * at(motion.u, body_.first + A));
+    });
+  }
   Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
   Real load_power(const Motion& motion) override {
     evaluate(motion.time);

@@ -96,6 +96,8 @@ Scene<D> build(const Plan<D>& plan, const References<D>& references) {
   }
   set_initial_state(plan, scene);
   for (const auto& load : plan.loads) load->build(assembly);
+  if (auto constraints = assembly.take_constraints(); !constraints.empty())
+    scene.system.hold(std::move(constraints), scene.initial);
   for (const PlannedRemap& remap : scene.remaps) require_remappable(scene, remap.body);
   if (references.empty()) warn_of_overlaps(scene);
   return scene;

@@ -18,7 +18,9 @@ void kick(const System<D>& system, State& state, Real dt) {
 template <int D>
 void start(System<D>& system, State& state) {
   state.force.resize(state.u.size());
+  if (system.constraints) system.constraints->make_consistent(state);
   const Report report = system.compute_forces(state.motion(), state.forces());
+  if (system.constraints) system.constraints->begin(state);
   leapfrog::settle(state, 0);
   state.books.begin(report, system.load_power(state.motion()));
   state.demand = report.demand;
@@ -29,6 +31,7 @@ void advance(System<D>& system, State& state, Real dt,
              const std::function<void(const State&)>& judge) {
   kick(system, state, dt / 2);
   leapfrog::drift(state, dt);
+  system.constrain(state, dt);
   Report report;
   try {
     report = system.compute_forces(state.motion(), state.forces());
@@ -36,6 +39,7 @@ void advance(System<D>& system, State& state, Real dt,
     leapfrog::drift(state, -dt);
     throw;
   }
+  system.react(state, dt);
   leapfrog::settle(state, dt);
   kick(system, state, dt / 2);
   if (judge) judge(state);

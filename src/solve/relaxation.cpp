@@ -58,9 +58,7 @@ void Relaxation<D>::begin(const State& state) {
 
 template <int D>
 Real Relaxation<D>::steady_after() const {
-  Real last = 0;
-  for (const auto& term : system_.terms) last = std::max(last, term->steady_after());
-  return last;
+  return system_.steady_after();
 }
 
 template <int D>
@@ -79,6 +77,9 @@ void Relaxation<D>::damp(State& state, Real dt) {
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(state.v, A) *= factor;
   });
+  // What is prescribed is not braked.
+  if (system_.constraints && state.time < system_.constraints->steady_after())
+    system_.constraints->restore_velocities(state);
   // The powers of loads go with the velocity, those of viscous forces with its square.
   state.books.load_power = system_.load_power(state.motion());
   state.books.heat *= factor * factor;
@@ -231,6 +232,11 @@ std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice)
           "{}: {} changes until t = {:.6g}, not before the end {:.6g} of the scene; there "
           "is no rest that \"relax\" could reach",
           choice.place, term->name(), term->steady_after(), choice.end));
+  if (system.steady_after() >= choice.end)
+    throw InputError(fmt::format(
+        "{}: held faces move until t = {:.6g}, not before the end {:.6g} of the scene; \"relax\" "
+        "needs motions that end: a displacement without t, with a ramp",
+        choice.place, system.steady_after(), choice.end));
   return std::make_unique<Relaxation<D>>(
       system, typename Relaxation<D>::Tolerances{choice.force_tolerance, choice.shape_tolerance},
       choice.fluid);

@@ -55,6 +55,10 @@ void State::archive(const Archive& a, int space_dimension) {
     part("rate", field.rate, field.spec.components, rate);
     part("force", field.f, field.spec.components);
   }
+  if (!reactions.force.empty()) {
+    a("reactions/force", reactions.force, of_sum(dimension::force, space_dimension));
+    a("reactions/work", reactions.work, of_sum(dimension::energy, space_dimension));
+  }
   books.archive(a.in("books"), space_dimension);
   a("demand/stiffness", demand.stiffness, {0, -2, 0});
   a("demand/longest", demand.longest, dimension::time);

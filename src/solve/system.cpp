@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,6 +27,20 @@ std::size_t System<D>::add_field(const FieldSpec& spec, std::span<const Real> ca
 }
 
 template <int D>
+void System<D>::hold(std::vector<std::unique_ptr<Constraint>> all, State& state) {
+  constraints = std::make_unique<Constraints>(std::move(all), mass);
+  state.reactions.force.assign(static_cast<std::size_t>(constraints->rows()), 0.0);
+  state.reactions.work.assign(constraints->all().size(), 0.0);
+}
+
+template <int D>
+Real System<D>::steady_after() const {
+  Real last = constraints ? constraints->steady_after() : 0;
+  for (const auto& term : terms) last = std::max(last, term->steady_after());
+  return last;
+}
+
+template <int D>
 bool System<D>::viscous() const {
   for (const auto& term : terms)
     if (term->viscous()) return true;
@@ -34,7 +49,7 @@ bool System<D>::viscous() const {
 
 template <int D>
 std::size_t System<D>::bytes() const {
-  std::size_t sum = 0;
+  std::size_t sum = constraints ? constraints->bytes() : 0;
   for (const auto& term : terms) sum += term->bytes();
   return sum;
 }

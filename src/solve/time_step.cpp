@@ -117,6 +117,7 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
   // Every iteration lengthens the mode a little: in a long run it would overflow.
   const Real length = std::sqrt(dot(mode_, mode_));
   for (NodalVector& w : mode_) w /= length;
+  if (system_.constraints) system_.constraints->project(mode_);
 
   base_.resize(mode_.size());
   trial_ = state.fields;
@@ -161,6 +162,7 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
         at(mode_, A) = next / at(system_.mass, A);
       }
     });
+    if (system_.constraints) system_.constraints->project(mode_);
   }
   for (std::size_t k = 0; k < field_modes_.size(); ++k)
     best.of_fields = std::min(best.of_fields, field_limit(state, k));

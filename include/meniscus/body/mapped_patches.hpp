@@ -3,6 +3,8 @@
 #pragma once
 #include "meniscus/body/surface.hpp"
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace meniscus {
@@ -26,12 +28,18 @@ struct SurfacePatch {
   Foot project(const Vec<D>& X) const;
   Real distance(const Vec<D>& X) const { return (project(X).X - X).norm(); }
   bool inner() const { return radius < 0; }
+  /// The same patch with a name.
+  SurfacePatch named(std::string face) && {
+    name = std::move(face);
+    return std::move(*this);
+  }
 
   Vec<D> origin = Vec<D>::Zero();
   /// Orthogonal projection onto the directions in which the patch is round; zero for a plane.
   Mat<D> round = Mat<D>::Zero();
   Vec<D> normal = Vec<D>::Zero();  ///< of a plane
   Real radius = 0;                 ///< of a round patch; negative: the body is around it
+  std::string name = {};           ///< of the face of the body that it is part of
 };
 
 /// Points of a facet are projected onto its patch of the unit shape, with exact tangents, and
@@ -48,6 +56,7 @@ class MappedPatches final : public Surface<D> {
   Vec<D> point(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const override;
   bool smooth() const override { return smooth_; }
   bool hollow() const override;
+  std::string face_name(int patch) const override { return at(patches_, patch).name; }
   std::shared_ptr<const Surface<D>> renumbered(std::span<const Index> order) const override;
   std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
                                            const Grid<D>& grid) const override;

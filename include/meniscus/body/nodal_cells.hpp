@@ -24,6 +24,13 @@ struct CellQuadrature {
   /// Of the former, the neighbouring nodal cell has the same points, with dA of opposite sign, bit
   /// for bit.
   std::size_t body_facets_begin = 0;
+  /// A quarter (2D: half) of a facet of the body's boundary.
+  struct BodyFacet {
+    Index cell;              ///< of the grid
+    int side;                ///< as in Facet
+    std::size_t begin, end;  ///< its points
+  };
+  std::vector<BodyFacet> body_facets;
 };
 
 /// Volumes, centroids, covariances and quadratures of the nodal cells of a grid, by node.

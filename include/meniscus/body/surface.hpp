@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace meniscus {
@@ -47,6 +48,8 @@ class Surface {
   virtual bool smooth() const = 0;
   /// Whether a part of it is an inner one.
   virtual bool hollow() const = 0;
+  /// Name of the face that a patch is part of; empty: it has none.
+  virtual std::string face_name(int) const { return {}; }
 
   /// That of the body whose node i is the node order[i] of this one.
   virtual std::shared_ptr<const Surface> renumbered(std::span<const Index> order) const = 0;

@@ -3,6 +3,7 @@
 // the scene does not name is not in the list and costs nothing.
 #pragma once
 #include "meniscus/core/archive.hpp"
+#include "meniscus/physics/constraint.hpp"
 #include "meniscus/physics/unknown.hpp"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ struct Motion {
   Real time;
   std::span<const NodalVector> u, v;
   std::span<const Unknown> fields = {};  ///< by the numbers of System::add_field
+  const Reactions* reactions = nullptr;  ///< of the constraints; for measures only
 };
 
 /// Forces on the coefficients of the displacement of all particles, and the fields that have forces
@@ -134,6 +136,10 @@ class ForceTerm {
   /// force has no potential.
   virtual std::optional<Real> stored_energy(const Motion&) const { return std::nullopt; }
   virtual std::string_view energy_kind() const { return ""; }
+  /// What equilibria without motion make stationary: the force at zero velocity is minus its
+  /// gradient. That is the stored energy, or the potential of a load that the audit books as work;
+  /// none if there is no such function.
+  virtual std::optional<Real> potential(const Motion& motion) { return stored_energy(motion); }
 
   /// Power f.v of a load from outside on the velocity of the motion. Apart from the report: forces
   /// are computed with the velocity of the half step, the books kept with that of the whole step.

@@ -22,6 +22,12 @@ class Assembly {
   /// Adds a term; its measures are called `prefix`.NAME. Its fields, if it has any, are of the body
   /// of that name.
   void add(std::unique_ptr<ForceTerm> term, const std::string& prefix);
+  /// Prescribes displacements.
+  void add(std::unique_ptr<Constraint> constraint) {
+    constraints_.push_back(std::move(constraint));
+  }
+  /// All that were added, for System::hold.
+  std::vector<std::unique_ptr<Constraint>> take_constraints() { return std::move(constraints_); }
   /// Adds a field of a body; fields of one name are summed.
   void field(const std::string& body, FieldSource source);
   /// Adds a measure called `prefix`.NAME. Throws std::logic_error if there is one.
@@ -72,6 +78,7 @@ class Assembly {
 
   Scene<D>& scene_;
   bool begins_;
+  std::vector<std::unique_ptr<Constraint>> constraints_;
   std::map<std::string, Real> surface_energy_;
   std::map<std::string, std::string> tension_form_;
 };

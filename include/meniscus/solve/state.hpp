@@ -33,10 +33,11 @@ struct State {
   NodalVectors u, v;            ///< displacement and velocity coefficients at `time`
   NodalVectors force;           ///< at u and the velocity of the last half step
   std::vector<Unknown> fields;  ///< other unknowns
+  Reactions reactions;          ///< of constraints, part of `force`; empty without any
   Books books;
   StepDemand demand;  ///< of all terms on the next step
 
-  Motion motion() const { return {time, u, v, fields}; }
+  Motion motion() const { return {time, u, v, fields, &reactions}; }
   Forces forces() { return {force, fields}; }
   /// In 2 or 3 dimensions; the sizes are those of the system already.
   void archive(const Archive& a, int dimension);

@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/solve/constraints.hpp"
 #include "meniscus/solve/state.hpp"
 
 #include <deque>
@@ -17,6 +18,7 @@ struct System {
   std::vector<std::unique_ptr<ForceTerm>> terms;
   std::vector<Real> mass;       ///< of all particles, bodies one after the other
   std::vector<Unknown> fields;  ///< unknowns beside the displacement, as a run begins with them
+  std::unique_ptr<Constraints> constraints;  ///< null: no place is prescribed
 
   Index size() const { return static_cast<Index>(mass.size()); }
   /// An unknown field that begins at zero; returns its number in Motion and Forces. One that is
@@ -24,8 +26,21 @@ struct System {
   /// it is not described in the same way.
   std::size_t add_field(const FieldSpec& spec, std::span<const Real> capacity);
 
+  /// Prescribes displacements, once all bodies have their masses; `state` gets its reactions.
+  /// Throws as Constraints.
+  void hold(std::vector<std::unique_ptr<Constraint>> all, State& state);
+  /// Of the constraints, in a step of dt: places after the drift, and reactions at its end.
+  void constrain(State& state, Real dt) {
+    if (constraints) constraints->constrain(state, dt);
+  }
+  void react(State& state, Real dt) {
+    if (constraints) constraints->react(state, dt);
+  }
+  /// From when on nothing but the motion changes forces and prescribed places.
+  Real steady_after() const;
+
   bool viscous() const;
-  std::size_t bytes() const;  ///< held by the terms
+  std::size_t bytes() const;  ///< held by terms and constraints
 
   /// Forces of all terms. Throws StepError with body, particle, place and cause where a term cannot
   /// compute one (J <= 0) or a force is not a number; `force` is then not to be used.

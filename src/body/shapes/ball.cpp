@@ -11,8 +11,9 @@ namespace {
 
 Geometry<3> stretched_ball(const Vec<3>& semi_axes, int core, int layers,
                            const std::vector<Real>& centre) {
-  return make_geometry<3>(cubed_ball<3>(core, layers), {SurfacePatch<3>::sphere(Vec<3>::Zero(), 1)},
-                          true, affine_map<3>(semi_axes.asDiagonal(), Vec<3>::Map(centre.data())));
+  return make_geometry<3>(cubed_ball<3>(core, layers),
+                          {SurfacePatch<3>::sphere(Vec<3>::Zero(), 1).named("surface")}, true,
+                          affine_map<3>(semi_axes.asDiagonal(), Vec<3>::Map(centre.data())));
 }
 
 const bool ball_registered = register_shape<3, Ball>() && register_shape<3, Ellipsoid>();

@@ -104,8 +104,9 @@ Geometry<D> Brick<D>::geometry() const {
     if (!corner.empty()) middle[k] = at(corner, k) + 0.5 * edges[k];
     total *= wanted;
     const Vec<D> e = Vec<D>::Unit(k);
-    planes.push_back(SurfacePatch<D>::plane(-0.5 * e, -e));
-    planes.push_back(SurfacePatch<D>::plane(0.5 * e, e));
+    const std::string axis(1, "xyz"[k]);
+    planes.push_back(SurfacePatch<D>::plane(-0.5 * e, -e).named(axis + "_min"));
+    planes.push_back(SurfacePatch<D>::plane(0.5 * e, e).named(axis + "_max"));
   }
   require_affordable<D>(total);
   return make_geometry<D>(unit_brick<D>(count), std::move(planes), false,

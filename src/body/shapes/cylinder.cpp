@@ -46,8 +46,9 @@ Geometry<3> Cylinder::geometry() const {
   const Vec<3> z = Vec<3>::UnitZ(), top = 0.5 * z;
   return make_geometry<3>(
       unit_cylinder(core, rings, layers),
-      {SurfacePatch<3>::cylinder(Vec<3>::Zero(), z, 1), SurfacePatch<3>::plane(-top, -z),
-       SurfacePatch<3>::plane(top, z)},
+      {SurfacePatch<3>::cylinder(Vec<3>::Zero(), z, 1).named("side"),
+       SurfacePatch<3>::plane(-top, -z).named("z_min"),
+       SurfacePatch<3>::plane(top, z).named("z_max")},
       false,
       affine_map<3>(Vec<3>(radius, radius, height).asDiagonal(), Vec<3>::Map(centre.data())));
 }

@@ -11,8 +11,9 @@ namespace {
 
 Geometry<2> stretched_disk(const Vec<2>& semi_axes, int core, int rings,
                            const std::vector<Real>& centre) {
-  return make_geometry<2>(cubed_ball<2>(core, rings), {SurfacePatch<2>::sphere(Vec<2>::Zero(), 1)},
-                          true, affine_map<2>(semi_axes.asDiagonal(), Vec<2>::Map(centre.data())));
+  return make_geometry<2>(cubed_ball<2>(core, rings),
+                          {SurfacePatch<2>::sphere(Vec<2>::Zero(), 1).named("rim")}, true,
+                          affine_map<2>(semi_axes.asDiagonal(), Vec<2>::Map(centre.data())));
 }
 
 const bool disk_registered = register_shape<2, Disk>() && register_shape<2, Ellipse>();

@@ -53,8 +53,9 @@ Geometry<3> HalfSphere::geometry() const {
   const Vec<3> origin = Vec<3>::Zero(), z = Vec<3>::UnitZ();
   return make_geometry<3>(
       upper_half(cubed_ball<3>(core, layers)),
-      {SurfacePatch<3>::sphere(origin, 1), SurfacePatch<3>::plane(origin, -z)}, false,
-      affine_map<3>(Vec<3>::Constant(radius).asDiagonal(), Vec<3>::Map(centre.data())));
+      {SurfacePatch<3>::sphere(origin, 1).named("round"),
+       SurfacePatch<3>::plane(origin, -z).named("flat")},
+      false, affine_map<3>(Vec<3>::Constant(radius).asDiagonal(), Vec<3>::Map(centre.data())));
 }
 
 }  // namespace meniscus

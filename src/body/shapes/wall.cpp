@@ -95,8 +95,8 @@ Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real
   require_affordable<3>(6 * cells * cells * layers);
   Geometry<3> geometry =
       make_geometry<3>(cubed_shell(static_cast<int>(cells), layers - 1, unit_wall_inside),
-                       {SurfacePatch<3>::sphere(Vec<3>::Zero(), 1),
-                        SurfacePatch<3>::cavity(Vec<3>::Zero(), unit_wall_inside)},
+                       {SurfacePatch<3>::sphere(Vec<3>::Zero(), 1).named("outer"),
+                        SurfacePatch<3>::cavity(Vec<3>::Zero(), unit_wall_inside).named("inner")},
                        true, wall_map(meridian, thickness, centre));
   geometry.director = [=](const Vec<3>& X) -> Vec<3> {
     const Vec<3> arm = X - centre;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Faces that loads name.
+#include "meniscus/scene/face_keys.hpp"
+
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/names.hpp"
+
+#include <fmt/core.h>
+
+namespace meniscus {
+template <int D>
+void FaceKeys::check(const Block& block, const BodyPlans<D>& bodies) const {
+  const BodyPlan<D>* planned = require_body(block, bodies, body);
+  if (face.empty() && !where)
+    block.problem("face", "names no face; give face or where, or where = 1 for the whole surface");
+  if (where && where->depends_on_time())
+    block.problem("where", "depends on t; allowed are x, y, z");
+  if (!planned || face.empty()) return;
+  std::vector<std::string> known;
+  for (const auto& [name, facets] : face_names(planned->geometry)) {
+    if (name == face) return;
+    known.push_back(name);
+  }
+  block.problem("face", fmt::format("body '{}' has no face '{}'; {}", body, face,
+                                    allowed_names(face, known)));
+}
+
+template <int D>
+FaceCells<D> FaceKeys::cells(const std::string& place, const Body<D>& on,
+                             bool with_gradients) const {
+  try {
+    return face_cells(on, {face, where}, with_gradients);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}; allowed is a formula that is not zero somewhere on it",
+                                 place, error.what()));
+  }
+}
+
+#define MENISCUS_INSTANTIATE(D)                                           \
+  template void FaceKeys::check(const Block&, const BodyPlans<D>&) const; \
+  template FaceCells<D> FaceKeys::cells(const std::string&, const Body<D>&, bool) const;
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus
