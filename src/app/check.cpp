@@ -8,15 +8,44 @@
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/scene/simulation.hpp"
+#include "meniscus/solve/expected_effort.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 namespace meniscus {
 namespace {
+
+/// Which of the two ways to equilibrium is expected to be faster, and by how much.
+template <int D>
+void say_expected_effort(Scene<D>& scene, const State& state, Real stable) {
+  constexpr Real usual_steps = 20;
+  if (std::any_of(scene.viscosity.begin(), scene.viscosity.end(),
+                  [](const auto& viscosity) { return !viscosity.empty(); }))
+    return;
+  const Real steady = scene.system.steady_after(), end = scene.time.end;
+  const Real duration = steady > 0 ? std::min(steady, end) : end;
+  const Real steps = steady == 0 ? 1
+                     : scene.time.solver == "newton" && scene.time.step
+                         ? duration / *scene.time.step
+                         : usual_steps;
+  const auto effort =
+      expected_effort(scene.system, state, std::ceil(steps - 1e-9), std::min(steady, end), stable);
+  if (!effort) return;
+  say("newton: {:.0f} load steps of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: "
+      "about "
+      "{:.0f} steps at {:.2g} s, expected {:.2g} s\n",
+      effort->load_steps, effort->tangents_per_step, effort->seconds_per_tangent,
+      effort->newton_seconds(), effort->relaxation_steps, effort->seconds_per_force,
+      effort->relaxation_seconds());
+  const Real ratio = effort->relaxation_seconds() / effort->newton_seconds();
+  say("{} is expected to be {:.1f} times as fast, within a factor of two or three\n",
+      ratio > 1 ? "newton" : "relax", std::max(ratio, 1 / ratio));
+}
 
 template <int D>
 void check_scene(const SceneInput& input, const RunRequest& request) {
@@ -61,6 +90,15 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
 
   Simulation<D> simulation = set_up(input, [&] { return Simulation<D>(scene); });
   set_up(input, [&] { simulation.begin(); });
+  if (scene.time.solver == "newton") {
+    const StableStep stable = StableStepEstimator<D>(scene.system).estimate(simulation.state());
+    say("stable step of motion {:.6g} {}; newton: load steps of {:.6g}\n", stable.dt,
+        unit(dimension::time), scene.time.step.value_or(scene.time.end / 20));
+    say_expected_effort(scene, simulation.state(), stable.dt);
+    for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
+    say("the scene is in order\n");
+    return;
+  }
   const StableStep& stable = simulation.controller().stable();
   const Real dt = scene.time.step.value_or(scene.time.safety * stable.dt);
   say("stable step {:.6g} {} (", stable.dt, unit(dimension::time));
@@ -76,6 +114,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
         "ones, for a few iterations per step\n",
         ratio);
 
+  if (scene.time.solver == "relax") say_expected_effort(scene, simulation.state(), stable.dt);
   const auto begin = std::chrono::steady_clock::now();
   constexpr int trial_steps = 10;
   set_up(input, [&] {

@@ -81,6 +81,10 @@ std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& l
     progress.show(simulation.state(), simulation.last_step(), ledger);
     if (ledger) warnings.look(*ledger);
     if (const auto warning = simulation.controller().take_warning()) warn(*warning);
+    for (const std::string& note : simulation.take_notes()) {
+      progress.finish();
+      log.info(note);
+    }
     if (interruption.elapsed_seconds() > next_checkpoint) {
       recorder.checkpoint();
       next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
@@ -101,7 +105,8 @@ void introduce(const Scene<D>& scene, const Provenance& origin,
     log.info(fmt::format("continuing from step {} of {}", restart->from.checkpoint.step,
                          restart->from.file.string()));
   }
-  log.info(fmt::format("stable step {:.6g} {}", stable.dt, scene.units.symbol(dimension::time)));
+  if (stable.dt > 0)  // it was looked for
+    log.info(fmt::format("stable step {:.6g} {}", stable.dt, scene.units.symbol(dimension::time)));
 }
 
 /// How far the drops are from equilibrium at the start.
@@ -142,8 +147,9 @@ bool report_rest(const Simulation<D>& simulation, RunLog& log) {
   if (residuals.empty() || !simulation.finished()) return true;
   std::string measures;
   for (const Residual& r : residuals)
-    measures += fmt::format("{}{} {:.3g} (allowed {:.3g})", measures.empty() ? "" : ", ", r.meaning,
-                            r.value, r.allowed);
+    measures +=
+        fmt::format("{}{} {:.3g}{}", measures.empty() ? "" : ", ", r.meaning, r.value,
+                    r.allowed ? fmt::format(" (allowed {:.3g})", *r.allowed) : std::string());
   const std::string obstacle = simulation.stepper().obstacle(state),
                     time = fmt::format("t = {:.6g} {}", state.time,
                                        simulation.scene().units.symbol(dimension::time));

@@ -3,7 +3,9 @@
 #include "meniscus/core/dense.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus {
 
@@ -44,6 +46,31 @@ Mat<2> square_root(const Mat<2>& S) {
 
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& S, const Eigen::VectorXd& b) {
   return S.ldlt().solve(b);
+}
+
+/// By bisection: the signs of the pivots of A - x I tell how many eigenvalues are below x (Sturm).
+Real least_eigenvalue(const std::vector<Real>& diagonal, const std::vector<Real>& beside) {
+  const auto any_below = [&](Real x) {
+    Real pivot = 1;
+    for (std::size_t k = 0; k < diagonal.size(); ++k) {
+      pivot = diagonal[k] - x - (k > 0 ? beside[k - 1] * beside[k - 1] / pivot : 0);
+      if (pivot < 0) return true;
+      if (pivot == 0) pivot = std::numeric_limits<Real>::min();
+    }
+    return false;
+  };
+  Real low = diagonal.front(), high = low;  // Gershgorin
+  for (std::size_t k = 0; k < diagonal.size(); ++k) {
+    const Real radius =
+        (k > 0 ? std::abs(beside[k - 1]) : 0) + (k + 1 < diagonal.size() ? std::abs(beside[k]) : 0);
+    low = std::min(low, diagonal[k] - radius);
+    high = std::min(high, diagonal[k]);  // not below the least
+  }
+  for (int halvings = 0; halvings < 60; ++halvings) {
+    const Real middle = 0.5 * (low + high);
+    (any_below(middle) ? high : low) = middle;
+  }
+  return low;
 }
 
 Mat<3> best_rotation(const Mat<3>& moment) {

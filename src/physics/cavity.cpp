@@ -61,6 +61,9 @@ class Cavity final : public ForceTerm {
       return -*filling_.pressure * filling_.ramp.fraction(motion.time) * (V - reference_volume_);
     return 0.5 * filling_.penalty * reference_volume_ * std::pow(excess(motion.time, V), 2);
   }
+  std::optional<Real> potential(const Motion& motion) override {
+    return vented() ? 0 : stored_energy(motion);
+  }
   Real steady_after() const override { return vented() ? 0 : filling_.ramp.end; }
   /// Pressure times area.
   Real uncancelled_force(const Motion& motion) const override {

@@ -27,6 +27,7 @@ class CoefficientDamping final : public ForceTerm {
 
   std::string name() const override { return "coefficient damping of '" + body_.name + "'"; }
   bool viscous() const override { return true; }
+  std::optional<Real> potential(const Motion&) override { return 0; }
 
   void add_viscous(const Motion& motion, Forces force) override { add_force(motion, force); }
   void add_viscous_diagonal(std::span<NodalVector> diagonal) override {

@@ -29,6 +29,9 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
     windows_ = {rows_.start, rows_.particle, body.size()};
   }
 
+  /// Its force is not the gradient of its energy.
+  std::optional<Real> potential(const Motion&) override { return std::nullopt; }
+
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector* u = this->displacements(motion);
     windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {

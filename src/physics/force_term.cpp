@@ -43,6 +43,16 @@ void ForceTerm::add_tangent(const Motion& motion, const Motion& change, Forces f
     add(plus.fields[k].f, minus.fields[k].f, force.fields[k].f);
 }
 
+Real ForceTerm::work_between(const Motion& before, const Motion& after) const {
+  const auto energy = [&](Real time, const Motion& at) {
+    return stored_energy({time, at.u, at.v, at.fields}).value_or(0);
+  };
+  Real work = 0;
+  for (const Motion* at : {&before, &after})
+    work += 0.5 * (energy(after.time, *at) - energy(before.time, *at));
+  return work;
+}
+
 void ForceTerm::add_viscous(const Motion& motion, Forces force) {
   const NodalVectors still(motion.v.size(), Lanes::zero());
   NodalVectors elastic = still, all = still;

@@ -24,8 +24,10 @@ Rows<TimeSettings> TimeSettings::rows() {
   using S = TimeSettings;
   return {
       real_row("end", &S::end, dimension::time, range::positive, "time at which the run ends"),
-      optional_row("step", &S::step, dimension::time, range::positive, "automatic",
-                   "fixed step; refused above the stable step of the discretised system"),
+      optional_row(
+          "step", &S::step, dimension::time, range::positive, "automatic",
+          "fixed step; refused above the stable step of the discretised system. newton: load "
+          "step, of any length; automatic is a twentieth of end"),
       real_row("safety", &S::safety, dimension::none, {0, 1, true, false},
                "automatic step as a fraction of the stable step", 0.9),
       integer_row("check_every", &S::check_every, {1, 1e9},
@@ -36,10 +38,12 @@ Rows<TimeSettings> TimeSettings::rows() {
                  "mean of those before and after, found by a few iterations per step: worth it "
                  "where fine or stretched particles of a fluid make steps short",
                  "explicit"),
-      choice_row("solver", &S::solver, Registry<StepperEntry>::all().names(),
-                 "motion as it is, or damped to the equilibrium: relax stops by itself, at the "
-                 "latest at end, where a body that still moves is an error",
-                 "dynamics"),
+      choice_row(
+          "solver", &S::solver, Registry<StepperEntry>::all().names(),
+          "motion as it is, or damped to the equilibrium: relax stops by itself, at the "
+          "latest at end, where a body that still moves is an error. newton: equilibria from "
+          "load step to load step, without motion, for solids",
+          "dynamics"),
       real_row("force_tolerance", &S::force_tolerance, dimension::none, range::positive,
                "relax: forces left on the particles / forces before they cancel", 1e-5),
       real_row("shape_tolerance", &S::shape_tolerance, dimension::none, range::positive,

@@ -30,6 +30,7 @@ StepperChoice stepper_choice(const Scene<D>& scene) {
                        scene.time.shape_tolerance,
                        {},
                        scene.time.viscosity == "implicit",
+                       scene.time.step,
                        scene.time.solver_place};
   if (choice.implicit_viscosity && !scene.system.viscous())
     throw InputError(scene.time.viscosity_place +
@@ -60,7 +61,10 @@ Simulation<D>::Simulation(Scene<D>& scene)
 template <int D>
 void Simulation<D>::begin() {
   start(scene_.system, state_);
-  controller_.begin(state_);
+  if (stepper_->implicit())  // without motion
+    std::fill(state_.v.begin(), state_.v.end(), Lanes::zero());
+  else
+    controller_.begin(state_);
   audit_.begin(take_ledger(scene_.system, state_));
   stepper_->begin(state_);
 }
@@ -76,7 +80,7 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
   start(scene_.system, state_);
   state_.books.remapped += take_ledger(scene_.system, state_).balance() -
                            take_ledger(before.scene_.system, before.state_).balance();
-  controller_.begin(state_);
+  if (!stepper_->implicit()) controller_.begin(state_);
   audit_ = before.audit_;
   stepper_->begin(state_);
 }
@@ -113,7 +117,9 @@ void Simulation<D>::step(Real dt) {
 template <int D>
 void Simulation<D>::advance() {
   try {
-    last_step_ = controller_.next(state_, scene_.time.end, stepper_->longest_step(state_));
+    const Real longest = stepper_->longest_step(state_);
+    last_step_ = stepper_->implicit() ? std::min(longest, scene_.time.end - state_.time)
+                                      : controller_.next(state_, scene_.time.end, longest);
     if (keeps_state_before_)
       step(last_step_);
     else
@@ -182,7 +188,12 @@ void Simulation<D>::archive(const Archive& a) {
   state_.archive(a, D);
   a("last_step", last_step_, dimension::time);
   require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
-  controller_.archive(a.in("step_control"));
+  if (!stepper_->implicit()) {
+    if (a.is_reading() && !a.has("step_control"))  // the run took implicit steps
+      controller_.begin(state_);
+    else
+      controller_.archive(a.in("step_control"));
+  }
   const Archive stepper = a.in("stepper").in(scene_.time.solver);
   if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's
     stepper_->begin(state_);

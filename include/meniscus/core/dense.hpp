@@ -4,6 +4,8 @@
 #pragma once
 #include "meniscus/core/types.hpp"
 
+#include <vector>
+
 namespace meniscus {
 
 inline Eigen::Vector3d cross(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
@@ -30,6 +32,10 @@ Mat<D> square_root(const Mat<D>& S);
 /// x of S x = b, S symmetric and not indefinite (L D L^T with pivots). Of any size, so that there
 /// is one to compile; takes memory.
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& S, const Eigen::VectorXd& b);
+
+/// The least eigenvalue of a symmetric tridiagonal matrix; `beside` are the numbers beside the
+/// diagonal, one less.
+Real least_eigenvalue(const std::vector<Real>& diagonal, const std::vector<Real>& beside);
 
 /// The rotation Q that brings Q A closest to B, from sum w B A^T (Kabsch 1976, by singular values).
 Mat<3> best_rotation(const Mat<3>& moment);

@@ -14,9 +14,9 @@ namespace meniscus {
 
 namespace contact {
 
-template <int D>
-[[gnu::always_inline]] inline Lanes dot(const Lanes* a, const Lanes* b) {
-  Lanes sum = a[0] * b[0];
+template <int D, class Scalar>
+[[gnu::always_inline]] inline Scalar dot(const Scalar* a, const Scalar* b) {
+  Scalar sum = a[0] * b[0];
   for (int i = 1; i < D; ++i) sum += a[i] * b[i];
   return sum;
 }
@@ -27,11 +27,11 @@ template <int D>
 struct Energy {
   static constexpr int components = D;  ///< of a weight
   static constexpr bool moment = true;  ///< has S
-  template <class Law>
-  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes* r,
-                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes* S) {
+  template <class Law, class Scalar>
+  [[gnu::always_inline]] static void add(const Law& law, Scalar square, const Scalar* r,
+                                         const Scalar* V, const Scalar* W, Scalar* T, Scalar* S) {
     const auto [u, psi] = law.surface(square);
-    const Lanes w = psi * dot<D>(V, W);
+    const Scalar w = psi * dot<D>(V, W);
     for (int i = 0; i < D; ++i) {
       T[i] += w * r[i];
       S[i] += u * W[i];
@@ -44,10 +44,10 @@ template <int D>
 struct Pressure {
   static constexpr int components = D;
   static constexpr bool moment = false;
-  template <class Law>
-  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes* r,
-                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes*) {
-    const Lanes w = law.surface(square).psi * dot<D>(r, W);
+  template <class Law, class Scalar>
+  [[gnu::always_inline]] static void add(const Law& law, Scalar square, const Scalar* r,
+                                         const Scalar* V, const Scalar* W, Scalar* T, Scalar*) {
+    const Scalar w = law.surface(square).psi * dot<D>(r, W);
     for (int i = 0; i < D; ++i) T[i] += w * V[i];
   }
 };
@@ -57,10 +57,10 @@ template <int D>
 struct Dissertation {
   static constexpr int components = D;
   static constexpr bool moment = false;
-  template <class Law>
-  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes* r,
-                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes*) {
-    const Lanes w = law.surface(square).psi * dot<D>(r, V);
+  template <class Law, class Scalar>
+  [[gnu::always_inline]] static void add(const Law& law, Scalar square, const Scalar* r,
+                                         const Scalar* V, const Scalar* W, Scalar* T, Scalar*) {
+    const Scalar w = law.surface(square).psi * dot<D>(r, V);
     for (int i = 0; i < D; ++i) T[i] += w * W[i];
   }
 };
@@ -70,10 +70,10 @@ template <int D>
 struct Volume {
   static constexpr int components = 1;
   static constexpr bool moment = false;
-  template <class Law>
-  [[gnu::always_inline]] static void add(const Law& law, Lanes square, const Lanes* r,
-                                         const Lanes* V, const Lanes* W, Lanes* T, Lanes*) {
-    const Lanes w = law.volume(square).dphi_by_r * (V[0] * W[0]);
+  template <class Law, class Scalar>
+  [[gnu::always_inline]] static void add(const Law& law, Scalar square, const Scalar* r,
+                                         const Scalar* V, const Scalar* W, Scalar* T, Scalar*) {
+    const Scalar w = law.volume(square).dphi_by_r * (V[0] * W[0]);
     for (int i = 0; i < D; ++i) T[i] += w * r[i];
   }
 };
@@ -111,6 +111,31 @@ Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes*
     }
   }
   return nearest;
+}
+
+/// The changes of T and S by the changes dx, dV of the four points and `changes` of the others.
+template <class Form, int D, class Law>
+void sum_changes_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes* dx,
+                               const Lanes* V, const Lanes* dV, std::span<const Index> partners,
+                               const ContactPlaces<D>& others, const ContactChanges<D>& changes,
+                               Dual<Lanes>* T, Dual<Lanes>* S) {
+  Dual<Lanes> own[Form::components];
+  for (int i = 0; i < Form::components; ++i) own[i] = {V[i], dV[i]};
+  for (const Index partner : partners) {
+    const Lanes *y = others.x_of(partner), *dy = changes.x_of(partner);
+    const Lanes *weight = others.weight_of(partner),
+                *dweight = &at(changes.weight, partner * Form::components);
+    for (int lane = 0; lane < Lanes::width; ++lane) {
+      Dual<Lanes> r[D], W[Form::components];
+      for (int i = 0; i < D; ++i)
+        r[i] = {x[i] - detail::components(y[i])[lane], dx[i] - detail::components(dy[i])[lane]};
+      for (int i = 0; i < Form::components; ++i)
+        W[i] = {Lanes(detail::components(weight[i])[lane]),
+                Lanes(detail::components(dweight[i])[lane])};
+      const Dual<Lanes> square = dot<D>(r, r);
+      if (any(square.v.v < reach * reach)) Form::add(law, square, r, own, W, T, S);
+    }
+  }
 }
 
 }  // namespace contact

@@ -11,6 +11,7 @@
 // switched off (u_c = u Q, Q from 1 to 0 between 3/4 r_c and r_c with two continuous derivatives)
 // and psi, phi, chi are derived from u_c, so that every identity stays exact (CGCM note 6).
 #pragma once
+#include "meniscus/core/dual.hpp"
 #include "meniscus/core/elementary.hpp"
 
 #include <string_view>
@@ -169,9 +170,15 @@ class PairLaw {
 
   static Real clamp(Real t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
   static Lanes clamp(Lanes t) { return max(min(t, 1.0), 0.0); }
+  static Dual<Lanes> clamp(const Dual<Lanes>& t) {
+    return select(t.v.v > 0.0, select(t.v.v < 1.0, t, Dual<Lanes>(1.0)), Dual<Lanes>(0.0));
+  }
   static Real only_inside(Real t, Real y) { return t > 0 && t < 1 ? y : 0; }
   static Lanes only_inside(Lanes t, Lanes y) {
     return select(t.v > 0.0, select(t.v < 1.0, y, 0.0), 0.0);
+  }
+  static Dual<Lanes> only_inside(const Dual<Lanes>& t, const Dual<Lanes>& y) {
+    return select(t.v.v > 0.0, select(t.v.v < 1.0, y, Dual<Lanes>(0.0)), Dual<Lanes>(0.0));
   }
 
   Real epsilon_, sigma_squared_;

@@ -2,6 +2,7 @@
 // Contact points of a body: on its closed surface, or in its volume.
 #pragma once
 #include "meniscus/body/body.hpp"
+#include "meniscus/core/dual.hpp"
 #include "meniscus/physics/force_term.hpp"
 
 #include <memory>
@@ -34,6 +35,15 @@ struct ContactPlaces {
     return (x.size() + weight.size() + nodes.size()) * sizeof(Lanes) +
            inverse.size() * sizeof(Tensor<Lanes>);
   }
+};
+
+/// How places and weights of contact points change with the displacement, to first order.
+template <int D>
+struct ContactChanges {
+  AlignedVector<Lanes> x, weight;  ///< as in ContactPlaces
+  NodalVectors nodes = {};         ///< of patches
+
+  const Lanes* x_of(Index cluster) const { return &at(x, cluster * D); }
 };
 
 template <int D>
@@ -102,6 +112,15 @@ class ContactPoints {
   void add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
                  std::span<const Lanes> T, std::span<const Lanes> S, std::span<NodalVector> force);
 
+  /// Of these clusters, whose places and weights are up to date. Takes memory.
+  ContactChanges<D> changes(std::span<const Index> clusters, const ContactPlaces<D>& places,
+                            const Motion& motion, const Motion& change) const;
+  /// Adds the change of add_force() by changes of the displacement, dT of T and dS of S.
+  void add_force_change(const ContactPlaces<D>& places, const ContactChanges<D>& changes,
+                        const Motion& motion, const Motion& change, std::span<const Index> clusters,
+                        std::span<const Lanes> dT, std::span<const Lanes> S,
+                        std::span<const Lanes> dS, std::span<NodalVector> force);
+
   std::size_t bytes() const;
   Offset pairs() const;
 
@@ -125,7 +144,18 @@ class ContactPoints {
   static std::size_t offset(Index cluster, int count) {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);
   }
+  void add_change_on_patches(const ContactPlaces<D>& places, const ContactChanges<D>& changes,
+                             std::span<const Index> clusters, std::span<const Lanes> dT,
+                             std::span<const Lanes> S, std::span<const Lanes> dS,
+                             std::span<NodalVector> force);
   Tensor<Lanes> stress(const ContactPlaces<D>& places, Index cluster, const Lanes* S) const;
+  /// F^-1 and the weights of a cluster, with their changes.
+  struct Turned {
+    Tensor<Dual<Lanes>> inverse;
+    std::array<Dual<Lanes>, D> V;
+  };
+  Turned turned(Index cluster, const Motion& motion, const Motion& change) const;
+  Tensor<Lanes> stress_change(const Turned& now, const std::array<Dual<Lanes>, D>& S) const;
 
   const Body<D>* body_;
   int components_;  // of a weight: D on the surface, 1 in the volume

@@ -145,6 +145,11 @@ class ForceTerm {
   /// are computed with the velocity of the half step, the books kept with that of the whole step.
   virtual Real load_power(const Motion&) { return 0; }
 
+  /// Work from outside, of what changes with time at fixed places, on the way from one equilibrium
+  /// to another nearby, to second order: here the mean of what the change of time does to the
+  /// energy at both.
+  virtual Real work_between(const Motion& before, const Motion& after) const;
+
   /// From when on the force depends on time through the motion only: the end of the last ramp;
   /// infinite for a load that never ceases to change.
   virtual Real steady_after() const { return 0; }

@@ -38,6 +38,8 @@ class Simulation {
   StepController<D>& controller() { return controller_; }
   const Audit& audit() const { return audit_; }
   const Stepper<D>& stepper() const { return *stepper_; }
+  /// As Stepper::take_notes().
+  std::vector<std::string> take_notes() { return stepper_->take_notes(); }
   /// The ledger of now; widens the scales of the audit. Throws SolveError for a state that cannot
   /// be: what a check of the scene finds, or a drop that has lost its shape (an isoperimetric ratio
   /// below 1 - 1e-3).

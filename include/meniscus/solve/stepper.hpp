@@ -6,13 +6,15 @@
 #include "meniscus/solve/system.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace meniscus {
 
 /// How far a state is from what a stepper looks for.
 struct Residual {
   std::string meaning;  ///< e.g. "force residual"
-  Real value, allowed;
+  Real value;
+  std::optional<Real> allowed;  ///< none: it is not judged
 };
 
 template <int D>
@@ -24,6 +26,9 @@ class Stepper {
   virtual void begin(const State&) {}
   /// The longest step that is accurate enough, at a state that has its forces.
   virtual Real longest_step(const State&) { return unbounded; }
+  /// Whether no step is too long to be stable: longest_step() is then the step itself, and nobody
+  /// looks for the stable one.
+  virtual bool implicit() const { return false; }
   /// From state.time to state.time + dt. Throws as advance().
   virtual void step(State& state, Real dt) = 0;
   /// The same, but throws a StepError `of_step` where a shorter step is called for. The state is
@@ -41,6 +46,8 @@ class Stepper {
   /// What may keep the stepper from arriving; empty if it sees nothing.
   virtual std::string obstacle(const State&) const { return ""; }
 
+  /// What the log should say of the steps since it was asked last.
+  virtual std::vector<std::string> take_notes() { return {}; }
   /// What the steps took beside forces, for the end of the log; empty if nothing.
   virtual std::string effort() const { return ""; }
 
@@ -54,6 +61,7 @@ struct StepperChoice {
   Real force_tolerance = 0, shape_tolerance = 0;  ///< of Relaxation
   std::vector<bool> fluid = {};                   ///< which bodies are fluids; empty: none
   bool implicit_viscosity = false;                ///< of Dynamics
+  std::optional<Real> step = {};                  ///< given in the scene
   std::string place = {};                         ///< of the choice, to begin a message with
 };
 

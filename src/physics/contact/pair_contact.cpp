@@ -72,10 +72,33 @@ class PairContact final : public ForceTerm {
     return report(motion);
   }
 
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    move(motion, now_);
+    list_.update(now_.first.x, now_.second.x);
+    update_weights(motion, list_, now_);
+    const ContactChanges<D> first =
+                                first_.changes(list_.of_first().active, now_.first, motion, change),
+                            second = second_.changes(list_.of_second().active, now_.second, motion,
+                                                     change);
+    add_change({first_, list_.of_first(), now_.first, first}, now_.second, second, motion, change,
+               force);
+    add_change({second_, list_.of_second(), now_.second, second}, now_.first, first, motion, change,
+               force);
+  }
+
   std::optional<Real> stored_energy(const Motion& motion) const override {
     return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
       return energy(places, list.of_first());
     });
+  }
+
+  /// The forces of the others are not the gradient of their energy.
+  std::optional<Real> potential(const Motion& motion) override {
+    if constexpr (std::is_same_v<Form, contact::Energy<D>> ||
+                  std::is_same_v<Form, contact::Volume<D>>)
+      return stored_energy(motion);
+    else
+      return std::nullopt;
   }
 
   bool may_reject_steps() const override { return true; }
@@ -145,6 +168,40 @@ class PairContact final : public ForceTerm {
           }
         },
         4);
+  }
+
+  /// The points of one body with their changes.
+  struct Changing {
+    ContactPoints<D>& points;
+    const Rows& rows;
+    const ContactPlaces<D>& places;
+    const ContactChanges<D>& changes;
+  };
+  void add_change(const Changing& own, const ContactPlaces<D>& others,
+                  const ContactChanges<D>& changes, const Motion& motion, const Motion& change,
+                  Forces force) const {
+    AlignedVector<Lanes> dT(own.places.x.size(), Lanes::zero()), S, dS;
+    if (Form::moment) S = dS = dT;
+    parallel_for(
+        static_cast<Index>(own.rows.active.size()),
+        [&](Index k) {
+          const Index c = at(own.rows.active, k);
+          Dual<Lanes> t[D], s[D];
+          for (int i = 0; i < D; ++i) t[i] = s[i] = 0.0;
+          contact::sum_changes_over_partners<Form, D>(pair_law_, law_.reach(), own.places.x_of(c),
+                                                      own.changes.x_of(c), own.places.weight_of(c),
+                                                      &at(own.changes.weight, c * Form::components),
+                                                      own.rows.of(c), others, changes, t, s);
+          for (int i = 0; i < D; ++i) {
+            at(dT, c * D + i) = t[i].d;
+            if (!Form::moment) continue;
+            at(S, c * D + i) = s[i].v;
+            at(dS, c * D + i) = s[i].d;
+          }
+        },
+        4);
+    own.points.add_force_change(own.places, own.changes, motion, change, own.rows.active, dT, S, dS,
+                                force);
   }
 
   Real energy(const PairPlaces<D>& places, const Rows& rows) const {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "contact_tangent.hpp"
 #include "reach_list.hpp"
 #include "wall_effects.hpp"
 
@@ -59,8 +60,20 @@ class RigidContact final : public ForceTerm {
     return report(motion);
   }
 
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override;
+
   std::optional<Real> stored_energy(const Motion& motion) const override {
     return energy_of(evaluated(motion));
+  }
+  std::optional<Real> potential(const Motion& motion) override {
+    if (form_ != ContactForm::energy || effects_.rubs()) return std::nullopt;
+    return stored_energy(motion);
+  }
+  Real work_between(const Motion& before, const Motion& after) const override {
+    const Vec<D> way =
+        partner_.motion.displacement(after.time) - partner_.motion.displacement(before.time);
+    if (way.isZero(0)) return ForceTerm::work_between(before, after);
+    return 0.5 * (net_force(evaluated(before)) + net_force(evaluated(after))).dot(way);
   }
   Real steady_after() const override { return steady_after_; }
 
@@ -249,6 +262,18 @@ void RigidContact<D>::evaluate(Index cluster, const Vec<D>& shift, Evaluation& r
     }
     at(result.distances, cluster).set(lane, partner_.shape->distance(place));
   }
+}
+
+/// Adhesion that varies, and friction, have the difference of their forces.
+template <int D>
+void RigidContact<D>::add_tangent(const Motion& motion, const Motion& change, Forces force) {
+  if (effects_.any()) return ForceTerm::add_tangent(motion, change, force);
+  const std::span<const Index> visited = in_reach(motion);
+  evaluate(motion, visited, now_);
+  add_tangent_of_partner<D>(points_, *partner_.shape, form_,
+                            {partner_.motion.displacement(motion.time), visited, now_.places,
+                             now_.S, now_.distances, interaction_->least_gap()},
+                            motion, change, force);
 }
 
 /// Adhesion that varies, and friction.

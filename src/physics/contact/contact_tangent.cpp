@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Changes of contact points and of their forces: the tangent. A file by itself, so that nothing in
+// the loops of the time step is compiled in another way for it.
+#include "contact_tangent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "patch_points.hpp"
+
+namespace meniscus {
+
+/// As update_weights(), with dual numbers.
+template <int D>
+typename ContactPoints<D>::Turned ContactPoints<D>::turned(Index c, const Motion& motion,
+                                                           const Motion& change) const {
+  Tensor<Lanes> H, dH;
+  rule_.gather(c, motion.u.data() + body_->first, H);
+  rule_.gather(c, change.u.data() + body_->first, dH);
+  const Tensor<Dual<Lanes>> moved = dual(H, dH);
+  Tensor<Dual<Lanes>> cof = cofactor_of_deformation(moved);
+  const Dual<Lanes> one_over_J = 1.0 / (1.0 + volume_change(moved));
+  Turned now;
+  now.inverse = one_over_J * transpose(cof);
+  if (density_ == SiteDensity::referential) cof = one_over_J * cof;
+  const Lanes* N = reference_.data() + offset(c, D);
+  for (int i = 0; i < D; ++i) {
+    at(now.V, i) = cof(i, 0) * N[0];
+    for (int K = 1; K < D; ++K) at(now.V, i) += cof(i, K) * N[K];
+  }
+  return now;
+}
+
+/// As stress(), with dual numbers: the derivative.
+template <int D>
+Tensor<Lanes> ContactPoints<D>::stress_change(const Turned& now,
+                                              const std::array<Dual<Lanes>, D>& S) const {
+  Dual<Lanes> SV(0.0), pulled[3], area[3];
+  for (int K = 0; K < 3; ++K) pulled[K] = area[K] = 0.0;
+  for (int i = 0; i < D; ++i) {
+    if (density_ == SiteDensity::constant) SV += at(S, i) * at(now.V, i);
+    area[i] = at(now.V, i);
+    for (int K = 0; K < D; ++K) pulled[K] += now.inverse(K, i) * at(S, i);
+  }
+  return Tensor<Lanes>::map(
+      [&](int i, int K) { return (SV * now.inverse(K, i) - area[i] * pulled[K]).d; });
+}
+
+template <int D>
+ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
+                                            const ContactPlaces<D>& places, const Motion& motion,
+                                            const Motion& change) const {
+  const NodalVector* du = change.u.data() + body_->first;
+  ContactChanges<D> all;
+  all.x.assign(offset(this->clusters(), D), Lanes::zero());
+  all.weight.assign(offset(this->clusters(), components_), Lanes::zero());
+  NodalVectors ahead, behind;
+  if (patches_) {
+    const std::vector<std::uint8_t> wanted(places.nodes.size(), 1);
+    all.nodes.resize(places.nodes.size());
+    patches_->values(du, wanted, all.nodes);
+    ahead = behind = places.nodes;
+    for (std::size_t a = 0; a < ahead.size(); ++a) {
+      ahead[a] += all.nodes[a];
+      behind[a] -= all.nodes[a];
+    }
+  }
+  parallel_for(
+      static_cast<Index>(clusters.size()),
+      [&](Index k) {
+        const Index c = at(clusters, k);
+        for (Index lane = 0; lane < Lanes::width; ++lane) {
+          const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
+          Vec<D> dx;
+          if (patches_) {
+            dx = patches_->place(at(on_patch_, q), all.nodes);
+          } else {
+            const Lanes moved = value_at(rule_.rows, q, du);
+            for (int i = 0; i < D; ++i) dx[i] = moved[i];
+          }
+          for (int i = 0; i < D; ++i) at(all.x, c * D + i).set(lane, dx[i]);
+          if (!patches_ || lane >= points_in(c)) continue;
+          // Of second degree in the places of the nodes: central differences are exact.
+          const Vec<D> dV = 0.5 * beta_ *
+                            (patches_->area_vector(at(on_patch_, q), ahead) -
+                             patches_->area_vector(at(on_patch_, q), behind));
+          for (int i = 0; i < D; ++i) at(all.weight, c * D + i).set(lane, dV[i]);
+        }
+        if (patches_ || components_ == 1) return;
+        const auto now = turned(c, motion, change);
+        for (int i = 0; i < D; ++i) at(all.weight, c * D + i) = at(now.V, i).d;
+      },
+      16);
+  return all;
+}
+
+template <int D>
+void ContactPoints<D>::add_force_change(const ContactPlaces<D>& places,
+                                        const ContactChanges<D>& changes, const Motion& motion,
+                                        const Motion& change, std::span<const Index> clusters,
+                                        std::span<const Lanes> dT, std::span<const Lanes> S,
+                                        std::span<const Lanes> dS, std::span<NodalVector> force) {
+  if (clusters.empty()) return;
+  if (patches_) return add_change_on_patches(places, changes, clusters, dT, S, dS, force);
+  for (const Index c : clusters) at(pushed_, c) = 1;
+  windows_.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    for (Index c = begin; c < end; ++c) {
+      if (!at(pushed_, c)) continue;
+      const Lanes* pull = dT.data() + offset(c, D);
+      const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
+      for (Index lane = 0; lane < points_in(c); ++lane)
+        scatter_value(rule_.rows, c * Lanes::width + lane, -at(by_point, lane), f);
+      if (S.empty()) continue;
+      const auto now = turned(c, motion, change);
+      std::array<Dual<Lanes>, D> turn;
+      for (int i = 0; i < D; ++i)
+        at(turn, i) = {S[offset(c, D) + static_cast<std::size_t>(i)],
+                       dS[offset(c, D) + static_cast<std::size_t>(i)]};
+      rule_.scatter(c, -1.0 * stress_change(now, turn), f);
+    }
+  });
+  for (const Index c : clusters) at(pushed_, c) = 0;
+}
+
+template <int D>
+void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
+                                             const ContactChanges<D>& changes,
+                                             std::span<const Index> clusters,
+                                             std::span<const Lanes> dT, std::span<const Lanes> S,
+                                             std::span<const Lanes> dS,
+                                             std::span<NodalVector> force) {
+  for (const Index c : clusters) at(pushed_, c) = 1;
+  parallel_for(static_cast<Index>(of_group_.size()), [&](Index group) {
+    patches_->begin_force(group);
+    for (const Index q : at(of_group_, group)) {
+      const Index c = q / Lanes::width, lane = q % Lanes::width;
+      if (!at(pushed_, c)) continue;
+      Vec<D> pull, turn = Vec<D>::Zero(), turned_by = turn;
+      for (int i = 0; i < D; ++i) {
+        const std::size_t k = offset(c, D) + static_cast<std::size_t>(i);
+        pull[i] = dT[k][lane];
+        if (S.empty()) continue;
+        turn[i] = beta_ * S[k][lane];
+        turned_by[i] = beta_ * dS[k][lane];
+      }
+      patches_->add(at(on_patch_, q), pull, turned_by, places.nodes);
+      // What S does through the tangents is linear in them; in the plane there is no other tangent.
+      if (D == 3) patches_->add(at(on_patch_, q), Vec<D>::Zero(), turn, changes.nodes);
+    }
+  });
+  patches_->end_force(body_->part(force));
+  for (const Index c : clusters) at(pushed_, c) = 0;
+}
+
+/// dT = (grad grad S dx) V + grad S dV and dS = grad S dx; or dT = (grad U dx) V + U dV for the
+/// pressure form. Derivatives of the field by differences of fourth order over a small part of the
+/// gap.
+template <int D>
+void add_tangent_of_partner(ContactPoints<D>& points, const RigidPartner<D>& partner,
+                            ContactForm form, const PartnerContact<D>& now, const Motion& motion,
+                            const Motion& change, std::span<NodalVector> force) {
+  constexpr Real part_of_gap = 3e-4;
+  const ContactChanges<D> changes = points.changes(now.clusters, now.places, motion, change);
+  AlignedVector<Lanes> dT(now.S.size(), Lanes::zero()), dS = dT;
+  const auto change_of_point = [&](Index c, int lane) {
+    Vec<D> place, dx, V, dV;
+    for (int i = 0; i < D; ++i) {
+      place[i] = now.places.x_of(c)[i][lane] - now.shift[i];
+      dx[i] = changes.x_of(c)[i][lane];
+      V[i] = now.places.weight_of(c)[i][lane];
+      dV[i] = at(changes.weight, c * D + i)[lane];
+    }
+    const Real length = dx.norm();
+    if (length == 0 && dV.isZero(0)) return;
+    const Real gap = std::max(now.distances[static_cast<std::size_t>(c)][lane], now.least_gap);
+    const Real h = length > 0 ? part_of_gap * gap / length : 1;
+    const auto field = [&](Real s) { return partner.field(place + s * h * dx); };
+    const auto slope = [h](const auto& ahead, const auto& behind, const auto& ahead2,
+                           const auto& behind2) {
+      return ((8 * (ahead - behind) - (ahead2 - behind2)) / (12 * h)).eval();
+    };
+    const RigidField<D> here = field(0), ahead = field(1), behind = field(-1), ahead2 = field(2),
+                        behind2 = field(-2);
+    Vec<D> pull;
+    if (form == ContactForm::pressure) {
+      const auto U = [](const RigidField<D>& f) { return Eigen::Matrix<Real, 1, 1>(f.U); };
+      pull = slope(U(ahead), U(behind), U(ahead2), U(behind2))[0] * V + here.U * dV;
+    } else {
+      pull =
+          slope(ahead.grad_S, behind.grad_S, ahead2.grad_S, behind2.grad_S) * V + here.grad_S * dV;
+    }
+    const Vec<D> turn = here.grad_S * dx;
+    for (int i = 0; i < D; ++i) {
+      at(dT, c * D + i).set(lane, pull[i]);
+      at(dS, c * D + i).set(lane, turn[i]);
+    }
+  };
+  parallel_for(
+      static_cast<Index>(now.clusters.size()),
+      [&](Index k) {
+        for (int lane = 0; lane < Lanes::width; ++lane)
+          change_of_point(now.clusters[static_cast<std::size_t>(k)], lane);
+      },
+      16);
+  const bool moment = form == ContactForm::energy;
+  points.add_force_change(now.places, changes, motion, change, now.clusters, dT,
+                          moment ? now.S : std::span<const Lanes>(), dS, force);
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                                \
+  template ContactChanges<D> ContactPoints<D>::changes(                                        \
+      std::span<const Index>, const ContactPlaces<D>&, const Motion&, const Motion&) const;    \
+  template void ContactPoints<D>::add_force_change(                                            \
+      const ContactPlaces<D>&, const ContactChanges<D>&, const Motion&, const Motion&,         \
+      std::span<const Index>, std::span<const Lanes>, std::span<const Lanes>,                  \
+      std::span<const Lanes>, std::span<NodalVector>);                                         \
+  template void add_tangent_of_partner(ContactPoints<D>&, const RigidPartner<D>&, ContactForm, \
+                                       const PartnerContact<D>&, const Motion&, const Motion&, \
+                                       std::span<NodalVector>);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An estimate from counts.
+#include "meniscus/solve/expected_effort.hpp"
+
+#include "meniscus/core/parallel.hpp"
+#include "meniscus/solve/free_motions.hpp"
+#include "meniscus/solve/held_preconditioner.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace meniscus {
+namespace {
+
+template <class F>
+Real seconds_of(int times, F&& f) {
+  const auto begin = std::chrono::steady_clock::now();
+  for (int k = 0; k < times; ++k) f();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / times;
+}
+
+/// Of linear elements, without what is free: by inverse iteration.
+template <int D>
+Real slowest_frequency(const System<D>& system, const HeldPreconditioner<D>& P,
+                       const FreeMotions<D>& free) {
+  constexpr int iterations = 8;
+  NodalVectors w(static_cast<std::size_t>(system.size())), r = w;
+  for (Index A = 0; A < system.size(); ++A)
+    at(w, A) =
+        Lanes(std::sin(12.9898 * A), std::sin(78.233 * A), D == 3 ? std::sin(37.719 * A) : 0.0, 0);
+  Real square = 0;
+  for (int k = 0; k < iterations; ++k) {
+    for (Index A = 0; A < system.size(); ++A) at(r, A) = at(system.mass, A) * at(w, A);
+    free.remove_from(r);
+    const Real up =
+        parallel_sum(system.size(), 0.0, [&](Index A) { return sum(at(w, A) * at(r, A)); });
+    const Real down = P.apply(r, w);
+    square = up / down;
+    const Real size = std::sqrt(parallel_sum(system.size(), 0.0, [&](Index A) {
+      return at(system.mass, A) * sum(at(w, A) * at(w, A));
+    }));
+    for (NodalVector& x : w) x = x / size;
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+template <int D>
+std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& state,
+                                              Real load_steps, Real steady_after, Real stable) {
+  constexpr Index most_particles = D == 3 ? 4000 : 20000;
+  if (system.size() > most_particles || !system.fields.empty()) return std::nullopt;
+  for (auto& term : system.terms)
+    if (!term->potential(state.motion())) return std::nullopt;
+  const NodalVectors still(state.u.size(), Lanes::zero());
+  const Motion motion{state.time, state.u, still};
+  NodalVectors f = still, z = still;
+  ExpectedEffort effort;
+  std::optional<HeldPreconditioner<D>> P;
+  effort.set_up_seconds = seconds_of(1, [&] { P.emplace(system); });
+  const FreeMotions<D> free(system, motion, std::cbrt(system.bodies.front().cells.volume(0)));
+  constexpr int times = 3;
+  effort.seconds_per_force = seconds_of(times, [&] { system.add_up(motion, f); });
+  effort.seconds_per_tangent = seconds_of(times, [&] {
+    for (auto& term : system.terms) term->add_tangent(motion, {state.time, f, still}, z);
+    P->apply(f, z);
+  });
+  // Four or five iterations of Newton's method.
+  effort.tangents_per_step = D == 3 ? 150 : 50;
+  effort.load_steps = load_steps;
+  const Real period = 2 * std::numbers::pi / slowest_frequency(system, *P, free);
+  effort.relaxation_steps = (steady_after + 2 * period) / (0.9 * stable);
+  return effort;
+}
+
+template std::optional<ExpectedEffort> expected_effort(System<2>&, const State&, Real, Real, Real);
+template std::optional<ExpectedEffort> expected_effort(System<3>&, const State&, Real, Real, Real);
+
+}  // namespace meniscus

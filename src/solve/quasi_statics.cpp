@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Truncated Newton with conjugate gradients, load step by load step.
+#include "meniscus/solve/quasi_statics.hpp"
+
+#include "meniscus/core/dense.hpp"
+#include "meniscus/core/parallel.hpp"
+#include "meniscus/solve/rest.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+/// Of the energy that the next step would release, relative to the largest that one has.
+constexpr Real tolerance = 1e-9;
+/// Where another iteration would be idle.
+constexpr Real polished = 1e-3 * tolerance;
+constexpr int most_iterations = 60, most_tangents = 400;
+/// Load steps are cut into pieces down to this part of them.
+constexpr Real least_piece = 1.0 / 256;
+/// Of the largest energy that an iteration has released: what is lost beyond the work by a jump.
+constexpr Real noticeable = 1e-3;
+/// What jumps is looked at in pieces of this part.
+constexpr Real piece_of_jump = 1.0 / 8;
+
+/// x += a w
+void add(NodalVectors& x, Real a, const NodalVectors& w) {
+  for_chunks(static_cast<Index>(x.size()), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(x, A) += a * at(w, A);
+  });
+}
+
+}  // namespace
+
+template <int D>
+QuasiStatics<D>::QuasiStatics(System<D>& system, const StepperChoice& choice)
+    : system_(system), choice_(choice), spacing_(unbounded) {
+  const auto n = static_cast<std::size_t>(system.size());
+  still_.assign(n, Lanes::zero());
+  if (system.constraints) lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
+  r_ = trial_r_ = s_ = g_ = z_ = p_ = q_ = scaled_ = last_du_ = still_;
+  for (const Body<D>& body : system.bodies)
+    for (Index A = 0; A < body.size(); ++A)
+      spacing_ = std::min(
+          spacing_, body.particles.search().distance_of_nearest(at(body.particles.X(), A), 2));
+}
+
+template <int D>
+void QuasiStatics<D>::begin(const State&) {
+  last_dt_ = 0;
+  at_equilibrium_ = arrived_ = false;
+}
+
+template <int D>
+Real QuasiStatics<D>::longest_step(const State& state) {
+  constexpr int steps_of_run = 20;
+  const Real steady = system_.steady_after();
+  const Real goal = steady > state.time ? std::min(steady, choice_.end) : choice_.end;
+  const Real step = choice_.step.value_or(choice_.end / steps_of_run), left = goal - state.time;
+  return left <= step * (1 + 1e-9) ? left : step;
+}
+
+template <int D>
+Real QuasiStatics<D>::dot(const NodalVectors& a, const NodalVectors& b) const {
+  return parallel_sum(system_.size(), 0.0, [&](Index A) { return sum(at(a, A) * at(b, A)); });
+}
+
+template <int D>
+Real QuasiStatics<D>::largest(const NodalVectors& w) const {
+  Real square = 0;
+  for (const NodalVector& x : w) square = std::max(square, sum(x * x));
+  return std::sqrt(square);
+}
+
+template <int D>
+void QuasiStatics<D>::step(State& state, Real dt) {
+  if (!preconditioner_) preconditioner_.emplace(system_);
+  const State before = state;
+  stop_motion(state);
+  const Real end = state.time + dt;
+  try {
+    if (!at_equilibrium_) settle(state);
+    for (Real piece = dt; state.time < end;) {
+      const bool last = end - state.time <= piece * (1 + 1e-9);
+      const Real time = last ? end : state.time + piece;
+      const Solution solution = solve(state, time);
+      const bool failed = !solution.failure.empty();
+      if (failed && piece <= least_piece * dt)
+        throw SolveError(fmt::format("no equilibrium is found at t = {:.6g}: {}{}", time,
+                                     solution.failure, unbalanced(state, time)));
+      if (failed) {
+        piece /= 2;
+        continue;
+      }
+      State next = state;
+      const Real released = move(next, time, solution.point.u);
+      const bool jump = solution.far && released > noticeable * energy_scale_;
+      if (jump && piece > piece_of_jump * dt * (1 + 1e-9)) {
+        piece /= 2;
+        continue;
+      }
+      last_dt_ = jump ? 0 : time - state.time;
+      last_du_ = scaled_;
+      if (jump) book_jump(next, state.time, released);
+      state = std::move(next);
+      system_.commit(state.motion());
+      piece = std::min(2 * piece, dt);
+    }
+  } catch (...) {
+    state = before;
+    throw;
+  }
+  state.time = end;
+  ++state.step;
+  arrived_ = end >= std::min(system_.steady_after(), choice_.end);
+}
+
+/// What no body holds against, for a message.
+template <int D>
+std::string QuasiStatics<D>::unbalanced(State& state, Real time) {
+  system_.add_up({time, state.u, still_}, state.force);
+  const std::string net = net_forces(system_, state);
+  return net.empty() ? "" : "; " + net + ", which nothing balances";
+}
+
+template <int D>
+void QuasiStatics<D>::stop_motion(State& state) {
+  state.books.dissipated += parallel_sum(system_.size(), 0.0, [&](Index A) {
+    return 0.5 * at(system_.mass, A) * sum(at(state.v, A) * at(state.v, A));
+  });
+  state.v = still_;
+  state.books.begin({}, 0);
+}
+
+/// Whether nothing holds a body, or all of them, in a direction in which something pulls: in words.
+template <int D>
+std::string QuasiStatics<D>::pulled(Real time, const NodalVectors& u) {
+  constexpr Real round_off = 1e-9;
+  const auto in_direction = [&](const Body<D>* only, int i) {
+    for (const Body<D>& body : system_.bodies)
+      for (NodalVector& w : body.part(std::span<NodalVector>(p_))) {
+        w = Lanes::zero();
+        if (!only || only == &body) w.set(i, 1);
+      }
+    if (system_.constraints) {
+      system_.constraints->apply(p_, lambda_);
+      for (const Real held : lambda_)
+        if (std::abs(held) > round_off) return false;
+    }
+    const Real pull = std::abs(dot(p_, r_));
+    const Real sizes = parallel_sum(system_.size(), 0.0,
+                                    [&](Index A) { return std::abs(sum(at(p_, A) * at(r_, A))); });
+    if (pull <= 0.1 * sizes) return false;
+    apply(time, u);
+    return largest(q_) <= round_off * preconditioner_->elements().stiffness_scale();
+  };
+  for (int i = 0; i < D; ++i) {
+    if (in_direction(nullptr, i)) return "nothing holds the bodies in the direction of the forces";
+    for (const Body<D>& body : system_.bodies)
+      if (in_direction(&body, i))
+        return fmt::format("nothing holds body '{}' in the direction of its forces", body.name);
+  }
+  return "";
+}
+
+/// The displacement before, continued with the rate of the last step if forces can be computed
+/// there.
+template <int D>
+bool QuasiStatics<D>::begin_at(const State& state, Real time, Point& point) {
+  point.u = state.u;
+  if (last_dt_ > 0) {
+    add(point.u, (time - state.time) / last_dt_, last_du_);
+    preconditioner_->meet(time, point.u);
+    if (evaluate(time, point, r_)) return true;
+    point.u = state.u;
+  }
+  preconditioner_->meet(time, point.u);
+  return evaluate(time, point, r_);
+}
+
+template <int D>
+bool QuasiStatics<D>::evaluate(Real time, Point& point, NodalVectors& force) {
+  const Motion motion{time, point.u, still_};
+  const Report report = system_.add_up(motion, force);
+  if (report.failure || !std::isfinite(dot(force, force))) return false;
+  point.potential = 0;
+  for (auto& term : system_.terms) point.potential += term->potential(motion).value();
+  if (system_.constraints) {
+    reactions(force, lambda_);
+    system_.constraints->add_transposed(lambda_, 1, force);
+  }
+  free_.remove_from(force);
+  return true;
+}
+
+template <int D>
+Real QuasiStatics<D>::apply(Real time, const NodalVectors& u) {
+  // Terms without an exact tangent take differences over a part of the change.
+  const Real scale = spacing_ / largest(p_);
+  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) {
+      at(scaled_, A) = scale * at(p_, A);
+      at(q_, A) = Lanes::zero();
+    }
+  });
+  for (auto& term : system_.terms)
+    term->add_tangent({time, u, still_}, {time, scaled_, still_}, q_);
+  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(q_, A) = (-1 / scale) * at(q_, A);
+  });
+  free_.remove_from(q_);
+  ++tangents_;
+  return dot(p_, q_);
+}
+
+/// Conjugate gradients for A s = r until the residual, in the norm of the preconditioner, has
+/// fallen to the square root of `share` of itself. Their coefficients are the numbers of a
+/// tridiagonal matrix whose eigenvalues are among those of P^-1 A (Lanczos).
+template <int D>
+typename QuasiStatics<D>::Direction QuasiStatics<D>::direction(Real time, const NodalVectors& u,
+                                                               Real share) {
+  const auto precondition = [&] {
+    preconditioner_->apply(g_, z_);
+    free_.remove_from(z_);
+    return dot(g_, z_);
+  };
+  g_ = r_;
+  s_ = still_;
+  Real rz = precondition();
+  const Real first = rz;
+  p_ = z_;
+  Direction found;
+  std::vector<Real> diagonal, beside;
+  Real carried = 0;  // of the last iteration to the diagonal
+  for (int k = 0; k < most_tangents && rz > 0; ++k) {
+    const Real curvature = apply(time, u);
+    diagonal.push_back(curvature / rz + carried);
+    if (!(curvature > 0)) {
+      found.bent = true;
+      if (k == 0) s_ = z_;
+      break;
+    }
+    const Real a = rz / curvature;
+    add(s_, a, p_);
+    add(g_, -a, q_);
+    const Real before = rz;
+    rz = precondition();
+    if (rz <= std::max(share * first, polished * energy_scale_)) break;
+    const Real b = rz / before;
+    beside.push_back(std::sqrt(b) / a);
+    carried = b / a;
+    for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+      for (Index A = begin; A < end; ++A) at(p_, A) = at(z_, A) + b * at(p_, A);
+    });
+  }
+  // A few iterations see the stiffest modes alone.
+  constexpr std::size_t enough = 10;
+  if (!diagonal.empty()) {
+    beside.resize(diagonal.size() - 1);
+    const Real least = least_eigenvalue(diagonal, beside);
+    if (diagonal.size() >= enough || least < stability_) stability_ = least;
+  }
+  stability_ = std::min(stability_, 1e3);  // where there was nothing to see
+  found.decrement = 0.5 * dot(s_, r_);
+  return found;
+}
+
+template <int D>
+bool QuasiStatics<D>::search(Real time, Point& point, Real decrement) {
+  constexpr Real least_share = 1e-4, noise = 1e-13, least = 1e-6;
+  Point trial;
+  for (Real a = 1; a > least; a /= 2) {
+    trial.u = point.u;
+    add(trial.u, a, s_);
+    if (!evaluate(time, trial, trial_r_)) continue;
+    const Real released = point.potential - trial.potential;
+    if (released < 2 * least_share * a * decrement - noise * std::abs(point.potential)) continue;
+    energy_scale_ = std::max(energy_scale_, released);
+    point = std::move(trial);
+    r_.swap(trial_r_);
+    return true;
+  }
+  return false;
+}
+
+template <int D>
+typename QuasiStatics<D>::Solution QuasiStatics<D>::solve(const State& state, Real time) {
+  Solution solution = iterated(state, time);
+  constexpr int smooth = 8;
+  solution.far = solution.bent || solution.iterations > smooth;
+  if (last_dt_ == 0 || solution.far) return solution;
+  // From what the last step has led to expect.
+  z_ = solution.point.u;
+  add(z_, -1, state.u);
+  add(z_, -(time - state.time) / last_dt_, last_du_);
+  solution.far = largest(z_) > (time - state.time) / last_dt_ * largest(last_du_);
+  return solution;
+}
+
+template <int D>
+typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state, Real time) {
+  Solution solution;
+  Point& point = solution.point;
+  free_ = FreeMotions<D>(system_, {time, state.u, still_}, spacing_);
+  if (!begin_at(state, time, point)) {
+    solution.failure = "forces cannot be computed there";
+    return solution;
+  }
+  if (!(solution.failure = pulled(time, point.u)).empty()) return solution;
+  const Real floor = 1e-18 * preconditioner_->elements().energy_scale();
+  stability_ = unbounded;
+  Real before = 0;
+  bool bent = false;  // in the last iteration
+  for (;; ++solution.iterations) {
+    if (solution.iterations == most_iterations) {
+      solution.failure = fmt::format(
+          "Newton's method has not ended after {} iterations, {:.2g} of "
+          "the energy is left",
+          most_iterations, left_);
+      return solution;
+    }
+    constexpr Real loosest = 0.1, sharper = 0.9;
+    preconditioner_->apply(r_, z_);
+    const Real size = dot(r_, z_);
+    // What is left is at most r.P^-1 r / 2 over the least eigenvalue.
+    if (solution.iterations > 0 && stability_ > 0 && !bent &&
+        size <= 2 * stability_ * polished * energy_scale_) {
+      left_ = size / (2 * stability_ * energy_scale_);
+      return solution;
+    }
+    const Real share = before > 0 ? std::min(loosest, sharper * size / before) : loosest;
+    before = size;
+    const Direction found = direction(time, point.u, share);
+    bent = found.bent;
+    ++iterations_;
+    solution.bent |= found.bent;
+    if (solution.iterations == 0) energy_scale_ = std::max(energy_scale_, found.decrement);
+    left_ = found.decrement / std::max(energy_scale_, floor);
+    const bool small = found.decrement <= tolerance * energy_scale_ + floor;
+    if (small && !found.bent) {
+      add(point.u, 1, s_);
+      if (!evaluate(time, point, r_)) solution.failure = "forces cannot be computed there";
+      return solution;
+    }
+    Real decrement = found.decrement;
+    if (small) {  // nothing pulls away from a state that is not stable
+      s_ = p_;
+      if (dot(s_, r_) < 0)
+        for (NodalVector& w : s_) w = -1.0 * w;
+      const Real length = spacing_ / largest(s_);
+      for (NodalVector& w : s_) w *= length;
+      decrement = 0;
+    }
+    constexpr Real longest = 2;  // spacings
+    const Real length = largest(s_) / (longest * spacing_);
+    if (length > 1) {
+      for (NodalVector& w : s_) w /= length;
+      decrement /= length;
+    }
+    if (!search(time, point, decrement)) {
+      if (small) return solution;  // flat to the last digit
+      solution.failure = "no step of Newton's method lowers the energy";
+      return solution;
+    }
+  }
+}
+
+/// From wherever a run begins to the equilibrium at that time.
+template <int D>
+void QuasiStatics<D>::settle(State& state) {
+  const Solution solution = solve(state, state.time);
+  if (!solution.failure.empty())
+    throw SolveError(fmt::format("no equilibrium is found at the beginning: {}{}", solution.failure,
+                                 unbalanced(state, state.time)));
+  state.books.dissipated += move(state, state.time, solution.point.u);
+  system_.commit(state.motion());
+  at_equilibrium_ = true;
+}
+
+/// Books the work from outside: that of dead loads by their mean, along the straight way. Returns
+/// what of it is not stored.
+template <int D>
+Real QuasiStatics<D>::move(State& state, Real time, const NodalVectors& u) {
+  const Real stored = stored_energy(state.motion());
+  for (Index A = 0; A < system_.size(); ++A) at(scaled_, A) = at(u, A) - at(state.u, A);
+  const Motion before{state.time, state.u, scaled_, state.fields},
+      after{time, u, scaled_, state.fields};
+  Real work = 0.5 * (system_.load_power(before) + system_.load_power(after));
+  for (const auto& term : system_.terms)
+    if (time > state.time && term->steady_after() > state.time)
+      work += term->work_between(before, after);
+  state.u = u;
+  state.time = time;
+  state.demand = system_.compute_forces(state.motion(), state.forces()).demand;
+  if (system_.constraints) work += react(state);
+  state.books.external_work += work;
+  return work - (stored_energy(state.motion()) - stored);
+}
+
+/// Forces of the constraints at an equilibrium.
+template <int D>
+void QuasiStatics<D>::reactions(const NodalVectors& force, std::vector<Real>& lambda) const {
+  system_.constraints->apply_over_mass(force, lambda);
+  for (Real& x : lambda) x = -x;
+  system_.constraints->solve(lambda);
+}
+
+/// Adds the reactions to the forces of a state that was moved by scaled_; their work, by the mean
+/// of those before and after.
+template <int D>
+Real QuasiStatics<D>::react(State& state) const {
+  const Constraints& held = *system_.constraints;
+  const std::vector<Real> before = state.reactions.force;
+  std::vector<Real>& after = state.reactions.force;
+  std::vector<Real> way(before.size());
+  reactions(state.force, after);
+  held.add_transposed(after, 1, state.force);
+  held.apply(scaled_, way);
+  Real all = 0;
+  for (const auto& one : held.all()) {
+    Real work = 0;
+    for (Index r = one->first; r < one->first + one->rows.size(); ++r)
+      work += 0.5 * (at(before, r) + at(after, r)) * at(way, r);
+    at(state.reactions.work, one->number) += work;
+    all += work;
+  }
+  return all;
+}
+
+template <int D>
+void QuasiStatics<D>::book_jump(State& state, Real since, Real released) {
+  state.books.dissipated += released;
+  ++jumps_;
+  notes_.push_back(
+      fmt::format("jump between t = {:.6g} and {:.6g}: {:.4g} of energy released, booked as "
+                  "dissipated",
+                  since, state.time, released));
+}
+
+template <int D>
+Real QuasiStatics<D>::stored_energy(const Motion& motion) const {
+  Real sum = 0;
+  for (const auto& term : system_.terms) sum += term->stored_energy(motion).value_or(0);
+  return sum;
+}
+
+template <int D>
+std::vector<Residual> QuasiStatics<D>::residuals(const State&) const {
+  return {{"energy left", left_, tolerance},
+          {"stability", stability_, std::nullopt},
+          {"jumps", static_cast<Real>(jumps_), std::nullopt}};
+}
+
+template <int D>
+std::string QuasiStatics<D>::obstacle(const State& state) const {
+  return net_forces(system_, state);
+}
+
+template <int D>
+std::string QuasiStatics<D>::effort() const {
+  return fmt::format("{} iterations of Newton's method with {} tangents", iterations_, tangents_);
+}
+
+template <int D>
+void QuasiStatics<D>::archive(const Archive& a, const State&) {
+  a("last_change", last_du_, D, dimension::length);
+  a("last_time", last_dt_, dimension::time);
+  a("energy_scale", energy_scale_, of_sum(dimension::energy, D));
+  a("energy_left", left_);
+  a("stability", stability_);
+  a("jumps", jumps_);
+  a("at_equilibrium", at_equilibrium_);
+  a("arrived", arrived_);
+  require_saved(last_dt_ >= 0 && energy_scale_ >= 0 && jumps_ >= 0, a, "last_time");
+}
+
+namespace {
+
+template <int D>
+std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(choice.place + ": \"newton\" looks for equilibria of solids; " + what);
+  };
+  for (std::size_t b = 0; b < choice.fluid.size(); ++b)
+    if (choice.fluid[b])
+      refuse(
+          fmt::format("body '{}' is a fluid, which no shear stress brings to rest; use "
+                      "\"relax\"",
+                      system.bodies[b].name));
+  for (const Unknown& field : system.fields)
+    refuse(fmt::format("the field '{}' is another unknown beside the displacement; use \"relax\"",
+                       field.spec.name));
+  const NodalVectors rest(static_cast<std::size_t>(system.size()), Lanes::zero());
+  for (auto& term : system.terms)
+    if (!term->potential({0, rest, rest, system.fields}))
+      refuse(
+          fmt::format("the force of {} is not the gradient of an energy, so that there is no "
+                      "least one; use \"relax\"",
+                      term->name()));
+  return std::make_unique<QuasiStatics<D>>(system, choice);
+}
+
+const bool registered =
+    register_entry(StepperEntry{"newton", {"energy_left", "stability", "jumps"}, make<2>, make<3>});
+
+}  // namespace
+
+template class QuasiStatics<2>;
+template class QuasiStatics<3>;
+
+}  // namespace meniscus

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Quasi-statics: the preconditioner, equilibria that are known, books, jumps, what is refused.
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/dense.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/scene/simulation.hpp"
+#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/solve/quasi_statics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases.hpp"
+#include "one_body.hpp"
+
+namespace meniscus::test_quasi_statics {
+namespace {
+
+TEST(LeastEigenvalue, IsThatOfAChainOfSprings) {
+  constexpr int n = 7;
+  const Real exact = 2 - 2 * std::cos(std::acos(-1.0) / (n + 1));
+  EXPECT_NEAR(least_eigenvalue(std::vector<Real>(n, 2), std::vector<Real>(n - 1, -1)), exact,
+              1e-14);
+  EXPECT_NEAR(least_eigenvalue({-3}, {}), -3, 1e-14);
+}
+
+const std::string neo_hookean = "density = 1\nmu = 0.7\nlambda = 1.9\n";
+
+template <int D>
+void expect_moduli() {
+  test::OneBody<D> one(test::potato<D>(), "neo_hookean", neo_hookean);
+  const ElasticModuli moduli = elastic_moduli(one.system, one.body());
+  EXPECT_NEAR(moduli.shear, 0.7, 1e-12);
+  EXPECT_NEAR(moduli.lame, 1.9, 1e-12);
+}
+
+TEST(ElementPreconditioner, FindsTheModuliOfItsBodies) {
+  expect_moduli<2>();
+  expect_moduli<3>();
+}
+
+template <int D>
+void expect_symmetric(Geometry<D> geometry) {
+  test::OneBody<D> one(std::move(geometry), "neo_hookean", neo_hookean);
+  const ElementPreconditioner<D> P(one.system);
+  const NodalVectors a = test::random_field<D>(one.system.size(), 1, 3),
+                     b = test::random_field<D>(one.system.size(), 1, 4);
+  NodalVectors Pa = a, Pb = b;
+  P.apply(a, Pa);
+  P.apply(b, Pb);
+  EXPECT_NEAR(test::dot(a, Pb), test::dot(b, Pa), 1e-10 * test::norm(a) * test::norm(Pb));
+  EXPECT_GT(test::dot(a, Pa), 0);
+}
+
+TEST(ElementPreconditioner, IsSymmetricAndPositive) {
+  expect_symmetric<2>(test::potato<2>());
+  expect_symmetric<3>(test::potato<3>());
+  Scene<3> shell = test::scene_of<3>("dimension = 3\n[time]\nend = 1\n" + test::one_shell());
+  expect_symmetric<3>(shell.system.bodies.front().geometry);  // whose transform is factored
+}
+
+/// Conjugate gradients for a smooth load on a free cube (quasi-statics note 3).
+TEST(ElementPreconditioner, SolvesAFreeCubeInFewIterations) {
+  test::OneBody<3> one(test::brick<3>({8, 8, 8}), "neo_hookean", neo_hookean);
+  const NodalVectors rest = one.state.u;
+  const ElementPreconditioner<3> P(one.system);
+  const FreeMotions<3> free(one.system, {0, rest, rest}, 1);
+  NodalVectors r = test::field_on<3>(one.body(), [](const Vec<3>& X) {
+    const Vec<3> x = X / 8 - Vec<3>::Constant(0.5);
+    return Vec<3>(0.5 * std::sin(3 * x[2]), 0, x[0] * x[0] - 0.3 * x[1]);
+  });
+  for (Index A = 0; A < one.body().size(); ++A) at(r, A) *= at(one.system.mass, A);
+  free.remove_from(r);
+  NodalVectors z = rest, q = rest;
+  const auto precondition = [&] {
+    P.apply(r, z);
+    free.remove_from(z);
+    return test::dot(r, z);
+  };
+  const Real first = test::norm(r);
+  Real rz = precondition();
+  NodalVectors p = z;
+  int iterations = 0;
+  for (; iterations < 200 && test::norm(r) > 1e-4 * first; ++iterations) {
+    q = rest;
+    one.system.terms.front()->add_tangent({0, rest, rest}, {0, p, rest}, q);
+    free.remove_from(q);
+    const Real a = rz / -test::dot(p, q);
+    r = test::sum_of(r, a, q);
+    const Real before = rz;
+    rz = precondition();
+    p = test::sum_of(z, rz / before, p);
+  }
+  RecordProperty("iterations", iterations);
+  EXPECT_LE(iterations, 60);
+}
+
+TEST(FreeMotions, AreThoseThatNoTermHasAForceAlong) {
+  const auto left = [](const std::string& more, bool moved) {
+    Scene<2> scene =
+        test::scene_of<2>("dimension = 2\n[time]\nend = 1\n" + test::one_drop(2) + more);
+    const NodalVectors u =
+        moved ? test::random_field<2>(scene.system.size(), 0.01, 3) : NodalVectors(scene.initial.u);
+    const FreeMotions<2> free(scene.system, {0, u, scene.initial.v}, 0.1);
+    int count = 0;
+    for (int k = 0; k < 3; ++k) {
+      NodalVectors mode = test::field_on<2>(scene.system.bodies.front(), [k](const Vec<2>& X) {
+        return k == 2 ? Vec<2>(-X[1], X[0]) : Vec<2>(Vec<2>::Unit(k));
+      });
+      if (k == 2)
+        for (std::size_t A = 0; A < u.size(); ++A) mode[A] += Lanes(-u[A][1], u[A][0], 0, 0);
+      const Real before = test::norm(mode);
+      free.remove_from(mode);
+      count += test::norm(mode) < 1e-9 * before;
+    }
+    return count;
+  };
+  for (const bool moved : {false, true}) {
+    EXPECT_EQ(left("", moved), 3);
+    EXPECT_EQ(left("[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n", moved), 3);
+    EXPECT_EQ(left("[[body_force]]\nbody = \"drop\"\nacceleration = [0, -1]\n", moved), 1);
+    EXPECT_EQ(left("[[body_force]]\nbody = \"drop\"\nacceleration = [\"x\", 0]\n", moved), 2);
+  }
+}
+
+/// Constant forces on the coefficients of a body.
+class DeadLoad final : public ForceTerm {
+ public:
+  explicit DeadLoad(NodalVectors load) : load_(std::move(load)) {}
+  std::string name() const override { return "dead load"; }
+  Report add_force(const Motion&, Forces force) override {
+    for (std::size_t A = 0; A < load_.size(); ++A) force[A] += load_[A];
+    return {};
+  }
+  void add_tangent(const Motion&, const Motion&, Forces) override {}
+  std::optional<Real> potential(const Motion& motion) override { return -power(motion.u); }
+  Real load_power(const Motion& motion) override { return power(motion.v); }
+  std::size_t bytes() const override { return 0; }
+  Offset pairs() const override { return 0; }
+
+ private:
+  Real power(std::span<const NodalVector> v) const {
+    Real power = 0;
+    for (std::size_t A = 0; A < load_.size(); ++A) power += sum(load_[A] * v[A]);
+    return power;
+  }
+  NodalVectors load_;
+};
+
+/// The load that holds a body at given displacements brings it there.
+template <int D>
+void expect_loaded_brick(const std::string& law) {
+  test::OneBody<D> one(D == 3 ? test::brick<D>({4, 2, 3}) : test::brick<D>({6, 4}), law);
+  const NodalVectors target = test::field_on<D>(one.body(), [](const Vec<D>& X) {
+    Vec<D> u = 0.05 * X;
+    u[0] = 0.1 * X[0] + 0.01 * X[0] * X[1] * X[1];
+    return u;
+  });
+  NodalVectors load = test::force_of(*one.system.terms.front(), target);
+  for (NodalVector& f : load) f = -f;
+  one.system.terms.push_back(std::make_unique<DeadLoad>(load));
+  start(one.system, one.state);
+  QuasiStatics<D> newton(one.system, {.end = 1});
+  newton.begin(one.state);
+  newton.step(one.state, 1);
+  EXPECT_TRUE(newton.arrived());
+  EXPECT_LE(newton.iterations(), 10) << law;
+  EXPECT_GT(newton.stability(), 0.1);
+  EXPECT_EQ(newton.jumps(), 0);
+  // Places but for the translation, which is free; where the middle of the target is.
+  Lanes drift = Lanes::zero();
+  NodalVectors off(target.size());
+  for (Index A = 0; A < one.body().size(); ++A) {
+    at(off, A) = value_at(one.body().at_particles, A, one.state.u.data()) -
+                 value_at(one.body().at_particles, A, target.data());
+    drift += at(off, A) / static_cast<Real>(target.size());
+  }
+  Real largest = 0;
+  for (const NodalVector& w : off)
+    largest = std::max(largest, std::sqrt(sum((w - drift) * (w - drift))));
+  EXPECT_LT(largest, 1e-6);
+}
+
+TEST(QuasiStatics, FindsTheStateThatALoadHolds) {
+  for (const std::string law : {"neo_hookean", "st_venant_kirchhoff", "mooney_rivlin"}) {
+    expect_loaded_brick<2>(law);
+    expect_loaded_brick<3>(law);
+  }
+}
+
+/// A scene in motion.
+template <int D>
+struct Found {
+  Scene<D> scene;
+  Simulation<D> simulation;
+  std::vector<std::string> notes;
+
+  explicit Found(const std::string& text) : scene(test::scene_of<D>(text)), simulation(scene) {
+    simulation.begin();
+    while (!simulation.finished()) {
+      simulation.advance();
+      const Ledger ledger = simulation.audit_now();
+      for (const std::string& note : simulation.take_notes()) notes.push_back(note);
+      (void)ledger;
+    }
+  }
+  Ledger ledger() const { return take_ledger(scene.system, simulation.state()); }
+  const QuasiStatics<D>& newton() const {
+    return dynamic_cast<const QuasiStatics<D>&>(simulation.stepper());
+  }
+  Real measure(const std::string& name) const {
+    for (const MeasureSource& m : scene.measures)
+      if (m.name == name) return m.compute(simulation.state().motion());
+    throw std::logic_error(name);
+  }
+};
+
+std::string sheet(const std::string& time, const std::string& more) {
+  return "dimension = 2\n[time]\nsolver = \"newton\"\n" + time +
+         "[[body]]\nname = \"it\"\nshape = \"rectangle\"\nsize = [2, 1]\ncells = [6, 3]\n"
+         "[body.material]\ntype = \"neo_hookean\"\ndensity = 1\nmu = 0.75\nlambda = 1.5\n" +
+         more;
+}
+
+const std::string pull = "[[body_force]]\nbody = \"it\"\nacceleration = [\"0.3*x*min(t, 1)\", 0]\n";
+
+/// The work of a dead load that grows is the energy that is stored, the better the shorter the load
+/// steps: to second order.
+TEST(QuasiStatics, BooksTheWorkOfLoads) {
+  std::vector<Real> errors;
+  for (const std::string step : {"0.25", "0.125"}) {
+    Found<2> run(sheet("end = 1\nstep = " + step + "\n", pull));
+    const Ledger ledger = run.ledger();
+    EXPECT_EQ(ledger.kinetic, 0);
+    EXPECT_EQ(ledger.dissipated, 0);
+    EXPECT_EQ(run.simulation.state().time, 1);
+    errors.push_back(std::abs(ledger.balance()) / ledger.external_work);
+  }
+  EXPECT_LT(errors[0], 1e-2);
+  EXPECT_NEAR(errors[0] / errors[1], 4, 0.8);
+}
+
+/// Where it comes to does not depend on the way, and is where relaxation comes to.
+TEST(QuasiStatics, FindsWhatRelaxationFinds) {
+  const std::string steady =
+      "[[body_force]]\nbody = \"it\"\nacceleration = [\"0.3*x\", \"-0.1*y\"]\n";
+  Found<2> newton(sheet("end = 1\n", steady));
+  std::string text = sheet("end = 1000\nforce_tolerance = 1e-8\nshape_tolerance = 1e-8\n", steady);
+  text.replace(text.find("newton"), 6, "relax");
+  Found<2> relaxed(text);
+  for (const std::string extent : {"it.extent_x", "it.extent_y"})
+    EXPECT_NEAR(newton.measure(extent), relaxed.measure(extent), 1e-7) << extent;
+  EXPECT_NEAR(newton.ledger().stored.at("strain") / relaxed.ledger().stored.at("strain"), 1, 1e-6);
+}
+
+/// A soft disk on an adhesive floor, and an adhesive lid that comes near and goes away again.
+std::string under_a_lid(const std::string& way) {
+  return "dimension = 2\n[time]\nsolver = \"newton\"\nend = 4\nstep = 0.25\n"
+         "[[body]]\nname = \"it\"\nshape = \"disk\"\nradius = 1\ncore = 4\nrings = 3\n"
+         "[body.material]\ntype = \"neo_hookean\"\ndensity = 1\nmu = 1\nlambda = 2\n"
+         "[[contact]]\nname = \"floor\"\nbodies = [\"it\"]\nepsilon = 80\nsigma0 = 0.2\nbeta = 1\n"
+         "partner = { type = \"half_space\", point = [0, -1.13], normal = [0, 1] }\n"
+         "[[contact]]\nname = \"lid\"\nbodies = [\"it\"]\nepsilon = 40\nsigma0 = 0.2\nbeta = 1\n"
+         "partner = { type = \"half_space\", point = [0, 1.5], normal = [0, -1], "
+         "displacement = [0, \"-" +
+         way + "*(1 - abs(t - 2)/2)\"] }\n";
+}
+
+/// The lid jumps into contact and is pulled off later than it came: the cycle costs work, and the
+/// ledger closes with what both jumps release. Where it does not come so near there is no jump, and
+/// the way back is the way there.
+TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
+  Found<2> jumps(under_a_lid("0.42"));
+  EXPECT_EQ(jumps.newton().jumps(), 2);
+  ASSERT_EQ(jumps.notes.size(), 2u);
+  EXPECT_NE(jumps.notes.front().find("jump between t = 1.4"), std::string::npos)
+      << jumps.notes.front();
+  EXPECT_NE(jumps.notes.back().find("jump between t = 2.7"), std::string::npos)
+      << jumps.notes.back();
+  Found<2> none(under_a_lid("0.3"));
+  EXPECT_EQ(none.newton().jumps(), 0);
+  const Ledger with = jumps.ledger(), without = none.ledger();
+  // What both release at the beginning is the same.
+  EXPECT_NEAR(with.dissipated - without.dissipated, 0.016, 0.001);
+  EXPECT_GT(with.external_work, 0.01);
+  EXPECT_NEAR(with.balance(), without.balance(), 5e-4);
+  EXPECT_NEAR(without.external_work, 0, 1e-4);
+  EXPECT_GT(jumps.newton().stability(), 0);
+}
+
+/// A bar between held ends is stretched: the stress of uniform plane strain, to round-off of what
+/// is left, whatever the grid; the reactions are those of the faces, and their work is the energy.
+TEST(QuasiStatics, StretchesAHeldBarUniformly) {
+  const auto bar = [](const std::string& step) {
+    return Found<2>(
+        "dimension = 2\n[time]\nsolver = \"newton\"\nend = 1\nstep = " + step +
+        "\n[[body]]\nname = \"bar\"\nshape = \"rectangle\"\nsize = [2, 1]\ncells = [6, 3]\n"
+        "jitter = 0.2\n[body.material]\ntype = \"neo_hookean\"\ndensity = 1\nmu = 0.75\nlambda = "
+        "1.5\n"
+        "[[held]]\nname = \"left\"\nbody = \"bar\"\nface = \"x_min\"\ncomponents = [\"x\"]\n"
+        "[[held]]\nname = \"right\"\nbody = \"bar\"\nface = \"x_max\"\ncomponents = [\"x\"]\n"
+        "displacement = [\"0.4*t\", 0]\n");
+  };
+  const Found<2> run = bar("0.25");
+  const Real stretch = run.measure("bar.extent_x") / 2, across = run.measure("bar.extent_y");
+  EXPECT_NEAR(stretch, 1.2, 1e-8);
+  // mu (b - 1/b) + lambda (J - 1) a = 0 across, with J = a b.
+  const Real J = stretch * across;
+  EXPECT_NEAR(0.75 * (across - 1 / across) + 1.5 * (J - 1) * stretch, 0, 1e-6);
+  const Real stress = 0.75 * (stretch - 1 / stretch) + 1.5 * (J - 1) * across;
+  EXPECT_NEAR(run.measure("right.force_x"), stress, 1e-6);
+  EXPECT_NEAR(run.measure("left.force_x"), -stress, 1e-6);
+  const Real error = run.ledger().balance() / run.ledger().external_work,
+             finer = bar("0.125").ledger().balance() / run.ledger().external_work;
+  EXPECT_LT(std::abs(error), 1e-2);
+  EXPECT_NEAR(error / finer, 4, 1);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    Scene<2> scene = test::scene_of<2>(text);
+    const Simulation<2> simulation(scene);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(QuasiStatics, RefusesByNameWhatHasNoLeastEnergy) {
+  const std::string heading = "dimension = 2\n[time]\nend = 1\nsolver = \"newton\"\n";
+  EXPECT_NE(refusal(heading + test::one_drop(2)).find("body 'drop' is a fluid"), std::string::npos);
+  const std::string contact =
+      "[[contact]]\nname = \"floor\"\nbodies = [\"it\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\n"
+      "partner = { type = \"half_space\", point = [0, -1], normal = [0, 1] }\n";
+  EXPECT_EQ(refusal(sheet("end = 1\n", contact)), "");
+  for (const std::string form : {"pressure", "dissertation"})
+    EXPECT_NE(refusal(sheet("end = 1\n", contact + "form = \"" + form + "\"\n"))
+                  .find("the force of contact 'floor' is not the gradient of an energy"),
+              std::string::npos)
+        << form;
+  EXPECT_NE(refusal(sheet("end = 1\n", contact + "friction = 1\n")).find("contact 'floor'"),
+            std::string::npos);
+}
+
+TEST(QuasiStatics, NamesTheForceThatNothingBalances) {
+  try {
+    Found<2> run(sheet("end = 1\n", "[[body_force]]\nbody = \"it\"\nacceleration = [0.1, 0]\n"));
+    FAIL();
+  } catch (const SolveError& error) {
+    EXPECT_NE(std::string(error.what()).find("net force (0.2, 0) on body 'it'"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::test_quasi_statics
