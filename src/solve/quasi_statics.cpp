@@ -21,8 +21,8 @@ constexpr Real polished = 1e-3 * tolerance;
 constexpr int most_iterations = 60, most_tangents = 400;
 /// Load steps are cut into pieces down to this part of them.
 constexpr Real least_piece = 1.0 / 256;
-/// Of the largest energy that an iteration has released: what is lost beyond the work by a jump.
-constexpr Real noticeable = 1e-3;
+/// Of the energy that a piece of a step exchanges: what is lost beyond the work by a jump.
+constexpr Real noticeable = 0.05;
 /// What jumps is looked at in pieces of this part.
 constexpr Real piece_of_jump = 1.0 / 8;
 
@@ -96,15 +96,15 @@ void QuasiStatics<D>::step(State& state, Real dt) {
         continue;
       }
       State next = state;
-      const Real released = move(next, time, solution.point.u);
-      const bool jump = solution.far && released > noticeable * energy_scale_;
-      if (jump && piece > piece_of_jump * dt * (1 + 1e-9)) {
+      const Exchange exchange = move(next, time, solution.point.u);
+      const bool jump = solution.far && exchange.released() > noticeable * exchange.size();
+      if ((jump || solution.hard) && piece > piece_of_jump * dt * (1 + 1e-9)) {
         piece /= 2;
         continue;
       }
       last_dt_ = jump ? 0 : time - state.time;
       last_du_ = scaled_;
-      if (jump) book_jump(next, state.time, released);
+      if (jump) book_jump(next, state.time, exchange.released());
       state = std::move(next);
       system_.commit(state.motion());
       piece = std::min(2 * piece, dt);
@@ -290,7 +290,7 @@ template <int D>
 typename QuasiStatics<D>::Solution QuasiStatics<D>::solve(const State& state, Real time) {
   Solution solution = iterated(state, time);
   constexpr int smooth = 8;
-  solution.far = solution.bent || solution.iterations > smooth;
+  solution.hard = solution.far = solution.bent || solution.iterations > smooth;
   if (last_dt_ == 0 || solution.far) return solution;
   // From what the last step has led to expect.
   z_ = solution.point.u;
@@ -375,15 +375,15 @@ void QuasiStatics<D>::settle(State& state) {
   if (!solution.failure.empty())
     throw SolveError(fmt::format("no equilibrium is found at the beginning: {}{}", solution.failure,
                                  unbalanced(state, state.time)));
-  state.books.dissipated += move(state, state.time, solution.point.u);
+  state.books.dissipated += move(state, state.time, solution.point.u).released();
   system_.commit(state.motion());
   at_equilibrium_ = true;
 }
 
-/// Books the work from outside: that of dead loads by their mean, along the straight way. Returns
-/// what of it is not stored.
+/// Books the work from outside: that of dead loads by their mean, along the straight way.
 template <int D>
-Real QuasiStatics<D>::move(State& state, Real time, const NodalVectors& u) {
+typename QuasiStatics<D>::Exchange QuasiStatics<D>::move(State& state, Real time,
+                                                         const NodalVectors& u) {
   const Real stored = stored_energy(state.motion());
   for (Index A = 0; A < system_.size(); ++A) at(scaled_, A) = at(u, A) - at(state.u, A);
   const Motion before{state.time, state.u, scaled_, state.fields},
@@ -397,7 +397,7 @@ Real QuasiStatics<D>::move(State& state, Real time, const NodalVectors& u) {
   state.demand = system_.compute_forces(state.motion(), state.forces()).demand;
   if (system_.constraints) work += react(state);
   state.books.external_work += work;
-  return work - (stored_energy(state.motion()) - stored);
+  return {work, stored_energy(state.motion()) - stored};
 }
 
 /// Forces of the constraints at an equilibrium.

@@ -5,6 +5,7 @@
 #include "meniscus/solve/held_preconditioner.hpp"
 #include "meniscus/solve/stepper.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace meniscus {
@@ -64,10 +65,17 @@ class QuasiStatics final : public Stepper<D> {
     Point point;
     int iterations = 0;
     bool bent = false;    ///< negative curvature was seen on the way
+    bool hard = false;    ///< that, or many iterations
     bool far = false;     ///< it may be an equilibrium far from that before
     std::string failure;  ///< why there is none; empty: there is
   };
 
+  /// In a piece of a step.
+  struct Exchange {
+    Real work = 0, stored = 0;
+    Real released() const { return work - stored; }
+    Real size() const { return std::abs(work) + std::abs(stored); }
+  };
   Solution solve(const State& state, Real time);
   Solution iterated(const State& state, Real time);
   std::string pulled(Real time, const NodalVectors& u);
@@ -81,7 +89,7 @@ class QuasiStatics final : public Stepper<D> {
   /// false if it never is.
   bool search(Real time, Point& point, Real decrement);
   void settle(State& state);
-  Real move(State& state, Real time, const NodalVectors& u);
+  Exchange move(State& state, Real time, const NodalVectors& u);
   void reactions(const NodalVectors& force, std::vector<Real>& lambda) const;
   Real react(State& state) const;
   void book_jump(State& state, Real since, Real released);
