@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A face that is held or moved: places in the mean over each of its nodal cells are prescribed.
-#include "meniscus/body/face_cells.hpp"
+#include "meniscus/body/face_means.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/optional_rows.hpp"
@@ -27,12 +27,6 @@ struct Grip {
   Eigen::Vector3d axis, centre;
   Ramp ramp;
 
-  bool changes() const {
-    return angle.depends_on_time() ||
-           std::any_of(displacement.begin(), displacement.end(),
-                       [](const auto& u) { return u.depends_on_time(); });
-  }
-  Real steady_after() const { return changes() ? std::numeric_limits<Real>::infinity() : ramp.end; }
   bool turns() const { return !angle.constant() || angle({0, 0, 0}) != 0; }
 
   /// R X - X about the centre, R by Rodrigues' formula.
@@ -51,65 +45,35 @@ class HeldFace final : public Constraint {
   HeldFace(std::string called, std::string stands, ConstraintRows its_rows,
            const FaceCells<D>& cells, Grip<D> grip, Real moment)
       : Constraint(std::move(called), std::move(stands), std::move(its_rows)),
-        begin_(cells.begin),
-        X_(cells.X),
-        share_(cells.share),
         grip_(std::move(grip)),
-        moment_(moment),
-        still_(Eigen::Index{3} * rows.places()) {
-    of_formulas(0, still_);
-  }
+        displacement_(cells, grip_.displacement),
+        moment_(moment) {}
 
   void targets(Real time, std::span<Real> g) override {
-    const Eigen::VectorXd* moved = &still_;
-    if (by_place_and_time()) {
-      changing_.resize(still_.size());
-      of_formulas(time, changing_);
-      moved = &changing_;
-    }
-    Eigen::Vector3d of_time = Eigen::Vector3d::Zero();
-    for (int i = 0; i < static_cast<int>(grip_.displacement.size()); ++i)
-      if (only_of_time(at(grip_.displacement, i)))
-        of_time[i] = at(grip_.displacement, i)({0, 0, 0}, time);
+    const std::vector<Real>& mean = displacement_.at(time);
     const Real fraction = grip_.ramp.fraction(time);
     const bool turns = grip_.turns();
     for (std::size_t r = 0; r < rows.rows.size(); ++r) {
       const auto& row = rows.rows[r];
-      Eigen::Vector3d u = fraction * (of_time + moved->segment<3>(3 * row.place));
+      Eigen::Vector3d u = Eigen::Vector3d::Zero();
+      if (!grip_.displacement.empty())
+        for (int i = 0; i < D; ++i) u[i] = fraction * at(mean, row.place * D + i);
       // A rotation is affine: its mean is that of the mean place.
       if (turns) u += grip_.turned(at(rows.X, row.place), time);
       g[r] = row.direction.dot(u);
     }
   }
-  Real steady_after() const override { return grip_.steady_after(); }
+  Real steady_after() const override {
+    return displacement_.change() || grip_.angle.depends_on_time()
+               ? std::numeric_limits<Real>::infinity()
+               : grip_.ramp.end;
+  }
   Real moment() const override { return moment_; }
 
  private:
-  static bool only_of_time(const Expression& u) {
-    return u.depends_on_time() && !u.depends_on_place();
-  }
-  bool by_place_and_time() const {
-    return std::any_of(grip_.displacement.begin(), grip_.displacement.end(),
-                       [](const auto& u) { return u.depends_on_time() && u.depends_on_place(); });
-  }
-  /// Means of the formulas that depend on the place, or on nothing.
-  void of_formulas(Real time, Eigen::VectorXd& means) const {
-    means.setZero();
-    for (Index k = 0; k < rows.places(); ++k)
-      for (int i = 0; i < static_cast<int>(grip_.displacement.size()); ++i) {
-        const Expression& u = at(grip_.displacement, i);
-        if (only_of_time(u)) continue;
-        for (Offset q = at(begin_, k); q < at(begin_, k + 1); ++q)
-          means[3 * k + i] += at(share_, q) * u(spatial<D>(at(X_, q)), time);
-      }
-  }
-
-  std::vector<Offset> begin_;
-  std::vector<Vec<D>> X_;
-  std::vector<Real> share_;
   Grip<D> grip_;
+  FaceMeans<D> displacement_;
   Real moment_;
-  Eigen::VectorXd still_, changing_;  // [place][i]
 };
 
 /// Sums over the rows of a constraint. `about`: the point that torques are about.

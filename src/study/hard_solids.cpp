@@ -207,6 +207,30 @@ void fast(HardCases& cases, bool full) {
                 gap == thrown.least.end() ? std::nan("") : gap->second / 0.3, {0.2, 1});
 }
 
+/// Bars whose end is turned by half a turn, alone and with the other end, in which nothing is to be
+/// left but the motion.
+void turned(HardCases& cases, bool full) {
+  const Real end = full ? 24 : 8;
+  const std::string by_half_a_turn = fmt::format(
+      "axis = [1, 0, 0]\nangle = {:.17g}\nramp = [0, {}]\n", std::numbers::pi, 0.75 * end);
+  const std::string turned_face = "[[held]]\nbody = \"body\"\nface = \"x_max\"\nname = \"grip\"\n";
+  const std::string other_face = "[[held]]\nbody = \"body\"\nface = \"x_min\"\n";
+  for (const Law& law : {laws(bulk)[0], laws(bulk)[1]}) {
+    const std::string twisted = law.name + " bar held at one end, the other turned by 180 degrees";
+    const HardOutcome outcome =
+        cases.stays_stable(twisted,
+                           scene(end, bar, "jitter = 0.2\n" + law.material) + turned_face +
+                               by_half_a_turn + other_face,
+                           1e-2);
+    cases.require(twisted, "work of the grip", outcome.measure("grip.work"), {0.05, 1});
+  }
+  const std::string both = "bar turned by 180 degrees by both ends";
+  cases.stays_stable(both,
+                     scene(end, bar, "jitter = 0.2\n" + laws(bulk)[0].material) + turned_face +
+                         by_half_a_turn + other_face + by_half_a_turn,
+                     1e-2);
+}
+
 }  // namespace
 }  // namespace meniscus::hard_solids_study
 
@@ -219,4 +243,5 @@ void meniscus::study::hard_solids(HardCases& cases) {
   walls(cases, full);
   nematic(cases, full);
   fast(cases, full);
+  turned(cases, full);
 }

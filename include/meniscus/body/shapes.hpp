@@ -145,6 +145,20 @@ struct Ellipse {
   Geometry<2> geometry() const;
 };
 
+/// `layers` rings of `around` cells each.
+struct Ring {
+  static constexpr const char* name = "ring";
+  static constexpr const char* meaning = "ring, the section of a thick-walled cylinder";
+  static constexpr std::string_view example =
+      "radius = 1\nthickness = 0.4\naround = 24\nlayers = 3\n";
+  Real radius = 1, thickness = 0.5;
+  int around = 48, layers = 6;
+  std::vector<Real> centre{0, 0};
+
+  static Rows<Ring> rows();
+  Geometry<2> geometry() const;
+};
+
 /// Box (3D) or rectangle (2D) of equal cells along the axes.
 template <int D>
 struct Brick {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ring: the plane section of a thick-walled cylinder.
+#include "meniscus/body/cell_count.hpp"
+#include "meniscus/body/shapes.hpp"
+#include "meniscus/core/error.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meniscus {
+namespace {
+
+/// Between the circles of radius `inside` and 1; the directions of a cell are around and outwards,
+/// turned so that they are right-handed.
+Grid<2> unit_ring(int around, int layers, Real inside) {
+  Grid<2> grid;
+  for (int layer = 0; layer <= layers; ++layer)
+    for (int k = 0; k < around; ++k) {
+      const Real angle = 2 * std::numbers::pi * k / around,
+                 r = inside + (1 - inside) * layer / layers;
+      grid.X.emplace_back(r * std::cos(angle), r * std::sin(angle));
+    }
+  for (int layer = 0; layer < layers; ++layer)
+    for (int k = 0; k < around; ++k) {
+      const Index low = layer * around, next = (k + 1) % around;
+      grid.cells.push_back({low + k, low + around + k, low + next, low + around + next});
+    }
+  return grid;
+}
+
+const bool ring_registered = register_shape<2, Ring>();
+
+}  // namespace
+
+Rows<Ring> Ring::rows() {
+  return {real_row("radius", &Ring::radius, dimension::length, range::positive, "outer radius"),
+          real_row("thickness", &Ring::thickness, dimension::length, range::positive,
+                   "of the wall, less than the radius"),
+          integer_row("around", &Ring::around, {6, 1e6}, "cells around", 48),
+          integer_row("layers", &Ring::layers, {2, 1e6}, "cells through the wall", 6),
+          reals_row("centre", &Ring::centre, 2, dimension::length, range::any, "centre",
+                    std::vector<Real>{0, 0})};
+}
+
+Geometry<2> Ring::geometry() const {
+  if (!(thickness < radius))
+    throw InputError(fmt::format("a ring of radius {:g} has no wall {:g} thick: it has to be less",
+                                 radius, thickness));
+  require_affordable<2>(Real(around) * layers);
+  const Real inside = 1 - thickness / radius;
+  const Vec<2> middle = Vec<2>::Map(centre.data());
+  Geometry<2> geometry =
+      make_geometry<2>(unit_ring(around, layers, inside),
+                       {SurfacePatch<2>::sphere(Vec<2>::Zero(), 1).named("outer"),
+                        SurfacePatch<2>::cavity(Vec<2>::Zero(), inside).named("inner")},
+                       true, affine_map<2>(Mat<2>(Mat<2>::Identity() * radius), middle));
+  geometry.director = [=](const Vec<2>& X) -> Vec<2> { return (X - middle).normalized(); };
+  return geometry;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Viscous stress of a solid in its nodal cells.
+#include "meniscus/physics/solid_viscosity.hpp"
+
+#include "meniscus/core/tensor.hpp"
+
+namespace meniscus {
+namespace {
+
+template <int D>
+class SolidViscosity final : public ForceTerm {
+ public:
+  SolidViscosity(const Body<D>& body, Real shear, Real volumetric)
+      : body_(body),
+        rule_(build_cell_rule(body).rule),
+        windows_(rule_.windows(body.size())),
+        shear_(shear),
+        volumetric_(volumetric) {}
+
+  std::string name() const override { return "viscosity of '" + body_.name + "'"; }
+  bool viscous() const override { return true; }
+
+  Report add_force(const Motion& motion, Forces force) override {
+    PerChunk<Real> heat(windows_.chunks(), 0);
+    const NodalVector* u = motion.u.data() + body_.first;
+    const NodalVector* v = motion.v.data() + body_.first;
+    windows_.accumulate(body_.part(std::span<NodalVector>(force)),
+                        [&](int chunk, Index begin, Index end, NodalVector* f) {
+                          Lanes power = Lanes::zero();
+                          for (Index g = begin; g < end; ++g) {
+                            Tensor<Lanes> H, F_rate;
+                            rule_.gather(g, u, H);
+                            rule_.gather(g, v, F_rate);
+                            const Tensor<Lanes> P = stress(H, F_rate);
+                            const Lanes w = rule_.weight(g);
+                            power += w * contract(P, F_rate);
+                            rule_.scatter(g, -w * P, f);
+                          }
+                          at(heat, chunk) = sum(power);
+                        });
+    Report report;
+    for (const Real p : heat) report.heat += p;
+    return report;
+  }
+
+  std::size_t bytes() const override { return rule_.bytes() + windows_.bytes(); }
+  Offset pairs() const override { return rule_.pairs(); }
+
+ private:
+  Tensor<Lanes> stress(const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const {
+    const Tensor<Lanes> F = add_diagonal(H, Lanes(1.0));
+    const Tensor<Lanes> half = transpose(F) * F_rate;
+    // 2 E' = half + half^T
+    return F * add_diagonal(shear_ * (half + transpose(half)), volumetric_ * trace(half));
+  }
+
+  const Body<D>& body_;
+  CellRule<D> rule_;
+  ForceWindows windows_;
+  Lanes shear_, volumetric_;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ForceTerm> solid_viscosity(const Body<D>& body, Real shear, Real volumetric) {
+  return std::make_unique<SolidViscosity<D>>(body, shear, volumetric);
+}
+template std::unique_ptr<ForceTerm> solid_viscosity(const Body<2>&, Real, Real);
+template std::unique_ptr<ForceTerm> solid_viscosity(const Body<3>&, Real, Real);
+
+}  // namespace meniscus

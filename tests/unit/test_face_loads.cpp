@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tractions, springs and viscosity of solids: states at rest to round-off, closed solutions.
+#include "meniscus/core/error.hpp"
+#include "meniscus/scene/simulation.hpp"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases.hpp"
+#include "support.hpp"
+
+namespace meniscus::test_face_loads {
+namespace {
+
+std::string block(int D, const std::string& keys, const std::string& time = "end = 100",
+                  const std::string& cells = "") {
+  return "dimension = " + std::to_string(D) + "\n[time]\n" + time +
+         "\n[[body]]\nname = \"block\"\n" +
+         (!cells.empty() ? cells
+          : D == 3       ? "shape = \"box\"\nsize = [1, 1, 1]\ncells = [5, 5, 5]\njitter = 0.3\n"
+                         : "shape = \"rectangle\"\nsize = [1, 1]\ncells = [8, 8]\njitter = 0.3\n") +
+         keys + "material = { type = \"neo_hookean\", density = 1, mu = 1, lambda = 1.5 }\n";
+}
+
+template <int D>
+Real measured(const Scene<D>& scene, const State& state, const std::string& name) {
+  for (const MeasureSource& measure : scene.measures)
+    if (measure.name == name) return measure.compute(state.motion());
+  ADD_FAILURE() << "no measure " << name;
+  return 0;
+}
+
+template <int D>
+void expect_rest(const std::string& text) {
+  Scene<D> scene = test::scene_of<D>(text);
+  Simulation<D> simulation(scene);
+  simulation.begin();
+  Real most = 0;
+  for (const Lanes& f : simulation.state().force) most = std::max(most, std::sqrt(sum(f * f)));
+  EXPECT_LT(most, 1e-13);
+  for (int step = 0; step < 20; ++step) simulation.advance();
+  const NodalVectors moved = test::sum_of(simulation.state().u, -1, scene.initial.u);
+  for (const Lanes& u : moved) most = std::max(most, std::sqrt(sum(u * u)));
+  EXPECT_LT(most, 1e-12);
+}
+
+/// A pressure that follows the surface all around balances the stress of the block that it has made
+/// smaller: P = mu (F - F^-T) + lambda (J - 1) cof F with F = s R, for any rotation R.
+TEST(Traction, PressureAllAroundBalancesACompressedBlock) {
+  constexpr Real s = 0.9, mu = 1, lambda = 1.5;
+  const Real in_plane = mu * (s - 1 / s) / s + lambda * (s * s - 1);
+  expect_rest<2>(
+      block(2,
+            "initial_displacement = [\"0.9*0.6*x - 0.9*0.8*y - x\", \"0.9*0.8*x + "
+            "0.9*0.6*y - y\"]\n") +
+      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_plane));
+  const Real in_space = mu * (s - 1 / s) / (s * s) + lambda * (s * s * s - 1);
+  expect_rest<3>(
+      block(3,
+            "initial_displacement = [\"0.9*0.6*x - 0.9*0.8*y - x\", \"0.9*0.8*x + "
+            "0.9*0.6*y - y\", \"-0.1*z\"]\n") +
+      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_space));
+}
+
+/// Dead tractions of simple shear on the four sides.
+TEST(Traction, DeadForcesBalanceAUniformStress) {
+  // F = [1.2 0.3; 0 1], J = 1.2, cof F = [1 0; -0.3 1.2]
+  constexpr Real mu = 1, lambda = 1.5, J = 1.2, c = lambda * (J - 1) - mu / J;
+  const Real P[2][2] = {{mu * 1.2 + c, mu * 0.3}, {-0.3 * c, mu + 1.2 * c}};
+  std::string text = block(2, "initial_displacement = [\"0.2*x + 0.3*y\", 0]\n");
+  for (const auto& [face, k, sign] :
+       {std::tuple("x_min", 0, -1), {"x_max", 0, 1}, {"y_min", 1, -1}, {"y_max", 1, 1}})
+    text +=
+        fmt::format("[[traction]]\nbody = \"block\"\nface = \"{}\"\nforce = [{:.17g}, {:.17g}]\n",
+                    face, sign * P[0][k], sign * P[1][k]);
+  expect_rest<2>(text);
+}
+
+/// The potential is that of the force, and the work of a load that is dead is its change.
+TEST(Traction, DeadForcesHaveAPotential) {
+  Scene<3> scene = test::scene_of<3>(
+      block(3, "") +
+      "[[traction]]\nbody = \"block\"\nface = \"x_max\"\nforce = [\"1 + y\", \"z\", 0.3]\n");
+  ForceTerm& term = *scene.system.terms.back();
+  const NodalVectors u = test::random_field<3>(scene.system.size(), 0.01, 5);
+  const NodalVectors force = test::force_of(term, u);
+  EXPECT_NEAR(*term.potential({0, u, u}), -test::dot(force, u), 1e-14);
+  EXPECT_NEAR(term.load_power({0, u, u}), test::dot(force, u), 1e-14);
+  EXPECT_NEAR(measured(scene, scene.initial, "block-x_max-traction.force_x"), 1, 1e-12);
+}
+
+/// A stiff block on a soft spring: half a period.
+TEST(Spring, ABlockSwings) {
+  constexpr Real k = 1e-3;
+  for (const std::string on : {"face = \"x_min\"\nstiffness = 1e-3\ncomponents = [\"x\"]\n",
+                               "at = [0, 0]\nconstant = 1e-3\n"}) {
+    Scene<2> scene =
+        test::scene_of<2>(block(2, "initial_displacement = [0.1, 0]\n",
+                                fmt::format("end = {:.17g}", std::numbers::pi / std::sqrt(k))) +
+                          "[[spring]]\nname = \"spring\"\nbody = \"block\"\n" + on);
+    Simulation<2> simulation(scene);
+    simulation.begin();
+    while (!simulation.finished()) simulation.advance();
+    const State& state = simulation.state();
+    EXPECT_NEAR(take_ledger(scene.system, state).balance(), k / 200, 1e-4 * k / 200);
+    EXPECT_NEAR(measured(scene, state, "spring.force_x"), 0.1 * k, 1e-2 * 0.1 * k);
+  }
+}
+
+/// By c = -m v'/v; heat is what the motion loses.
+TEST(Spring, ADamperStopsABlock) {
+  Scene<2> scene = test::scene_of<2>(
+      block(2, "initial_velocity = [0.01, 0]\n", "end = 10") +
+      "[[spring]]\nbody = \"block\"\nface = \"x_min\"\ndamping = 0.01\ncomponents = [\"x\"]\n");
+  Simulation<2> simulation(scene);
+  simulation.begin();
+  while (!simulation.finished()) simulation.advance();
+  const Ledger ledger = take_ledger(scene.system, simulation.state());
+  EXPECT_NEAR(ledger.momentum[0], 0.01 * std::exp(-0.1), 2e-5);
+  EXPECT_NEAR(ledger.balance(), 0.5e-4, 1e-8);
+}
+
+/// The slowest wave along a bar between rollers decays by exp(-(2 eta + zeta) k^2 t/(2 rho)).
+TEST(SolidViscosity, WavesDecay) {
+  const std::string rollers =
+      "[[held]]\nbody = \"block\"\nface = \"y_min\"\ncomponents = [\"y\"]\n"
+      "[[held]]\nbody = \"block\"\nface = \"y_max\"\ncomponents = [\"y\"]\n";
+  constexpr Real k = std::numbers::pi, eta = 0.02, zeta = 0.01;
+  const Real decay = (2 * eta + zeta) * k * k, omega = std::sqrt(3.5 * k * k - decay * decay / 4);
+  const Real period = 2 * std::numbers::pi / omega, periods = 2;
+  Scene<2> scene = test::scene_of<2>(
+      block(2, "initial_velocity = [\"1e-3*sin(pi*x)\", 0]\n",
+            fmt::format("end = {:.17g}", periods * period),
+            "shape = \"rectangle\"\nsize = [1, 0.25]\ncells = [16, 4]\n") +
+      rollers +
+      fmt::format("[[solid_viscosity]]\nbody = \"block\"\nshear = {}\nvolumetric = {}\n", eta,
+                  zeta));
+  Simulation<2> simulation(scene);
+  simulation.begin();
+  const Real begin = take_ledger(scene.system, simulation.state()).kinetic;
+  while (!simulation.finished()) simulation.advance();
+  const Ledger ledger = take_ledger(scene.system, simulation.state());
+  const Real left = ledger.kinetic + ledger.stored.at("strain");
+  EXPECT_NEAR(std::log(begin / left) / (decay * periods * period), 1, 0.02);
+  EXPECT_NEAR(ledger.balance(), begin, 2e-3 * begin);
+}
+
+/// A strip between rollers whose end is moved: a plane wave without change of form. Until it is
+/// back the force on the grip is rho c times its velocity. Largest error after the first steps, of
+/// the largest force.
+Real error_of_a_wave(int cells) {
+  const Real c = std::sqrt(3.5), end = 3.2 / c;
+  Scene<2> scene = test::scene_of<2>(
+      block(2, "", fmt::format("end = {:.17g}", end),
+            fmt::format("shape = \"rectangle\"\nsize = [2, 0.25]\ncells = [{}, {}]\n", cells,
+                        cells / 8)) +
+      "[[held]]\nbody = \"block\"\nface = \"y_min\"\ncomponents = [\"y\"]\n"
+      "[[held]]\nbody = \"block\"\nface = \"y_max\"\ncomponents = [\"y\"]\n"
+      "[[held]]\nname = \"grip\"\nbody = \"block\"\nface = \"x_min\"\ncomponents = "
+      "[\"x\"]\ndisplacement = [\"1e-5*sin(4*t)^2\", 0]\n");
+  Simulation<2> simulation(scene);
+  simulation.begin();
+  const Real scale = c * 0.25 * 4e-5;
+  Real worst = 0;
+  while (!simulation.finished()) {
+    simulation.advance();
+    const State& state = simulation.state();
+    if (state.time < 0.1) continue;
+    const Real exact = scale * std::sin(8 * state.time);
+    worst = std::max(worst, std::abs(measured(scene, state, "grip.force_x") - exact) / scale);
+  }
+  return worst;
+}
+
+TEST(Held, AGripSendsAWave) {
+  const Real coarse = error_of_a_wave(64), fine = error_of_a_wave(128);
+  EXPECT_LT(fine, 0.01);
+  EXPECT_LT(fine, 0.4 * coarse);
+}
+
+TEST(FaceLoads, WhatMakesNoLoadIsRefused) {
+  const auto expect = [](const std::string& more, const std::string& part) {
+    std::string message;
+    try {
+      test::scene_of<2>(block(2, "") + more);
+    } catch (const InputError& e) {
+      message = e.what();
+    }
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  const std::string on = "body = \"block\"\nface = \"x_min\"\n";
+  expect("[[traction]]\n" + on, "allowed is either force or pressure");
+  expect("[[traction]]\n" + on + "pressure = 1\nforce = [1, 0]\n",
+         "allowed is either force or pressure");
+  expect("[[spring]]\n" + on, "stiffness or damping has to be > 0");
+  expect("[[spring]]\n" + on + "constant = 1\n", "is of a spring at a place");
+  expect("[[spring]]\nbody = \"block\"\nat = [0, 0, 0]\nconstant = 1\n", "allowed are 2");
+  expect("[[solid_viscosity]]\nbody = \"block\"\nshear = 0\n", "allowed is > 0");
+}
+
+}  // namespace
+}  // namespace meniscus::test_face_loads
