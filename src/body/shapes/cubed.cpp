@@ -178,4 +178,26 @@ Grid<3> cubed_shell(int n, int layers, Real inner_radius) {
 template Grid<2> cubed_ball<2>(int, int);
 template Grid<3> cubed_ball<3>(int, int);
 
+template <int D>
+Grid<D> upper_half(const Grid<D>& whole) {
+  Grid<D> half;
+  std::vector<Index> number(whole.X.size(), -1);
+  for (const auto& cell : whole.cells) {
+    if (std::any_of(cell.begin(), cell.end(), [&](Index a) { return at(whole.X, a)[D - 1] < 0; }))
+      continue;
+    auto& own = half.cells.emplace_back(cell);
+    for (Index& node : own) {
+      Index& known = at(number, node);
+      if (known < 0) {
+        known = half.node_count();
+        half.X.push_back(at(whole.X, node));
+      }
+      node = known;
+    }
+  }
+  return half;
+}
+template Grid<2> upper_half(const Grid<2>&);
+template Grid<3> upper_half(const Grid<3>&);
+
 }  // namespace meniscus

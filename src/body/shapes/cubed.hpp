@@ -18,6 +18,11 @@ struct CubedCore {
 template <int D>
 Grid<D> cubed_ball(int core, int shells);
 
+/// The cells above x_D = 0 and their nodes; an even core has nodes, and no cells, across that
+/// plane.
+template <int D>
+Grid<D> upper_half(const Grid<D>& whole);
+
 /// Nodes and cells between the spheres of radius `inner_radius` and 1: `layers` shells of 6 n^2
 /// cells. n >= 1 and layers >= 1.
 Grid<3> cubed_shell(int n, int layers, Real inner_radius);

@@ -4,33 +4,11 @@
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/core/error.hpp"
 
-#include <algorithm>
-
 #include "cubed.hpp"
 
 namespace meniscus {
 
 namespace {
-
-/// The cells above z = 0 and their nodes; an even core has nodes, and no cells, across that plane.
-Grid<3> upper_half(const Grid<3>& whole) {
-  Grid<3> half;
-  std::vector<Index> number(whole.X.size(), -1);
-  for (const auto& cell : whole.cells) {
-    if (std::any_of(cell.begin(), cell.end(), [&](Index a) { return at(whole.X, a)[2] < 0; }))
-      continue;
-    auto& own = half.cells.emplace_back(cell);
-    for (Index& node : own) {
-      Index& known = at(number, node);
-      if (known < 0) {
-        known = half.node_count();
-        half.X.push_back(at(whole.X, node));
-      }
-      node = known;
-    }
-  }
-  return half;
-}
 
 const bool half_sphere_registered = register_shape<3, HalfSphere>();
 
@@ -52,7 +30,7 @@ Geometry<3> HalfSphere::geometry() const {
         "a half sphere has an even number of cells along the core; use a multiple of 2");
   const Vec<3> origin = Vec<3>::Zero(), z = Vec<3>::UnitZ();
   return make_geometry<3>(
-      upper_half(cubed_ball<3>(core, layers)),
+      upper_half<3>(cubed_ball<3>(core, layers)),
       {SurfacePatch<3>::sphere(origin, 1).named("round"),
        SurfacePatch<3>::plane(origin, -z).named("flat")},
       false, affine_map<3>(Vec<3>::Constant(radius).asDiagonal(), Vec<3>::Map(centre.data())));
