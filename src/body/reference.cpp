@@ -3,6 +3,7 @@
 #include "meniscus/body/reference.hpp"
 
 #include "meniscus/body/nodal_cells.hpp"
+#include "meniscus/body/quadratic_surface.hpp"
 #include "meniscus/body/recovered_surface.hpp"
 
 #include <algorithm>
@@ -59,7 +60,18 @@ void Reference<D>::archive(const Archive& a) {
   archive_places(a, "cell_origin", cell_origin);
   a("volume_ratio", volume_ratio);
   a("mass", mass, of_sum(dimension::mass, D));
-  if (a.is_reading()) geometry = moved(geometry, std::move(X), recovered);
+  if (a.is_reading() ? a.has("surface") : !surface.empty()) {
+    if (a.is_reading())
+      surface.resize(static_cast<std::size_t>(PatchNodes<D>(geometry.grid).count()));
+    archive_places(a.in("surface"), "points", surface);
+  }
+  if (!a.is_reading()) return;
+  if (surface.empty()) {
+    geometry = moved(geometry, std::move(X), recovered);
+  } else {
+    geometry.grid.X = std::move(X);
+    geometry = quadratic_geometry(std::move(geometry.grid), surface);
+  }
 }
 
 #define MENISCUS_INSTANTIATE(D) \

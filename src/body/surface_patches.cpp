@@ -7,18 +7,9 @@
 #include "meniscus/body/surface_points.hpp"
 
 #include <algorithm>
-#include <map>
 
 namespace meniscus {
 namespace {
-
-/// Quadratic Lagrange functions of the nodes -1, 0, 1 and their derivatives.
-std::array<Real, 3> lagrange(Real x) {
-  return {0.5 * x * (x - 1), 1 - x * x, 0.5 * x * (x + 1)};
-}
-std::array<Real, 3> lagrange_slopes(Real x) {
-  return {x - 0.5, -2 * x, x + 0.5};
-}
 
 // T is Lanes or Dual<Lanes>.
 template <class T>
@@ -58,44 +49,7 @@ Tangents3<T> through_tangents(const Tangents3<T>& t, const std::array<T, 3>& b) 
   return {cross(t[1], b), cross(b, t[0])};
 }
 
-/// The nodes of the grid that a patch node lies between, ascending: one for a corner, two for the
-/// middle of an edge, all for the middle of the facet. Equal for facets that share it.
-template <int D>
-std::vector<Index> supporters(const Facet<D>& facet, const Vec<D - 1>& xi) {
-  std::vector<Index> found;
-  for (int corner = 0; corner < (1 << (D - 1)); ++corner) {
-    bool supports = true;
-    for (int k = 0; k < D - 1; ++k) supports = supports && xi[k] * corner_sign(corner, k) >= 0;
-    if (supports) found.push_back(at(facet.nodes, corner));
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 }  // namespace
-
-template <int D>
-std::vector<PatchFunctions<D>> patch_functions(int points) {
-  const TensorRule<D - 1> rule = tensor_rule<D - 1>(points);
-  std::vector<PatchFunctions<D>> all(rule.x.size());
-  for (std::size_t q = 0; q < all.size(); ++q) {
-    PatchFunctions<D>& f = all[q];
-    f.weight = rule.w[q];
-    for (int a = 0; a < f.nodes; ++a) {
-      at(f.L, a) = 1;
-      for (auto& slope : f.dL) at(slope, a) = 1;
-      for (int k = 0, rest = a; k < D - 1; ++k, rest /= 3) {
-        const Real xi = rule.x[q][k];
-        const Real value = at(lagrange(xi), rest % 3), slope = at(lagrange_slopes(xi), rest % 3);
-        at(f.L, a) *= value;
-        for (int l = 0; l < D - 1; ++l) at(at(f.dL, l), a) *= l == k ? slope : value;
-      }
-    }
-  }
-  return all;
-}
-template std::vector<PatchFunctions<2>> patch_functions<2>(int);
-template std::vector<PatchFunctions<3>> patch_functions<3>(int);
 
 template <int D>
 SurfacePatches<D>::SurfacePatches(const Body<D>& body)
@@ -114,19 +68,17 @@ SurfacePatches<D>::SurfacePatches(const Body<D>& body)
 
 template <int D>
 void SurfacePatches<D>::number_points(const Geometry<D>& geometry) {
-  std::map<std::vector<Index>, Index> numbers;
-  for (const Facet<D>& facet : geometry.grid.facets) {
-    std::array<Index, nodes> numbered;
+  const PatchNodes<D> points(geometry.grid);
+  node_ = points.facet;
+  X_.resize(static_cast<std::size_t>(points.count()));
+  std::vector<char> known(X_.size(), 0);
+  for (std::size_t patch = 0; patch < node_.size(); ++patch)
     for (int a = 0; a < nodes; ++a) {
-      Vec<D - 1> xi;
-      for (int k = 0, rest = a; k < D - 1; ++k, rest /= 3) xi[k] = rest % 3 - 1;
-      const auto [found, fresh] =
-          numbers.try_emplace(supporters<D>(facet, xi), static_cast<Index>(X_.size()));
-      if (fresh) X_.push_back(surface_point<D>(geometry, facet, xi));
-      at(numbered, a) = found->second;
+      const Index point = at(node_[patch], a);
+      if (at(known, point)) continue;
+      at(known, point) = 1;
+      at(X_, point) = surface_point<D>(geometry, geometry.grid.facets[patch], patch_node<D>(a));
     }
-    node_.push_back(numbered);
-  }
 }
 
 template <int D>

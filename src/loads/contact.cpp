@@ -340,6 +340,11 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
   if (!partner || !assembly.surface_energy(bodies[0])) return;
   for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area")))
     assembly.measure(name, std::move(source));
+  assembly.wets({bodies[0],
+                 {[shape = partner->shape, moved = partner_motion()](const Vec<D>& x, Real t) {
+                    return shape->foot(x - moved.displacement(t)).distance;
+                  },
+                  flat(assembly).peak_gap}});
   if (!partner->shape->round()) return;
   for (MeasureSource& source : cap_measures<D>(
            assembly.body(bodies[0]),

@@ -3,6 +3,7 @@
 #include "meniscus/remap/remap.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/quadratic_surface.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/remap/nodal_values.hpp"
@@ -120,8 +121,9 @@ std::vector<Vec<D>> present_nodes(const Body<D>& body, const NodalVector* u,
 }
 
 template <int D>
-Remap<D> remap(const Body<D>& body, const NodalVector* u, std::vector<Vec<D>> x,
+Remap<D> remap(const Body<D>& body, const NodalVector* u, Seeds<D> seeds,
                std::span<const Real> volume_change) {
+  std::vector<Vec<D>>& x = seeds.nodes;
   const Reference<D>* old = body.reference.get();
   const std::vector<Index> boundary = boundary_nodes(body.geometry.grid);
   const bool same_boundary = std::all_of(boundary.begin(), boundary.end(), [&](Index A) {
@@ -130,8 +132,16 @@ Remap<D> remap(const Body<D>& body, const NodalVector* u, std::vector<Vec<D>> x,
   auto next = std::make_shared<Reference<D>>();
   Remap<D> result;
   result.nodes = pre_images<D>(body, u, x);
-  next->recovered = !same_boundary || (old && old->recovered);
-  next->geometry = moved(body.geometry, std::move(x), next->recovered);
+  if (!seeds.surface.empty()) {
+    next->surface = std::move(seeds.surface);
+    Grid<D> grid = body.geometry.grid;
+    grid.X = std::move(x);
+    next->geometry = quadratic_geometry(std::move(grid), next->surface);
+  } else {
+    if (same_boundary && old) next->surface = old->surface;
+    next->recovered = !same_boundary || (old && old->recovered);
+    next->geometry = moved(body.geometry, std::move(x), next->recovered);
+  }
   const NodalCells<D> cells(next->geometry.grid);
   const std::vector<Vec<D>> cell_places = pre_images<D>(body, u, centroids(cells));
   const PointRows<D> old_cells = value_rows<D>(body, centroids(body.cells)),
@@ -190,12 +200,11 @@ State carried(const System<D>& before, const State& state, const System<D>& afte
   return result;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                    \
-  template std::vector<Vec<D>> present_nodes(const Body<D>&, const NodalVector*,   \
-                                             std::span<const Real>);               \
-  template Remap<D> remap(const Body<D>&, const NodalVector*, std::vector<Vec<D>>, \
-                          std::span<const Real>);                                  \
-  template State carried(const System<D>&, const State&, const System<D>&,         \
+#define MENISCUS_INSTANTIATE(D)                                                                 \
+  template std::vector<Vec<D>> present_nodes(const Body<D>&, const NodalVector*,                \
+                                             std::span<const Real>);                            \
+  template Remap<D> remap(const Body<D>&, const NodalVector*, Seeds<D>, std::span<const Real>); \
+  template State carried(const System<D>&, const State&, const System<D>&,                      \
                          const std::map<std::string, Remap<D>>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

@@ -48,6 +48,14 @@ std::size_t number_of(const System<D>& system, const std::string& body) {
   return b;
 }
 
+/// Between looks at what a body is like: 50 steps, doubled as the number of steps doubles beyond
+/// 800. A remap that has to be refused again and again then costs no more than a few of them.
+std::int64_t steps_between_looks(std::int64_t step) {
+  std::int64_t between = 50;
+  while (16 * between <= step / 2) between *= 2;
+  return between;
+}
+
 /// J - 1 of the nodal cells of a body.
 template <int D>
 std::vector<Real> volume_changes(const Scene<D>& scene, std::size_t body, const Motion& motion) {
@@ -111,26 +119,48 @@ void Epochs<D>::new_epoch(const Nodes& nodes) {
 }
 
 template <int D>
+bool Epochs<D>::due(const PlannedRemap& planned, Real before) const {
+  const State& state = simulation_->state();
+  if (std::any_of(planned.times.begin(), planned.times.end(),
+                  [&](Real t) { return before < t && t <= state.time; }))
+    return true;
+  return planned.condition > 0 && state.step % steps_between_looks(state.step) == 0 &&
+         planned.now(state.motion()) > planned.condition;
+}
+
+template <int D>
+Seeds<D> Epochs<D>::seeds(const PlannedRemap& planned, std::size_t b) const {
+  const State& state = simulation_->state();
+  const Body<D>& body = scene_->system.bodies[b];
+  const NodalVector* u = state.u.data() + body.first;
+  if (!planned.even) return present_nodes<D>(body, u, volume_changes(*scene_, b, state.motion()));
+  Geometry<D> ideal = plan_.bodies[b].geometry;
+  order_spatially(ideal);
+  std::optional<ContactLine<D>> line;
+  const auto on_body = [&](const Wetting<D>& wetting) { return wetting.body == planned.body; };
+  const auto& all = scene_->wetting;
+  if (std::count_if(all.begin(), all.end(), on_body) == 1)
+    line = std::find_if(all.begin(), all.end(), on_body)->line;
+  return reseeded(body, u, ideal.grid, line, state.time);
+}
+
+template <int D>
 typename Epochs<D>::Remapped Epochs<D>::advance() {
   const Real before = simulation_->state().time;
   simulation_->advance();
   Remapped result;
   const Real now = simulation_->state().time;
   for (const PlannedRemap& planned : std::vector<PlannedRemap>(scene_->remaps)) {
-    const bool due = std::any_of(planned.times.begin(), planned.times.end(),
-                                 [&](Real t) { return before < t && t <= now; });
-    if (!due) continue;
+    if (!due(planned, before)) continue;
     const State& state = simulation_->state();
     const std::size_t b = number_of(scene_->system, planned.body);
-    const Body<D>& body = scene_->system.bodies[b];
     const std::string what = fmt::format("t = {:.6g}: body '{}'", now, planned.body);
     const Real booked = state.books.remapped;
     const auto refuse = [&](const std::exception& cause) {
       result.warnings.push_back(fmt::format("{} keeps its reference: {}", what, cause.what()));
     };
     try {
-      new_epoch({{planned.body, present_nodes<D>(body, state.u.data() + body.first,
-                                                 volume_changes(*scene_, b, state.motion()))}});
+      new_epoch({{planned.body, seeds(planned, b)}});
       result.new_epoch = true;
       result.notes.push_back(
           fmt::format("{} is referred anew, epoch {}: the energy changes by {:.3g} {}", what,

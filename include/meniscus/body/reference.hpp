@@ -19,6 +19,7 @@ template <int D>
 struct Reference {
   Geometry<D> geometry;             ///< nodes in the order of the particles
   bool recovered = false;           ///< the surface is a RecoveredSurface, not that of the shape
+  std::vector<Vec<D>> surface;      ///< points of a QuadraticSurface; empty: it is another one
   std::vector<Vec<D>> origin;       ///< [particle] its place in the reference of the scene
   std::vector<Vec<D>> cell_origin;  ///< [particle] that of the centroid of its nodal cell
   std::vector<Real> volume_ratio;   ///< [particle] J_0 of its nodal cell

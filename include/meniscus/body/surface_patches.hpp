@@ -4,23 +4,12 @@
 #pragma once
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/body/body.hpp"
+#include "meniscus/body/quadratic_patches.hpp"
 #include "meniscus/core/dual.hpp"
 
 #include <array>
 
 namespace meniscus {
-
-/// The functions of a patch at a Gauss point: L_a, their derivatives, and the weight.
-template <int D>
-struct PatchFunctions {
-  static constexpr int nodes = D == 3 ? 9 : 3;
-  Real weight;
-  std::array<Real, nodes> L;
-  std::array<std::array<Real, nodes>, D - 1> dL;
-};
-/// At `points` Gauss points per direction.
-template <int D>
-std::vector<PatchFunctions<D>> patch_functions(int points);
 
 /// Every boundary facet is the Lagrange patch x(xi) = sum_a L_a(xi) x_a, xi in [-1, 1]^(D-1), with
 /// nodes at -1, 0, 1 per direction: the places x_a = X_a + sum_A N_A(X_a) u_A of points X_a of the

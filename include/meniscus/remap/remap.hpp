@@ -2,6 +2,7 @@
 // Remap of a body: it is referred anew to where it is now, and its motion is carried over.
 #pragma once
 #include "meniscus/body/reference.hpp"
+#include "meniscus/remap/reseed.hpp"
 #include "meniscus/solve/system.hpp"
 
 #include <memory>
@@ -24,15 +25,15 @@ template <int D>
 std::vector<Vec<D>> present_nodes(const Body<D>& body, const NodalVector* u,
                                   std::span<const Real> volume_change);
 
-/// Refers a body to its present configuration, with the same cells and their nodes at `x`; those on
-/// its boundary lie on its present surface. `volume_change` is J - 1 of its nodal cells, relative
-/// to the reference of the scene.
+/// Refers a body to its present configuration, with the same cells and their nodes at `seeds`;
+/// those on its boundary lie on its present surface. `volume_change` is J - 1 of its nodal cells,
+/// relative to the reference of the scene.
 ///
 /// A nodal cell of the new reference has the J of the material point that its centroid is at, times
 /// one number for all, so that the volume sum V/J_0 in the reference of the scene stays. Throws
 /// InputError if a cell folds, SolveError if there is no material at a place.
 template <int D>
-Remap<D> remap(const Body<D>& body, const NodalVector* u, std::vector<Vec<D>> x,
+Remap<D> remap(const Body<D>& body, const NodalVector* u, Seeds<D> seeds,
                std::span<const Real> volume_change);
 
 /// The state of a system that was built again, of bodies with the same names and numbers of

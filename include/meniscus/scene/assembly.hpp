@@ -38,6 +38,8 @@ class Assembly {
   void drop(Drop<D> drop) { scene_.drops.push_back(std::move(drop)); }
   /// Says when a body is to be referred anew.
   void remap(PlannedRemap planned) { scene_.remaps.push_back(std::move(planned)); }
+  /// Says where a body touches a rigid partner.
+  void wets(Wetting<D> wetting) { scene_.wetting.push_back(std::move(wetting)); }
   /// Says why a body cannot be referred anew: something depends on its reference by more than J.
   void keep_reference(const std::string& body, std::string why) {
     scene_.kept_references[body] = std::move(why);

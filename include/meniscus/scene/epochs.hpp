@@ -31,12 +31,12 @@ class Epochs {
     bool new_epoch = false;
     std::vector<std::string> notes, warnings;  ///< what was done, and what had to be refused
   };
-  /// A step as Simulation::advance(), then the remaps of the scene whose time it has reached, each
-  /// body as it is. One that is impossible is left out.
+  /// A step as Simulation::advance(), then the remaps of the scene that are due. One that is
+  /// impossible is left out.
   Remapped advance();
 
   /// Where the nodes of bodies are to be, by the names of the bodies.
-  using Nodes = std::map<std::string, std::vector<Vec<D>>>;
+  using Nodes = std::map<std::string, Seeds<D>>;
   /// Begins a new epoch with the nodes of some bodies at these places of now. What refers to the
   /// scene or the simulation ends. Throws InputError or SolveError if that cannot be (a cell folds,
   /// no material is there, shape functions or forces cannot be computed): then the old epoch goes
@@ -48,6 +48,9 @@ class Epochs {
 
  private:
   void build_again(const References<D>& references);
+  bool due(const PlannedRemap& planned, Real time_before) const;
+  /// Of body number b.
+  Seeds<D> seeds(const PlannedRemap& planned, std::size_t b) const;
 
   Plan<D> plan_;
   std::unique_ptr<Scene<D>> scene_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene: bodies, force terms, measures and an initial state, built from a plan.
 #pragma once
+#include "meniscus/remap/reseed.hpp"
 #include "meniscus/scene/plan.hpp"
 #include "meniscus/solve/system.hpp"
 
@@ -32,6 +33,16 @@ struct BodyField {
 struct PlannedRemap {
   std::string body;
   std::vector<Real> times;
+  bool even;       ///< nodes are placed evenly, not where the particles are
+  Real condition;  ///< of F since the last time, beyond which it is due; 0: at the times alone
+  std::function<Real(const Motion&)> now;  ///< that condition
+};
+
+/// Where a body touches a rigid partner.
+template <int D>
+struct Wetting {
+  std::string body;
+  ContactLine<D> line;
 };
 
 /// What is wrong with a motion that cannot be; looked for at the start and at output times.
@@ -49,6 +60,7 @@ struct Scene : RunSettings {
   std::vector<MeasureSource> measures;
   std::vector<BodyField> fields;
   std::vector<PlannedRemap> remaps;
+  std::vector<Wetting<D>> wetting;
   std::map<std::string, std::string> kept_references;  ///< [body] why it cannot be referred anew
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces of biquadratic (2D: quadratic) patches through given points.
+#pragma once
+#include "meniscus/body/geometry.hpp"
+#include "meniscus/body/quadratic_patches.hpp"
+
+#include <map>
+#include <vector>
+
+namespace meniscus {
+
+/// Every boundary facet is the Lagrange patch through its points; patches meet without a gap, at
+/// angles of the order of their size squared.
+template <int D>
+class QuadraticSurface final : public Surface<D> {
+ public:
+  /// `points` by the numbers of PatchNodes(grid); those at corners are the nodes of the grid.
+  QuadraticSurface(const Grid<D>& grid, const std::vector<Vec<D>>& points);
+
+  SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const override;
+  Vec<D> point(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const override;
+  bool smooth() const override { return true; }
+  bool hollow() const override { return false; }
+  std::shared_ptr<const Surface<D>> renumbered(std::span<const Index> order) const override;
+  std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
+                                           const Grid<D>& grid) const override;
+
+ private:
+  using Key = typename PatchNodes<D>::Key;
+  explicit QuadraticSurface(std::map<Key, Vec<D>> point) : point_(std::move(point)) {}
+  /// The points of a facet.
+  std::vector<Vec<D>> of(const Facet<D>& facet) const;
+
+  std::map<Key, Vec<D>> point_;
+};
+
+/// The body of a grid (X and cells) with that surface. Throws InputError if a cell folds.
+template <int D>
+Geometry<D> quadratic_geometry(Grid<D> grid, const std::vector<Vec<D>>& points);
+
+}  // namespace meniscus

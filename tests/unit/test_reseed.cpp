@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Even places for nodes in a deformed body: patches, volume, the contact line, energy, distortion.
+#include "meniscus/body/quadratic_surface.hpp"
+#include "meniscus/body/surface_points.hpp"
+#include "meniscus/remap/distortion.hpp"
+#include "meniscus/scene/epochs.hpp"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "support.hpp"
+
+namespace meniscus::test_reseed {
+namespace {
+
+template <int D>
+Geometry<D> ellipsoid(int core) {
+  if constexpr (D == 3) {
+    Ellipsoid shape;
+    shape.semi_axes = {1.3, 1, 0.8};
+    shape.core = core;
+    shape.layers = core / 2;
+    return shape.geometry();
+  } else {
+    Ellipse shape;
+    shape.semi_axes = {1.3, 0.8};
+    shape.core = core;
+    shape.rings = core / 2;
+    return shape.geometry();
+  }
+}
+
+/// The same body, its surface patches through exact points.
+template <int D>
+Geometry<D> patched(const Geometry<D>& exact) {
+  const PatchNodes<D> numbered(exact.grid);
+  std::vector<Vec<D>> points(static_cast<std::size_t>(numbered.count()));
+  for (std::size_t f = 0; f < exact.grid.facets.size(); ++f)
+    for (int a = 0; a < PatchFunctions<D>::nodes; ++a)
+      at(points, at(numbered.facet[f], a)) =
+          surface_point<D>(exact, exact.grid.facets[f], patch_node<D>(a));
+  return quadratic_geometry<D>(exact.grid, points);
+}
+
+/// Root mean square errors of places, normals and curvatures, and the error of the area.
+struct Errors {
+  Real place = 0, normal = 0, curvature = 0, area = 0;
+};
+
+template <int D>
+Errors errors(int core) {
+  const Geometry<D> exact = ellipsoid<D>(core), quadratic = patched(exact);
+  const auto a = surface_points(exact, 3), b = surface_points(quadratic, 3);
+  Errors e;
+  Real total = 0, other = 0;
+  for (Index q = 0; q < a.size(); ++q) {
+    const Real w = at(a.area, q);
+    total += w;
+    other += at(b.area, q);
+    e.place += w * std::pow(at(a.N, q).dot(at(a.X, q) - at(b.X, q)), 2);
+    e.normal += w * (at(a.N, q) - at(b.N, q)).squaredNorm();
+    e.curvature += w * std::pow(at(a.grad_N, q).trace() - at(b.grad_N, q).trace(), 2);
+    EXPECT_LT((at(b.grad_N, q) * at(b.N, q)).norm(), 1e-12);
+  }
+  return {std::sqrt(e.place / total), std::sqrt(e.normal / total), std::sqrt(e.curvature / total),
+          std::abs(other / total - 1)};
+}
+
+template <int D>
+void expect_orders(int core, int finer) {
+  const Errors coarse = errors<D>(core), fine = errors<D>(finer);
+  const auto order = [&](const char* of, Real a, Real b) {
+    const Real p = std::log(a / b) / std::log(static_cast<Real>(finer) / core);
+    fmt::print("patches of an ellipsoid, {}D, {}: {:.2e}, {:.2e}, order {:.2f}\n", D, of, a, b, p);
+    return p;
+  };
+  EXPECT_GT(order("places", coarse.place, fine.place), 2.8);
+  EXPECT_GT(order("normals", coarse.normal, fine.normal), 1.8);
+  EXPECT_GT(order("curvature", coarse.curvature, fine.curvature), 0.8);
+  EXPECT_GT(order("area", coarse.area, fine.area), 3.5);
+}
+
+TEST(QuadraticSurface, ConvergesToTheExactOne) {
+  expect_orders<2>(6, 12);
+  expect_orders<3>(4, 8);
+}
+
+TEST(QuadraticSurface, IsTheSameForNodesOfAnotherOrder) {
+  Geometry<3> body = patched(ellipsoid<3>(4));
+  const auto before = surface_points(body, 2);
+  std::vector<Index> order(body.grid.X.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937 random(3);
+  std::shuffle(order.begin(), order.end(), random);
+  body.surface = body.surface->renumbered(order);
+  std::vector<Index> number(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) at(number, order[i]) = static_cast<Index>(i);
+  for (Facet<3>& facet : body.grid.facets)
+    for (Index& node : facet.nodes) node = at(number, node);
+  const auto after = surface_points(body, 2);
+  for (Index q = 0; q < before.size(); ++q)
+    EXPECT_LT((at(before.X, q) - at(after.X, q)).norm(), 1e-15);
+}
+
+TEST(QuadraticSurface, IsMappedByItsPoints) {
+  const Geometry<3> body = patched(ellipsoid<3>(4));
+  Mat<3> A;
+  A << 1.2, 0.1, 0, 0, 0.9, 0.2, 0.1, 0, 1.1;
+  const auto moved = body.surface->mapped(affine_map<3>(A, {1, 2, 3}), body.grid);
+  const auto before = surface_points(body, 2);
+  const auto after = moved->points(body.grid, 2, SurfacePart::outer);
+  for (Index q = 0; q < before.size(); ++q)
+    EXPECT_LT((A * at(before.X, q) + Vec<3>(1, 2, 3) - at(after.X, q)).norm(), 1e-14);
+  EXPECT_EQ(moved->points(body.grid, 2, SurfacePart::inner).size(), 0);
+}
+
+template <int D>
+std::string drop(int n, const std::string& displacement) {
+  return fmt::format(R"toml(
+dimension = {}
+[time]
+end = 1e3
+[[body]]
+name = "drop"
+shape = "{}"
+radius = 1
+core = {}
+{} = {}
+initial_displacement = [{}]
+initial_velocity = [{}]
+material = {{ type = "newtonian", density = 1, bulk_modulus = 20, viscosity = 0.3 }}
+[[surface_tension]]
+body = "drop"
+gamma = 1
+)toml",
+                     D, D == 3 ? "ball" : "disk", n, D == 3 ? "layers" : "rings", n / 2,
+                     displacement, D == 3 ? "'y', 'x*y', 'sin(z)'" : "'y', 'x*y'");
+}
+
+template <int D>
+Epochs<D> begun(const std::string& text) {
+  const SceneInput input = SceneInput::from_text(text);
+  scene_dimension(input);
+  Epochs<D> epochs(read_plan<D>(input));
+  epochs.simulation().begin();
+  return epochs;
+}
+
+/// Stretched by 2 and 1/2 (3D: by 1.6 and, twice, 0.79), and bent.
+template <int D>
+std::string stretched() {
+  return D == 3 ? "'0.6*x', '-0.21*y', '-0.21*z + 0.1*x^2'" : "'x', '-0.5*y + 0.1*x^2'";
+}
+
+/// Of what is known of a drop before it is referred anew.
+template <int D>
+Seeds<D> seeds_of(const Epochs<D>& epochs, const std::optional<ContactLine<D>>& line = {}) {
+  const Body<D>& body = epochs.scene().system.bodies.front();
+  return reseeded(body, epochs.simulation().state().u.data(), body.geometry.grid, line, 0);
+}
+
+/// Largest over least area of the facets.
+template <int D>
+Real unevenness(const Geometry<D>& geometry) {
+  const SurfacePoints<D> points = surface_points(geometry, 3);
+  std::vector<Real> area(geometry.grid.facets.size(), 0);
+  for (Index q = 0; q < points.size(); ++q) at(area, at(points.facet, q)) += at(points.area, q);
+  return *std::max_element(area.begin(), area.end()) / *std::min_element(area.begin(), area.end());
+}
+
+struct Jump {
+  Real surface, kinetic;
+};
+
+/// What energies change by, relative to themselves, when a stretched drop is referred anew.
+template <int D>
+Jump jump(int n) {
+  Epochs<D> epochs = begun<D>(drop<D>(n, stretched<D>()));
+  const Body<D>* body = &epochs.scene().system.bodies.front();
+  const Real volume = SurfacePatches<D>(*body).measure(SurfacePatches<D>::Size::volume,
+                                                       epochs.simulation().state().u.data());
+  EXPECT_GT(Distortion<D>(*body).condition(epochs.simulation().state().u.data()), 2);
+  const auto before = take_ledger(epochs.scene().system, epochs.simulation().state());
+  const Seeds<D> seeds = seeds_of(epochs);
+  epochs.new_epoch({{"drop", seeds}});
+  body = &epochs.scene().system.bodies.front();
+  const auto after = take_ledger(epochs.scene().system, epochs.simulation().state());
+  EXPECT_NEAR(SurfacePatches<D>(*body).reference(SurfacePatches<D>::Size::volume), volume,
+              1e-12 * volume);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13);
+  EXPECT_LT((after.angular_momentum - before.angular_momentum).norm(), 1e-13);
+  EXPECT_LT(unevenness(body->geometry), D == 3 ? 4 : 2);  // before: 7 to 10
+  EXPECT_LT(Distortion<D>(*body).condition(epochs.simulation().state().u.data()), 1 + 1e-12);
+  return {std::abs(after.stored.at("surface") / before.stored.at("surface") - 1),
+          std::abs(after.kinetic / before.kinetic - 1)};
+}
+
+template <int D>
+void expect_small_jumps(int n, int finer, Real least_order) {
+  const Jump coarse = jump<D>(n), fine = jump<D>(finer);
+  const Real order =
+      std::log(coarse.surface / fine.surface) / std::log(static_cast<Real>(finer) / n);
+  fmt::print(
+      "reseeded drop, {}D: surface energy {:.2e}, {:.2e}, order {:.2f}; kinetic {:.2e}, {:.2e}\n",
+      D, coarse.surface, fine.surface, order, coarse.kinetic, fine.kinetic);
+  EXPECT_GT(order, least_order);
+  EXPECT_LT(std::max(coarse.kinetic, fine.kinetic), 1e-3);  // coefficients of rough velocities
+}
+
+TEST(Reseed, KeepsVolumeAndMomentaAndEnergyWithHighOrder) {
+  expect_small_jumps<2>(6, 12, 2);
+  expect_small_jumps<3>(4, 6, 2.5);
+}
+
+/// A ball that is wetted up to a height: one ring of nodes lies there, evenly.
+TEST(Reseed, PutsARingOfNodesOnTheContactLine) {
+  constexpr Real level = 0.3;
+  const Epochs<3> epochs = begun<3>(drop<3>(6, "0, 0, 0"));
+  const ContactLine<3> line{[](const Vec<3>& x, Real) { return x[2] + 1; }, level};
+  const Seeds<3> seeds = seeds_of<3>(epochs, line);
+  const Grid<3>& grid = epochs.scene().system.bodies.front().geometry.grid;
+  std::vector<Real> azimuths;
+  for (const Index A : boundary_nodes(grid)) {
+    const Vec<3>& x = at(seeds.nodes, A);
+    EXPECT_NEAR(x.norm(), 1, 2e-4);
+    if (std::abs(x[2] + 1 - level) < 1e-3) azimuths.push_back(std::atan2(x[1], x[0]));
+  }
+  ASSERT_EQ(azimuths.size(), 24U);
+  std::sort(azimuths.begin(), azimuths.end());
+  for (std::size_t j = 1; j < azimuths.size(); ++j)
+    EXPECT_NEAR(azimuths[j] - azimuths[j - 1], 2 * std::numbers::pi / 24, 1e-3);
+
+  const Epochs<2> plane = begun<2>(drop<2>(6, "0, 0"));
+  const Seeds<2> ends =
+      seeds_of<2>(plane, ContactLine<2>{[](const Vec<2>& x, Real) { return x[1] + 1; }, level});
+  EXPECT_EQ(std::count_if(ends.nodes.begin(), ends.nodes.end(),
+                          [&](const Vec<2>& x) {
+                            return std::abs(x[1] + 1 - level) < 1e-3 &&
+                                   std::abs(x.norm() - 1) < 1e-3;
+                          }),
+            2);
+}
+
+/// Stretches 2, 1/2 and 1, then a rotation by an angle with the cosine 0.8.
+TEST(Reseed, FindsTheConditionOfAHomogeneousDeformation) {
+  const Epochs<3> epochs = begun<3>(drop<3>(4, "'1.6*x - 0.3*y - x', '1.2*x + 0.4*y - y', '0'"));
+  const Body<3>& body = epochs.scene().system.bodies.front();
+  EXPECT_NEAR(Distortion<3>(body).condition(epochs.simulation().state().u.data()), 4, 1e-9);
+}
+
+/// A drop that is drawn out is referred anew by itself, and from any state on with the same bits.
+TEST(Reseed, IsDoneWhenTheConditionIsReachedAndRestartsWithTheSameBits) {
+  const std::string text =
+      drop<2>(6, "'0.6*x', '-0.375*y'") + "[[remap]]\nbody = \"drop\"\ncondition = 2\n";
+  Epochs<2> epochs = begun<2>(text);
+  std::vector<Snapshot> states;
+  int remaps = 0;
+  for (int step = 0; step < 120; ++step) {
+    remaps += epochs.advance().new_epoch;
+    states.push_back(epochs.simulation().snapshot());
+  }
+  EXPECT_GE(remaps, 1);
+  const SceneInput input = SceneInput::from_text(text);
+  scene_dimension(input);
+  for (const std::size_t k : {std::size_t{20}, std::size_t{80}}) {
+    Epochs<2> restarted(read_plan<2>(input), &states[k]);
+    for (std::size_t l = k + 1; l < states.size(); ++l) restarted.advance();
+    EXPECT_EQ(restarted.simulation().snapshot().hash(), states.back().hash());
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::test_reseed
