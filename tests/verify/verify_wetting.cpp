@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The drop of inputs/sessile_drop.toml at rest against the profile of a liquid under its weight
-// (Bashforth and Adams): the whole outline, not only what the scene expects.
+// Drops on walls: the whole outline of one at rest under its weight against the profile of
+// Bashforth and Adams, and how fast a wetted area grows at first.
 #include "meniscus/body/surface_patches.hpp"
 #include "meniscus/scene/simulation.hpp"
 
@@ -82,6 +82,43 @@ TEST(SessileDrop, HasTheProfileOfBashforthAndAdams) {
   }
   EXPECT_GT(compared, 20);
   EXPECT_LT(farthest, 2e-3);
+}
+
+/// Slope of A/(pi R^2) over t/t_in in 0.05 < t/t_in < 0.8 of the drop of
+/// inputs/droplet_spreading.toml, and r^2 of the line.
+std::pair<Real, Real> early_growth(const std::string& viscosity) {
+  constexpr Real inertial_time = 41.437, radius = 5;
+  const SceneInput input = SceneInput::from_file(
+      MENISCUS_SOURCE_DIR "/inputs/droplet_spreading.toml",
+      {"time.end=\"33.1 ps\"", "body[0].material.viscosity=\"" + viscosity + "\""});
+  scene_dimension(input);
+  Scene<3> scene = build_scene<3>(input);
+  Simulation<3> simulation(scene);
+  simulation.begin();
+  const auto measure = std::find_if(scene.measures.begin(), scene.measures.end(),
+                                    [](const auto& m) { return m.name == "wall.base_radius"; });
+  std::vector<Vec<2>> points;
+  while (!simulation.finished()) {
+    simulation.advance();
+    const Real t = simulation.state().time / inertial_time;
+    if (t > 0.05 && t < 0.8)
+      points.emplace_back(t, std::pow(measure->compute(simulation.state().motion()) / radius, 2));
+  }
+  Vec<2> mean = Vec<2>::Zero();
+  for (const Vec<2>& p : points) mean += p / static_cast<Real>(points.size());
+  Mat<2> spread = Mat<2>::Zero();
+  for (const Vec<2>& p : points) spread += (p - mean) * (p - mean).transpose();
+  return {spread(0, 1) / spread(0, 0), spread(0, 1) * spread(0, 1) / (spread(0, 0) * spread(1, 1))};
+}
+
+/// Slopes of the axisymmetric finite-element calculation: 0.55 and 1.01.
+TEST(Spreading, IsLinearAtFirstWithAndWithoutMuchViscosity) {
+  for (const auto& [viscosity, slope] :
+       std::vector<std::pair<std::string, Real>>{{"0.6034 mPa s", 0.55}, {"0.06034 mPa s", 1.01}}) {
+    const auto [measured, r_squared] = early_growth(viscosity);
+    EXPECT_NEAR(measured, slope, 0.05 * slope) << viscosity;
+    EXPECT_GT(r_squared, 0.97) << viscosity;
+  }
 }
 
 }  // namespace
