@@ -80,8 +80,9 @@ struct SurfaceTension final : Load<D>, Keys {
 
  private:
   /// A body under tension alone has the mean pressure (D - 1) gamma area / (D volume) (the virial
-  /// of its forces). What cannot resist it would collapse, in as many steps as there are.
+  /// of its forces). What is much softer than that would collapse.
   void require_stiffness(const Assembly<D>& assembly) const {
+    constexpr Real most = 2;
     if (!assembly.initial()) return;
     const Motion motion = assembly.initial()->motion();
     const Real area = assembly.measure_named(body + ".area")(motion),
@@ -90,12 +91,13 @@ struct SurfaceTension final : Load<D>, Keys {
     const auto text = [&](Real value, Dimension d) {
       return fmt::format("{:.4g} {}", value, assembly.units().symbol(d));
     };
-    if (pressure > K)
+    if (pressure > most * K)
       throw InputError(fmt::format(
-          "{}: gamma compresses '{}' by a pressure of {}, which is above its bulk modulus of {}; "
+          "{}: gamma compresses '{}' by a pressure of {}, which is more than twice its bulk "
+          "modulus of {}; "
           "expected is gamma below {}, or a stiffer body",
           this->place, body, text(pressure, dimension::pressure), text(K, dimension::pressure),
-          text(gamma * K / pressure, dimension::tension)));
+          text(gamma * most * K / pressure, dimension::tension)));
   }
 
   std::unique_ptr<ForceTerm> term(const Body<D>& on) const {

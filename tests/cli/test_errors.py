@@ -217,8 +217,8 @@ class Scenes(ProgramTest):
         said = self.assert_refused(drop % 9999999999, "surface_tension[0]", "'drop'", "bulk modulus of 2.2e+09 Pa")
         bound = float(re.search(r"gamma below (\S+) N/m", said).group(1))
         volume = 4 / 3 * math.pi * 5 * 7.5 * 5 * 1e-27
-        self.assertGreater(bound, 2.2e9 * 3 * volume / 2 / self.area_of_ellipsoid(5e-9, 7.5e-9) * 0.99)
-        self.assertLess(bound, 2.2e9 * 3 * volume / 2 / self.area_of_ellipsoid(5e-9, 7.5e-9) * 1.01)
+        self.assertGreater(bound, 2.2e9 * 3 * volume / self.area_of_ellipsoid(5e-9, 7.5e-9) * 0.99)
+        self.assertLess(bound, 2.2e9 * 3 * volume / self.area_of_ellipsoid(5e-9, 7.5e-9) * 1.01)
         self.assert_refused(drop % (1.01 * bound), "surface_tension[0]")
         solid = SHEET + '[[surface_tension]]\nbody = "sheet"\ngamma = 1e12\n'
         self.assert_refused(solid, "surface_tension[0]", "'sheet'", "bulk modulus")

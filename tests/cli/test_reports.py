@@ -241,7 +241,7 @@ class Reports(ProgramTest):
                 "[[exact]]": "body displacement velocity rate",
                 "[[cavity]]": "body surface pressure volume_target penalty ramp points",
                 "[[profile]]": "body r z label",
-                "[[remap]]": "body at",
+                "[[remap]]": "body at condition nodes",
                 "[contact.partner] of any type": "type displacement",
                 '[contact.partner] type = "frame" (2D)': "low high thickness",
                 "[expect.NAME]": "of reduce at from to level value within within_relative"}.items():
