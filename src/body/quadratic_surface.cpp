@@ -3,7 +3,6 @@
 #include "meniscus/body/quadratic_surface.hpp"
 
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <numeric>
 

@@ -6,7 +6,6 @@
 #include "meniscus/core/dense.hpp"
 
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
