@@ -5,12 +5,10 @@
 #include "meniscus/body/gauss.hpp"
 #include "meniscus/body/quadratic_surface.hpp"
 #include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
 #include "meniscus/remap/present_surface.hpp"
+#include "meniscus/solve/sparse_cholesky.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -20,26 +18,21 @@
 namespace meniscus {
 namespace {
 
-using Triplets = std::vector<Eigen::Triplet<Real>>;
-using Sparse = Eigen::SparseMatrix<Real>;
 template <int D>
 using Foot = typename PresentSurface<D>::Foot;
 
-/// X of A X = b, column by column; A is symmetric and positive definite.
-class Cholesky {
- public:
-  Cholesky(Eigen::Index size, const Triplets& entries) {
-    Sparse A(size, size);
-    A.setFromTriplets(entries.begin(), entries.end());
-    factor_.compute(A);
-    if (factor_.info() != Eigen::Success)
-      throw SolveError("nodes cannot be placed: the matrix of their places is singular");
+/// x_i of A x = b, b_i and x_i vectors; A is symmetric and positive definite.
+template <int D>
+std::vector<Vec<D>> solved(const SparseCholesky& A, const std::vector<Vec<D>>& b) {
+  std::vector<Vec<D>> x(b.size());
+  std::vector<Real> component(b.size());
+  for (int k = 0; k < D; ++k) {
+    for (std::size_t i = 0; i < b.size(); ++i) component[i] = b[i][k];
+    A.solve(component);
+    for (std::size_t i = 0; i < b.size(); ++i) x[i][k] = component[i];
   }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const { return factor_.solve(b); }
-
- private:
-  Eigen::SimplicialLDLT<Sparse> factor_;
-};
+  return x;
+}
 
 /// Area vector of a facet through its corners (2D: normal of its length).
 template <int D>
@@ -272,7 +265,7 @@ std::vector<Vec<D>> fitted_patches(const Grid<D>& grid, const PresentSurface<D>&
     at(points, number) = surface.nearest(sum, nodes.foot(key.front()).patch).x;
   }
   const std::vector<PatchFunctions<D>> at_sample = patch_functions<D>(samples);
-  Triplets entries;
+  std::vector<MatrixEntry> entries;
   std::vector<Real> weight;
   for (std::size_t f = 0; f < grid.facets.size(); ++f) {
     weight.push_back(area_of(grid.facets[f], nodes.x()).norm());
@@ -280,23 +273,21 @@ std::vector<Vec<D>> fitted_patches(const Grid<D>& grid, const PresentSurface<D>&
     for (const PatchFunctions<D>& s : at_sample)
       for (std::size_t a = 0; a < patch.size(); ++a)
         for (std::size_t b = 0; b < patch.size(); ++b)
-          entries.emplace_back(patch[a], patch[b], weight[f] * s.weight * s.L[a] * s.L[b]);
+          entries.push_back({patch[a], patch[b], weight[f] * s.weight * s.L[a] * s.L[b]});
   }
-  const Cholesky mass(numbered.count(), entries);
+  const SparseCholesky mass(numbered.count(), entries);
   for (int round = 0; round < rounds; ++round) {
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(numbered.count(), D);
+    std::vector<Vec<D>> right(points.size(), Vec<D>::Zero());
     for (std::size_t f = 0; f < grid.facets.size(); ++f) {
       const auto& patch = numbered.facet[f];
       for (const PatchFunctions<D>& s : at_sample) {
         const Vec<D> place = patch_place<D>(s, patch, points).X;
         const Vec<D> x = surface.nearest(place, nodes.foot(grid.facets[f].nodes[0]).patch).x;
         for (std::size_t a = 0; a < patch.size(); ++a)
-          right.row(patch[a]) += weight[f] * s.weight * s.L[a] * x.transpose();
+          at(right, patch[a]) += weight[f] * s.weight * s.L[a] * x;
       }
     }
-    const Eigen::MatrixXd fit = mass.solve(right);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      points[i] = fit.row(static_cast<Eigen::Index>(i)).transpose();
+    points = solved<D>(mass, right);
   }
   return points;
 }
@@ -313,8 +304,8 @@ void place_inside(const Grid<D>& ideal, const std::vector<char>& on_boundary,
   if (inside == 0) return;
   constexpr int corners = 1 << D;
   const TensorRule<D> rule = tensor_rule<D>(2);
-  Triplets entries;
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(inside, D);
+  std::vector<MatrixEntry> entries;
+  std::vector<Vec<D>> right(static_cast<std::size_t>(inside), Vec<D>::Zero());
   for (const auto& cell : ideal.cells) {
     const auto points = ideal.corner_points(cell);
     Eigen::Matrix<Real, corners, corners> K = Eigen::Matrix<Real, corners, corners>::Zero();
@@ -337,15 +328,15 @@ void place_inside(const Grid<D>& ideal, const std::vector<char>& on_boundary,
       for (int b = 0; b < corners; ++b) {
         const Index node = at(cell, b), j = at(number, node);
         if (j >= 0)
-          entries.emplace_back(i, j, K(a, b));
+          entries.push_back({i, j, K(a, b)});
         else
-          right.row(i) -= K(a, b) * at(x, node).transpose();
+          at(right, i) -= K(a, b) * at(x, node);
       }
     }
   }
-  const Eigen::MatrixXd solution = Cholesky(inside, entries).solve(right);
+  const std::vector<Vec<D>> solution = solved<D>(SparseCholesky(inside, entries), right);
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (number[i] >= 0) x[i] = solution.row(number[i]).transpose();
+    if (number[i] >= 0) x[i] = at(solution, number[i]);
 }
 
 /// Interior nodes of cells that fold are moved to the middle of the nodes they share an edge with,
