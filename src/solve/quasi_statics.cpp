@@ -331,7 +331,10 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
       left_ = size / (2 * stability_ * energy_scale_);
       return solution;
     }
-    const Real share = before > 0 ? std::min(loosest, sharper * size / before) : loosest;
+    // As sharp as the quadratic convergence of the last iteration is worth (Eisenstat & Walker
+    // 1996).
+    const Real fallen = before > 0 ? size / before : 1;
+    const Real share = std::min(loosest, sharper * fallen * fallen);
     before = size;
     const Direction found = direction(time, point.u, share);
     bent = found.bent;

@@ -254,7 +254,8 @@ TEST(QuasiStatics, FindsWhatRelaxationFinds) {
   EXPECT_NEAR(newton.ledger().stored.at("strain") / relaxed.ledger().stored.at("strain"), 1, 1e-6);
 }
 
-/// A soft disk on an adhesive floor, and an adhesive lid that comes near and goes away again.
+/// A soft disk on an adhesive floor, and an adhesive lid that comes near and goes away again. The
+/// disk is guided: a free one rolls to one of several places of rest, which jump at other times.
 std::string under_a_lid(const std::string& way) {
   return "dimension = 2\n[time]\nsolver = \"newton\"\nend = 4\nstep = 0.25\n"
          "[[body]]\nname = \"it\"\nshape = \"disk\"\nradius = 1\ncore = 4\nrings = 3\n"
@@ -264,7 +265,9 @@ std::string under_a_lid(const std::string& way) {
          "[[contact]]\nname = \"lid\"\nbodies = [\"it\"]\nepsilon = 40\nsigma0 = 0.2\nbeta = 1\n"
          "partner = { type = \"half_space\", point = [0, 1.5], normal = [0, -1], "
          "displacement = [0, \"-" +
-         way + "*(1 - abs(t - 2)/2)\"] }\n";
+         way + "*(1 - abs(t - 2)/2)\"] }\n" +
+         "[[held]]\nname = \"guide\"\nbody = \"it\"\nwhere = \"abs(x) < 0.3\"\n"
+         "components = [\"x\"]\n";
 }
 
 /// The lid jumps into contact and is pulled off later than it came: the cycle costs work, and the
@@ -276,14 +279,15 @@ TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
   ASSERT_EQ(jumps.notes.size(), 2u);
   EXPECT_NE(jumps.notes.front().find("jump between t = 1.4"), std::string::npos)
       << jumps.notes.front();
-  EXPECT_NE(jumps.notes.back().find("jump between t = 2.7"), std::string::npos)
+  EXPECT_NE(jumps.notes.back().find("jump between t = 2.8"), std::string::npos)
       << jumps.notes.back();
   Found<2> none(under_a_lid("0.3"));
   EXPECT_EQ(none.newton().jumps(), 0);
   const Ledger with = jumps.ledger(), without = none.ledger();
-  // What both release at the beginning is the same.
-  EXPECT_NEAR(with.dissipated - without.dissipated, 0.016, 0.001);
-  EXPECT_GT(with.external_work, 0.01);
+  // What both release at the beginning is the same; what the jumps release was supplied by the lid.
+  const Real released = with.dissipated - without.dissipated;
+  EXPECT_NEAR(released, 0.0193, 0.0015);  // with load steps of 0.01
+  EXPECT_NEAR(with.external_work, released, 5e-4);
   EXPECT_NEAR(with.balance(), without.balance(), 5e-4);
   EXPECT_NEAR(without.external_work, 0, 1e-4);
   EXPECT_GT(jumps.newton().stability(), 0);
