@@ -55,6 +55,7 @@ class RunIn final : public Run::Base {
   explicit RunIn(const SceneInput& input)
       : epochs_(read_plan<D>(input)), complete_(input.complete()) {
     epochs_.simulation().begin();
+    epochs_.simulation().settle();
   }
 
   int dimension() const override { return D; }

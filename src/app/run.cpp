@@ -187,13 +187,16 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
     CheckpointWriter(directory, origin)
         .write(begin.step, begin.time, epochs.simulation().snapshot());
   Recorder<D> recorder(epochs.simulation(), directory, origin, in_place);
-  if (!restart) recorder.record(-1);
   Progress progress(begin, stop, epochs.scene().units.symbol(dimension::time),
                     epochs.scene().symbol_of_sum(dimension::energy), request.quiet);
   const std::int64_t first_step = begin.step;
   const double set_up_seconds = interruption.elapsed_seconds();
   std::optional<int> signal;
   try {
+    if (!restart) {
+      epochs.simulation().settle();
+      recorder.record(-1);
+    }
     signal = run_steps(epochs, recorder, log, interruption, progress, stop);
   } catch (const SolveError& e) {
     progress.finish();

@@ -71,8 +71,9 @@ void Warnings<D>::imbalance(const Ledger& ledger) {
   if (!is_news) return;
   say_(fmt::format(
       "t = {:.6g}: the energy balance is off by {:.3g} % of the energy exchanged so far; the step "
-      "is too long (lower time.safety) or the motion is not resolved by the particles",
-      simulation_->state().time, 100 * error));
+      "is too long (lower time.{}) or the motion is not resolved by the particles",
+      simulation_->state().time, 100 * error,
+      simulation_->stepper().implicit() ? "step" : "safety"));
 }
 
 template <int D>

@@ -115,8 +115,13 @@ void Simulation<D>::step(Real dt) {
 }
 
 template <int D>
+void Simulation<D>::settle() {
+  or_give_up([&] { stepper_->settle(state_); });
+}
+
+template <int D>
 void Simulation<D>::advance() {
-  try {
+  or_give_up([&] {
     const Real longest = stepper_->longest_step(state_);
     last_step_ = stepper_->implicit() ? std::min(longest, scene_.time.end - state_.time)
                                       : controller_.next(state_, scene_.time.end, longest);
@@ -124,6 +129,14 @@ void Simulation<D>::advance() {
       step(last_step_);
     else
       stepper_->step(state_, last_step_);
+  });
+}
+
+template <int D>
+template <class Work>
+void Simulation<D>::or_give_up(const Work& work) {
+  try {
+    work();
   } catch (const StepError& e) {
     give_up(e.failure);
   } catch (const SolveError& e) {

@@ -77,12 +77,10 @@ Real QuasiStatics<D>::largest(const NodalVectors& w) const {
 
 template <int D>
 void QuasiStatics<D>::step(State& state, Real dt) {
-  if (!preconditioner_) preconditioner_.emplace(system_);
   const State before = state;
-  stop_motion(state);
   const Real end = state.time + dt;
   try {
-    if (!at_equilibrium_) settle(state);
+    settle(state);
     for (Real piece = dt; state.time < end;) {
       const bool last = end - state.time <= piece * (1 + 1e-9);
       const Real time = last ? end : state.time + piece;
@@ -371,9 +369,11 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
   }
 }
 
-/// From wherever a run begins to the equilibrium at that time.
 template <int D>
 void QuasiStatics<D>::settle(State& state) {
+  if (!preconditioner_) preconditioner_.emplace(system_);
+  stop_motion(state);
+  if (at_equilibrium_) return;
   const Solution solution = solve(state, state.time);
   if (!solution.failure.empty())
     throw SolveError(fmt::format("no equilibrium is found at the beginning: {}{}", solution.failure,

@@ -144,6 +144,7 @@ void run(StudyRun& study) {
               box("[4, 4, 4]", "initial_displacement = [\"-1.5*x\", \"0\", \"0\"]\n" + solid, 1),
               "particle");
   study::hard_solids(cases);
+  study::hard_equilibria(cases);
   study::hard_drops(cases);
   study::hard_wetting(cases);
   study::hard_contact(cases);

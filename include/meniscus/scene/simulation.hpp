@@ -20,6 +20,9 @@ class Simulation {
 
   /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
   void begin();
+  /// To the first state that can be shown: with `newton` the equilibrium at the start. Without it
+  /// the first step begins with that. Throws as advance().
+  void settle();
   /// Goes on in place of `before`, of the same scene with other references of its bodies, from its
   /// state carried over to them. The history of force terms, the books and the audit are those of
   /// before; the energy that has come by the change is booked as remapped. Throws as begin().
@@ -58,6 +61,9 @@ class Simulation {
   void refuse_impossible_states() const;
   void refuse_impossible_surfaces() const;
   [[noreturn]] void give_up(StepFailure failure);
+  /// Failures of `work` get their step and time.
+  template <class Work>
+  void or_give_up(const Work& work);
 
   Scene<D>& scene_;
   State state_;

@@ -31,6 +31,8 @@ class QuasiStatics final : public Stepper<D> {
 
   bool implicit() const override { return true; }
   void begin(const State& state) override;
+  /// From wherever a run begins to the equilibrium at that time.
+  void settle(State& state) override;
   /// The load step: that of the scene, or a twentieth of its time; less to meet the end of a ramp.
   Real longest_step(const State& state) override;
   /// Throws SolveError where no equilibrium is found.
@@ -88,7 +90,6 @@ class QuasiStatics final : public Stepper<D> {
   /// u += a s_ with a = 1, 1/2, .. until the potential is lower by a share of what is expected;
   /// false if it never is.
   bool search(Real time, Point& point, Real decrement);
-  void settle(State& state);
   Exchange move(State& state, Real time, const NodalVectors& u);
   void reactions(const NodalVectors& force, std::vector<Real>& lambda) const;
   Real react(State& state) const;

@@ -24,6 +24,9 @@ class Stepper {
 
   /// A run begins, or a run of another stepper goes on, at `state`, which has its forces.
   virtual void begin(const State&) {}
+  /// Takes the state at which a run begins to one that can be shown, at the same time. Throws as
+  /// step().
+  virtual void settle(State&) {}
   /// The longest step that is accurate enough, at a state that has its forces.
   virtual Real longest_step(const State&) { return unbounded; }
   /// Whether no step is too long to be stable: longest_step() is then the step itself, and nobody

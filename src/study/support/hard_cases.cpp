@@ -62,6 +62,8 @@ void attempt(const SceneInput& input, const HardRun& how, HardOutcome& outcome) 
   follow(simulation, how, outcome);
   for (const MeasureSource& m : scene.measures)
     outcome.measures[m.name] = m.compute(simulation.state().motion());
+  for (const Residual& r : simulation.stepper().residuals(simulation.state()))
+    outcome.measures[r.meaning] = r.value;
 }
 
 HardOutcome attempt(const std::string& scene_text, const HardRun& how) {

@@ -17,10 +17,10 @@ struct HardOutcome {
   Real final_energy_error = 0;
   Real momentum_error = 0, angular_momentum_error = 0;  ///< largest
   Real first_allowed_step = 0, least_allowed_step = unbounded;
-  std::map<std::string, Real> least;  ///< smallest so far of the measures that are watched
-  std::string stopped;                ///< message of the failure; empty if it ran to its end
-  std::string remarks;                ///< notes and warnings of the set-up
-  std::map<std::string, Real> measures;
+  std::map<std::string, Real> least;     ///< smallest so far of the measures that are watched
+  std::string stopped;                   ///< message of the failure; empty if it ran to its end
+  std::string remarks;                   ///< notes and warnings of the set-up
+  std::map<std::string, Real> measures;  ///< and residuals of the stepper
 
   /// At the end; not a number if the run did not get there.
   Real measure(const std::string& name) const;
@@ -59,6 +59,9 @@ class HardCases {
 
 /// Cases of solids of every law.
 void hard_solids(HardCases& cases);
+
+/// Cases of equilibria by Newton's method (quasi-statics note).
+void hard_equilibria(HardCases& cases);
 
 /// Cases of drops.
 void hard_drops(HardCases& cases);
