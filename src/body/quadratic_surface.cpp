@@ -2,7 +2,8 @@
 // Points, normals and curvature of quadratic patches.
 #include "meniscus/body/quadratic_surface.hpp"
 
-#include <Eigen/LU>
+#include "meniscus/core/dense.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -43,7 +44,7 @@ Mat<D> normal_gradient(const std::vector<Vec<D>>& x, const Vec<D - 1>& xi,
   Mat<D - 1> b;
   for (int k = 0; k < D - 1; ++k)
     for (int l = 0; l < D - 1; ++l) b(k, l) = N.dot(second_derivative<D>(x, xi, k, l));
-  const Eigen::Matrix<Real, D, D - 1> dual = J * Mat<D - 1>(J.transpose() * J).inverse();
+  const Eigen::Matrix<Real, D, D - 1> dual = J * inverse<D - 1>(J.transpose() * J);
   return -dual * b * dual.transpose();
 }
 

@@ -82,6 +82,7 @@ Mat<3> best_rotation(const Mat<3>& moment) {
 
 template Real determinant(const Mat<2>&);
 template Real determinant(const Mat<3>&);
+template Mat<1> inverse(const Mat<1>&);
 template Mat<2> inverse(const Mat<2>&);
 template Mat<3> inverse(const Mat<3>&);
 

@@ -3,12 +3,12 @@
 #include "meniscus/remap/nodal_values.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -82,7 +82,7 @@ std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
       at(left, q) = miss.norm();
       if (at(left, q) == 0) return;
       // Far from the solution F may be that of another place.
-      Vec<D> step = F.inverse() * miss;
+      Vec<D> step = inverse<D>(F) * miss;
       step *= std::min(1.0, spacing / step.norm());
       if (at(left, q) > 1e-15 * spacing) at(X, q) += step;
     });

@@ -5,7 +5,6 @@
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/dense.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -56,7 +55,7 @@ typename PresentSurface<D>::Foot PresentSurface<D>::nearest_in(const Vec<D>& p, 
         metric(k, k) = scale;
         right[k] = 0;
       }
-    Vec<D - 1> next = foot.xi + metric.inverse() * right;
+    Vec<D - 1> next = foot.xi + inverse<D - 1>(metric) * right;
     next = next.cwiseMax(-1).cwiseMin(1);
     const bool there = (next - foot.xi).cwiseAbs().maxCoeff() < 1e-12;
     foot.xi = next;

@@ -6,9 +6,8 @@
 #include "meniscus/body/quadratic_surface.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/remap/present_surface.hpp"
-#include "meniscus/solve/sparse_cholesky.hpp"
+#include "meniscus/solve/sparse_factors.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -308,19 +307,15 @@ void place_inside(const Grid<D>& ideal, const std::vector<char>& on_boundary,
   std::vector<Vec<D>> right(static_cast<std::size_t>(inside), Vec<D>::Zero());
   for (const auto& cell : ideal.cells) {
     const auto points = ideal.corner_points(cell);
-    Eigen::Matrix<Real, corners, corners> K = Eigen::Matrix<Real, corners, corners>::Zero();
+    std::array<std::array<Real, corners>, corners> K{};
     for (std::size_t q = 0; q < rule.x.size(); ++q) {
       const Mat<D> J = multilinear<D, D>(points, rule.x[q]).J;
-      Eigen::Matrix<Real, corners, D> slope;
+      const Mat<D> to_place = inverse<D>(J).transpose();
+      const Real weight = rule.w[q] * determinant<D>(J);
+      auto g = corner_slopes<D>(rule.x[q]);
+      for (Vec<D>& slope : g) slope = to_place * slope;
       for (int a = 0; a < corners; ++a)
-        for (int k = 0; k < D; ++k) {
-          Real d = 0.5 * corner_sign(a, k);
-          for (int l = 0; l < D; ++l)
-            if (l != k) d *= 0.5 * (1 + corner_sign(a, l) * rule.x[q][l]);
-          slope(a, k) = d;
-        }
-      const Eigen::Matrix<Real, corners, D> gradient = slope * J.inverse();
-      K += rule.w[q] * J.determinant() * gradient * gradient.transpose();
+        for (int b = 0; b < corners; ++b) at(at(K, a), b) += weight * at(g, a).dot(at(g, b));
     }
     for (int a = 0; a < corners; ++a) {
       const Index i = at(number, at(cell, a));
@@ -328,9 +323,9 @@ void place_inside(const Grid<D>& ideal, const std::vector<char>& on_boundary,
       for (int b = 0; b < corners; ++b) {
         const Index node = at(cell, b), j = at(number, node);
         if (j >= 0)
-          entries.push_back({i, j, K(a, b)});
+          entries.push_back({i, j, at(at(K, a), b)});
         else
-          at(right, i) -= K(a, b) * at(x, node);
+          at(right, i) -= at(at(K, a), b) * at(x, node);
       }
     }
   }

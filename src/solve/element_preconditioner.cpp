@@ -8,50 +8,39 @@
 
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
+#include "meniscus/solve/sparse_factors.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <cmath>
 
 namespace meniscus {
 namespace {
 
-using Sparse = Eigen::SparseMatrix<Real, Eigen::ColMajor, int>;
-
+/// Block [a][b] of an element: of forces at corner a by displacements of corner b.
 template <int D>
-constexpr int unknowns = D << D;
-template <int D>
-using ElementMatrix = Eigen::Matrix<Real, unknowns<D>, unknowns<D>>;
+using ElementMatrix = std::array<std::array<Mat<D>, 1 << D>, 1 << D>;
 
-/// Two Gauss points per direction. Row a D + i is component i at corner a.
+/// Two Gauss points per direction.
 template <int D>
 ElementMatrix<D> element_stiffness(const std::array<Vec<D>, 1 << D>& corners,
                                    const ElasticModuli& moduli) {
-  ElementMatrix<D> K = ElementMatrix<D>::Zero();
+  ElementMatrix<D> K;
+  for (auto& row : K) row.fill(Mat<D>::Zero());
   for (int q = 0; q < 1 << D; ++q) {
     Vec<D> xi;
     for (int k = 0; k < D; ++k) xi[k] = corner_sign(q, k) / std::sqrt(3.0);
     const Mat<D> J = multilinear<D, D>(corners, xi).J;
     const Mat<D> to_place = inverse<D>(J).transpose();
-    std::array<Vec<D>, 1 << D> g;
-    for (int a = 0; a < 1 << D; ++a) {
-      Vec<D> slope;
-      for (int l = 0; l < D; ++l) {
-        slope[l] = 0.5 * corner_sign(a, l);
-        for (int k = 0; k < D; ++k)
-          if (k != l) slope[l] *= 0.5 * (1 + corner_sign(a, k) * xi[k]);
-      }
-      at(g, a) = to_place * slope;
-    }
+    auto g = corner_slopes<D>(xi);
+    for (Vec<D>& slope : g) slope = to_place * slope;
     const Real weight = std::abs(determinant<D>(J));
     for (int a = 0; a < 1 << D; ++a)
       for (int b = 0; b < 1 << D; ++b) {
         Mat<D> block = moduli.lame * at(g, a) * at(g, b).transpose() +
                        moduli.shear * at(g, b) * at(g, a).transpose();
         block.diagonal().array() += moduli.shear * at(g, a).dot(at(g, b));
-        K.template block<D, D>(a * D, b * D) += weight * block;
+        at(at(K, a), b) += weight * block;
       }
   }
   return K;
@@ -59,24 +48,24 @@ ElementMatrix<D> element_stiffness(const std::array<Vec<D>, 1 << D>& corners,
 
 /// K of a body, with something of a mass so that rigid motions do not make it singular.
 template <int D>
-Sparse stiffness(const Body<D>& body, const ElasticModuli& moduli) {
+std::vector<MatrixEntry> stiffness(const Body<D>& body, const ElasticModuli& moduli) {
   constexpr Real share_of_mass = 1e-3;
   const Grid<D>& grid = body.geometry.grid;
-  std::vector<Eigen::Triplet<Real>> entries;
+  std::vector<MatrixEntry> entries;
   for (const auto& cell : grid.cells) {
     const ElementMatrix<D> K = element_stiffness<D>(grid.corner_points(cell), moduli);
-    for (int r = 0; r < unknowns<D>; ++r)
-      for (int c = 0; c < unknowns<D>; ++c)
-        entries.emplace_back(at(cell, r / D) * D + r % D, at(cell, c / D) * D + c % D, K(r, c));
+    for (int a = 0; a < 1 << D; ++a)
+      for (int b = 0; b < 1 << D; ++b)
+        for (int i = 0; i < D; ++i)
+          for (int k = 0; k < D; ++k)
+            entries.push_back({at(cell, a) * D + i, at(cell, b) * D + k, at(at(K, a), b)(i, k)});
   }
   const Real extent = box_around<D>(body.particles.X()).extent().maxCoeff();
   const Real per_volume = share_of_mass * (moduli.lame + 2 * moduli.shear) / (extent * extent);
   for (Index A = 0; A < body.size(); ++A)
     for (int i = 0; i < D; ++i)
-      entries.emplace_back(A * D + i, A * D + i, per_volume * body.cells.volume(A));
-  Sparse K(body.size() * D, body.size() * D);
-  K.setFromTriplets(entries.begin(), entries.end());
-  return K;
+      entries.push_back({A * D + i, A * D + i, per_volume * body.cells.volume(A)});
+  return entries;
 }
 
 /// About T^-1, and the transpose of that. T has eigenvalues near zero, in modes in which
@@ -84,37 +73,17 @@ Sparse stiffness(const Body<D>& body, const ElasticModuli& moduli) {
 /// those of a shell of few layers are not: what is added to T is just enough for the former
 /// (quasi-statics note 3).
 template <int D>
-class InverseTransform {
- public:
-  explicit InverseTransform(const Body<D>& body) {
-    constexpr Real added = 0.004;
-    const PointRows<D>& rows = body.at_particles;
-    std::vector<Eigen::Triplet<Real>> entries;
-    for (Index A = 0; A < body.size(); ++A) {
-      entries.emplace_back(A, A, added);
-      for (Offset e = at(rows.start, A); e < at(rows.start, A + 1); ++e)
-        entries.emplace_back(A, at(rows.particle, e), at(rows.value, e));
-    }
-    Sparse T(body.size(), body.size());
-    T.setFromTriplets(entries.begin(), entries.end());
-    factors_.compute(T);
-    if (factors_.info() != Eigen::Success)
-      throw SolveError(fmt::format(
-          "body '{}': the places of its particles do not determine their coefficients", body.name));
+SparseLU inverse_transform(const Body<D>& body) {
+  constexpr Real added = 0.004;
+  const PointRows<D>& rows = body.at_particles;
+  std::vector<MatrixEntry> entries;
+  for (Index A = 0; A < body.size(); ++A) {
+    entries.push_back({A, A, added});
+    for (Offset e = at(rows.start, A); e < at(rows.start, A + 1); ++e)
+      entries.push_back({A, at(rows.particle, e), at(rows.value, e)});
   }
-
-  /// Of D components each, as columns.
-  void solve(Eigen::MatrixXd& x, bool transpose) const {
-    if (transpose)
-      x = factors_.transpose().solve(x).eval();
-    else
-      x = factors_.solve(x).eval();
-  }
-
- private:
-  // SparseLU is not const where it should be.
-  mutable Eigen::SparseLU<Sparse> factors_;
-};
+  return {body.size(), entries};
+}
 
 /// du.A du of the strain energy of a body in its reference, for a uniform gradient of du.
 template <int D>
@@ -163,34 +132,36 @@ class ElementPreconditioner<D>::OfBody {
   OfBody(const Body<D>& body, const ElasticModuli& moduli)
       : first_(body.first),
         size_(body.size()),
-        transform_(body),
-        factors_(stiffness(body, moduli)) {
-    if (factors_.info() != Eigen::Success || !(factors_.vectorD().minCoeff() > 0))
+        transform_(inverse_transform(body)),
+        factors_(D * body.size(), stiffness(body, moduli)) {
+    if (!transform_.exists())
+      throw SolveError(fmt::format(
+          "body '{}': the places of its particles do not determine their coefficients", body.name));
+    if (!(factors_.smallest_pivot().value > 0))
       throw SolveError(fmt::format("body '{}' has no stiffness in its reference", body.name));
   }
 
   void apply(const NodalVectors& r, NodalVectors& z) const {
-    Eigen::MatrixXd x(size_, D);
-    for (Index A = 0; A < size_; ++A)
-      for (int i = 0; i < D; ++i) x(A, i) = at(r, first_ + A)[i];
-    transform_.solve(x, true);
-    Eigen::VectorXd b(size_ * D);
-    for (Index A = 0; A < size_; ++A)
-      for (int i = 0; i < D; ++i) b[A * D + i] = x(A, i);
-    b = factors_.solve(b).eval();
-    for (Index A = 0; A < size_; ++A)
-      for (int i = 0; i < D; ++i) x(A, i) = b[A * D + i];
-    transform_.solve(x, false);
-    for (Index A = 0; A < size_; ++A) {
-      at(z, first_ + A) = Lanes::zero();
-      for (int i = 0; i < D; ++i) at(z, first_ + A).set(i, x(A, i));
+    Eigen::VectorXd x(size_);
+    std::vector<Real> b(static_cast<std::size_t>(size_ * D));
+    for (int i = 0; i < D; ++i) {
+      for (Index A = 0; A < size_; ++A) x[A] = at(r, first_ + A)[i];
+      transform_.solve_transposed(x);
+      for (Index A = 0; A < size_; ++A) at(b, A * D + i) = x[A];
+    }
+    factors_.solve(b);
+    for (Index A = 0; A < size_; ++A) at(z, first_ + A) = Lanes::zero();
+    for (int i = 0; i < D; ++i) {
+      for (Index A = 0; A < size_; ++A) x[A] = at(b, A * D + i);
+      transform_.solve(x);
+      for (Index A = 0; A < size_; ++A) at(z, first_ + A).set(i, x[A]);
     }
   }
 
  private:
   Index first_, size_;
-  InverseTransform<D> transform_;
-  Eigen::SimplicialLDLT<Sparse> factors_;
+  SparseLU transform_;
+  SparseCholesky factors_;
 };
 
 template <int D>

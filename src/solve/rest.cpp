@@ -8,7 +8,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -57,7 +56,7 @@ RigidField rigid_part(const System<D>& system, const Body<D>& body, const State&
     inertia += m * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
     moment += m * cross(r, vector_of(meniscus::at(du, body.first + A)));
   }
-  field.rotation = D == 3 ? Eigen::Vector3d(inertia.inverse() * moment)
+  field.rotation = D == 3 ? Eigen::Vector3d(inverse<3>(inertia) * moment)
                           : Eigen::Vector3d(0, 0, moment.z() / inertia(2, 2));
   return field;
 }

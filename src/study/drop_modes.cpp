@@ -10,7 +10,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -105,14 +104,14 @@ struct Window {
 /// The rate s of equidistant samples of c + a exp(s t) + b exp(s' t), s' = conj(s) or real: linear
 /// prediction from the two samples before, by least squares. The slow one of two real rates.
 Complex fitted_rate(const std::vector<Real>& a, Real interval) {
-  const int rows = static_cast<int>(a.size()) - 2;
-  Eigen::MatrixXd before(rows, 3);
-  Eigen::VectorXd next(rows);
-  for (int k = 0; k < rows; ++k) {
-    before.row(k) << at(a, k + 1), at(a, k), 1;
-    next[k] = at(a, k + 2);
+  Mat<3> normal = Mat<3>::Zero();
+  Vec<3> right = Vec<3>::Zero();
+  for (std::size_t k = 0; k + 2 < a.size(); ++k) {
+    const Vec<3> before(a[k + 1], a[k], 1);
+    normal += before * before.transpose();
+    right += a[k + 2] * before;
   }
-  const Eigen::Vector3d p = before.colPivHouseholderQr().solve(next);
+  const Vec<3> p = inverse<3>(normal) * right;
   const Complex z = 0.5 * (p[0] + std::sqrt(Complex(p[0] * p[0] + 4 * p[1])));
   const Complex s = std::log(z) / interval;
   return {s.real(), std::abs(s.imag())};

@@ -94,6 +94,19 @@ CellPoint<D, P> multilinear(const std::array<Vec<D>, (1 << P)>& corners, const V
   return point;
 }
 
+/// Derivatives dN_a / dxi of the functions of that map.
+template <int P>
+std::array<Vec<P>, (1 << P)> corner_slopes(const Vec<P>& xi) {
+  std::array<Vec<P>, (1 << P)> slopes;
+  for (int a = 0; a < (1 << P); ++a)
+    for (int k = 0; k < P; ++k) {
+      Real& slope = at(slopes, a)[k] = 0.5 * corner_sign(a, k);
+      for (int l = 0; l < P; ++l)
+        if (l != k) slope *= 0.5 * (1 + corner_sign(a, l) * xi[l]);
+    }
+  return slopes;
+}
+
 /// The map of a cell: multilinear, and its bulge if it has one.
 template <int D>
 CellPoint<D, D> cell_point(const std::array<Vec<D>, (1 << D)>& corners, const Bulge<D>* bulge,

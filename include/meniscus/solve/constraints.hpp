@@ -3,7 +3,7 @@
 #pragma once
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/physics/constraint.hpp"
-#include "meniscus/solve/sparse_cholesky.hpp"
+#include "meniscus/solve/sparse_factors.hpp"
 #include "meniscus/solve/state.hpp"
 
 #include <memory>

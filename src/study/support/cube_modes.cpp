@@ -5,7 +5,7 @@
 
 #include "meniscus/body/gauss.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "eigenvalues.hpp"
 
 namespace meniscus::study {
 namespace {
@@ -61,8 +61,7 @@ std::vector<Real> cube_modes(Moduli moduli, int degree) {
                            moduli.mu * I.trace() * Mat<3>::Identity();
       K.block<3, 3>(3 * a, 3 * b) = block;
     }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, Eigen::EigenvaluesOnly);
-  const Eigen::VectorXd& values = solver.eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigenvalues(K);
   return {values.begin(), values.end()};
 }
 

@@ -5,12 +5,12 @@
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/ordering.hpp"
 #include "meniscus/body/shapes.hpp"
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/random.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <fmt/core.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <random>
 
@@ -123,7 +123,7 @@ struct ErrorIntegrals {
     }
   }
   ElasticErrors errors() const {
-    const Vector c = RR.ldlt().solve(Re);
+    const Vector c = solve_symmetric(RR, Re);
     const Real L2 = e2 - c.dot(Re), H1 = grad_e2 - 2 * c.dot(We) + c.dot(WW * c);
     return {std::sqrt(std::max(0.0, L2) / u2), std::sqrt(std::max(0.0, H1) / grad_u2)};
   }

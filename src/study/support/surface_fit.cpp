@@ -2,9 +2,11 @@
 // Weights of local quadratic fits along a surface.
 #include "surface_fit.hpp"
 
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/parallel.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <cmath>
 
 namespace meniscus::study {
 namespace {
@@ -20,9 +22,12 @@ Eigen::Matrix<Real, D, D - 1> tangents(std::span<const Vec<D>> points,
                                        const std::vector<Index>& near, const Vec<D>& x) {
   Mat<D> covariance = Mat<D>::Zero();
   for (const Index q : near) covariance += (at(points, q) - x) * (at(points, q) - x).transpose();
-  return Eigen::SelfAdjointEigenSolver<Mat<D>>(covariance)
-      .eigenvectors()
-      .template rightCols<D - 1>();
+  if constexpr (D == 3) {
+    return Eigen::SelfAdjointEigenSolver<Mat<3>>(covariance).eigenvectors().rightCols<2>();
+  } else {
+    const Real angle = 0.5 * std::atan2(2 * covariance(0, 1), covariance(0, 0) - covariance(1, 1));
+    return Vec<2>(std::cos(angle), std::sin(angle));
+  }
 }
 
 template <int D>
@@ -55,7 +60,7 @@ SurfaceFit<D>::SurfaceFit(std::span<const Vec<D>> points) {
     }
     // Value at s = 0: e_0 (P^T W P)^-1 P^T W.
     const Eigen::MatrixXd M = P.transpose() * w.asDiagonal() * P;
-    const Eigen::VectorXd c = M.ldlt().solve(Eigen::VectorXd::Unit(M.rows(), 0));
+    const Eigen::VectorXd c = solve_symmetric(M, Eigen::VectorXd::Unit(M.rows(), 0));
     const Eigen::VectorXd weight = w.asDiagonal() * (P * c);
     point_.insert(point_.end(), near.begin(), near.end());
     weight_.insert(weight_.end(), weight.data(), weight.data() + n);

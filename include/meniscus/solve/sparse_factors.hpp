@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sparse L D L^T factors of a symmetric positive matrix: Eigen's, which take seconds to compile, in
-// one file.
+// Sparse factors of matrices: Eigen's, which take seconds to compile, in one file.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -14,6 +13,7 @@ struct MatrixEntry {
   Real value;
 };
 
+/// L D L^T of a symmetric positive matrix.
 class SparseCholesky {
  public:
   /// Of the n x n matrix with the sums of `entries`, both triangles given. Its diagonal is scaled
@@ -31,6 +31,24 @@ class SparseCholesky {
   /// b becomes the solution x of A x = b.
   void solve(std::vector<Real>& b) const;
   std::size_t bytes() const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+/// L U of a square matrix.
+class SparseLU {
+ public:
+  /// Of the n x n matrix with the sums of `entries`.
+  SparseLU(Index n, const std::vector<MatrixEntry>& entries);
+  ~SparseLU();
+
+  /// Whether the matrix has an inverse.
+  bool exists() const;
+  /// b becomes the solution of A x = b, or of A^t x = b.
+  void solve(Eigen::VectorXd& b) const;
+  void solve_transposed(Eigen::VectorXd& b) const;
 
  private:
   struct Factors;

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sparse factors by Eigen.
-#include "meniscus/solve/sparse_cholesky.hpp"
+#include "meniscus/solve/sparse_factors.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 #include <cmath>
 
 namespace meniscus {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<Real>;
+
+Sparse sum_of(Index n, const std::vector<Eigen::Triplet<Real>>& entries) {
+  Sparse A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+}  // namespace
 
 struct SparseCholesky::Factors {
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> of_scaled;
+  Eigen::SimplicialLDLT<Sparse> of_scaled;
   Eigen::VectorXd scale, permuted;
 };
 
@@ -23,8 +35,7 @@ SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries)
   for (const MatrixEntry& e : entries)
     scaled.emplace_back(e.row, e.column,
                         e.value * factors_->scale[e.row] * factors_->scale[e.column]);
-  Eigen::SparseMatrix<Real> A(n, n);
-  A.setFromTriplets(scaled.begin(), scaled.end());
+  const Sparse A = sum_of(n, scaled);
   factors_->of_scaled.compute(A);
   if (factors_->of_scaled.info() != Eigen::Success) {
     // A pivot that is exactly zero ends the factors; with a shift it shows as the smallest.
@@ -63,6 +74,32 @@ void SparseCholesky::solve(std::vector<Real>& b) const {
 std::size_t SparseCholesky::bytes() const {
   const auto entries = factors_->of_scaled.matrixL().nestedExpression().nonZeros();
   return static_cast<std::size_t>(entries) * (sizeof(Real) + sizeof(int));
+}
+
+struct SparseLU::Factors {
+  Eigen::SparseLU<Sparse> of;
+};
+
+SparseLU::SparseLU(Index n, const std::vector<MatrixEntry>& entries)
+    : factors_(std::make_unique<Factors>()) {
+  std::vector<Eigen::Triplet<Real>> triplets;
+  triplets.reserve(entries.size());
+  for (const MatrixEntry& e : entries) triplets.emplace_back(e.row, e.column, e.value);
+  factors_->of.compute(sum_of(n, triplets));
+}
+
+SparseLU::~SparseLU() = default;
+
+bool SparseLU::exists() const {
+  return factors_->of.info() == Eigen::Success;
+}
+
+void SparseLU::solve(Eigen::VectorXd& b) const {
+  b = factors_->of.solve(b).eval();
+}
+
+void SparseLU::solve_transposed(Eigen::VectorXd& b) const {
+  b = factors_->of.transpose().solve(b).eval();
 }
 
 }  // namespace meniscus
