@@ -2,6 +2,7 @@
 // Adhesive contact of two bodies, or of a body with a rigid partner.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/optional_rows.hpp"
+#include "meniscus/measure/ridge_measures.hpp"
 #include "meniscus/measure/wetting_measures.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 #include "meniscus/physics/contact_resolution.hpp"
@@ -141,6 +142,7 @@ struct Contact final : Load<D>, Keys {
   StateCheck containment(const Assembly<D>& assembly) const;
   void report(const ForceTerm& term, Assembly<D>& assembly) const;
   void measure_wetting(Assembly<D>& assembly) const;
+  void measure_soft_wetting(Assembly<D>& assembly) const;
 };
 
 template <int D>
@@ -184,7 +186,10 @@ void Contact<D>::build(Assembly<D>& assembly) const {
     for (const std::string& body : bodies)
       assembly.keep_reference(body, "its [[contact]] has beta per volume of the reference");
   assembly.add(std::move(term), name);
-  measure_wetting(assembly);
+  if (partner)
+    measure_wetting(assembly);
+  else
+    measure_soft_wetting(assembly);
 }
 
 template <int D>
@@ -337,7 +342,7 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
 /// What a drop does on a wall.
 template <int D>
 void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
-  if (!partner || !assembly.surface_energy(bodies[0])) return;
+  if (!assembly.surface_energy(bodies[0])) return;
   for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area")))
     assembly.measure(name, std::move(source));
   assembly.wets({bodies[0],
@@ -354,6 +359,33 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
            },
            flat(assembly).peak_gap, partner->shape->flat()))
     assembly.measure(name, std::move(source));
+}
+
+/// What a drop does on a soft body.
+template <int D>
+void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
+  if (!assembly.surface_energy(bodies[0]) || assembly.viscosity(bodies[0]).empty() ||
+      !assembly.viscosity(bodies[1]).empty())
+    return;
+  const PlaneContact flat = this->flat(assembly);
+  const auto wetted_area = [energy = assembly.measure_named(name + ".energy"), W = flat.adhesion](
+                               const Motion& motion) { return -energy(motion) / W; };
+  assembly.measure(name, {"wetted_area", D == 3 ? dimension::area : dimension::length,
+                          "area in contact: energy of the interaction / adhesion", wetted_area});
+  for (MeasureSource& source : front_measures<D>(wetted_area))
+    assembly.measure(name, std::move(source));
+  for (MeasureSource& source :
+       ridge_measures(assembly.body(bodies[0]), assembly.body(bodies[1]), flat.peak_gap))
+    assembly.measure(name, std::move(source));
+  // Half of the energy of the contact is that of either surface.
+  const Real tension = assembly.surface_energy(bodies[1]).value_or(0);
+  if (tension < flat.adhesion / 2)
+    assembly.warn(fmt::format(
+        "contact '{}': half of the adhesion, {:.4g} {}, is taken from the surface of '{}', whose "
+        "tension is {:.4g}: "
+        "its surface crumples where its elasticity does not prevent it; expected is a "
+        "[[surface_tension]] of more than that",
+        name, flat.adhesion / 2, assembly.units().symbol(dimension::tension), bodies[1], tension));
 }
 
 const bool registered = register_load<Contact>(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of drops on walls: angles near both ends, complete wetting, ranges and supports that
-// hardly resolve the line, impact, lift-off, two drops that meet.
+// hardly resolve the line, impact, lift-off, two drops that meet, a tip that is torn out of a film.
 #include <fmt/core.h>
 
 #include "support/hard_cases.hpp"
@@ -99,6 +99,29 @@ void motions(HardCases& cases, bool full) {
       1e-2);
 }
 
+/// At 120 m/s for water and a tip of 5 nm, on which the film draws out a neck.
+void neck(HardCases& cases, bool full) {
+  const std::string name = "tip is drawn out of a film, with a neck";
+  const auto outcome = cases.stays_stable(
+      name,
+      fmt::format(
+          "dimension = 3\n[time]\nend = {}\n[[body]]\nname = \"film\"\nshape = "
+          "\"cylinder\"\nradius "
+          "= 2.5\nheight = 0.9\ncore = 6\nrings = 3\nlayers = 2\ncentre = [0, 0, -0.45]\nmaterial "
+          "= "
+          "{{ type = \"newtonian\", density = 1, bulk_modulus = 151, viscosity = 0.5 }}\n"
+          "[[surface_tension]]\nbody = \"film\"\ngamma = 1\n[[held]]\nbody = \"film\"\nface = "
+          "\"z_min\"\n[[held]]\nbody = \"film\"\nface = \"side\"\n[[contact]]\nname = "
+          "\"tip\"\nbodies = [\"film\"]\ncontact_angle = 5\n{}points = 3\n[contact.partner]\ntype "
+          "= "
+          "\"ball\"\ncentre = [0, 0, 1.04]\nradius = 0.95\ndisplacement = [0, 0, \"max(0, t - "
+          "{})\"]\n",
+          full ? 20 : 4, "offset = 0.05\nrange = 0.18\n", full ? 4 : 1),
+      1e-2);
+  cases.require(name, "wetted area of the tip / (4 pi R^2)",
+                outcome.measure("tip.wetted_area") / (4 * 3.14159), {0, full ? 0.01 : 0.5});
+}
+
 }  // namespace
 
 void hard_wetting(HardCases& cases) {
@@ -106,6 +129,7 @@ void hard_wetting(HardCases& cases) {
   angles(cases, full);
   lengths_too_short(cases, full);
   motions(cases, full);
+  neck(cases, full);
 }
 
 }  // namespace meniscus::study

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "cases.hpp"
 #include "io_helpers.hpp"
@@ -403,6 +404,43 @@ TEST(WettingLaws, WhatCannotBeIsRefused) {
                     "between two bodies adhesion cannot be a formula");
   EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = 1\nfriction = 2\n"), InputError,
                     "friction: is for rigid partners");
+}
+
+/// A drop over a layer that has been bent to a ridge of slope 0.3 below its rim.
+Scene<2> over_ridge(const std::string& tension) {
+  return test::scene_of<2>(
+      "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"half_disk\"\nradius = "
+      "1\ncore = 8\nrings = 4\ncentre = [0, 0.2]\nmaterial = { type = \"newtonian\", density = 1, "
+      "bulk_modulus = 100, viscosity = 1 }\n[[body]]\nname = \"layer\"\nshape = "
+      "\"rectangle\"\nsize = "
+      "[4, 0.5]\ncorner = [-2, -0.5]\nspacing = 0.025\ninitial_displacement = [\"0\", "
+      "\"0.15 - 0.3*abs(abs(x) - 1)\"]\nmaterial = { type = \"neo_hookean\", density = 1, mu = 1, "
+      "lambda = 1 }\n[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n" +
+      tension +
+      "[[contact]]\nname = \"line\"\nbodies = [\"drop\", \"layer\"]\nadhesion = 1\noffset = "
+      "0.03\nrange = 0.1\npoints = 3\n");
+}
+
+TEST(SoftWetting, MeasuresTheRidgeAndItsAngles) {
+  Scene<2> scene = over_ridge("[[surface_tension]]\nbody = \"layer\"\ngamma = 1\n");
+  EXPECT_TRUE(scene.warnings.empty());
+  const Motion motion = scene.initial.motion();
+  EXPECT_NEAR(measure(scene, "line.ridge_height", motion), 0.15, 0.015);  // rounded off
+  EXPECT_NEAR(measure(scene, "line.ridge_radius", motion), 1, 0.02);
+  const Real tilt = std::atan(0.3) * 180 / std::numbers::pi;
+  EXPECT_NEAR(measure(scene, "line.solid_angle", motion), 180 - 2 * tilt, 0.5);
+  // The rim of the half disk is vertical 0.05 above the ridge.
+  const Real lean = std::asin(0.05) * 180 / std::numbers::pi;
+  EXPECT_NEAR(measure(scene, "line.liquid_angle", motion), 90 + tilt + lean, 1.5);
+  EXPECT_GT(measure(scene, "line.wetted_area", motion), 0);
+}
+
+/// The contact takes half of the adhesion from the surface of the ground.
+TEST(SoftWetting, WarnsWhereTheGroundHasTooLittleTension) {
+  const Scene<2> scene = over_ridge("");
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("the surface of 'layer', whose tension is 0"),
+            std::string::npos);
 }
 
 }  // namespace

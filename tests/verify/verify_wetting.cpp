@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Drops on walls: the whole outline of one at rest under its weight against the profile of
-// Bashforth and Adams, and how fast a wetted area grows at first.
+// Bashforth and Adams, how fast a wetted area grows at first, and the ridge on soft ground.
 #include "meniscus/body/surface_patches.hpp"
 #include "meniscus/scene/simulation.hpp"
 
@@ -118,6 +118,58 @@ TEST(Spreading, IsLinearAtFirstWithAndWithoutMuchViscosity) {
     const auto [measured, r_squared] = early_growth(viscosity);
     EXPECT_NEAR(measured, slope, 0.05 * slope) << viscosity;
     EXPECT_GT(r_squared, 0.97) << viscosity;
+  }
+}
+
+/// A plane layer of thickness 1 that adheres to a rigid ground, under tension.
+struct LinearLayer {
+  Real mu, nu, tension;
+
+  /// Of its surface at x = a, under line forces 1 upward at x = -a, a and the pressure 1/a between
+  /// them (wetting note 10).
+  Real ridge(Real a) const {
+    constexpr Real dk = 0.005, most = 400;
+    Real sum = 0;
+    for (Real k = dk / 2; k < most; k += dk) {
+      const Real decay = std::exp(-2 * k), square = decay * decay;  // sinh, cosh times decay
+      const Real numerator = (3 - 4 * nu) * (1 - square) / 2 - 2 * k * decay;
+      const Real denominator =
+          (3 - 4 * nu) * (1 + square) / 2 + (2 * k * k + 5 - 12 * nu + 8 * nu * nu) * decay;
+      const Real compliance = (1 - nu) / (mu * k) * numerator / denominator;
+      const Real load = 2 * std::cos(k * a) - 2 * std::sin(k * a) / (k * a);
+      sum += compliance * load * std::cos(k * a) / (1 + tension * k * k * compliance) * dk;
+    }
+    return sum / std::numbers::pi;
+  }
+};
+
+/// gamma/mu is the thickness of the layer, and 2.5 times that; its tension is so much larger than
+/// that of the drop that slopes are small.
+TEST(SoftLayer, HasTheRidgeOfLineForcesOnALinearLayer) {
+  for (const auto& layer : {LinearLayer{1, 0.45, 4}, LinearLayer{0.4, 0.45, 2}}) {
+    const SceneInput input = SceneInput::from_file(
+        MENISCUS_SOURCE_DIR "/inputs/droplet_on_soft_layer.toml",
+        {"body.drop.core=14", "body.drop.rings=7", "body.layer.spacing=0.0625",
+         "contact.line.range=0.06", "contact.line.offset=0.036", "time.end=8",
+         "body.layer.material.mu=" + std::to_string(layer.mu),
+         "body.layer.material.lambda=" + std::to_string(9 * layer.mu),
+         "surface_tension[1].gamma=" + std::to_string(layer.tension)});
+    scene_dimension(input);
+    Scene<2> scene = build_scene<2>(input);
+    Simulation<2> simulation(scene);
+    simulation.begin();
+    while (!simulation.finished()) simulation.advance();
+    const auto measured = [&](const std::string& name) {
+      const auto found = std::find_if(scene.measures.begin(), scene.measures.end(),
+                                      [&](const auto& m) { return m.name == "line." + name; });
+      return found->compute(simulation.state().motion());
+    };
+    const Real linear = layer.ridge(measured("ridge_radius"));
+    RecordProperty("linear", std::to_string(linear));
+    RecordProperty("measured", std::to_string(measured("ridge_height")));
+    EXPECT_NEAR(measured("ridge_height"), linear, 0.1 * linear) << "mu = " << layer.mu;
+    const Real neumann = 180 - 360 / std::numbers::pi * std::asin(0.5 / layer.tension);
+    EXPECT_NEAR(measured("solid_angle"), neumann, 5) << "mu = " << layer.mu;
   }
 }
 
