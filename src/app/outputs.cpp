@@ -66,7 +66,10 @@ std::vector<HistoryColumn> history_columns(const Scene<D>& scene) {
   for (const std::string& kind : stored_kinds(scene)) columns.push_back({kind + "_energy", energy});
   columns.push_back({"dissipated", energy});
   columns.push_back({"external_work", energy});
-  if (!scene.remaps.empty()) columns.push_back({"remapped", energy});
+  if (!scene.remaps.empty()) {
+    columns.push_back({"remapped", energy});
+    columns.push_back({"remaps", "1"});
+  }
   columns.push_back({"energy_balance", energy});
   for (const char* name : {"energy_balance_error", "momentum_error", "angular_momentum_error"})
     columns.push_back({name, "1"});

@@ -145,7 +145,10 @@ void Recorder<D>::write_row(const Ledger& ledger) {
   for (const std::string& kind : energy_kinds_) row.push_back(ledger.stored.at(kind));
   row.push_back(ledger.dissipated);
   row.push_back(ledger.external_work);
-  if (!simulation_->scene().remaps.empty()) row.push_back(ledger.remapped);
+  if (!simulation_->scene().remaps.empty()) {
+    row.push_back(ledger.remapped);
+    row.push_back(static_cast<Real>(state.epoch));
+  }
   for (const Real x : {ledger.balance(), audit.balance_error(ledger), audit.momentum_error(ledger),
                        audit.angular_momentum_error(ledger)})
     row.push_back(x);

@@ -66,13 +66,13 @@ class Theory(unittest.TestCase):
 
 
 class Pictures(unittest.TestCase):
-    def draw(self, dimension, shape, *options, tables=""):
+    def draw(self, dimension, shape, *options, tables="", scene=SCENE):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            scene = folder / "scene.toml"
-            scene.write_text(SCENE.format(dimension=dimension, shape=shape) + tables)
+            path = folder / "scene.toml"
+            path.write_text(scene.format(dimension=dimension, shape=shape) + tables)
             run = folder / "run"
-            subprocess.run([PROGRAM, "run", "-q", scene, "--output", run], check=True)
+            subprocess.run([PROGRAM, "run", "-q", path, "--output", run], check=True)
             script = ROOT / "tools/plotting/plot.py"
             done = subprocess.run(
                 ["/usr/bin/python3", "-B", script, run, *options], capture_output=True, text=True
@@ -105,6 +105,35 @@ class Pictures(unittest.TestCase):
         names = {"energies", "drop_shape", "drop_measures", "sections_velocity"}
         self.assertEqual(set(pictures), names)
         self.assertGreater(min(pictures.values()), 10000)
+
+    def test_drops_on_walls(self):
+        wall = """
+[[contact]]
+name = "wall"
+bodies = ["drop"]
+contact_angle = 80
+points = 4
+[contact.partner]
+type = "half_space"
+"""
+        shapes = {
+            2: "shape = 'disk'\nradius = 1\ncore = 4\nrings = 2",
+            3: "shape = 'ball'\nradius = 1\ncore = 4\nlayers = 2",
+        }
+        places = {
+            2: "point = [0, -1.1]\nnormal = [0, 1]",
+            3: "point = [0, 0, -1.1]\nnormal = [0, 0, 1]\n[[remap]]\nbody = 'drop'\nat = [0.03]",
+        }
+        measured = '"wall.base_radius", "wall.contact_angle", "drop.area"'
+        for dimension, shape in shapes.items():
+            scene = SCENE.replace('"drop.p2", "drop.area"', measured)
+            done, pictures = self.draw(
+                dimension, shape, "--frames", "2", tables=wall + places[dimension], scene=scene
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            names = {"wall_profile", "wall_front"} | ({"wall_patch"} if dimension == 3 else set())
+            self.assertEqual({name for name in pictures if "wall" in name}, names)
+            self.assertGreater(min(pictures.values()), 10000)
 
     def test_unknown_field(self):
         shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2"

@@ -190,6 +190,7 @@ class RemappedDrop(EveryWay, Restart):
         self.assertIn("run.2.h5", self.call("info", "whole").stdout)
         history = self.history("whole")
         self.assertEqual(len(set(history["remapped"])), 3)
+        self.assertEqual(history["remaps"][-1], 2)
         before = self.call("run", self.scene(DROP, "other"), "--output", "other")
         self.assertNotEqual(state_of(before), self.whole)
         other = self.history("other")

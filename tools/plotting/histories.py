@@ -50,6 +50,12 @@ def energies(run):
     bottom.plot(time, run.history["energy_balance_error"], color="black")
     bottom.set_ylabel("error of the\nenergy balance")
     bottom.axhline(0, color="0.7", lw=0.6, zorder=0)
+    if "remaps" in run.history:
+        for when in time[1:][np.diff(run.history["remaps"]) > 0]:
+            for axis in (top, bottom):
+                axis.axvline(when, color="0.6", lw=0.7, ls=(0, (1, 2)), zorder=0)
+            bottom.annotate("remap", (when, 1), xycoords=("data", "axes fraction"), fontsize=7,
+                            rotation=90, ha="right", va="top", color="0.4")  # fmt: skip
     return figure
 
 

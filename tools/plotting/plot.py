@@ -18,6 +18,7 @@ import sections
 import studies
 import style
 import surfaces
+import wetting
 from results import Results
 
 
@@ -58,6 +59,7 @@ def pictures_of(args):
         **cells.draw(run),
         **sections.draw(run, args.field, args.frames),
         **surfaces.draw(run),
+        **wetting.draw(run, args.frames),
     }
 
 
