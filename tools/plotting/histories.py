@@ -63,41 +63,37 @@ def column(name):
     return name.rsplit(".", 1)[-1].replace("_", " ")
 
 
-def shape(run, body):
-    """Aspect and extents of a body with what the scene expects of them."""
-    extents = [f"{body.name}.extent_{i}" for i in "xyz"[: body.dimension]]
-    groups = [
-        [name for name in names if name in run.history]
-        for names in ([f"{body.name}.aspect"], extents)
-    ]
+def panels(run, groups, height=2.3):
+    """A panel for each group of columns that the run has, with their curves: figure and axes with
+    their names, or None."""
+    groups = [[name for name in names if name in run.history] for names in groups]
     groups = [names for names in groups if names]
     if not groups:
         return None
     figure, axes = plt.subplots(
-        len(groups), 1, figsize=(4.2, 2.3 * len(groups) + 0.3), sharex=True, squeeze=False,
+        len(groups), 1, figsize=(4.2, height * len(groups) + 0.3), sharex=True, squeeze=False,
         layout="constrained",
     )  # fmt: skip
     time_axis(run, axes[-1, 0])
     for axis, names in zip(axes[:, 0], groups):
         curves(run, axis, names)
-    return figure
+    return figure, list(zip(axes[:, 0], groups))
+
+
+def shape(run, body):
+    """Aspect and extents of a body with what the scene expects of them."""
+    extents = [f"{body.name}.extent_{i}" for i in "xyz"[: body.dimension]]
+    drawn = panels(run, ([f"{body.name}.aspect"], extents))
+    return drawn and drawn[0]
 
 
 def measures(run, body):
     """A panel for each other measure of the body."""
-    drawn = {"aspect", "p2", *(f"extent_{i}" for i in "xyz")}
+    elsewhere = {"aspect", "p2", *(f"extent_{i}" for i in "xyz")}
     names = [n for n in run.history if n.startswith(f"{body.name}.")]
-    names = [n for n in names if n.split(".", 1)[1] not in drawn]
-    if not names:
-        return None
-    figure, axes = plt.subplots(
-        len(names), 1, figsize=(4.2, 2.0 * len(names) + 0.3), sharex=True, squeeze=False,
-        layout="constrained",
-    )  # fmt: skip
-    time_axis(run, axes[-1, 0])
-    for axis, name in zip(axes[:, 0], names):
-        curves(run, axis, [name])
-    return figure
+    names = [n for n in names if n.split(".", 1)[1] not in elsewhere]
+    drawn = panels(run, [[name] for name in names], 2.0)
+    return drawn and drawn[0]
 
 
 # Curves that may coincide (two extents of a round body) stay visible under one another.

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 import style
-from histories import curves, time_axis
+from histories import panels
 
 FREE_ABOVE = 0.35  # of the height: what the range of the wall does not bend
 
@@ -155,23 +155,12 @@ def patches(run, wall, frames):
 
 def fronts(run, wall):
     """Base and angles over time, over what the scene expects of them."""
-    groups = [
-        [name for name in names if name in run.history]
-        for names in (
-            [f"{wall.name}.base_radius"],
-            [f"{wall.name}.contact_angle", f"{wall.name}.contact_angle_vh"],
-        )
-    ]
-    groups = [names for names in groups if names]
-    if not groups:
+    angles = [f"{wall.name}.contact_angle", f"{wall.name}.contact_angle_vh"]
+    drawn = panels(run, ([f"{wall.name}.base_radius"], angles))
+    if not drawn:
         return None
-    figure, axes = plt.subplots(
-        len(groups), 1, figsize=(4.2, 2.3 * len(groups) + 0.3), sharex=True, squeeze=False,
-        layout="constrained",
-    )  # fmt: skip
-    time_axis(run, axes[-1, 0])
-    for axis, names in zip(axes[:, 0], groups):
-        curves(run, axis, names)
+    figure, axes = drawn
+    for axis, names in axes:
         if "angle" in names[0]:
             axis.set_ylabel("contact angle (degrees)")
             if wall.angle is not None:
