@@ -47,13 +47,15 @@ void arch(HardCases& cases) {
 }
 
 /// nu = 0.495 and stuck between plates: the sides bulge and fold over the edges of the plates.
+/// Nodes are jittered: from about half of the way on the symmetric state is not stable, and
+/// round-off would decide whether an even block leaves it, and jumps.
 void pressed_block(HardCases& cases, bool full) {
   const std::string name = "nearly incompressible block pressed to half";
   const HardOutcome outcome = cases.stays_stable(
       name,
       scene(2, 1, 0.05,
             fmt::format("shape = \"rectangle\"\nsize = [2, 1]\ncells = {}\nvolumetric = "
-                        "\"cell_average\"\n",
+                        "\"cell_average\"\njitter = 0.2\n",
                         full ? "[12, 6]" : "[8, 4]") +
                 neo_hookean(1, 100)) +
           held("base", "face = \"y_min\"") +
