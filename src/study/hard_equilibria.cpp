@@ -29,6 +29,11 @@ std::string held(const std::string& name, const std::string& where, const std::s
   return fmt::format("[[held]]\nname = \"{}\"\nbody = \"body\"\n{}\n{}", name, where, more);
 }
 
+/// One face is held, the opposite one moves.
+std::string gripped(const std::string& base, const std::string& grip, const std::string& motion) {
+  return held("base", "face = \"" + base + "\"") + held("grip", "face = \"" + grip + "\"", motion);
+}
+
 /// A flat beam is pushed together until it is an arch; a grip a third of its half length away from
 /// the middle pulls it up and then down to the other side.
 void arch(HardCases& cases) {
@@ -58,8 +63,7 @@ void pressed_block(HardCases& cases, bool full) {
                         "\"cell_average\"\njitter = 0.2\n",
                         full ? "[12, 6]" : "[8, 4]") +
                 neo_hookean(1, 100)) +
-          held("base", "face = \"y_min\"") +
-          held("grip", "face = \"y_max\"", "displacement = [0, \"-0.5*t\"]\n"),
+          gripped("y_min", "y_max", "displacement = [0, \"-0.5*t\"]\n"),
       1e-2);
   cases.require(name, "jumps", outcome.measure("jumps"), {0, 0});
   // The pressure of the force, 11 below the plates and less beside them, over the bulk modulus 100.
@@ -74,8 +78,7 @@ void half_a_turn(HardCases& cases, bool full) {
             fmt::format("shape = \"box\"\nsize = [4, 1, 1]\ncells = {}\njitter = 0.2\n",
                         full ? "[12, 4, 4]" : "[8, 3, 3]") +
                 neo_hookean(1, 1.5)) +
-          held("base", "face = \"x_min\"") +
-          held("grip", "face = \"x_max\"", "angle = \"pi*t\"\naxis = [1, 0, 0]\n"),
+          gripped("x_min", "x_max", "angle = \"pi*t\"\naxis = [1, 0, 0]\n"),
       1e-2);
   cases.require(name, "jumps", outcome.measure("jumps"), {0, 0});
   // In small strains mu 0.1406 pi/4 (Saint-Venant); sections that warp are kept plane at both ends.
