@@ -24,24 +24,24 @@ namespace {
 template <int D>
 void say_expected_effort(Scene<D>& scene, const State& state, Real stable) {
   constexpr Real usual_steps = 20;
-  if (std::any_of(scene.viscosity.begin(), scene.viscosity.end(),
-                  [](const auto& viscosity) { return !viscosity.empty(); }))
-    return;
+  std::vector<bool> fluid;
+  for (const auto& viscosity : scene.viscosity) fluid.push_back(!viscosity.empty());
+  const bool flows = std::find(fluid.begin(), fluid.end(), true) != fluid.end();
   const Real steady = scene.system.steady_after(), end = scene.time.end;
   const Real duration = steady > 0 ? std::min(steady, end) : end;
-  const Real steps = steady == 0 ? 1
+  const Real steps = steady == 0 ? !flows
                      : scene.time.solver == "newton" && scene.time.step
                          ? duration / *scene.time.step
                          : usual_steps;
-  const auto effort =
-      expected_effort(scene.system, state, std::ceil(steps - 1e-9), std::min(steady, end), stable);
+  const auto effort = expected_effort(scene.system, state, std::ceil(steps - 1e-9),
+                                      std::min(steady, end), stable, fluid);
   if (!effort) return;
-  say("newton: {:.0f} load steps of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: "
+  say("newton: {:.0f} {} of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: "
       "about "
       "{:.0f} steps at {:.2g} s, expected {:.2g} s\n",
-      effort->load_steps, effort->tangents_per_step, effort->seconds_per_tangent,
-      effort->newton_seconds(), effort->relaxation_steps, effort->seconds_per_force,
-      effort->relaxation_seconds());
+      effort->load_steps, flows ? "steps of implicit Euler" : "load steps",
+      effort->tangents_per_step, effort->seconds_per_tangent, effort->newton_seconds(),
+      effort->relaxation_steps, effort->seconds_per_force, effort->relaxation_seconds());
   const Real ratio = effort->relaxation_seconds() / effort->newton_seconds();
   say("{} is expected to be {:.1f} times as fast, within a factor of two or three\n",
       ratio > 1 ? "newton" : "relax", std::max(ratio, 1 / ratio));

@@ -27,7 +27,8 @@ Rows<TimeSettings> TimeSettings::rows() {
       optional_row(
           "step", &S::step, dimension::time, range::positive, "automatic",
           "fixed step; refused above the stable step of the discretised system. newton: load "
-          "step, of any length; automatic is a twentieth of end"),
+          "step, of any length, with fluids the longest while loads change; "
+          "automatic is a twentieth of end"),
       real_row("safety", &S::safety, dimension::none, {0, 1, true, false},
                "automatic step as a fraction of the stable step", 0.9),
       integer_row("check_every", &S::check_every, {1, 1e9},
@@ -42,10 +43,14 @@ Rows<TimeSettings> TimeSettings::rows() {
           "solver", &S::solver, Registry<StepperEntry>::all().names(),
           "motion as it is, or damped to the equilibrium: relax stops by itself, at the "
           "latest at end, where a body that still moves is an error. newton: equilibria from "
-          "load step to load step, without motion, for solids",
+          "load step to load step, without motion; fluids flow to them by long steps of implicit "
+          "Euler, without inertia from step to step",
           "dynamics"),
-      real_row("force_tolerance", &S::force_tolerance, dimension::none, range::positive,
-               "relax: forces left on the particles / forces before they cancel", 1e-5),
+      real_row(
+          "force_tolerance", &S::force_tolerance, dimension::none, range::positive,
+          "relax: forces left on the particles / forces before they cancel; newton with fluids: "
+          "energy left to be released / energy released",
+          1e-5),
       real_row("shape_tolerance", &S::shape_tolerance, dimension::none, range::positive,
                "relax: largest change of place that is left / extent", 1e-4),
   };

@@ -6,6 +6,7 @@
 // with it.
 #include "meniscus/solve/element_preconditioner.hpp"
 
+#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/solve/sparse_factors.hpp"
@@ -46,14 +47,45 @@ ElementMatrix<D> element_stiffness(const std::array<Vec<D>, 1 << D>& corners,
   return K;
 }
 
-/// K of a body, with something of a mass so that rigid motions do not make it singular.
+/// Whether a cell of these corners is not folded, nor nearly so.
 template <int D>
-std::vector<MatrixEntry> stiffness(const Body<D>& body, const ElasticModuli& moduli) {
+bool is_sound(const std::array<Vec<D>, 1 << D>& corners, Real sign) {
+  constexpr Real least = 0.2;  // of the largest
+  Real smallest = unbounded, largest = 0;
+  for (int q = 0; q < 1 << D; ++q) {
+    Vec<D> xi;
+    for (int k = 0; k < D; ++k) xi[k] = corner_sign(q, k) / std::sqrt(3.0);
+    const Real J = sign * determinant<D>(multilinear<D, D>(corners, xi).J);
+    smallest = std::min(smallest, J);
+    largest = std::max(largest, J);
+  }
+  return smallest > least * largest;
+}
+
+/// K of a body, with something of a mass so that rigid motions do not make it singular; in a step
+/// the masses themselves, and cells where it begins.
+template <int D>
+std::vector<MatrixEntry> stiffness(const System<D>& system, const Body<D>& body,
+                                   const ElasticModuli& moduli, const ImplicitEuler<D>* step) {
   constexpr Real share_of_mass = 1e-3;
   const Grid<D>& grid = body.geometry.grid;
+  std::vector<Vec<D>> places = grid.X;
+  if (step)
+    for (Index A = 0; A < body.size(); ++A) {
+      const Lanes u = value_at(body.at_particles, A, step->from().data() + body.first);
+      for (int i = 0; i < D; ++i) at(places, A)[i] += u[i];
+    }
   std::vector<MatrixEntry> entries;
   for (const auto& cell : grid.cells) {
-    const ElementMatrix<D> K = element_stiffness<D>(grid.corner_points(cell), moduli);
+    auto corners = grid.corner_points(cell);
+    if (step) {
+      const Real sign =
+          determinant<D>(multilinear<D, D>(corners, Vec<D>(Vec<D>::Zero())).J) > 0 ? 1 : -1;
+      std::array<Vec<D>, 1 << D> now;
+      for (int a = 0; a < 1 << D; ++a) at(now, a) = at(places, at(cell, a));
+      if (is_sound<D>(now, sign)) corners = now;
+    }
+    const ElementMatrix<D> K = element_stiffness<D>(corners, moduli);
     for (int a = 0; a < 1 << D; ++a)
       for (int b = 0; b < 1 << D; ++b)
         for (int i = 0; i < D; ++i)
@@ -64,7 +96,9 @@ std::vector<MatrixEntry> stiffness(const Body<D>& body, const ElasticModuli& mod
   const Real per_volume = share_of_mass * (moduli.lame + 2 * moduli.shear) / (extent * extent);
   for (Index A = 0; A < body.size(); ++A)
     for (int i = 0; i < D; ++i)
-      entries.push_back({A * D + i, A * D + i, per_volume * body.cells.volume(A)});
+      entries.push_back({A * D + i, A * D + i,
+                         step ? at(system.mass, body.first + A) / (step->tau() * step->tau())
+                              : per_volume * body.cells.volume(A)});
   return entries;
 }
 
@@ -85,18 +119,20 @@ SparseLU inverse_transform(const Body<D>& body) {
   return {body.size(), entries};
 }
 
-/// du.A du of the strain energy of a body in its reference, for a uniform gradient of du.
+/// du.A du of the strain energy of a body in its reference, for a uniform gradient of du; with
+/// dv = rate du of its viscosity, too.
 template <int D>
-Real strain_square(System<D>& system, const Body<D>& body, const Mat<D>& gradient) {
+Real strain_square(System<D>& system, const Body<D>& body, const Mat<D>& gradient, Real rate) {
   const NodalVectors rest(static_cast<std::size_t>(system.size()), Lanes::zero());
-  NodalVectors du = rest, df = rest;
+  NodalVectors du = rest, dv = rest, df = rest;
   for (Index A = 0; A < body.size(); ++A) {
     const Vec<D> w = gradient * at(body.particles.X(), A);
     for (int i = 0; i < D; ++i) at(du, body.first + A).set(i, w[i]);
+    at(dv, body.first + A) = rate * at(du, body.first + A);
   }
   for (auto& term : system.terms)
     if (term->energy_kind() == "strain")
-      term->add_tangent({0, rest, rest, system.fields}, {0, du, rest, system.fields}, df);
+      term->add_tangent({0, rest, rest, system.fields}, {0, du, dv, system.fields}, df);
   return -parallel_sum(system.size(), 0.0, [&](Index A) { return sum(at(du, A) * at(df, A)); });
 }
 
@@ -111,7 +147,7 @@ Real volume_of(const Body<D>& body) {
 
 /// A strain e has the energy V (lambda tr(e)^2 + 2 mu e:e)/2.
 template <int D>
-ElasticModuli elastic_moduli(System<D>& system, const Body<D>& body) {
+ElasticModuli elastic_moduli(System<D>& system, const Body<D>& body, Real rate) {
   const Real volume = volume_of(body);
   ElasticModuli moduli;
   constexpr int planes = D * (D - 1) / 2;
@@ -119,25 +155,43 @@ ElasticModuli elastic_moduli(System<D>& system, const Body<D>& body) {
     for (int j = i + 1; j < D; ++j) {
       Mat<D> shear = Mat<D>::Zero();
       shear(i, j) = shear(j, i) = 1;
-      moduli.shear += strain_square(system, body, shear) / (4 * volume * planes);
+      moduli.shear += strain_square(system, body, shear, rate) / (4 * volume * planes);
     }
   const Mat<D> dilation = Mat<D>::Identity();
-  moduli.lame = (strain_square(system, body, dilation) / volume - 2 * D * moduli.shear) / (D * D);
+  moduli.lame =
+      (strain_square(system, body, dilation, rate) / volume - 2 * D * moduli.shear) / (D * D);
   return moduli;
 }
+
+namespace {
+
+/// A fluid whose pressure is not zero in its reference has, against shear alone, that pressure of
+/// either sign.
+template <int D>
+ElasticModuli moduli_of_step(System<D>& system, const Body<D>& body, Real rate) {
+  ElasticModuli moduli = elastic_moduli(system, body, rate);
+  const Real elastic = elastic_moduli(system, body).shear;
+  moduli.shear = moduli.shear - elastic + std::max(elastic, 0.0);
+  return moduli;
+}
+
+}  // namespace
 
 template <int D>
 class ElementPreconditioner<D>::OfBody {
  public:
-  OfBody(const Body<D>& body, const ElasticModuli& moduli)
-      : first_(body.first),
-        size_(body.size()),
-        transform_(inverse_transform(body)),
-        factors_(D * body.size(), stiffness(body, moduli)) {
+  explicit OfBody(const Body<D>& body)
+      : first_(body.first), size_(body.size()), transform_(inverse_transform(body)) {
     if (!transform_.exists())
       throw SolveError(fmt::format(
           "body '{}': the places of its particles do not determine their coefficients", body.name));
-    if (!(factors_.smallest_pivot().value > 0))
+  }
+
+  void renew(const System<D>& system, const Body<D>& body, const ElasticModuli& moduli,
+             const ImplicitEuler<D>* step) {
+    factors_ =
+        std::make_unique<SparseCholesky>(D * body.size(), stiffness(system, body, moduli, step));
+    if (!(factors_->smallest_pivot().value > 0))
       throw SolveError(fmt::format("body '{}' has no stiffness in its reference", body.name));
   }
 
@@ -149,7 +203,7 @@ class ElementPreconditioner<D>::OfBody {
       transform_.solve_transposed(x);
       for (Index A = 0; A < size_; ++A) at(b, A * D + i) = x[A];
     }
-    factors_.solve(b);
+    factors_->solve(b);
     for (Index A = 0; A < size_; ++A) at(z, first_ + A) = Lanes::zero();
     for (int i = 0; i < D; ++i) {
       for (Index A = 0; A < size_; ++A) x[A] = at(b, A * D + i);
@@ -161,18 +215,29 @@ class ElementPreconditioner<D>::OfBody {
  private:
   Index first_, size_;
   SparseLU transform_;
-  SparseCholesky factors_;
+  std::unique_ptr<SparseCholesky> factors_;
 };
 
 template <int D>
-ElementPreconditioner<D>::ElementPreconditioner(System<D>& system) {
-  for (const Body<D>& body : system.bodies) {
-    moduli_.push_back(elastic_moduli(system, body));
-    bodies_.push_back(std::make_unique<OfBody>(body, moduli_.back()));
+ElementPreconditioner<D>::ElementPreconditioner(System<D>& system, const ImplicitEuler<D>* step) {
+  for (const Body<D>& body : system.bodies) bodies_.push_back(std::make_unique<OfBody>(body));
+  renew(system, step);
+}
+
+template <int D>
+void ElementPreconditioner<D>::renew(System<D>& system, const ImplicitEuler<D>* step) {
+  moduli_.clear();
+  energy_scale_ = stiffness_scale_ = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body<D>& body = system.bodies[b];
+    moduli_.push_back(step ? moduli_of_step(system, body, 1 / step->tau())
+                           : elastic_moduli(system, body));
+    bodies_[b]->renew(system, body, moduli_.back(), step);
     energy_scale_ += moduli_.back().shear * volume_of(body);
     stiffness_scale_ += moduli_.back().shear * (D == 3 ? std::cbrt(volume_of(body)) : 1);
   }
 }
+
 template <int D>
 ElementPreconditioner<D>::~ElementPreconditioner() = default;
 
@@ -181,8 +246,8 @@ void ElementPreconditioner<D>::apply(const NodalVectors& r, NodalVectors& z) con
   for (const auto& body : bodies_) body->apply(r, z);
 }
 
-template ElasticModuli elastic_moduli(System<2>&, const Body<2>&);
-template ElasticModuli elastic_moduli(System<3>&, const Body<3>&);
+template ElasticModuli elastic_moduli(System<2>&, const Body<2>&, Real);
+template ElasticModuli elastic_moduli(System<3>&, const Body<3>&, Real);
 template class ElementPreconditioner<2>;
 template class ElementPreconditioner<3>;
 

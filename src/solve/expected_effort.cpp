@@ -5,6 +5,7 @@
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/solve/free_motions.hpp"
 #include "meniscus/solve/held_preconditioner.hpp"
+#include "meniscus/solve/rest.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -49,7 +50,8 @@ Real slowest_frequency(const System<D>& system, const HeldPreconditioner<D>& P,
 
 template <int D>
 std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& state,
-                                              Real load_steps, Real steady_after, Real stable) {
+                                              Real load_steps, Real steady_after, Real stable,
+                                              const std::vector<bool>& fluid) {
   constexpr Index most_particles = D == 3 ? 4000 : 20000;
   if (system.size() > most_particles || !system.fields.empty()) return std::nullopt;
   for (auto& term : system.terms)
@@ -58,24 +60,41 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
   const Motion motion{state.time, state.u, still};
   NodalVectors f = still, z = still;
   ExpectedEffort effort;
+  const FluidRest<D> fluids(system, fluid);
+  Real stored = 0;
+  for (auto& term : system.terms) stored += std::abs(term->stored_energy(motion).value_or(0));
+  const Real clock = fluids.any() ? fluids.clock_of(stored) : 0;
+  if (clock == unbounded) return std::nullopt;
+  std::optional<ImplicitEuler<D>> euler;
+  if (fluids.any()) euler.emplace(system).begin(state.time, state.u, clock);
   std::optional<HeldPreconditioner<D>> P;
-  effort.set_up_seconds = seconds_of(1, [&] { P.emplace(system); });
-  const FreeMotions<D> free(system, motion, std::cbrt(system.bodies.front().cells.volume(0)));
+  effort.set_up_seconds = seconds_of(1, [&] { P.emplace(system, euler ? &*euler : nullptr); });
   constexpr int times = 3;
   effort.seconds_per_force = seconds_of(times, [&] { system.add_up(motion, f); });
   effort.seconds_per_tangent = seconds_of(times, [&] {
     for (auto& term : system.terms) term->add_tangent(motion, {state.time, f, still}, z);
+    if (euler) euler->add_change(f, z);
     P->apply(f, z);
   });
+  effort.load_steps = load_steps;
+  if (euler) {
+    constexpr Real steps_to_rest = 10, clocks_to_rest = 5;
+    effort.tangents_per_step = D == 3 ? 350 : 250;
+    effort.load_steps += steps_to_rest;
+    effort.relaxation_steps = (steady_after + clocks_to_rest * clock) / (0.9 * stable);
+    return effort;
+  }
   // Four or five iterations of Newton's method.
   effort.tangents_per_step = D == 3 ? 150 : 50;
-  effort.load_steps = load_steps;
+  const FreeMotions<D> free(system, motion, std::cbrt(system.bodies.front().cells.volume(0)));
   const Real period = 2 * std::numbers::pi / slowest_frequency(system, *P, free);
   effort.relaxation_steps = (steady_after + 2 * period) / (0.9 * stable);
   return effort;
 }
 
-template std::optional<ExpectedEffort> expected_effort(System<2>&, const State&, Real, Real, Real);
-template std::optional<ExpectedEffort> expected_effort(System<3>&, const State&, Real, Real, Real);
+template std::optional<ExpectedEffort> expected_effort(System<2>&, const State&, Real, Real, Real,
+                                                       const std::vector<bool>&);
+template std::optional<ExpectedEffort> expected_effort(System<3>&, const State&, Real, Real, Real,
+                                                       const std::vector<bool>&);
 
 }  // namespace meniscus

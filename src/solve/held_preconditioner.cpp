@@ -7,10 +7,21 @@
 namespace meniscus {
 
 template <int D>
-HeldPreconditioner<D>::HeldPreconditioner(System<D>& system)
-    : elements_(system), constraints_(system.constraints.get()) {
+HeldPreconditioner<D>::HeldPreconditioner(System<D>& system, const ImplicitEuler<D>* step)
+    : elements_(system, step), constraints_(system.constraints.get()), particles_(system.size()) {
+  find_responses();
+}
+
+template <int D>
+void HeldPreconditioner<D>::renew(System<D>& system, const ImplicitEuler<D>* step) {
+  elements_.renew(system, step);
+  find_responses();
+}
+
+template <int D>
+void HeldPreconditioner<D>::find_responses() {
   if (!constraints_) return;
-  const Index rows = constraints_->rows(), particles = system.size();
+  const Index rows = constraints_->rows(), particles = particles_;
   Y_.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(particles));
   Eigen::MatrixXd CY(rows, rows);
   NodalVectors column(static_cast<std::size_t>(particles)), y = column;

@@ -14,10 +14,11 @@
 namespace meniscus {
 namespace {
 
-/// Of the energy that the next step would release, relative to the largest that one has.
-constexpr Real tolerance = 1e-9;
-/// Where another iteration would be idle.
-constexpr Real polished = 1e-3 * tolerance;
+/// Of the energy that the next step would release, relative to the largest that one has; in a step
+/// of implicit Euler, where what is missed is left to the next one.
+constexpr Real tolerance = 1e-9, tolerance_of_flow = 1e-6;
+/// Of that, where another iteration would be idle.
+constexpr Real polished = 1e-3;
 constexpr int most_iterations = 60, most_tangents = 400;
 /// Load steps are cut into pieces down to this part of them.
 constexpr Real least_piece = 1.0 / 256;
@@ -37,7 +38,7 @@ void add(NodalVectors& x, Real a, const NodalVectors& w) {
 
 template <int D>
 QuasiStatics<D>::QuasiStatics(System<D>& system, const StepperChoice& choice)
-    : system_(system), choice_(choice), spacing_(unbounded) {
+    : system_(system), choice_(choice), fluids_(system, choice.fluid), spacing_(unbounded) {
   const auto n = static_cast<std::size_t>(system.size());
   still_.assign(n, Lanes::zero());
   if (system.constraints) lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
@@ -46,20 +47,29 @@ QuasiStatics<D>::QuasiStatics(System<D>& system, const StepperChoice& choice)
     for (Index A = 0; A < body.size(); ++A)
       spacing_ = std::min(
           spacing_, body.particles.search().distance_of_nearest(at(body.particles.X(), A), 2));
+  if (fluids_.any()) euler_.emplace(system);
+  tolerance_ = euler_ ? tolerance_of_flow : tolerance;
 }
 
 template <int D>
-void QuasiStatics<D>::begin(const State&) {
-  last_dt_ = 0;
+void QuasiStatics<D>::begin(const State& state) {
+  last_dt_ = tau_ = power_ = released_ = all_released_ = moment_of_release_ = 0;
+  began_ = state.time;
   at_equilibrium_ = arrived_ = false;
 }
 
 template <int D>
 Real QuasiStatics<D>::longest_step(const State& state) {
-  constexpr int steps_of_run = 20;
   const Real steady = system_.steady_after();
-  const Real goal = steady > state.time ? std::min(steady, choice_.end) : choice_.end;
-  const Real step = choice_.step.value_or(choice_.end / steps_of_run), left = goal - state.time;
+  const bool changing = steady > state.time;
+  const Real goal = changing ? std::min(steady, choice_.end) : choice_.end;
+  Real step = load_step();
+  if (euler_) {
+    constexpr Real part_of_clock = 0.1;
+    if (tau_ == 0) tau_ = std::min(step, part_of_clock * fluids_.clock_of(stored_size(state)));
+    step = changing ? std::min(step, tau_) : tau_;
+  }
+  const Real left = goal - state.time;
   return left <= step * (1 + 1e-9) ? left : step;
 }
 
@@ -77,6 +87,7 @@ Real QuasiStatics<D>::largest(const NodalVectors& w) const {
 
 template <int D>
 void QuasiStatics<D>::step(State& state, Real dt) {
+  if (euler_) return flow(state, dt);
   const State before = state;
   const Real end = state.time + dt;
   try {
@@ -114,6 +125,134 @@ void QuasiStatics<D>::step(State& state, Real dt) {
   state.time = end;
   ++state.step;
   arrived_ = end >= std::min(system_.steady_after(), choice_.end);
+}
+
+template <int D>
+Real QuasiStatics<D>::load_step() const {
+  constexpr int steps_of_run = 20;
+  return choice_.step.value_or(choice_.end / steps_of_run);
+}
+
+template <int D>
+Real QuasiStatics<D>::stored_size(const State& state) const {
+  Real size = 0;
+  for (const auto& term : system_.terms)
+    size += std::abs(term->stored_energy(state.motion()).value_or(0));
+  return size;
+}
+
+/// A flow that begins near its rest has this energy at least.
+template <int D>
+Real QuasiStatics<D>::scale_of_flow(Real stored) const {
+  constexpr Real least_share = 1e-4;
+  return std::max(all_released_, least_share * stored);
+}
+
+/// Of the static forces on the straight way from one state to another, by Simpson's rule.
+template <int D>
+Real QuasiStatics<D>::work_of_forces(const State& from, const State& to) {
+  NodalVectors way(from.u.size()), middle = way;
+  for (std::size_t A = 0; A < way.size(); ++A) {
+    way[A] = to.u[A] - from.u[A];
+    middle[A] = from.u[A] + 0.5 * way[A];
+  }
+  const Real ends = dot(from.force, way) + dot(to.force, way);
+  const Report report = system_.add_up({(from.time + to.time) / 2, middle, still_}, r_);
+  if (report.failure) return ends / 2;
+  if (system_.constraints) {
+    reactions(r_, lambda_);
+    system_.constraints->add_transposed(lambda_, 1, r_);
+  }
+  return (ends + 4 * dot(r_, way)) / 6;
+}
+
+/// A step of implicit Euler, in pieces where it is too long to be solved for. What static forces do
+/// on the way is dissipated.
+template <int D>
+void QuasiStatics<D>::flow(State& state, Real dt) {
+  constexpr Real bearable = 1e-3;  // of the energy exchanged: what is missed of its balance
+  const State before = state;
+  const Real end = state.time + dt;
+  Real released = 0, piece = dt;
+  bool easy = true;
+  try {
+    if (!at_equilibrium_) {  // forces of no motion
+      settle(state);
+      system_.compute_forces(state.motion(), state.forces());
+      at_equilibrium_ = true;
+    }
+    while (state.time < end) {
+      const bool last = end - state.time <= piece * (1 + 1e-9);
+      const Real time = last ? end : state.time + piece;
+      euler_->begin(state.time, state.u, time - state.time);
+      if (preconditioner_)
+        preconditioner_->renew(system_, &*euler_);
+      else
+        preconditioner_.emplace(system_, &*euler_);
+      energy_scale_ = 0;
+      const Solution solution = solve(state, time);
+      const bool failed = !solution.failure.empty();
+      if (failed && piece <= least_piece * dt)
+        throw SolveError(fmt::format("no step of implicit Euler is found to t = {:.6g}: {}{}", time,
+                                     solution.failure, unbalanced(state, time)));
+      if (failed) {
+        piece /= 2;
+        easy = false;
+        continue;
+      }
+      State next = state;
+      const Exchange exchange = move(next, time, solution.point.u);
+      const Real lost = work_of_forces(state, next);
+      const Real unexplained = std::abs(exchange.released() - lost);
+      if (unexplained > bearable * std::max(exchange.size(), all_released_) &&
+          piece > least_piece * dt) {
+        piece /= 2;
+        continue;
+      }
+      easy &= !solution.hard;
+      next.books.dissipated += lost;
+      released += lost;
+      state = std::move(next);
+      system_.commit(state.motion());
+    }
+  } catch (...) {
+    state = before;
+    throw;
+  }
+  state.time = end;
+  ++state.step;
+  const bool whole_step = dt >= tau_ * (1 - 1e-9);
+  if (piece < dt) tau_ = piece;
+  judge_rest(state, dt, released, whole_step && easy);
+}
+
+/// Steps that release a small part of what the one before has leave as small a part of theirs.
+/// Coefficients have slow modes that hardly move places, and are judged by what they release within
+/// the time that the flow took.
+template <int D>
+void QuasiStatics<D>::judge_rest(const State& state, Real dt, Real released, bool whole_step) {
+  constexpr Real slow = 1.0 / 30, fast = 0.5;
+  const Real steady = system_.steady_after(), power = std::abs(released) / dt;
+  arrived_ = state.time >= choice_.end;
+  left_ = 1;
+  if (state.time <= steady) {
+    if (whole_step) tau_ = std::min(2 * tau_, load_step());
+    return;
+  }
+  all_released_ += power * dt;
+  moment_of_release_ += power * dt * (state.time - dt / 2 - std::max(steady, began_));
+  const Real stored = stored_size(state), scale = scale_of_flow(stored),
+             time = std::max(fluids_.clock_of(stored), moment_of_release_ / scale);
+  const bool falling = power <= power_;
+  if (scale > 0 && falling) left_ = power * time / scale;
+  const Real share = released_ > 0 ? power * dt / released_ : 1;
+  if (share < fast) left_ = std::min(left_, power * dt * share / (1 - share) / scale);
+  power_ = power;
+  if (whole_step) {
+    released_ = power * dt;
+    if (share > slow) tau_ *= 2;
+  }
+  arrived_ = left_ <= choice_.force_tolerance;
 }
 
 /// What no body holds against, for a message.
@@ -186,6 +325,7 @@ bool QuasiStatics<D>::evaluate(Real time, Point& point, NodalVectors& force) {
   if (report.failure || !std::isfinite(dot(force, force))) return false;
   point.potential = 0;
   for (auto& term : system_.terms) point.potential += term->potential(motion).value();
+  if (euler_) point.potential += euler_->add_force(point.u, force);
   if (system_.constraints) {
     reactions(force, lambda_);
     system_.constraints->add_transposed(lambda_, 1, force);
@@ -206,6 +346,7 @@ Real QuasiStatics<D>::apply(Real time, const NodalVectors& u) {
   });
   for (auto& term : system_.terms)
     term->add_tangent({time, u, still_}, {time, scaled_, still_}, q_);
+  if (euler_) euler_->add_change(scaled_, q_);
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(q_, A) = (-1 / scale) * at(q_, A);
   });
@@ -225,6 +366,7 @@ typename QuasiStatics<D>::Direction QuasiStatics<D>::direction(Real time, const 
     free_.remove_from(z_);
     return dot(g_, z_);
   };
+  if (euler_) euler_->look_back();
   g_ = r_;
   s_ = still_;
   Real rz = precondition();
@@ -246,7 +388,7 @@ typename QuasiStatics<D>::Direction QuasiStatics<D>::direction(Real time, const 
     add(g_, -a, q_);
     const Real before = rz;
     rz = precondition();
-    if (rz <= std::max(share * first, polished * energy_scale_)) break;
+    if (rz <= std::max(share * first, polished * tolerance_ * energy_scale_)) break;
     const Real b = rz / before;
     beside.push_back(std::sqrt(b) / a);
     carried = b / a;
@@ -289,6 +431,7 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::solve(const State& state, Re
   Solution solution = iterated(state, time);
   constexpr int smooth = 8;
   solution.hard = solution.far = solution.bent || solution.iterations > smooth;
+  solution.hard |= solution.stuck;
   if (last_dt_ == 0 || solution.far) return solution;
   // From what the last step has led to expect.
   z_ = solution.point.u;
@@ -307,8 +450,9 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
     solution.failure = "forces cannot be computed there";
     return solution;
   }
-  if (!(solution.failure = pulled(time, point.u)).empty()) return solution;
-  const Real floor = 1e-18 * preconditioner_->elements().energy_scale();
+  if (!euler_ && !(solution.failure = pulled(time, point.u)).empty()) return solution;
+  const Real floor = euler_ ? 1e-3 * choice_.force_tolerance * scale_of_flow(stored_size(state))
+                            : 1e-18 * preconditioner_->elements().energy_scale();
   stability_ = unbounded;
   Real before = 0;
   bool bent = false;  // in the last iteration
@@ -325,7 +469,7 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
     const Real size = dot(r_, z_);
     // What is left is at most r.P^-1 r / 2 over the least eigenvalue.
     if (solution.iterations > 0 && stability_ > 0 && !bent &&
-        size <= 2 * stability_ * polished * energy_scale_) {
+        size <= 2 * stability_ * polished * tolerance_ * energy_scale_) {
       left_ = size / (2 * stability_ * energy_scale_);
       return solution;
     }
@@ -340,7 +484,7 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
     solution.bent |= found.bent;
     if (solution.iterations == 0) energy_scale_ = std::max(energy_scale_, found.decrement);
     left_ = found.decrement / std::max(energy_scale_, floor);
-    const bool small = found.decrement <= tolerance * energy_scale_ + floor;
+    const bool small = found.decrement <= tolerance_ * energy_scale_ + floor;
     if (small && !found.bent) {
       add(point.u, 1, s_);
       if (!evaluate(time, point, r_)) solution.failure = "forces cannot be computed there";
@@ -362,8 +506,13 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
       decrement /= length;
     }
     if (!search(time, point, decrement)) {
-      if (small) return solution;  // flat to the last digit
-      solution.failure = "no step of Newton's method lowers the energy";
+      if (small) return solution;               // flat to the last digit
+      if (euler_ && solution.iterations > 0) {  // an edge in the potential: as far as it goes
+        solution.stuck = true;
+        return solution;
+      }
+      solution.failure =
+          fmt::format("no step of Newton's method lowers the energy, {:.2g} of it is left", left_);
       return solution;
     }
   }
@@ -371,8 +520,9 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
 
 template <int D>
 void QuasiStatics<D>::settle(State& state) {
-  if (!preconditioner_) preconditioner_.emplace(system_);
   stop_motion(state);
+  if (euler_) return;
+  if (!preconditioner_) preconditioner_.emplace(system_);
   if (at_equilibrium_) return;
   const Solution solution = solve(state, state.time);
   if (!solution.failure.empty())
@@ -452,7 +602,7 @@ Real QuasiStatics<D>::stored_energy(const Motion& motion) const {
 
 template <int D>
 std::vector<Residual> QuasiStatics<D>::residuals(const State&) const {
-  return {{"energy left", left_, tolerance},
+  return {{"energy left", left_, euler_ ? choice_.force_tolerance : tolerance},
           {"stability", stability_, std::nullopt},
           {"jumps", static_cast<Real>(jumps_), std::nullopt}};
 }
@@ -475,23 +625,38 @@ void QuasiStatics<D>::archive(const Archive& a, const State&) {
   a("energy_left", left_);
   a("stability", stability_);
   a("jumps", jumps_);
+  a("step_of_flow", tau_, dimension::time);
+  a("power", power_, of_sum(dimension::power, D));
+  a("released", released_, of_sum(dimension::energy, D));
+  a("all_released", all_released_, of_sum(dimension::energy, D));
+  a("moment_of_release", moment_of_release_);
+  a("began", began_, dimension::time);
   a("at_equilibrium", at_equilibrium_);
   a("arrived", arrived_);
-  require_saved(last_dt_ >= 0 && energy_scale_ >= 0 && jumps_ >= 0, a, "last_time");
+  require_saved(last_dt_ >= 0 && energy_scale_ >= 0 && jumps_ >= 0 && tau_ >= 0, a, "last_time");
 }
 
 namespace {
 
 template <int D>
+bool is_inviscid(System<D>& system, const Body<D>& body) {
+  constexpr Real round_off = 1e-12;
+  const ElasticModuli at_rest = elastic_moduli(system, body),
+                      sheared = elastic_moduli(system, body, 1);
+  return sheared.shear - at_rest.shear <= round_off * at_rest.lame;
+}
+
+template <int D>
 std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(choice.place + ": \"newton\" looks for equilibria of solids; " + what);
+    throw InputError(choice.place + ": \"newton\" looks for states of least energy; " + what);
   };
   for (std::size_t b = 0; b < choice.fluid.size(); ++b)
-    if (choice.fluid[b])
+    if (choice.fluid[b] && is_inviscid(system, system.bodies[b]))
       refuse(
-          fmt::format("body '{}' is a fluid, which no shear stress brings to rest; use "
-                      "\"relax\"",
+          fmt::format("body '{}' is a fluid without viscosity, whose flow to rest nothing resists; "
+                      "give its material a viscosity, which changes the way but not the rest, or "
+                      "use \"relax\"",
                       system.bodies[b].name));
   for (const Unknown& field : system.fields)
     refuse(fmt::format("the field '{}' is another unknown beside the displacement; use \"relax\"",

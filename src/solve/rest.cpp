@@ -139,6 +139,11 @@ Real FluidRest<D>::clock(Real uncancelled) const {
 }
 
 template <int D>
+Real FluidRest<D>::clock_of(Real energy) const {
+  return energy > 0 ? extent_ * std::sqrt(mass_ / energy) : unbounded;
+}
+
+template <int D>
 Real FluidRest<D>::force_of_power(const State& state, Real time) const {
   Real power = std::abs(state.books.heat);
   for (const Body<D>* body : bodies_)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A preconditioner for the tangent of elastic bodies: linear elements on their own grids.
 #pragma once
-#include "meniscus/solve/system.hpp"
+#include "meniscus/solve/implicit_euler.hpp"
 
 #include <memory>
 #include <vector>
@@ -21,10 +21,14 @@ struct ElasticModuli {
 template <int D>
 class ElementPreconditioner {
  public:
-  /// Moduli are those of the strain energy of each body in its reference. Throws SolveError where a
-  /// body has no stiffness.
-  explicit ElementPreconditioner(System<D>& system);
+  /// Moduli are those of the strain energy of each body in its reference. In a `step` viscosity is
+  /// added to them and inertia to K, whose elements are then at the places where the step begins.
+  /// Throws SolveError where a body has no stiffness.
+  explicit ElementPreconditioner(System<D>& system, const ImplicitEuler<D>* step = nullptr);
   ~ElementPreconditioner();
+
+  /// For another step.
+  void renew(System<D>& system, const ImplicitEuler<D>* step);
 
   /// z = P^-1 r; symmetric and positive. The same bits for any number of threads.
   void apply(const NodalVectors& r, NodalVectors& z) const;
@@ -43,8 +47,9 @@ class ElementPreconditioner {
 };
 
 /// Of the strain energy of a body in its reference, by its tangent along uniform strains: the mean
-/// over the body and, of the shear modulus, over the planes of the axes.
+/// over the body and, of the shear modulus, over the planes of the axes. `rate`: of strains that
+/// come with them, per strain, so that viscosity counts.
 template <int D>
-ElasticModuli elastic_moduli(System<D>& system, const Body<D>& body);
+ElasticModuli elastic_moduli(System<D>& system, const Body<D>& body, Real rate = 0);
 
 }  // namespace meniscus

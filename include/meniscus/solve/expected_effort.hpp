@@ -4,6 +4,7 @@
 #include "meniscus/solve/system.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace meniscus {
 
@@ -22,10 +23,12 @@ struct ExpectedEffort {
 /// From the time of a force and of a tangent, what conjugate gradients took in the measurements of
 /// quasi-statics note 6, and the slowest frequency of linear elements: relaxation goes on for
 /// the time of the ramps and two periods of that, with steps of `stable` times its usual share.
-/// None where the factors of the preconditioner would be too large to find out, or a term has no
-/// potential.
+/// With fluids Newton's method takes ten more steps, of implicit Euler, and relaxation five times
+/// the clock of FluidRest. None where the factors of the preconditioner would be too large to find
+/// out, or a term has no potential.
 template <int D>
 std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& state,
-                                              Real load_steps, Real steady_after, Real stable);
+                                              Real load_steps, Real steady_after, Real stable,
+                                              const std::vector<bool>& fluid);
 
 }  // namespace meniscus

@@ -15,7 +15,10 @@ template <int D>
 class HeldPreconditioner {
  public:
   /// Throws as ElementPreconditioner.
-  explicit HeldPreconditioner(System<D>& system);
+  explicit HeldPreconditioner(System<D>& system, const ImplicitEuler<D>* step = nullptr);
+
+  /// For another step.
+  void renew(System<D>& system, const ImplicitEuler<D>* step);
 
   /// z of r; returns r . z.
   Real apply(const NodalVectors& r, NodalVectors& z) const;
@@ -24,12 +27,14 @@ class HeldPreconditioner {
   const ElementPreconditioner<D>& elements() const { return elements_; }
 
  private:
+  void find_responses();
   /// u += Y (C Y)^-1 b
   void add_response(std::vector<Real>& b, NodalVectors& u) const;
 
   ElementPreconditioner<D> elements_;
   const Constraints* constraints_;  // null: there are none
-  NodalVectors Y_;                  // [particle][row]
+  Index particles_;
+  NodalVectors Y_;  // [particle][row]
   Eigen::LDLT<Eigen::MatrixXd> factors_;
 };
 

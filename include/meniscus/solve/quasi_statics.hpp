@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quasi-statics: equilibria of solids from load step to load step, by Newton's method.
+// Quasi-statics: equilibria from load step to load step, and the flow of fluids to them, by
+// Newton's method.
 #pragma once
 #include "meniscus/solve/free_motions.hpp"
 #include "meniscus/solve/held_preconditioner.hpp"
+#include "meniscus/solve/rest.hpp"
 #include "meniscus/solve/stepper.hpp"
 
 #include <cmath>
@@ -23,6 +25,11 @@ namespace meniscus {
 /// not vanish with them. So is what the first state has been away from equilibrium.
 ///
 /// There is no motion: what kinetic energy a state has is dissipated by the first step.
+///
+/// No shear brings a fluid back, so that with one the tangent is singular. It flows to its
+/// equilibrium (note 8): a step is one of implicit Euler against viscosity and inertia, from rest,
+/// and lasts as long as its time says. Steps are doubled while the energy that they release does
+/// not fall fast, and the run ends where little is left to release.
 template <int D>
 class QuasiStatics final : public Stepper<D> {
  public:
@@ -34,10 +41,11 @@ class QuasiStatics final : public Stepper<D> {
   /// From wherever a run begins to the equilibrium at that time.
   void settle(State& state) override;
   /// The load step: that of the scene, or a twentieth of its time; less to meet the end of a ramp.
+  /// With fluids the step of implicit Euler, which is not longer while loads change.
   Real longest_step(const State& state) override;
   /// Throws SolveError where no equilibrium is found.
   void step(State& state, Real dt) override;
-  /// At the equilibrium of the final loads.
+  /// At the equilibrium of the final loads, or at the end of loads that never cease to change.
   bool arrived() const override { return arrived_; }
   std::vector<Residual> residuals(const State& state) const override;
   std::string obstacle(const State& state) const override;
@@ -67,7 +75,8 @@ class QuasiStatics final : public Stepper<D> {
     Point point;
     int iterations = 0;
     bool bent = false;    ///< negative curvature was seen on the way
-    bool hard = false;    ///< that, or many iterations
+    bool stuck = false;   ///< nothing lowers the energy, although a force is left
+    bool hard = false;    ///< one of these, or many iterations
     bool far = false;     ///< it may be an equilibrium far from that before
     std::string failure;  ///< why there is none; empty: there is
   };
@@ -78,6 +87,13 @@ class QuasiStatics final : public Stepper<D> {
     Real released() const { return work - stored; }
     Real size() const { return std::abs(work) + std::abs(stored); }
   };
+  Real load_step() const;
+  Real stored_size(const State& state) const;
+  Real scale_of_flow(Real stored) const;
+  void flow(State& state, Real dt);
+  Real work_of_forces(const State& from, const State& to);
+  /// After a step of dt; `whole_step`: that was neither cut nor hard to find.
+  void judge_rest(const State& state, Real dt, Real released, bool whole_step);
   Solution solve(const State& state, Real time);
   Solution iterated(const State& state, Real time);
   std::string pulled(Real time, const NodalVectors& u);
@@ -103,6 +119,9 @@ class QuasiStatics final : public Stepper<D> {
   System<D>& system_;
   StepperChoice choice_;
   std::optional<HeldPreconditioner<D>> preconditioner_;
+  FluidRest<D> fluids_;
+  std::optional<ImplicitEuler<D>> euler_;  // with fluids
+  Real tolerance_;                         // of the energy that is left by a solution
   FreeMotions<D> free_;
   Real spacing_ = 0;
   NodalVectors still_, r_, trial_r_, s_, g_, z_, p_, q_, scaled_;
@@ -114,6 +133,11 @@ class QuasiStatics final : public Stepper<D> {
   Real left_ = 1;          // of the last decrement, relative to that
   Real stability_ = 0;
   std::int64_t jumps_ = 0, iterations_ = 0, tangents_ = 0;
+  // Of the flow, since loads are steady.
+  Real tau_ = 0;                       // next step of implicit Euler; 0: not known
+  Real power_ = 0, released_ = 0;      // of the last step, and energy by the last whole one
+  Real all_released_ = 0, began_ = 0;  // energy so far, since that time
+  Real moment_of_release_ = 0;         // sum of energy times its time
   bool at_equilibrium_ = false, arrived_ = false;
   std::vector<std::string> notes_;
 };

@@ -31,6 +31,8 @@ class FluidRest {
   Real change(const NodalVectors& before, const NodalVectors& after) const;
 
   Real clock(Real uncancelled) const;
+  /// The same of an energy F L; unbounded where there is none.
+  Real clock_of(Real energy) const;
   /// The force that would do the power of the fluids, of their forces and of what is turned into
   /// heat, by moving them by their extent in a time.
   Real force_of_power(const State& state, Real time) const;
