@@ -59,6 +59,66 @@ TEST(Shapes, HalfSphereIsHalfABall) {
   EXPECT_THROW(shape.geometry(), InputError);
 }
 
+template <int D>
+Geometry<D> shape_of(const std::string& text) {
+  const SceneInput input = SceneInput::from_text(text);
+  Geometry<D> body = read_geometry<D>(input.root());
+  return body;
+}
+
+/// Distances from the middle of the nodes along an axis, in their order.
+template <int D>
+std::vector<Real> along(const Grid<D>& grid, int axis) {
+  std::vector<Real> found;
+  for (const Vec<D>& X : grid.X)
+    if ((X - X[axis] * Vec<D>::Unit(axis)).norm() < 1e-12 && X[axis] > -1e-12)
+      found.push_back(X[axis]);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(Shapes, AnOctantIsAnEighthOfABallWhoseShellsGrow) {
+  const Geometry<3> body =
+      shape_of<3>("shape = \"octant\"\nradius = 2\ncore = 8\nlayers = 5\ngrading = 1.5\n");
+  EXPECT_EQ(body.grid.cell_count(), 64 + 3 * 16 * 5);
+  EXPECT_EQ(body.grid.node_count(), 125 + 5 * 61);
+  EXPECT_NEAR(volume(body.grid) / (8 * pi / 6), 1, 2e-5);
+  std::array<std::size_t, 4> facets{};
+  for (const auto& facet : body.grid.facets) {
+    ++at(facets, facet.patch);
+    for (const Index i : facet.nodes) {
+      const Vec<3>& X = at(body.grid.X, i);
+      EXPECT_NEAR(facet.patch == 0 ? X.norm() - 2 : X[facet.patch - 1], 0, 1e-14);
+    }
+  }
+  EXPECT_EQ(facets, (std::array<std::size_t, 4>{48, 56, 56, 56}));
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<Real> z = along(body.grid, axis);
+    ASSERT_EQ(z.size(), 10u);
+    for (std::size_t k = 5; k + 1 < z.size(); ++k)
+      EXPECT_NEAR((z[k + 1] - z[k]) / (z[k] - z[k - 1]), 1.5, k == 5 ? 1.5 : 1e-12) << k;
+    EXPECT_GT((z[9] - z[8]) / z[1], 6);
+  }
+  const SceneInput odd = SceneInput::from_text("shape = \"octant\"\nradius = 1\ncore = 5\n");
+  read_geometry<3>(odd.root());
+  EXPECT_FALSE(odd.root().in_order());
+}
+
+TEST(Shapes, AHalfDiskMayBeGradedToo) {
+  const auto text = [](const char* more) {
+    return std::string("shape = \"half_disk\"\nradius = 1\ncore = 8\nrings = 5\n") + more;
+  };
+  const Geometry<2> graded = shape_of<2>(text("grading = 1.5\n")), even = shape_of<2>(text(""));
+  EXPECT_EQ(graded.grid.node_count(), even.grid.node_count());
+  EXPECT_NEAR(volume(graded.grid) / (pi / 2), 1, 3e-5);
+  const std::vector<Real> fine = along(graded.grid, 1), equal = along(even.grid, 1);
+  EXPECT_LT(fine[1], 0.45 * equal[1]);
+  for (std::size_t k = 6; k + 1 < fine.size(); ++k) {
+    EXPECT_NEAR((fine[k + 1] - fine[k]) / (fine[k] - fine[k - 1]), 1.5, 1e-12);
+    EXPECT_NEAR((equal[k + 1] - equal[k]) / (equal[k] - equal[k - 1]), 1, 1e-12);
+  }
+}
+
 TEST(Shapes, CylinderCountsAndVolume) {
   Cylinder cylinder;
   cylinder.radius = 2;
@@ -147,7 +207,7 @@ TEST(Shapes, BoxNeedsCellsOrSpacing) {
 }
 
 TEST(Shapes, AreRegisteredWithTheirKeys) {
-  for (const char* name : {"ball", "ellipsoid", "half_sphere", "cylinder", "box"})
+  for (const char* name : {"ball", "ellipsoid", "half_sphere", "octant", "cylinder", "box"})
     EXPECT_NE(shapes<3>().find(name), nullptr) << name;
   for (const char* name : {"disk", "ellipse", "rectangle"})
     EXPECT_NE(shapes<2>().find(name), nullptr) << name;

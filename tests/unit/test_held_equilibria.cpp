@@ -42,11 +42,8 @@ NodalVectors rest(Scene<D>& scene) {
   return state.u;
 }
 
-/// From a body at rest to the linear field that all held faces have, on a disordered cloud.
 template <int D>
-Real error_of_linear_field(const std::string& held, const Tensor<Real>& H) {
-  Scene<D> scene = test::scene_of<D>(block(D, held));
-  const NodalVectors u = rest(scene);
+Real distance_from_linear(const Scene<D>& scene, const NodalVectors& u, const Tensor<Real>& H) {
   Real error = 0;
   for (Index A = 0; A < scene.system.size(); ++A) {
     const Vec<D>& X = at(scene.system.bodies.front().particles.X(), A);
@@ -57,6 +54,13 @@ Real error_of_linear_field(const std::string& held, const Tensor<Real>& H) {
     }
   }
   return error;
+}
+
+/// From a body at rest to the linear field that all held faces have, on a disordered cloud.
+template <int D>
+Real error_of_linear_field(const std::string& held, const Tensor<Real>& H) {
+  Scene<D> scene = test::scene_of<D>(block(D, held));
+  return distance_from_linear(scene, rest(scene), H);
 }
 
 TEST(HeldEquilibria, FindLinearFieldsExactlyOnJitteredClouds) {
@@ -72,6 +76,34 @@ TEST(HeldEquilibria, FindLinearFieldsExactlyOnJitteredClouds) {
                 "\"-0.15*x + 0.05*y + 0.1*z\", \"0.05*x + 0.1*y - 0.1*z\"]\n",
                 H),
             1e-11);  // S has a condition of 1e8 by edges and corners
+}
+
+/// Uniform stress in an octant whose shells grow: forces are those of its planes alone, along their
+/// normals, on all particles that the round face does not touch.
+TEST(HeldEquilibria, AGradedOctantOnRollersFeelsUniformStressOnItsPlanesOnly) {
+  Scene<3> scene = test::scene_of<3>(
+      "dimension = 3\n[time]\nend = 1\n[[body]]\nname = \"block\"\nshape = \"octant\"\nradius = "
+      "1\ncore = 12\nlayers = 6\ngrading = 1.3\njitter = 0.2\ninitial_displacement = [\"0.1*x\", "
+      "\"0.05*y\", \"-0.1*z\"]\nmaterial = {type = \"neo_hookean\", density = 1, mu = 1, lambda = "
+      "1.5}\n");
+  State state = scene.initial;
+  start(scene.system, state);
+  const auto& particles = scene.system.bodies.front().particles;
+  Real largest = 0, error = 0;
+  Index inside = 0;
+  for (Index A = 0; A < scene.system.size(); ++A) {
+    const Vec<3>& X = at(particles.X(), A);
+    // Of the particles that share a cell with it, too.
+    if (X.norm() + 2 * at(particles.support(), A) > 1) continue;
+    for (int i = 0; i < 3; ++i) {
+      const Real f = std::abs(at(state.force, A)[i]);
+      largest = std::max(largest, f);
+      if (X[i] > 2 * at(particles.support(), A)) error = std::max(error, f), ++inside;
+    }
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(largest, 1e-4);
+  EXPECT_LT(error, 1e-12 * largest);
 }
 
 /// Two opposite faces between rollers, the others free: uniaxial stress, P(1, 1) = 0.

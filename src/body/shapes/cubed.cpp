@@ -27,12 +27,19 @@ Vec<D> core_point(const CubedCore& shape, const Vec<D>& q) {
   return shape.a * ((1 - shape.w * s) * q + shape.b * shape.w * s * s * direction<D>(q / s));
 }
 
+/// Thickness of the first `shells` shells, that of a cell of the core being 1.
+Real thickness(int shells, Real grading) {
+  Real sum = 0, one = 1;
+  for (int shell = 0; shell < shells; ++shell) sum += one *= grading;
+  return sum;
+}
+
 /// The core takes the share core / (core + 2 shells) of a diameter, so that cells are of about
-/// equal size everywhere; above 0.6 its corners would come near the surface. In 2D the scan of a,
-/// w, b for the largest ratio of smallest scaled Jacobian (0.86) to edge ratio (1.93) chose these
-/// numbers.
+/// equal size everywhere, or as much less as shells grow; above 0.6 its corners would come near the
+/// surface. In 2D the scan of a, w, b for the largest ratio of smallest scaled Jacobian (0.86) to
+/// edge ratio (1.93) chose these numbers.
 template <int D>
-CubedCore core_shape(int core, int shells) {
+CubedCore core_shape(int core, Real shells) {
   const Real share = std::min(0.6, core / (core + 2.0 * shells));
   return D == 3 ? CubedCore{share, 0.7, 1.25} : CubedCore{0.95 * share, 0.4, 1.0};
 }
@@ -83,8 +90,9 @@ class NodeNumbers {
 };
 
 template <int D>
-void add_nodes(Grid<D>& grid, const NodeNumbers<D>& number, int core, int shells) {
-  const CubedCore shape = core_shape<D>(core, shells);
+void add_nodes(Grid<D>& grid, const NodeNumbers<D>& number, int core, int shells, Real grading) {
+  const Real all = thickness(shells, grading);
+  const CubedCore shape = core_shape<D>(core, all);
   const auto parameter = [&](Index i) {
     Vec<D> q;
     const auto p = number.lattice(i);
@@ -93,11 +101,13 @@ void add_nodes(Grid<D>& grid, const NodeNumbers<D>& number, int core, int shells
   };
   for (Index i = 0; i < number.core_count(); ++i)
     grid.X.push_back(core_point<D>(shape, parameter(i)));
-  for (int shell = 1; shell <= shells; ++shell)
+  for (int shell = 1; shell <= shells; ++shell) {
+    const Real part = thickness(shell, grading) / all;
     for (const Index i : number.surface()) {
       const Vec<D> inner = at(grid.X, i), outer = direction<D>(parameter(i));
-      grid.X.push_back(shell == shells ? outer : inner + (outer - inner) * (Real(shell) / shells));
+      grid.X.push_back(shell == shells ? outer : inner + (outer - inner) * part);
     }
+  }
 }
 
 template <int D>
@@ -144,13 +154,13 @@ void add_shell_cells(Grid<D>& grid, const Number& number, int core, int shells, 
 }  // namespace
 
 template <int D>
-Grid<D> cubed_ball(int core, int shells) {
+Grid<D> cubed_ball(int core, int shells, Real grading) {
   if (core < 1 || shells < 1)
     throw InputError("a ball, disk or cylinder needs at least one core cell and one shell");
   require_affordable<D>(std::pow(core, D) + 2.0 * D * shells * std::pow(core, D - 1));
   const NodeNumbers<D> number(core);
   Grid<D> grid;
-  add_nodes(grid, number, core, shells);
+  add_nodes(grid, number, core, shells, grading);
   add_core_cells(grid, number, core);
   for (int side = 0; side < 2 * D; ++side) add_shell_cells<D>(grid, number, core, shells, side);
   return grid;
@@ -175,15 +185,15 @@ Grid<3> cubed_shell(int n, int layers, Real inner_radius) {
   return grid;
 }
 
-template Grid<2> cubed_ball<2>(int, int);
-template Grid<3> cubed_ball<3>(int, int);
+template Grid<2> cubed_ball<2>(int, int, Real);
+template Grid<3> cubed_ball<3>(int, int, Real);
 
 template <int D>
-Grid<D> upper_half(const Grid<D>& whole) {
+Grid<D> upper_half(const Grid<D>& whole, int axis) {
   Grid<D> half;
   std::vector<Index> number(whole.X.size(), -1);
   for (const auto& cell : whole.cells) {
-    if (std::any_of(cell.begin(), cell.end(), [&](Index a) { return at(whole.X, a)[D - 1] < 0; }))
+    if (std::any_of(cell.begin(), cell.end(), [&](Index a) { return at(whole.X, a)[axis] < 0; }))
       continue;
     auto& own = half.cells.emplace_back(cell);
     for (Index& node : own) {
@@ -197,7 +207,7 @@ Grid<D> upper_half(const Grid<D>& whole) {
   }
   return half;
 }
-template Grid<2> upper_half(const Grid<2>&);
-template Grid<3> upper_half(const Grid<3>&);
+template Grid<2> upper_half(const Grid<2>&, int);
+template Grid<3> upper_half(const Grid<3>&, int);
 
 }  // namespace meniscus

@@ -15,6 +15,7 @@ struct HalfDisk {
   static constexpr std::string_view example = "radius = 1\ncore = 4\nrings = 2\n";
   Real radius = 1;
   int core = 18, rings = 9;
+  Real grading = 1;
   bool below = false;
   std::vector<Real> centre{0, 0};
 
@@ -24,6 +25,7 @@ struct HalfDisk {
         integer_row("core", &HalfDisk::core, count_in_plane,
                     "cells along an edge of the core square of the whole disk, an even number", 18),
         integer_row("rings", &HalfDisk::rings, count_in_plane, "rings of cells around the core", 9),
+        grading_row(&HalfDisk::grading),
         flag_row("below", &HalfDisk::below, "whether it is the half below its flat face", false),
         reals_row("centre", &HalfDisk::centre, 2, dimension::length, range::any,
                   "centre of the flat face", std::vector<Real>{0, 0})};
@@ -34,7 +36,7 @@ struct HalfDisk {
           "a half disk has an even number of cells along the core; use a multiple of 2");
     const Vec<2> origin = Vec<2>::Zero(), y = Vec<2>::UnitY();
     const Vec<2> scale = Vec<2>::Constant(below ? -radius : radius);  // turned
-    return make_geometry<2>(upper_half<2>(cubed_ball<2>(core, rings)),
+    return make_geometry<2>(upper_half<2>(cubed_ball<2>(core, rings, grading)),
                             {SurfacePatch<2>::sphere(origin, 1).named("round"),
                              SurfacePatch<2>::plane(origin, -y).named("flat")},
                             false, affine_map<2>(scale.asDiagonal(), Vec<2>::Map(centre.data())));
