@@ -7,6 +7,7 @@
 #include "meniscus/body/wall_supports.hpp"
 #include "meniscus/measure/measure_registry.hpp"
 #include "meniscus/physics/material.hpp"
+#include "meniscus/physics/solid_viscosity.hpp"
 
 #include <fmt/core.h>
 
@@ -155,6 +156,8 @@ void build_body(const BodyPlan<D>& planned, std::shared_ptr<const Reference<D>> 
   if (is_hollow(body.geometry))
     assembly.keep_reference(body.name, "walls of a cavity are known by its shape only");
   assembly.add(std::move(built.force), body.name);
+  if (planned.solid.viscosity > 0)
+    assembly.add(solid_viscosity(body, planned.solid.viscosity, 0), body.name);
   for (const auto& [name, group] : measures<D>())
     for (MeasureSource& source : group.make(body, scene.units))
       assembly.measure(body.name, std::move(source));

@@ -48,14 +48,14 @@ void require_components(const Block& block, const char* key, std::size_t given, 
 }
 
 template <int D>
-std::shared_ptr<const Material<D>> plan_material(const Block& body) {
+void plan_material(const Block& body, BodyPlan<D>& plan) {
   const auto block = body.table("material", true);
-  if (!block) return nullptr;
+  if (!block) return;
   const auto type = block->kind("type", laws().names());
-  if (!type) return nullptr;
-  std::shared_ptr<const Material<D>> material = laws().at(*type).template material<D>(*block);
+  if (!type) return;
+  plan.material = laws().at(*type).template material<D>(*block);
+  if (!laws().at(*type).viscous) plan.solid = read<SolidSettings>(*block);
   block->done();
-  return material;
 }
 
 /// Each body for itself may be affordable where all are not.
@@ -90,9 +90,9 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
     const bool in_order = block.in_order();
     cells += in_order ? geometry.grid.cell_count() : 0;
     if (in_order && bodies.size() > 0) note_if_unaffordable<D>(block, cells);
-    auto material = plan_material<D>(block);
+    bodies.push_back({std::move(settings), std::move(geometry), nullptr, in_order});
+    plan_material(block, bodies.back());
     block.done();
-    bodies.push_back({std::move(settings), std::move(geometry), std::move(material), in_order});
   }
 }
 

@@ -117,6 +117,14 @@ Rows<BodySettings> BodySettings::rows() {
   };
 }
 
+Rows<SolidSettings> SolidSettings::rows() {
+  return {real_row("viscosity", &SolidSettings::viscosity, dimension::viscosity,
+                   range::non_negative,
+                   "damps it: eta of the stress 2 eta E' of Kelvin and Voigt, E' the rate of the "
+                   "Green strain; [[solid_viscosity]] has a volumetric one, too",
+                   0.0)};
+}
+
 Rows<ExpectSettings> ExpectSettings::rows() {
   using S = ExpectSettings;
   return {
@@ -181,6 +189,7 @@ std::vector<KeyTable> key_tables() {
   for (const auto& [name, law] : laws())
     tables.push_back({"[body.material] type = \"" + name + "\"", law.keys,
                       "[body.material]\ntype = \"" + name + "\"\n" + law.example});
+  tables.push_back({"[body.material] of any solid", key_texts(SolidSettings::rows())});
   for (const auto& [name, load] : loads<3>()) add(tables, load.keys());
   for (const auto& [name, load] : loads<2>())
     if (!loads<3>().find(name)) add(tables, load.keys());

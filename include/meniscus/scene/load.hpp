@@ -31,8 +31,9 @@ struct BodyPlan {
   BodySettings settings;
   Geometry<D> geometry;
   std::shared_ptr<const Material<D>> material;
-  bool in_order;          ///< a body that cannot be made has a stand-in for its geometry
-  bool enclosed = false;  ///< if it is a fluid: Integration::enclosed
+  bool in_order;             ///< a body that cannot be made has a stand-in for its geometry
+  bool enclosed = false;     ///< if it is a fluid: Integration::enclosed
+  SolidSettings solid = {};  ///< if it is none
 };
 template <int D>
 using BodyPlans = std::vector<BodyPlan<D>>;

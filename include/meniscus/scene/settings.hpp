@@ -44,6 +44,12 @@ struct BodySettings {
   static Rows<BodySettings> rows();
 };
 
+/// What [body.material] of any solid may have besides the numbers of its law.
+struct SolidSettings {
+  Real viscosity = 0;  ///< eta of physics/solid_viscosity.hpp
+  static Rows<SolidSettings> rows();
+};
+
 /// [expect.NAME]
 struct ExpectSettings {
   std::string of;              ///< column of the history; the name of the table if empty
