@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace meniscus {
 namespace {
@@ -41,7 +42,12 @@ QuasiStatics<D>::QuasiStatics(System<D>& system, const StepperChoice& choice)
     : system_(system), choice_(choice), fluids_(system, choice.fluid), spacing_(unbounded) {
   const auto n = static_cast<std::size_t>(system.size());
   still_.assign(n, Lanes::zero());
-  if (system.constraints) lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
+  last_work_.resize(1);
+  if (system.constraints) {
+    lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
+    last_lambda_ = lambda_;
+    last_work_.resize(system.constraints->all().size() + 1);
+  }
   r_ = trial_r_ = s_ = g_ = z_ = p_ = q_ = scaled_ = last_du_ = still_;
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A)
@@ -111,8 +117,13 @@ void QuasiStatics<D>::step(State& state, Real dt) {
         piece /= 2;
         continue;
       }
+      const bool bends = !jump && last_dt_ > 0;
+      if (bends) book_bend(state, next);
+      last_bend_booked_ = bends;
       last_dt_ = jump ? 0 : time - state.time;
       last_du_ = scaled_;
+      last_work_ = work_;
+      last_lambda_ = state.reactions.force;
       if (jump) book_jump(next, state.time, exchange.released());
       state = std::move(next);
       system_.commit(state.motion());
@@ -533,24 +544,70 @@ void QuasiStatics<D>::settle(State& state) {
   at_equilibrium_ = true;
 }
 
-/// Books the work from outside: that of dead loads by their mean, along the straight way.
+/// Moves the state by scaled_, and books the work from outside.
 template <int D>
 typename QuasiStatics<D>::Exchange QuasiStatics<D>::move(State& state, Real time,
                                                          const NodalVectors& u) {
-  const Real stored = stored_energy(state.motion());
+  const Real stored = stored_energy(state.motion()), begin = state.time;
   for (Index A = 0; A < system_.size(); ++A) at(scaled_, A) = at(u, A) - at(state.u, A);
-  const Motion before{state.time, state.u, scaled_, state.fields},
-      after{time, u, scaled_, state.fields};
-  Real work = 0.5 * (system_.load_power(before) + system_.load_power(after));
-  for (const auto& term : system_.terms)
-    if (time > state.time && term->steady_after() > state.time)
-      work += term->work_between(before, after);
+  const NodalVectors from = state.u;
+  const std::vector<Real> lambda = state.reactions.force;
   state.u = u;
   state.time = time;
   state.demand = system_.compute_forces(state.motion(), state.forces()).demand;
-  if (system_.constraints) work += react(state);
-  state.books.external_work += work;
-  return {work, stored_energy(state.motion()) - stored};
+  if (system_.constraints) {
+    reactions(state.force, state.reactions.force);
+    system_.constraints->add_transposed(state.reactions.force, 1, state.force);
+  }
+  work_ = work_between({begin, from, lambda}, {time, state.u, state.reactions.force});
+  book(state, work_);
+  return {std::accumulate(work_.begin(), work_.end(), 0.0), stored_energy(state.motion()) - stored};
+}
+
+/// Of each held face and, last, of all else from outside, by the mean of the forces before and
+/// after.
+template <int D>
+std::vector<Real> QuasiStatics<D>::work_between(const Equilibrium& before,
+                                                const Equilibrium& after) {
+  for (Index A = 0; A < system_.size(); ++A) at(q_, A) = at(after.u, A) - at(before.u, A);
+  const Motion from{before.time, before.u, q_}, to{after.time, after.u, q_};
+  std::vector<Real> work;
+  if (system_.constraints) {
+    system_.constraints->apply(q_, lambda_);
+    for (const auto& one : system_.constraints->all()) {
+      work.push_back(0);
+      for (Index r = one->first; r < one->first + one->rows.size(); ++r)
+        work.back() += 0.5 * (at(before.lambda, r) + at(after.lambda, r)) * at(lambda_, r);
+    }
+  }
+  work.push_back(0.5 * (system_.load_power(from) + system_.load_power(to)));
+  for (const auto& term : system_.terms)
+    if (after.time > before.time && term->steady_after() > before.time)
+      work.back() += term->work_between(from, to);
+  return work;
+}
+
+template <int D>
+void QuasiStatics<D>::book(State& state, const std::vector<Real>& work) const {
+  for (std::size_t k = 0; k < work.size(); ++k) {
+    state.books.external_work += work[k];
+    if (k + 1 < work.size()) state.reactions.work[k] += work[k];
+  }
+}
+
+/// What the mean of the forces before and after a piece of a step leaves out, by the work over this
+/// and the last piece together: their parabola (quasi-statics note 2).
+template <int D>
+void QuasiStatics<D>::book_bend(const State& before, State& state) {
+  NodalVectors first = before.u;
+  add(first, -1, last_du_);
+  std::vector<Real> bend = work_between({before.time - last_dt_, first, last_lambda_},
+                                        {state.time, state.u, state.reactions.force});
+  const Real part = last_dt_ / (last_dt_ + state.time - before.time), rest = 1 - part;
+  const Real mine = rest * rest * rest + (last_bend_booked_ ? 0 : part * part * part);
+  for (std::size_t k = 0; k < bend.size(); ++k)
+    bend[k] = mine * (last_work_[k] + work_[k] - bend[k]) / (3 * part * rest);
+  book(state, bend);
 }
 
 /// Forces of the constraints at an equilibrium.
@@ -559,28 +616,6 @@ void QuasiStatics<D>::reactions(const NodalVectors& force, std::vector<Real>& la
   system_.constraints->apply_over_mass(force, lambda);
   for (Real& x : lambda) x = -x;
   system_.constraints->solve(lambda);
-}
-
-/// Adds the reactions to the forces of a state that was moved by scaled_; their work, by the mean
-/// of those before and after.
-template <int D>
-Real QuasiStatics<D>::react(State& state) const {
-  const Constraints& held = *system_.constraints;
-  const std::vector<Real> before = state.reactions.force;
-  std::vector<Real>& after = state.reactions.force;
-  std::vector<Real> way(before.size());
-  reactions(state.force, after);
-  held.add_transposed(after, 1, state.force);
-  held.apply(scaled_, way);
-  Real all = 0;
-  for (const auto& one : held.all()) {
-    Real work = 0;
-    for (Index r = one->first; r < one->first + one->rows.size(); ++r)
-      work += 0.5 * (at(before, r) + at(after, r)) * at(way, r);
-    at(state.reactions.work, one->number) += work;
-    all += work;
-  }
-  return all;
 }
 
 template <int D>
@@ -621,6 +656,9 @@ template <int D>
 void QuasiStatics<D>::archive(const Archive& a, const State&) {
   a("last_change", last_du_, D, dimension::length);
   a("last_time", last_dt_, dimension::time);
+  a("last_work", last_work_, of_sum(dimension::energy, D));
+  if (!last_lambda_.empty()) a("last_reactions", last_lambda_, of_sum(dimension::force, D));
+  a("last_bend_booked", last_bend_booked_);
   a("energy_scale", energy_scale_, of_sum(dimension::energy, D));
   a("energy_left", left_);
   a("stability", stability_);

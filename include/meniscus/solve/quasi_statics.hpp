@@ -108,7 +108,15 @@ class QuasiStatics final : public Stepper<D> {
   bool search(Real time, Point& point, Real decrement);
   Exchange move(State& state, Real time, const NodalVectors& u);
   void reactions(const NodalVectors& force, std::vector<Real>& lambda) const;
-  Real react(State& state) const;
+  /// Where work is counted from, or to.
+  struct Equilibrium {
+    Real time;
+    const NodalVectors& u;
+    const std::vector<Real>& lambda;
+  };
+  std::vector<Real> work_between(const Equilibrium& before, const Equilibrium& after);
+  void book(State& state, const std::vector<Real>& work) const;
+  void book_bend(const State& before, State& state);
   void book_jump(State& state, Real since, Real released);
   Real stored_energy(const Motion& motion) const;
   std::string unbalanced(State& state, Real time);
@@ -126,9 +134,12 @@ class QuasiStatics final : public Stepper<D> {
   Real spacing_ = 0;
   NodalVectors still_, r_, trial_r_, s_, g_, z_, p_, q_, scaled_;
   std::vector<Real> lambda_;  // per row of the constraints
+  std::vector<Real> work_;    // of work_between() in this piece of a step
   // Of the past.
-  NodalVectors last_du_;   // of the last piece of a step
-  Real last_dt_ = 0;       // 0: nothing is known to go on with
+  NodalVectors last_du_;                       // of the last piece of a step
+  Real last_dt_ = 0;                           // 0: nothing is known to go on with
+  std::vector<Real> last_work_, last_lambda_;  // of that piece, and at its beginning
+  bool last_bend_booked_ = false;
   Real energy_scale_ = 0;  // largest that an iteration has released
   Real left_ = 1;          // of the last decrement, relative to that
   Real stability_ = 0;
