@@ -117,9 +117,7 @@ void QuasiStatics<D>::step(State& state, Real dt) {
         piece /= 2;
         continue;
       }
-      const bool bends = !jump && last_dt_ > 0;
-      if (bends) book_bend(state, next);
-      last_bend_booked_ = bends;
+      if (!jump && last_dt_ > 0) book_bend(state, next);
       last_dt_ = jump ? 0 : time - state.time;
       last_du_ = scaled_;
       last_work_ = work_;
@@ -595,8 +593,10 @@ void QuasiStatics<D>::book(State& state, const std::vector<Real>& work) const {
   }
 }
 
-/// What the mean of the forces before and after a piece of a step leaves out, by the work over this
-/// and the last piece together: their parabola (quasi-statics note 2).
+/// What the means of the forces before and after leave out of the work over this piece of a step
+/// and the last, by that over both together. Half of it: the other half of what bends over a piece
+/// is seen with the neighbour on its other side, and a way back takes back what the way there has
+/// booked (quasi-statics note 2).
 template <int D>
 void QuasiStatics<D>::book_bend(const State& before, State& state) {
   NodalVectors first = before.u;
@@ -604,9 +604,9 @@ void QuasiStatics<D>::book_bend(const State& before, State& state) {
   std::vector<Real> bend = work_between({before.time - last_dt_, first, last_lambda_},
                                         {state.time, state.u, state.reactions.force});
   const Real part = last_dt_ / (last_dt_ + state.time - before.time), rest = 1 - part;
-  const Real mine = rest * rest * rest + (last_bend_booked_ ? 0 : part * part * part);
+  const Real half = 0.5 * (part * part * part + rest * rest * rest);
   for (std::size_t k = 0; k < bend.size(); ++k)
-    bend[k] = mine * (last_work_[k] + work_[k] - bend[k]) / (3 * part * rest);
+    bend[k] = half * (last_work_[k] + work_[k] - bend[k]) / (3 * part * rest);
   book(state, bend);
 }
 
@@ -658,7 +658,6 @@ void QuasiStatics<D>::archive(const Archive& a, const State&) {
   a("last_time", last_dt_, dimension::time);
   a("last_work", last_work_, of_sum(dimension::energy, D));
   if (!last_lambda_.empty()) a("last_reactions", last_lambda_, of_sum(dimension::force, D));
-  a("last_bend_booked", last_bend_booked_);
   a("energy_scale", energy_scale_, of_sum(dimension::energy, D));
   a("energy_left", left_);
   a("stability", stability_);

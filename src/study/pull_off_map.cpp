@@ -22,7 +22,8 @@ constexpr Real pi = std::numbers::pi;
 struct Case {
   Real tabor, gap;
   Real exact;      ///< pull-off force / 2 pi W R by boundary elements
-  Real far, near;  ///< distances of the ball at the ends and in the middle of the cycle, / gap
+  Real peak;       ///< distance of the ball there, / gap
+  Real far, near;  ///< at the ends and in the middle of a cycle, / gap
   int points;      ///< per direction and facet
 
   Real adhesion() const { return std::pow(tabor * gap, 1.5); }
@@ -46,14 +47,26 @@ struct Octant {
   }
 };
 
-std::string scene_text(const Case& c, int core) {
+/// From afar to the ball and back, or out of contact by the largest pull alone.
+struct Way {
+  bool cycle;
+  Real step;
+
+  std::string displacement(const Case& c) const {
+    return cycle ? fmt::format("{:.17g}*(1 - abs(t - 1))", (c.far - c.near) * c.gap)
+                 : fmt::format("{:.17g}*t", -c.gap);
+  }
+  Real begin(const Case& c) const { return (cycle ? c.far : c.peak - 1) * c.gap; }
+};
+
+std::string scene_text(const Case& c, int core, const Way& way) {
   const Octant part(c, core);
   return fmt::format(R"toml(
 dimension = 3
 [time]
 solver = "newton"
 end = 2
-step = 0.05
+step = {:g}
 [[body]]
 name = "ground"
 shape = "octant"
@@ -85,10 +98,10 @@ points = {}
 type = "ball"
 radius = 1
 centre = [0, 0, {:.17g}]
-displacement = [0, 0, "{:.17g}*(1 - abs(t - 1))"]
+displacement = [0, 0, "{}"]
 )toml",
-                     part.radius, part.core, part.layers, part.grading, c.epsilon(), c.sigma0(),
-                     c.points, -1 - c.far * c.gap, (c.far - c.near) * c.gap);
+                     way.step, part.radius, part.core, part.layers, part.grading, c.epsilon(),
+                     c.sigma0(), c.points, -1 - way.begin(c), way.displacement(c));
 }
 
 /// Pull-off force over pi W R of Maugis (1992), lambda = 1.157 of the Tabor number: the largest
@@ -130,9 +143,9 @@ Real wave(const std::vector<Real>& p) {
   return most;
 }
 
-Measurement cycle(const Case& c, int core) {
+Measurement pulled_off(const Case& c, int core, const Way& way) {
   const Stopwatch set_up;
-  const SceneInput input = SceneInput::from_text(scene_text(c, core));
+  const SceneInput input = SceneInput::from_text(scene_text(c, core, way));
   scene_dimension(input);
   Scene<3> scene = build_scene<3>(input);
   Simulation<3> simulation(scene);
@@ -156,7 +169,7 @@ Measurement cycle(const Case& c, int core) {
     while (!simulation.finished()) {
       simulation.advance();
       exchanged = std::max(exchanged, std::abs(simulation.audit_now().external_work));
-      if (simulation.state().time > 1 - 1e-9) out.push_back(pull());
+      if (!way.cycle || simulation.state().time > 1 - 1e-9) out.push_back(pull());
     }
     cut_where_it_is_off(out);
     const Ledger last = simulation.audit_now();
@@ -164,9 +177,11 @@ Measurement cycle(const Case& c, int core) {
     m.errors = {{"pull-off force", most / c.exact - 1}, {"wave", wave(out) / most}};
     m.values = {{"pull-off / stiff", most},
                 {"boundary elements", c.exact},
-                {"Maugis-Dugdale", maugis(c.tabor) / 2},
-                {"work of the cycle / largest", last.external_work / exchanged},
-                {"released / largest", released / exchanged}};
+                {"Maugis-Dugdale", maugis(c.tabor) / 2}};
+    if (way.cycle) {
+      m.values.emplace_back("work of the cycle / largest", last.external_work / exchanged);
+      m.values.emplace_back("released / largest", released / exchanged);
+    }
     for (const Residual& r : simulation.stepper().residuals(simulation.state()))
       if (r.meaning == "jumps") m.values.emplace_back("jumps", r.value);
   } catch (const SolveError& e) {
@@ -176,7 +191,7 @@ Measurement cycle(const Case& c, int core) {
   return m;
 }
 
-void check(StudyRun& study, const Case& c) {
+void check(StudyRun& study, const Case& c, const Way& way) {
   const Measurement& m = study.measurements().back();
   const std::string where = fmt::format("{}, core {}: ", m.method, m.level);
   study.require(where + "went on to its end", m.remark.empty() ? 1 : 0, {1, 1});
@@ -186,15 +201,17 @@ void check(StudyRun& study, const Case& c) {
                         [&](const auto& v) { return v.first == name; })
         ->second;
   };
-  const Real work = value("work of the cycle / largest"), released = value("released / largest");
-  const bool resolved = c.tabor < 3 && m.level >= 8;
-  if (resolved) {
+  // At 5 the adhesive zone is a fiftieth of the radius of the contact wide.
+  if (m.level >= (c.tabor < 0.5 ? 4 : c.tabor < 3 ? 8 : 14)) {
     study.require(where + "pull-off force / boundary elements - 1", m.error("pull-off force"),
                   {-0.03, 0.03});
-    study.require(where + "wave / pull-off force", m.error("wave"), {0, 0.01});
     // Between those of soft and of stiff balls.
     study.require(where + "pull-off / stiff", value("pull-off / stiff"), {0.75, 1});
   }
+  if (c.tabor < 3 && m.level >= 8)
+    study.require(where + "wave / pull-off force", m.error("wave"), {0, 0.01});
+  if (!way.cycle) return;
+  const Real work = value("work of the cycle / largest"), released = value("released / largest");
   if (c.tabor < 0.5) {
     study.require(where + "jumps", value("jumps"), {0, 0});
     study.require(where + "work of the cycle / largest", work, {-1e-5, 1e-5});
@@ -208,11 +225,16 @@ void check(StudyRun& study, const Case& c) {
 void run(StudyRun& study) {
   study.finish_settings();
   for (const int level : study.levels())
-    for (const Case& c : {Case{0.1, 0.004, 0.98796, 3, 0.6, 4}, Case{1, 0.004, 0.82999, 3.4, 0.6, 4},
-                          Case{2, 0.002, 0.78804, 5, 1, 6}, Case{5, 0.0008, 0.7666, 10, 3, 8}}) {
+    for (const Case& c :
+         {Case{0.1, 0.004, 0.98796, 1.11, 3, 0.6, 4}, Case{1, 0.004, 0.82999, 1.93, 3.4, 0.6, 4},
+          Case{2, 0.002, 0.78804, 2.77, 5, 1, 6}, Case{5, 0.0008, 0.77084, 4.99, 10.5, 3, 8}}) {
       if (study.brief() && c.tabor > 0.5 && c.tabor < 3) continue;
-      study.record(cycle(c, level));
-      check(study, c);
+      // Fine bodies are for what needs them.
+      const bool fine = level > 10;
+      if (fine && c.tabor < 3) continue;
+      const Way way{!fine, fine ? 0.2 : study.brief() ? 0.1 : 0.05};
+      study.record(pulled_off(c, level, way));
+      check(study, c, way);
     }
 }
 
@@ -220,7 +242,7 @@ const bool registered = register_entry(
     StudyEntry{"pull_off_map",
                "pull-off force and hysteresis of a ball on a soft half space by Tabor number",
                "cells along an edge of the core of the octant, even",
-               {6, 8, 10},
+               {8, 10, 14},
                {4},
                run});
 

@@ -139,7 +139,6 @@ class QuasiStatics final : public Stepper<D> {
   NodalVectors last_du_;                       // of the last piece of a step
   Real last_dt_ = 0;                           // 0: nothing is known to go on with
   std::vector<Real> last_work_, last_lambda_;  // of that piece, and at its beginning
-  bool last_bend_booked_ = false;
   Real energy_scale_ = 0;  // largest that an iteration has released
   Real left_ = 1;          // of the last decrement, relative to that
   Real stability_ = 0;

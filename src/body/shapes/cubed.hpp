@@ -3,7 +3,7 @@
 // surface. One construction for both, used by their shape files only.
 #pragma once
 #include "meniscus/body/grid.hpp"
-#include "meniscus/core/input_rows.hpp"
+#include "meniscus/core/input.hpp"
 
 namespace meniscus {
 
