@@ -5,7 +5,6 @@
 #include "meniscus/physics/contact.hpp"
 
 #include "meniscus/body/gauss.hpp"
-#include "meniscus/physics/contact_list.hpp"
 #include "meniscus/study/study.hpp"
 
 #include <fmt/core.h>
@@ -13,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "support/bodies.hpp"
+#include "support/contact_costs.hpp"
 
 namespace meniscus::contact_study {
 namespace {
@@ -124,24 +124,6 @@ Real net_force(const Balls& balls, const NodalVectors& force) {
   return net;
 }
 
-template <int D>
-ContactPoints<D> points_of(const Body<D>& body, const Method& method) {
-  return method.form == ContactForm::volume
-             ? ContactPoints<D>::in_volume(body, 1, method.points)
-             : ContactPoints<D>::on_surface(body, 1, SiteDensity::constant, method.points);
-}
-
-/// Pairs of points in the list, and their spacing.
-std::pair<Real, Real> count_pairs(const Balls& balls, const Method& method, const NodalVectors& u) {
-  const ContactPoints<3> a = points_of(*balls.first, method), b = points_of(*balls.second, method);
-  ContactPlaces<3> x = a.at_rest(), y = b.at_rest();
-  a.move({0, u, u}, x);
-  b.move({0, u, u}, y);
-  ContactList<3> list(cutoff, 0.4);
-  list.update(x.x, y.x);
-  return {16 * static_cast<Real>(list.pairs()), a.spacing()};
-}
-
 /// How many mutual positions of the points the error is averaged over. That of surfaces is a matter
 /// of which points meet, and varies by multiples; that of volume points is a bias.
 int turns_of(const Method& method, bool brief) {
@@ -177,7 +159,9 @@ Measurement measure(const Balls& balls, const Method& method, Real gap, int leve
     squares += error * error;
     largest = std::max(largest, std::abs(error));
   }
-  const auto [pairs, spacing] = count_pairs(balls, method, balls.displacement(gap, 0));
+  const auto [pairs, spacing] =
+      study::contact_cost(*balls.first, *balls.second, method.form, method.points, cut_law(), 0.4,
+                          balls.displacement(gap, 0));
   result.h = spacing;
   result.errors = {{"force", std::sqrt(squares / turns)}};
   result.values = {{"pairs", pairs},

@@ -55,6 +55,14 @@ TEST(Shapes, HalfSphereIsHalfABall) {
     }
   }
   EXPECT_EQ(facets, (std::array<std::size_t, 2>{3 * 36, 36 + 3 * 24}));
+  shape.below = true;
+  const Geometry<3> turned = shape.geometry();
+  EXPECT_NEAR(volume(turned.grid), volume(body.grid), 1e-12);
+  for (Index i = 0; i < body.grid.node_count(); ++i) {
+    const Vec<3> X = at(body.grid.X, i) - Vec<3>(1, 2, 3),
+                 Y = at(turned.grid.X, i) - Vec<3>(1, 2, 3);
+    EXPECT_NEAR((Y - Vec<3>(X[0], -X[1], -X[2])).norm(), 0, 1e-14);
+  }
   shape.core = 5;
   EXPECT_THROW(shape.geometry(), InputError);
 }

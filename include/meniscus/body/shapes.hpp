@@ -42,10 +42,11 @@ struct Ellipsoid {
 /// The half of Ball with z >= 0, centred at its flat face.
 struct HalfSphere {
   static constexpr const char* name = "half_sphere";
-  static constexpr const char* meaning = "half ball above its flat face z = 0";
+  static constexpr const char* meaning = "half ball above its flat face z = 0, or below it";
   static constexpr std::string_view example = "radius = 1\ncore = 4\nlayers = 1\n";
   Real radius = 1;
   int core = 10, layers = 5;
+  bool below = false;
   std::vector<Real> centre{0, 0, 0};
 
   static Rows<HalfSphere> rows();

@@ -27,7 +27,7 @@ namespace meniscus {
 /// There is no motion: what kinetic energy a state has is dissipated by the first step.
 ///
 /// No shear brings a fluid back, so that with one the tangent is singular. It flows to its
-/// equilibrium (note 8): a step is one of implicit Euler against viscosity and inertia, from rest,
+/// equilibrium (quasi-statics note 8): a step is one of implicit Euler against viscosity and inertia, from rest,
 /// and lasts as long as its time says. Steps are doubled while the energy that they release does
 /// not fall fast, and the run ends where little is left to release.
 template <int D>
