@@ -27,9 +27,9 @@ namespace meniscus {
 /// There is no motion: what kinetic energy a state has is dissipated by the first step.
 ///
 /// No shear brings a fluid back, so that with one the tangent is singular. It flows to its
-/// equilibrium (quasi-statics note 8): a step is one of implicit Euler against viscosity and inertia, from rest,
-/// and lasts as long as its time says. Steps are doubled while the energy that they release does
-/// not fall fast, and the run ends where little is left to release.
+/// equilibrium (quasi-statics note 8): a step is one of implicit Euler against viscosity and
+/// inertia, from rest, and lasts as long as its time says. Steps are doubled while the energy that
+/// they release does not fall fast, and the run ends where little is left to release.
 template <int D>
 class QuasiStatics final : public Stepper<D> {
  public:
@@ -139,8 +139,8 @@ class QuasiStatics final : public Stepper<D> {
   NodalVectors last_du_;                       // of the last piece of a step
   Real last_dt_ = 0;                           // 0: nothing is known to go on with
   std::vector<Real> last_work_, last_lambda_;  // of that piece, and at its beginning
-  Real energy_scale_ = 0;  // largest that an iteration has released
-  Real left_ = 1;          // of the last decrement, relative to that
+  Real energy_scale_ = 0;                      // largest that an iteration has released
+  Real left_ = 1;                              // of the last decrement, relative to that
   Real stability_ = 0;
   std::int64_t jumps_ = 0, iterations_ = 0, tangents_ = 0;
   // Of the flow, since loads are steady.
