@@ -88,13 +88,13 @@ class Ball:
                 return np.array(way)
             while True:
                 found = self.corrected(y + step * along, along)
-                if found and found[1] @ along > 0.95:
+                if found and found[1] @ along > 0.99:
                     break
                 step /= 2
                 if step < 1e-7:
                     raise RuntimeError(f"lost at the distance {y[n]:.4g} g*")
             y, along = found
-            step = min(1.5 * step, 0.5)
+            step = min(1.5 * step, 0.3)
 
 
 def maugis(tabor):
