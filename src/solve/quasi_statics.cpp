@@ -331,6 +331,7 @@ template <int D>
 bool QuasiStatics<D>::evaluate(Real time, Point& point, NodalVectors& force) {
   const Motion motion{time, point.u, still_};
   const Report report = system_.add_up(motion, force);
+  if (report.failure) broken_ = system_.located(*report.failure, motion).text();
   if (report.failure || !std::isfinite(dot(force, force))) return false;
   point.potential = 0;
   for (auto& term : system_.terms) point.potential += term->potential(motion).value();
@@ -456,7 +457,7 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
   Point& point = solution.point;
   free_ = FreeMotions<D>(system_, {time, state.u, still_}, spacing_);
   if (!begin_at(state, time, point)) {
-    solution.failure = "forces cannot be computed there";
+    solution.failure = "forces cannot be computed there: " + broken_;
     return solution;
   }
   if (!euler_ && !(solution.failure = pulled(time, point.u)).empty()) return solution;
@@ -496,7 +497,8 @@ typename QuasiStatics<D>::Solution QuasiStatics<D>::iterated(const State& state,
     const bool small = found.decrement <= tolerance_ * energy_scale_ + floor;
     if (small && !found.bent) {
       add(point.u, 1, s_);
-      if (!evaluate(time, point, r_)) solution.failure = "forces cannot be computed there";
+      if (!evaluate(time, point, r_))
+        solution.failure = "forces cannot be computed there: " + broken_;
       return solution;
     }
     Real decrement = found.decrement;

@@ -150,6 +150,7 @@ class QuasiStatics final : public Stepper<D> {
   Real moment_of_release_ = 0;         // sum of energy times its time
   bool at_equilibrium_ = false, arrived_ = false;
   std::vector<std::string> notes_;
+  std::string broken_;  // why forces could not be computed where that was tried last
 };
 
 }  // namespace meniscus
