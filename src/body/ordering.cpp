@@ -32,7 +32,7 @@ std::vector<T> permuted(const std::vector<T>& values, std::span<const Index> ord
 }
 
 /// new number of every old one
-std::vector<Index> inverse(std::span<const Index> order) {
+std::vector<Index> inverse_order(std::span<const Index> order) {
   std::vector<Index> number(order.size(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Index old = order[i];
@@ -81,7 +81,7 @@ template <int D>
 void renumber(Grid<D>& grid, std::span<const Index> order) {
   if (order.size() != grid.X.size())
     throw InputError("the new order of the nodes is not a permutation of their numbers");
-  const std::vector<Index> number = inverse(order);
+  const std::vector<Index> number = inverse_order(order);
   grid.X = permuted(grid.X, order);
   for (auto& cell : grid.cells)
     for (Index& node : cell) node = at(number, node);
@@ -97,7 +97,7 @@ void renumber(Grid<D>& grid, std::span<const Index> order) {
                    [&](Index a, Index b) { return lowest(a) < lowest(b); });
   grid.cells = permuted(grid.cells, cell_order);
   if (!grid.bulge_of.empty()) grid.bulge_of = permuted(grid.bulge_of, cell_order);
-  const std::vector<Index> cell_number = inverse(cell_order);
+  const std::vector<Index> cell_number = inverse_order(cell_order);
   for (auto& facet : grid.facets) facet.cell = at(cell_number, facet.cell);
   std::sort(grid.facets.begin(), grid.facets.end(), [](const Facet<D>& a, const Facet<D>& b) {
     return std::pair(a.cell, a.side) < std::pair(b.cell, b.side);

@@ -131,7 +131,7 @@ std::vector<MeasureSource> cell_measures(const Body<3>& body, const UnitSystem& 
 }
 
 namespace {
-const bool registered = register_measures("shell", nullptr, cell_measures);
+const bool cell_measures_registered = register_measures("shell", nullptr, cell_measures);
 }
 
 MeasureSource profile_rms(const Body<3>& body, std::vector<Real> r, std::vector<Real> z) {

@@ -15,7 +15,7 @@
 namespace meniscus {
 namespace {
 
-constexpr int per_direction = 6;
+constexpr int points_per_direction = 6;
 
 /// In the half plane through the axis of the drop.
 struct Place {
@@ -103,8 +103,8 @@ class Ridge {
   }
 
   void build() {
-    on_drop_.emplace(drop_, SurfacePart::outer, per_direction);
-    on_ground_.emplace(ground_, SurfacePart::outer, per_direction);
+    on_drop_.emplace(drop_, SurfacePart::outer, points_per_direction);
+    on_ground_.emplace(ground_, SurfacePart::outer, points_per_direction);
     const auto& points = on_ground_->reference();
     level_ = -unbounded;
     for (std::size_t q = 0; q < points.area.size(); ++q) {

@@ -51,7 +51,7 @@ struct Frame final : PartnerShape<2> {
   }
 };
 
-const bool registered = register_partner<2, Frame>("frame", "the walls around a rectangle");
+const bool frame_registered = register_partner<2, Frame>("frame", "the walls around a rectangle");
 
 }  // namespace
 }  // namespace meniscus

@@ -76,10 +76,14 @@ class AnyLawOf final : public AnyLaw {
   Real p_wave_modulus() const override { return law_.p_wave_modulus(); }
   Real energy_density(const Tensor<Real>& H) const override { return law_.energy_density(H); }
   Lanes energy_density(const Tensor<Lanes>& H) const override { return law_.energy_density(H); }
-  Complex energy_density(const Tensor<Complex>& H) const override { return law_.energy_density(H); }
+  [[gnu::cold]] Complex energy_density(const Tensor<Complex>& H) const override {
+    return law_.energy_density(H);
+  }
   Tensor<Real> stress(const Tensor<Real>& H) const override { return law_.stress(H); }
   Tensor<Lanes> stress(const Tensor<Lanes>& H) const override { return law_.stress(H); }
-  Tensor<Complex> stress(const Tensor<Complex>& H) const override { return law_.stress(H); }
+  [[gnu::cold]] Tensor<Complex> stress(const Tensor<Complex>& H) const override {
+    return law_.stress(H);
+  }
   Tensor<Real> viscous_stress(const Tensor<Real>& H, const Tensor<Real>& F_rate) const override {
     return viscous(H, F_rate);
   }
