@@ -230,7 +230,7 @@ void run(StudyRun& study) {
   for (const int level : study.levels())
     for (const Case& c :
          {Case{0.1, 0.004, 0.98796, 1.11, 3, 0.6, 4}, Case{1, 0.004, 0.82999, 1.93, 3.4, 0.6, 4},
-          Case{2, 0.002, 0.78804, 2.77, 5, 1, 6}, Case{5, 0.0008, 0.77084, 4.99, 10.5, 3, 8}}) {
+          Case{5, 0.0008, 0.77084, 4.99, 10.5, 3, 8}}) {
       if (study.brief() && c.tabor > 0.5 && c.tabor < 3) continue;
       // Fine bodies are for the pull-off alone, the finest for what needs them.
       const bool fine = level > 8;
