@@ -24,7 +24,7 @@ struct Case {
   Real exact;      ///< pull-off force / 2 pi W R by boundary elements
   Real peak;       ///< distance of the ball there, / gap
   Real far, near;  ///< at the ends and in the middle of a cycle, / gap
-  int points;      ///< per direction and facet
+  int points;      ///< per direction and facet, but in the short form
 
   Real adhesion() const { return std::pow(tabor * gap, 1.5); }
   Real sigma0() const { return gap * std::pow(15, 1.0 / 6); }
@@ -101,7 +101,7 @@ centre = [0, 0, {:.17g}]
 displacement = [0, 0, "{}"]
 )toml",
                      way.step, part.radius, part.core, part.layers, part.grading, c.epsilon(),
-                     c.sigma0(), c.points, -1 - way.begin(c), way.displacement(c));
+                     c.sigma0(), core < 8 ? 4 : c.points, -1 - way.begin(c), way.displacement(c));
 }
 
 /// Pull-off force over pi W R of Maugis (1992), lambda = 1.157 of the Tabor number: the largest
