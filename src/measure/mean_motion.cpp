@@ -33,7 +33,8 @@ std::vector<MeasureSource> mean_motion(const Body<D>& body, const UnitSystem&) {
   return measures;
 }
 
-const bool mean_motion_registered = register_measures("mean_motion", mean_motion<2>, mean_motion<3>);
+const bool mean_motion_registered =
+    register_measures("mean_motion", mean_motion<2>, mean_motion<3>);
 
 }  // namespace
 }  // namespace meniscus

@@ -91,7 +91,8 @@ std::vector<MeasureSource> shape_measures(const Body<D>& body, const UnitSystem&
 }
 
 namespace {
-const bool shape_measures_registered = register_measures("shape", shape_measures<2>, shape_measures<3>);
+const bool shape_measures_registered =
+    register_measures("shape", shape_measures<2>, shape_measures<3>);
 }
 
 template <int D>

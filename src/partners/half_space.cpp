@@ -36,7 +36,7 @@ struct HalfSpace final : PartnerShape<D> {
 
 constexpr const char* meaning = "all that is behind a plane";
 const bool half_space_registered = register_partner<2, HalfSpace<2>>("half_space", meaning) &&
-                        register_partner<3, HalfSpace<3>>("half_space", meaning);
+                                   register_partner<3, HalfSpace<3>>("half_space", meaning);
 
 }  // namespace
 }  // namespace meniscus

@@ -41,9 +41,9 @@ struct Round final : PartnerShape<D> {
 constexpr const char *ball = "ball; in 2D a cylinder across the plane",
                      *cavity = "all that is around a ball; in 2D around a cylinder";
 const bool round_registered = register_partner<2, Round<2, false>>("ball", ball) &&
-                        register_partner<3, Round<3, false>>("ball", ball) &&
-                        register_partner<2, Round<2, true>>("cavity", cavity) &&
-                        register_partner<3, Round<3, true>>("cavity", cavity);
+                              register_partner<3, Round<3, false>>("ball", ball) &&
+                              register_partner<2, Round<2, true>>("cavity", cavity) &&
+                              register_partner<3, Round<3, true>>("cavity", cavity);
 
 }  // namespace
 }  // namespace meniscus
