@@ -234,7 +234,7 @@ void run(StudyRun& study) {
       if (study.brief() && c.tabor > 0.5 && c.tabor < 3) continue;
       // Fine bodies are for the pull-off alone, the finest for what needs them.
       const bool fine = level > 8;
-      if (level > 10 && c.tabor < 3) continue;
+      if (fine && c.tabor < (level > 10 ? 3 : 0.5)) continue;
       const Way way{!fine, fine ? 0.2 : study.brief() ? 0.1 : 0.05};
       study.record(pulled_off(c, level, way));
       check(study, c, way);
