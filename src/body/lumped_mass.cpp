@@ -11,7 +11,7 @@ namespace meniscus {
 namespace {
 
 /// Least mass of a particle, of the mass of its nodal cell.
-constexpr Real least_share = 0.3;
+constexpr Real least_mass_share = 0.3;
 
 /// Monomials up to degree 2 of the reference position, from the middle of the body and in units of
 /// its size, so that systems of their moments are well conditioned.
@@ -82,7 +82,7 @@ MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
   Real sum = 0, added = 0;
   for (Index A = 0; A < body.size(); ++A) {
     const Real row_sum = at(density, A) * at(shape_integral, A);
-    at(floor, A) = least_share * at(density, A) * body.cells.volume(A);
+    at(floor, A) = least_mass_share * at(density, A) * body.cells.volume(A);
     at(body.mass, A) = std::max(row_sum, at(floor, A));
     at(excess, A) = at(body.mass, A) - row_sum;
     at(margin, A) = at(body.mass, A) - at(floor, A);

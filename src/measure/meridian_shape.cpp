@@ -15,7 +15,7 @@ namespace meniscus {
 namespace {
 
 constexpr int meridians = 24;
-constexpr int points = 193;  // of a meridian, both poles among them
+constexpr int points_of_meridian = 193;  // both poles among them
 
 /// Linear interpolation of z at r on the piece [begin, end] of a curve, at its first crossing.
 Real height_at(std::span<const Real> r, std::span<const Real> z, Real where) {
@@ -65,9 +65,9 @@ Meridians::Meridians(const Body<3>& body) : body_(body), centre_(Vec<3>::Zero())
   const SmoothMap<3>& map = mapped_patches(*body.geometry.surface).map();
   Real total = 0;
   for (int m = 0; m < meridians; ++m)
-    for (int k = 0; k < points; ++k) {
+    for (int k = 0; k < points_of_meridian; ++k) {
       const Real phi = 2 * std::numbers::pi * (m + 0.5) / meridians;
-      const Real theta = std::numbers::pi * k / (points - 1);
+      const Real theta = std::numbers::pi * k / (points_of_meridian - 1);
       const Vec<3> direction(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                              std::cos(theta));
       X_.push_back(map(direction).x);
@@ -95,12 +95,12 @@ MeanMeridian Meridians::mean(const Motion& motion) const {
   const Mat<3> back = best_rotation(moment).transpose();
 
   MeanMeridian mean;
-  mean.r.assign(points, 0);
-  mean.z.assign(points, 0);
+  mean.r.assign(points_of_meridian, 0);
+  mean.z.assign(points_of_meridian, 0);
   for (std::size_t m = 0; m < meridians; ++m) {
     std::vector<Real> r;
-    for (std::size_t k = 0; k < points; ++k) {
-      const Vec<3> y = back * (x[m * points + k] - centre);
+    for (std::size_t k = 0; k < points_of_meridian; ++k) {
+      const Vec<3> y = back * (x[m * points_of_meridian + k] - centre);
       r.push_back(std::hypot(y[0], y[1]));
       mean.r[k] += r.back() / meridians;
       mean.z[k] += y[2] / meridians;

@@ -15,8 +15,6 @@
 namespace meniscus {
 namespace {
 
-constexpr Real pi = std::numbers::pi;
-
 /// The central difference of a length along the motion, over a way of a ten-thousandth of it.
 Real rate_of(const std::function<Real(const Motion&)>& length, const Motion& motion) {
   Real square = 0;
@@ -131,7 +129,7 @@ class Cap {
 template <int D>
 std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wetted_area) {
   const auto radius = [area = std::move(wetted_area)](const Motion& motion) {
-    return D == 3 ? std::sqrt(area(motion) / pi) : area(motion) / 2;
+    return D == 3 ? std::sqrt(area(motion) / std::numbers::pi) : area(motion) / 2;
   };
   return {{"base_radius", dimension::length, "of a disk of the wetted area (2D: half the length)",
            radius},
@@ -142,12 +140,13 @@ std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wet
 template <int D>
 Real angle_of_cap(Real volume, Real height) {
   if constexpr (D == 3) {
-    const Real square = (6 * volume / (pi * height) - height * height) / 3;  // of the base radius
-    return square > 0 ? 2 * std::atan(height / std::sqrt(square)) : pi;
+    const Real square =
+        (6 * volume / (std::numbers::pi * height) - height * height) / 3;  // of the base radius
+    return square > 0 ? 2 * std::atan(height / std::sqrt(square)) : std::numbers::pi;
   } else {
     // (theta - sin theta cos theta) / (1 - cos theta)^2 falls from infinity to pi / 4.
     const Real ratio = volume / (height * height);
-    Real low = 0, high = pi;
+    Real low = 0, high = std::numbers::pi;
     for (int halving = 0; halving < 60; ++halving) {
       const Real middle = (low + high) / 2, c = 1 - std::cos(middle);
       const bool flatter = middle - std::sin(middle) * std::cos(middle) > ratio * c * c;
@@ -161,7 +160,7 @@ template <int D>
 std::vector<MeasureSource> cap_measures(const Body<D>& body, HeightAbove<D> height_of,
                                         Real contact_gap, bool flat) {
   const auto cap = std::make_shared<Cap<D>>(body, std::move(height_of), contact_gap);
-  constexpr Real degree = pi / 180;
+  constexpr Real degree = std::numbers::pi / 180;
   std::vector<MeasureSource> all{
       {"film", dimension::length,
        "mean gap where the surface is in contact; least gap where it is not",

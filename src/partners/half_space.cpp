@@ -34,9 +34,10 @@ struct HalfSpace final : PartnerShape<D> {
   }
 };
 
-constexpr const char* meaning = "all that is behind a plane";
-const bool half_space_registered = register_partner<2, HalfSpace<2>>("half_space", meaning) &&
-                                   register_partner<3, HalfSpace<3>>("half_space", meaning);
+constexpr const char* half_space_meaning = "all that is behind a plane";
+const bool half_space_registered =
+    register_partner<2, HalfSpace<2>>("half_space", half_space_meaning) &&
+    register_partner<3, HalfSpace<3>>("half_space", half_space_meaning);
 
 }  // namespace
 }  // namespace meniscus

@@ -38,12 +38,12 @@ struct Round final : PartnerShape<D> {
   }
 };
 
-constexpr const char *ball = "ball; in 2D a cylinder across the plane",
-                     *cavity = "all that is around a ball; in 2D around a cylinder";
-const bool round_registered = register_partner<2, Round<2, false>>("ball", ball) &&
-                              register_partner<3, Round<3, false>>("ball", ball) &&
-                              register_partner<2, Round<2, true>>("cavity", cavity) &&
-                              register_partner<3, Round<3, true>>("cavity", cavity);
+constexpr const char *ball_meaning = "ball; in 2D a cylinder across the plane",
+                     *cavity_meaning = "all that is around a ball; in 2D around a cylinder";
+const bool round_registered = register_partner<2, Round<2, false>>("ball", ball_meaning) &&
+                              register_partner<3, Round<3, false>>("ball", ball_meaning) &&
+                              register_partner<2, Round<2, true>>("cavity", cavity_meaning) &&
+                              register_partner<3, Round<3, true>>("cavity", cavity_meaning);
 
 }  // namespace
 }  // namespace meniscus

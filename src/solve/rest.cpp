@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-constexpr Real round_off = 1e-8;  // of what cancels
+constexpr Real round_off_of_sums = 1e-8;  // of what cancels
 
 Eigen::Vector3d vector_of(const Lanes& x) {
   return {x[0], x[1], x[2]};
@@ -75,7 +75,7 @@ void remove_free_drift(const System<D>& system, const State& state, const NodalV
       work += f.dot(w);
       uncancelled += (f.norm() + vector_of(at(state.force, body.first + A)).norm()) * w.norm();
     }
-    if (std::abs(work) > round_off * uncancelled) continue;
+    if (std::abs(work) > round_off_of_sums * uncancelled) continue;
     Real left = 0, removed = 0;
     for (Index A = 0; A < body.size(); ++A) {
       const Eigen::Vector3d w = drift.at(place_of(body, state, A));
@@ -84,7 +84,7 @@ void remove_free_drift(const System<D>& system, const State& state, const NodalV
       left += sum(change * change);
       removed += w.squaredNorm();
     }
-    if (left > round_off * round_off * removed) continue;
+    if (left > round_off_of_sums * round_off_of_sums * removed) continue;
     for (NodalVector& change : body.part(std::span(du))) change = Lanes::zero();
   }
 }
@@ -167,7 +167,7 @@ std::string net_forces(const System<D>& system, const State& state) {
     text += text.empty() ? "net force (" : ", (";
     for (int i = 0; i < D; ++i)
       text += fmt::format("{}{:.4g}", i ? ", " : "",
-                          std::abs(net[i]) > round_off * net.norm() ? net[i] : 0.0);
+                          std::abs(net[i]) > round_off_of_sums * net.norm() ? net[i] : 0.0);
     text += fmt::format(") on body '{}'", body.name);
   }
   return text;
