@@ -8,10 +8,6 @@
 namespace meniscus {
 namespace {
 
-Eigen::Vector3d spatial(Lanes x) {
-  return {x[0], x[1], x[2]};
-}
-
 template <int D>
 class CoefficientDamping final : public ForceTerm {
  public:

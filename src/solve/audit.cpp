@@ -11,10 +11,6 @@
 namespace meniscus {
 namespace {
 
-Eigen::Vector3d vector_of(Lanes x) {
-  return {x[0], x[1], x[2]};
-}
-
 /// Momenta of coefficients: sum m v and sum m x cross v. Exact invariants of the discrete system.
 template <int D>
 Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
@@ -23,9 +19,9 @@ Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
     zero += parallel_sum(body.size(), Eigen::Matrix<Real, 6, 1>(Eigen::Matrix<Real, 6, 1>::Zero()),
                          [&](Index A) {
                            const Index I = body.first + A;
-                           Eigen::Vector3d x = vector_of(at(state.u, I));
+                           Eigen::Vector3d x = spatial(at(state.u, I));
                            x.head<D>() += at(body.particles.X(), A);
-                           const Eigen::Vector3d p = at(system.mass, I) * vector_of(at(state.v, I));
+                           const Eigen::Vector3d p = at(system.mass, I) * spatial(at(state.v, I));
                            Eigen::Matrix<Real, 6, 1> both;
                            both.head<3>() = p;
                            both.tail<3>() = cross(x, p);
@@ -100,7 +96,7 @@ void Audit::follow(const System<D>& system, const State& state, const Ledger& le
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A) {
       const Index I = body.first + A;
-      Eigen::Vector3d x = vector_of(at(state.u, I));
+      Eigen::Vector3d x = spatial(at(state.u, I));
       x.template head<D>() += at(body.particles.X(), A);
       mass += at(system.mass, I);
       first += at(system.mass, I) * x;

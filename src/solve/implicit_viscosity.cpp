@@ -19,10 +19,6 @@ constexpr int most_iterations = 300;
 /// Steps until the diagonal is computed again, which costs about as much as a force.
 constexpr std::int64_t longest_age = 20;
 
-Eigen::Vector3d spatial(const Lanes& x) {
-  return {x[0], x[1], x[2]};
-}
-
 }  // namespace
 
 template <int D>

@@ -16,13 +16,9 @@ namespace {
 
 constexpr Real round_off_of_sums = 1e-8;  // of what cancels
 
-Eigen::Vector3d vector_of(const Lanes& x) {
-  return {x[0], x[1], x[2]};
-}
-
 template <int D>
 Eigen::Vector3d place_of(const Body<D>& body, const State& state, Index A) {
-  return spatial<D>(at(body.particles.X(), A)) + vector_of(at(state.u, body.first + A));
+  return spatial<D>(at(body.particles.X(), A)) + spatial(at(state.u, body.first + A));
 }
 
 /// A velocity field about a centre.
@@ -44,7 +40,7 @@ RigidField rigid_part(const System<D>& system, const Body<D>& body, const State&
     const Real m = meniscus::at(system.mass, body.first + A);
     mass += m;
     field.centre += m * place_of(body, state, A);
-    field.translation += m * vector_of(meniscus::at(du, body.first + A));
+    field.translation += m * spatial(meniscus::at(du, body.first + A));
   }
   field.centre /= mass;
   field.translation /= mass;
@@ -54,7 +50,7 @@ RigidField rigid_part(const System<D>& system, const Body<D>& body, const State&
     const Real m = meniscus::at(system.mass, body.first + A);
     const Eigen::Vector3d r = place_of(body, state, A) - field.centre;
     inertia += m * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
-    moment += m * cross(r, vector_of(meniscus::at(du, body.first + A)));
+    moment += m * cross(r, spatial(meniscus::at(du, body.first + A)));
   }
   field.rotation = D == 3 ? Eigen::Vector3d(inverse<3>(inertia) * moment)
                           : Eigen::Vector3d(0, 0, moment.z() / inertia(2, 2));
@@ -70,10 +66,10 @@ void remove_free_drift(const System<D>& system, const State& state, const NodalV
     const RigidField drift = rigid_part(system, body, state, du);
     Real work = 0, uncancelled = 0;
     for (Index A = 0; A < body.size(); ++A) {
-      const Eigen::Vector3d f = vector_of(at(df, body.first + A)),
+      const Eigen::Vector3d f = spatial(at(df, body.first + A)),
                             w = drift.at(place_of(body, state, A));
       work += f.dot(w);
-      uncancelled += (f.norm() + vector_of(at(state.force, body.first + A)).norm()) * w.norm();
+      uncancelled += (f.norm() + spatial(at(state.force, body.first + A)).norm()) * w.norm();
     }
     if (std::abs(work) > round_off_of_sums * uncancelled) continue;
     Real left = 0, removed = 0;
@@ -160,8 +156,8 @@ std::string net_forces(const System<D>& system, const State& state) {
     Eigen::Vector3d net = Eigen::Vector3d::Zero();
     Real sizes = 0;
     for (Index A = body.first; A < body.first + body.size(); ++A) {
-      net += vector_of(at(state.force, A));
-      sizes += vector_of(at(state.force, A)).norm();
+      net += spatial(at(state.force, A));
+      sizes += spatial(at(state.force, A)).norm();
     }
     if (!(net.norm() > most * sizes)) continue;
     text += text.empty() ? "net force (" : ", (";

@@ -67,6 +67,11 @@ struct Lanes {
   friend Lanes operator/(Real a, Lanes b) { return a / b.v; }
 };
 
+/// The first three lanes as a vector in space.
+inline Eigen::Vector3d spatial(Lanes x) {
+  return {x[0], x[1], x[2]};
+}
+
 /// Lane by lane `mask ? yes : no`.
 inline Lanes select(Lanes::Mask mask, Lanes yes, Lanes no) {
   return mask ? yes.v : no.v;

@@ -20,11 +20,11 @@ constexpr std::array<std::pair<PairKernel, std::string_view>, 3> kernel_names{
 
 /// Value and three derivatives of a function of r.
 template <class T>
-using Jet = std::array<T, 4>;
+using RadialFunction = std::array<T, 4>;
 
 /// Adds c r^power with its derivatives.
 template <class T>
-void add_power(Jet<T>& f, Real c, int power, T r) {
+void add_power(RadialFunction<T>& f, Real c, int power, T r) {
   T term = c * std::pow(r, power);
   for (int k = 0; k < 4; ++k) {
     at(f, k) += term;
@@ -34,9 +34,9 @@ void add_power(Jet<T>& f, Real c, int power, T r) {
 
 /// u without cut-off.
 template <class T>
-Jet<T> bare_energy(const ContactLaw& law, T r) {
+RadialFunction<T> bare_energy(const ContactLaw& law, T r) {
   const PairCoefficients c = pair_coefficients(law.kernel);
-  Jet<T> u{};
+  RadialFunction<T> u{};
   add_power(u, law.epsilon * c.u12 * std::pow(law.sigma0, 12), c.odd - 10, r);
   add_power(u, law.epsilon * c.u6 * std::pow(law.sigma0, 6), c.odd - 4, r);
   return u;
@@ -44,12 +44,12 @@ Jet<T> bare_energy(const ContactLaw& law, T r) {
 
 /// Q = 1 - 10 t^3 + 15 t^4 - 6 t^5 between the begin of the switch and the cut-off.
 template <class T>
-Jet<T> switch_off(const ContactLaw& law, T r) {
+RadialFunction<T> switch_off(const ContactLaw& law, T r) {
   const Real begin = switch_begin * law.reach(), width = law.reach() - begin;
   if (std::real(r) <= begin) return {T(1), T(0), T(0), T(0)};
   if (std::real(r) >= law.reach()) return {T(0), T(0), T(0), T(0)};
   const T t = (r - begin) / width;
-  Jet<T> Q{T(1), T(0), T(0), T(0)};
+  RadialFunction<T> Q{T(1), T(0), T(0), T(0)};
   add_power(Q, -10, 3, t);
   add_power(Q, 15, 4, t);
   add_power(Q, -6, 5, t);
@@ -75,9 +75,9 @@ PairKernel pair_kernel_named(std::string_view name) {
 
 template <class T>
 PairFunctions<T> pair_functions(const ContactLaw& law, T r) {
-  Jet<T> u = bare_energy(law, r);
+  RadialFunction<T> u = bare_energy(law, r);
   if (law.cut()) {
-    const Jet<T> b = u, Q = switch_off(law, r);
+    const RadialFunction<T> b = u, Q = switch_off(law, r);
     u = {b[0] * Q[0], b[1] * Q[0] + b[0] * Q[1], b[2] * Q[0] + 2.0 * b[1] * Q[1] + b[0] * Q[2],
          b[3] * Q[0] + 3.0 * (b[2] * Q[1] + b[1] * Q[2]) + b[0] * Q[3]};
   }
