@@ -3,14 +3,19 @@
 #include "quantity.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/names.hpp"
+#include "meniscus/core/text.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace meniscus {
 namespace {
@@ -21,16 +26,23 @@ struct NamedUnit {
   bool takes_prefix;
 };
 
+/// kT is k T with k = 1.380649e-23 J/K at 25 degrees Celsius, the 4.11 pN nm of textbooks.
 constexpr NamedUnit known_units[] = {
     {"m", {dimension::length}, true},
     {"s", {dimension::time}, true},
     {"g", {dimension::mass, -3}, true},
     {"N", {dimension::force}, true},
+    {"dyn", {dimension::force, -5}, true},
     {"Pa", {dimension::pressure}, true},
+    {"bar", {dimension::pressure, 5}, true},
+    {"P", {dimension::viscosity, -1}, true},
     {"J", {dimension::energy}, true},
+    {"eV", {dimension::energy, -19, 1.602176634}, true},
     {"W", {dimension::power}, true},
     {"Hz", {dimension::rate}, true},
     {"L", {dimension::volume, -3}, true},
+    {"erg", {dimension::energy, -7}, false},
+    {"kT", {dimension::energy, -23, 1.380649 * 298.15}, false},
     {"min", {dimension::time, 0, 60}, false},
     {"h", {dimension::time, 0, 3600}, false},
     {"angstrom", {dimension::length, -10}, false},
@@ -42,20 +54,41 @@ constexpr std::pair<std::string_view, int> prefixes[] = {
     {"z", -21},     {"a", -18}, {"f", -15}, {"p", -12}, {"n", -9}, {"u", -6}, {"\u00b5", -6},
     {"\u03bc", -6}, {"m", -3},  {"c", -2},  {"k", 3},   {"M", 6},  {"G", 9},  {"T", 12}};
 
-constexpr std::string_view unit_list =
-    "allowed are m, s, g, N, Pa, J, W, Hz, L (prefixes z a f p n u m c k M G T), min, h, angstrom, "
-    "rad, deg";
+/// What units are called elsewhere, in small letters.
+constexpr std::pair<std::string_view, std::string_view> other_names[] = {
+    {"micron", "um"},       {"microns", "um"}, {"meter", "m"},
+    {"metre", "m"},         {"a", "angstrom"}, {"\u00c5", "angstrom"},
+    {"\u212b", "angstrom"}, {"sec", "s"},      {"second", "s"},
+    {"seconds", "s"},       {"minute", "min"}, {"minutes", "min"},
+    {"hour", "h"},          {"hours", "h"},    {"hr", "h"},
+    {"gram", "g"},          {"newton", "N"},   {"pascal", "Pa"},
+    {"joule", "J"},         {"watt", "W"},     {"hertz", "Hz"},
+    {"liter", "L"},         {"litre", "L"},    {"poise", "P"},
+    {"dyne", "dyn"},        {"ergs", "erg"},   {"kbt", "kT"},
+    {"electronvolt", "eV"}, {"radian", "rad"}, {"degree", "deg"},
+    {"degrees", "deg"},     {"\u00b0", "deg"}, {"cps", "cP"},
+};
 
-/// The unit called `symbol`, prefix included; nothing if there is none.
+bool is_ascii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
+std::string small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
+}
+
+/// The unit called `symbol` without a prefix; nothing if there is none.
 const NamedUnit* find_unit(std::string_view symbol) {
   for (const NamedUnit& known : known_units)
     if (known.symbol == symbol) return &known;
   return nullptr;
 }
 
-}  // namespace
-
-Unit unit_called(std::string_view symbol) {
+std::optional<Unit> find_prefixed(std::string_view symbol) {
   if (const NamedUnit* known = find_unit(symbol)) return known->unit;
   for (const auto& [prefix, tens] : prefixes) {
     if (!symbol.starts_with(prefix)) continue;
@@ -65,7 +98,64 @@ Unit unit_called(std::string_view symbol) {
     unit.tens += tens;
     return unit;
   }
-  throw InputError(fmt::format("unknown unit '{}'; {}", symbol, unit_list));
+  return std::nullopt;
+}
+
+/// All units as one types them, prefixes included.
+std::vector<std::string> all_symbols() {
+  std::vector<std::string> symbols;
+  for (const NamedUnit& unit : known_units) {
+    symbols.emplace_back(unit.symbol);
+    for (const auto& [prefix, tens] : prefixes)
+      if (unit.takes_prefix && is_ascii(prefix))
+        symbols.push_back(std::string(prefix) + std::string(unit.symbol));
+  }
+  return symbols;
+}
+
+/// Units that somebody may have meant who wrote `symbol`: by another name, two in one word ("Nm"),
+/// the same letters small or large, or else one letter off.
+std::vector<std::string> near_units(std::string_view symbol) {
+  std::vector<std::string> near;
+  const std::string small = small_letters(symbol);
+  for (const auto& [name, unit] : other_names)
+    if (name == small) near.emplace_back(unit);
+  for (std::size_t i = symbol.size(); near.empty() && i-- > 1;)
+    if (is_unit(symbol.substr(0, i)) && is_unit(symbol.substr(i)))
+      near.push_back(fmt::format("{} {}", symbol.substr(0, i), symbol.substr(i)));
+  const std::vector<std::string> known = all_symbols();
+  for (const std::string& unit : known)
+    if (small_letters(unit) == small) near.push_back(unit);
+  constexpr std::size_t shortest = 3, longest = 16;  // of what may be misspelt
+  if (!near.empty() || symbol.size() < shortest || symbol.size() > longest) return near;
+  for (const std::string& unit : known)
+    if (near.size() < 3 && unit.size() > 1 && edit_distance(symbol, unit) == 1)
+      near.push_back(unit);
+  return near;
+}
+
+}  // namespace
+
+std::string unit_list() {
+  std::vector<std::string> prefixed, letters, others;
+  for (const NamedUnit& known : known_units)
+    (known.takes_prefix ? prefixed : others).emplace_back(known.symbol);
+  for (const auto& [prefix, tens] : prefixes)
+    if (is_ascii(prefix)) letters.emplace_back(prefix);
+  return fmt::format("{} (prefixes {}), {}", joined(prefixed, ", "), joined(letters, " "),
+                     joined(others, ", "));
+}
+
+bool is_unit(std::string_view symbol) {
+  return find_prefixed(symbol).has_value();
+}
+
+Unit unit_called(std::string_view symbol) {
+  if (const auto unit = find_prefixed(symbol)) return *unit;
+  const std::vector<std::string> near = near_units(symbol);
+  throw InputError(
+      fmt::format("unknown unit '{}'; allowed are {}{}", symbol, unit_list(),
+                  near.empty() ? "" : "; did you mean '" + joined(near, "' or '") + "'?"));
 }
 
 namespace {
@@ -92,13 +182,16 @@ class QuantityReader {
     if (at_end()) return {};
     take_one_over();
     const bool divide = take('/');
-    if (!divide) take('*');
+    if (!divide) take_times();
     const Unit unit = product(divide);
     if (!at_end()) fail("has a closing bracket too many");
     return unit;
   }
 
  private:
+  static constexpr std::string_view raised_digits[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3",
+                                                       "\u2074", "\u2075", "\u2076", "\u2077",
+                                                       "\u2078", "\u2079"};
   static constexpr int max_depth = 8, max_power = 9, max_exponent = 1000;
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -151,7 +244,7 @@ class QuantityReader {
       skip_spaces();
       if (at_end() || peek() == ')') return result;
       divide = take('/');
-      if (!divide && !take('*') && divided)
+      if (!divide && !take_times() && divided)
         fail("is ambiguous; expected the units of the divisor in brackets, e.g. kg/(m s^2)");
     }
   }
@@ -165,20 +258,59 @@ class QuantityReader {
       if (!take(')')) fail("lacks a closing bracket");
       --depth_;
     } else {
-      const std::size_t begin = position_;
-      while (is_letter(peek())) ++position_;
-      if (position_ == begin) fail("lacks a unit" + behind());
-      base = unit_called(text_.substr(begin, position_ - begin));
-      if (is_digit(peek())) fail("has a digit behind a unit; powers are written as m^3");
+      const std::string_view symbol = letters();
+      if (symbol.empty()) fail("lacks a unit" + behind());
+      base = unit_called(symbol);
+      if (power_follows()) return raised(base, power());  // m3, s-1
     }
+    if (const auto raise = superscript()) return raised(base, *raise);
     skip_spaces();
-    if (!take('^')) return base;
+    return take('^') ? raised(base, power()) : base;
+  }
+
+  Unit raised(const Unit& base, int power) const {
     Unit result;
-    multiply(result, base, power());
+    multiply(result, base, power);
     return result;
   }
 
-  /// Bytes of UTF-8 sequences count as letters (the micro sign).
+  bool take(std::string_view sign) {
+    if (!text_.substr(position_).starts_with(sign)) return false;
+    position_ += sign.size();
+    return true;
+  }
+  /// A star or a dot at half height, as in texts that are pasted.
+  bool take_times() { return take('*') || take("\u00b7") || take("\u22c5"); }
+
+  /// A power in raised digits.
+  std::optional<int> superscript() {
+    const bool negative = take("\u207b");
+    for (std::size_t value = 0; value < std::size(raised_digits); ++value)
+      if (take(raised_digits[value]))
+        return negative ? -static_cast<int>(value) : static_cast<int>(value);
+    if (negative) fail("lacks a power" + behind());
+    return std::nullopt;
+  }
+
+  /// Letters of ASCII, and whatever is no sign of ours beyond it, such as the micro sign.
+  std::string_view letters() {
+    const std::size_t begin = position_;
+    const auto at_sign = [&] {
+      const std::string_view rest = text_.substr(position_);
+      return rest.starts_with("\u00b7") || rest.starts_with("\u22c5") ||
+             rest.starts_with("\u207b") ||
+             std::any_of(std::begin(raised_digits), std::end(raised_digits),
+                         [&](std::string_view digit) { return rest.starts_with(digit); });
+    };
+    while (is_letter(peek()) && !at_sign()) ++position_;
+    return text_.substr(begin, position_ - begin);
+  }
+
+  bool power_follows() const {
+    const std::size_t digit = position_ + (peek() == '-' ? 1 : 0);
+    return digit < text_.size() && is_digit(text_[digit]);
+  }
+
   static bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) > 127;
   }

@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/core/units.hpp"
 
+#include <string>
 #include <string_view>
 
 namespace meniscus {
@@ -14,8 +15,14 @@ struct Unit {
   Real factor = 1;
 };
 
-/// The unit called `symbol`, prefix included, e.g. "mPa". Throws InputError (without a place).
+/// The unit called `symbol`, prefix included, e.g. "mPa". Throws InputError (without a place) that
+/// names the units that look or sound like it.
 Unit unit_called(std::string_view symbol);
+/// Whether there is one.
+bool is_unit(std::string_view symbol);
+
+/// "a pressure (kg/(m s^2))": always in base units, so that two of them can be compared.
+std::string name_of(Dimension);
 
 /// digits * 10^exponent times a unit.
 struct Quantity {

@@ -49,15 +49,6 @@ std::string composed(Dimension d, std::string_view length, std::string_view time
   return above + (divisors > 1 ? "/(" + below + ")" : "/" + below);
 }
 
-/// "a pressure (kg/(m s^2))": always in base units, so that two of them can be compared.
-std::string name_of(Dimension d) {
-  for (const auto& [known, name] : dimension_names)
-    if (known == d)
-      return d == dimension::none ? std::string(name)
-                                  : fmt::format("{} ({})", name, composed(d, "m", "s", "kg"));
-  return fmt::format("a quantity in {}", composed(d, "m", "s", "kg"));
-}
-
 /// digits * 10^tens, correctly rounded.
 Real decimal(std::string_view digits, int tens) {
   const std::string text = fmt::format("{}e{}", digits, tens);
@@ -69,6 +60,14 @@ Real decimal(std::string_view digits, int tens) {
 }
 
 }  // namespace
+
+std::string name_of(Dimension d) {
+  for (const auto& [known, name] : dimension_names)
+    if (known == d)
+      return d == dimension::none ? std::string(name)
+                                  : fmt::format("{} ({})", name, composed(d, "m", "s", "kg"));
+  return fmt::format("a quantity in {}", composed(d, "m", "s", "kg"));
+}
 
 UnitSystem::UnitSystem(std::string_view name) : name_(name), length_{"m"}, time_{"s"}, mass_{"kg"} {
   if (name == "SI") return;

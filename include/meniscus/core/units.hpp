@@ -28,12 +28,15 @@ constexpr Dimension of_sum(Dimension d, int space_dimension) {
   return d;
 }
 
+/// The units of texts: "m, s, ... (prefixes ...), min, ...". kT is at 25 degrees Celsius.
+std::string unit_list();
+
 /// The system in which plain numbers of a scene, all results, and all sums inside the program are
 /// written: "SI" (m, s, kg) or a length-time-mass triple such as "nm-ps-ag".
 ///
-/// Units are m, s, g, N, Pa, J, W, Hz and L with the prefixes z a f p n u (or the micro sign) m c k
-/// M G T, and min, h, angstrom, rad, deg without. They are combined by spaces, *, /, brackets and
-/// integer powers: "kg/(m s^2)". A unit after a divisor needs brackets: "Pa/m s" is refused.
+/// Units are those of unit_list(). They are combined by spaces, *, a raised dot, /, brackets and
+/// integer powers: "kg/(m s^2)", "g/cm3", "mPa s". A unit after a divisor needs brackets: "Pa/m s"
+/// is refused.
 class UnitSystem {
  public:
   /// Throws InputError (without a place) that names the known units.
