@@ -29,6 +29,7 @@ struct Expression::Parsed {
 namespace {
 
 constexpr std::array<const char*, 4> variable_names{"x", "y", "z", "t"};
+constexpr std::size_t own_constants = 2;  ///< pi and e
 
 template <Real (*function)(Real)>
 Real call(Real a) {
@@ -121,8 +122,9 @@ std::string explain(const mu::ParserError& error, const mu::Parser& parser,
       if (name.empty())
         return fmt::format("unexpected '{}'{}", token.substr(0, token.find(' ')), place());
       return fmt::format(
-          "unknown name '{}'{}; allowed are x, y, z, t, pi, e and functions such as sqrt{}", name,
-          place(), did_you_mean(name, known_names(parser)));
+          "unknown name '{}'{}; allowed are x, y, z, t, pi, e{} and functions such as sqrt{}", name,
+          place(), parser.GetConst().size() > own_constants ? ", the [constants]" : "",
+          did_you_mean(name, known_names(parser)));
     }
     case mu::ecEMPTY_EXPRESSION:
       return "it is empty";
@@ -144,11 +146,21 @@ std::string explain(const mu::ParserError& error, const mu::Parser& parser,
 
 Expression::Expression(Real value) : text_(fmt::format("{}", value)), value_(value) {}
 
-Expression::Expression(std::string formula) : text_(std::move(formula)) {
+bool is_word_of_formulas(std::string_view word) {
+  mu::Parser parser;
+  std::array<Real, 4> variables{};
+  define_language(parser, variables);
+  const std::vector<std::string> known = known_names(parser);
+  return std::find(known.begin(), known.end(), word) != known.end();
+}
+
+Expression::Expression(std::string formula, const NamedNumbers& constants)
+    : text_(std::move(formula)) {
   refuse_traps(text_);
   auto parsed = std::make_shared<Parsed>();
   try {
     define_language(parsed->parser, parsed->variables);
+    for (const auto& [name, value] : constants) parsed->parser.DefineConst(name, value);
     parsed->parser.SetExpr(text_);
     value_ = parsed->parser.Eval();
     if (parsed->parser.GetNumResults() != 1)

@@ -30,9 +30,16 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 
 }  // namespace
 
+const Entry* Block::Node::find(std::string_view key) const {
+  if (const Entry* entry = table == nullptr ? nullptr : table->find(key)) return entry;
+  for (const Entry& entry : supplied)
+    if (entry.key == key) return &entry;
+  return nullptr;
+}
+
 const Entry* Block::Node::ask(std::string_view key) {
   if (!contains(known, key)) known.emplace_back(key);
-  return table == nullptr ? nullptr : table->find(key);
+  return find(key);
 }
 
 const Entry* Block::Node::take(std::string_view key) {
@@ -55,7 +62,9 @@ void Block::Node::echo(std::string_view key, std::string value, const std::strin
                        bool fallback) {
   const auto same = std::find_if(echoes.begin(), echoes.end(),
                                  [&](const Echo& earlier) { return earlier.key == key; });
-  if (same != echoes.end()) return;
+  const bool is_supplied = std::any_of(supplied.begin(), supplied.end(),
+                                       [&](const Entry& entry) { return entry.key == key; });
+  if (same != echoes.end() || is_supplied) return;
   const char* separator = !unit.empty() && fallback ? ", " : "";
   echoes.push_back(
       {std::string(key), std::move(value), unit + separator + (fallback ? "default" : "")});
@@ -130,7 +139,7 @@ const UnitSystem& Block::units() const {
 }
 
 std::string Block::place(std::string_view key) const {
-  const Entry* entry = node_->table == nullptr ? nullptr : node_->table->find(key);
+  const Entry* entry = node_->find(key);
   const std::string where =
       node_->document->place_text(entry == nullptr ? node_->place : entry->value.place);
   const std::string full_path = key.empty() ? path() : joined(path(), key);
@@ -139,7 +148,7 @@ std::string Block::place(std::string_view key) const {
 
 Real Block::real(std::string_view key, Dimension dimension, Range range,
                  std::optional<Real> fallback) const {
-  const input_values::Number number{units(), dimension, range};
+  const input_values::Number number{units(), dimension, range, node_->document->constants};
   return node_->read<Real>(key, number.allowed(), number.unit(), fallback,
                            input_values::harmless(range),
                            [&](const Value& value) { return number.real(value); });
@@ -149,8 +158,9 @@ std::int64_t Block::integer(std::string_view key, Range range,
                             std::optional<std::int64_t> fallback) const {
   return node_->read<std::int64_t>(
       key, input_values::allowed_integer(range), "", fallback,
-      static_cast<std::int64_t>(input_values::harmless(range)),
-      [&](const Value& value) { return input_values::integer(value, range); });
+      static_cast<std::int64_t>(input_values::harmless(range)), [&](const Value& value) {
+        return input_values::integer(value, range, node_->document->constants);
+      });
 }
 
 bool Block::flag(std::string_view key, std::optional<bool> fallback) const {
@@ -199,7 +209,7 @@ std::vector<std::string> Block::texts(std::string_view key,
 
 std::vector<Real> Block::reals(std::string_view key, std::size_t count, Dimension dimension,
                                Range range, std::optional<std::vector<Real>> fallback) const {
-  const input_values::Number number{units(), dimension, range};
+  const input_values::Number number{units(), dimension, range, node_->document->constants};
   return node_->read_list<Real>(key, count, number.allowed(), number.unit(), fallback,
                                 input_values::harmless(range),
                                 [&](const Value& value) { return number.real(value); });
@@ -208,7 +218,7 @@ std::vector<Real> Block::reals(std::string_view key, std::size_t count, Dimensio
 Expression Block::expression(std::string_view key, Dimension dimension,
                              std::optional<Expression> fallback, Range range,
                              Variables variables) const {
-  const input_values::Number number{units(), dimension, range};
+  const input_values::Number number{units(), dimension, range, node_->document->constants};
   Expression read = node_->read<Expression>(
       key, number.allowed_or_formula(variables), number.unit(), fallback,
       input_values::harmless(range),
@@ -221,13 +231,23 @@ std::vector<Expression> Block::expressions(std::string_view key, std::size_t cou
                                            Dimension dimension,
                                            std::optional<std::vector<Expression>> fallback,
                                            Variables variables) const {
-  const input_values::Number number{units(), dimension, range::any};
+  const input_values::Number number{units(), dimension, range::any, node_->document->constants};
   std::vector<Expression> read = node_->read_list<Expression>(
       key, count, number.allowed_or_formula(variables), number.unit(), fallback, Expression(0),
       [&](const Value& value) { return number.expression(value, variables); });
   for (std::size_t i = 0; i < read.size(); ++i)
     read[i].set_place(fmt::format("{}[{}]", place(key), i));
   return read;
+}
+
+void Block::supply(std::string_view key, const std::string& formula,
+                   std::string_view source) const {
+  const Entry* entry = node_->find(source);
+  const scene_tree::Place place = entry == nullptr ? node_->place : entry->value.place;
+  // A formula of numbers alone is a number, also for keys that take no formula.
+  Value value{formula, place};
+  if (names_in(formula).empty()) value.data = Expression(formula)({0, 0, 0});
+  node_->supplied.push_back({std::string(key), place, std::move(value)});
 }
 
 // ---- tables
@@ -291,7 +311,7 @@ std::vector<std::pair<std::string, Block>> Block::named_tables() const {
 }
 
 void Block::problem(std::string_view key, const std::string& what) const {
-  const Entry* entry = node_->table == nullptr ? nullptr : node_->table->find(key);
+  const Entry* entry = node_->find(key);
   node_->note(entry == nullptr ? node_->place : entry->value.place,
               key.empty() ? path() : joined(path(), key), what);
 }

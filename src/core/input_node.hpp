@@ -5,11 +5,13 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "constants.hpp"
 #include "scene_tree.hpp"
 
 namespace meniscus {
@@ -26,6 +28,7 @@ struct Document {
   std::vector<std::string> settings;  ///< of --set
   scene_tree::Value root;
   UnitSystem units;
+  Constants constants;
   std::vector<Problem> problems;
 
   /// "file:line:column" or "--set 'text'".
@@ -53,9 +56,12 @@ struct Block::Node {
   std::vector<std::string> known;  ///< keys that were asked for, for messages
   std::vector<std::string> was_read;
   std::vector<Echo> echoes;
+  std::deque<scene_tree::Entry> supplied;  ///< as if in the table, but not echoed
   std::vector<Child> children;
 
-  /// The entry `key` if present.
+  /// The entry `key` if it is in the table or supplied.
+  const scene_tree::Entry* find(std::string_view key) const;
+  /// The same, and `key` counts as known.
   const scene_tree::Entry* ask(std::string_view key);
   /// The same, to be read now.
   const scene_tree::Entry* take(std::string_view key);
@@ -89,6 +95,11 @@ struct Block::Node {
   std::vector<T> read_list(std::string_view key, std::size_t count, const std::string& allowed,
                            const std::string& unit, const std::optional<std::vector<T>>& fallback,
                            const T& harmless, Convert convert);
+
+  /// Takes every entry of this table as a named number of the document, in whatever order they
+  /// refer to each other.
+  void read_constants();
+  class ConstantsReader;
 
   /// Appends this table and those below as TOML, with `header` as its full name.
   void write(std::string& toml, const std::string& header, bool in_array) const;

@@ -2,6 +2,7 @@
 // From values of a scene to values of the program, and back to TOML for the complete input.
 #include "input_values.hpp"
 
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -66,8 +67,26 @@ std::string allowed_integer(const Range& range) {
   return text == "any" ? "an integer" : "an integer " + text;
 }
 
-std::int64_t integer(const Value& value, const Range& range) {
-  const auto found = exactly<std::int64_t>(value, allowed_integer(range));
+namespace {
+
+std::int64_t integer_of_constants(const std::string& formula, const Range& range,
+                                  const Constants& constants) {
+  if (constants.broken_in(formula)) return static_cast<std::int64_t>(harmless(range));
+  const Real value = constants.value(formula, dimension::none);
+  constexpr Real largest = 9007199254740992;  // beyond, not every integer is a Real
+  if (std::abs(value) <= largest && value == std::round(value))
+    return static_cast<std::int64_t>(value);
+  throw InputError(
+      fmt::format("formula '{}' is {}; allowed is {}", formula, value, allowed_integer(range)));
+}
+
+}  // namespace
+
+std::int64_t integer(const Value& value, const Range& range, const Constants& constants) {
+  const auto* text = std::get_if<std::string>(&value.data);
+  const auto found = text != nullptr && constants.in(*text)
+                         ? integer_of_constants(*text, range, constants)
+                         : exactly<std::int64_t>(value, allowed_integer(range));
   if (range.contains(static_cast<Real>(found))) return found;
   throw InputError(range.refusal(static_cast<Real>(found)));
 }
@@ -90,6 +109,7 @@ std::string Number::allowed_or(const std::string& formula) const {
   std::string text = "a number";
   if (!unit().empty()) text += " in " + unit() + " or a text with a unit";
   text += formula;
+  if (!constants.empty()) text += " or a formula of [constants]";
   return range.text() == "any" ? text : text + ", " + range.text();
 }
 
@@ -106,6 +126,8 @@ Real Number::real(const Value& value) const {
 
 Real Number::converted(const std::string& text) const {
   try {
+    if (constants.broken_in(text)) return harmless(range);
+    if (constants.in(text)) return constants.value(text, dimension);
     return units.quantity(text, dimension);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}; allowed is {}", error.what(), allowed()));
@@ -116,6 +138,7 @@ Expression Number::expression(const Value& value, Variables variables) const {
   if (const auto number = plain_number(value)) return checked(*number);
   const auto* text = std::get_if<std::string>(&value.data);
   if (text == nullptr) refuse_kind(value, allowed_or_formula(variables));
+  if (constants.in(*text)) return formula_of_constants(*text, variables);
   std::optional<Real> quantity;
   std::string not_quantity;
   try {
@@ -133,6 +156,20 @@ Expression Number::expression(const Value& value, Variables variables) const {
   }
   refuse_others(*formula, variables);
   return formula->constant() ? checked((*formula)({0, 0, 0})) : *std::move(formula);
+}
+
+Expression Number::formula_of_constants(const std::string& text, Variables variables) const {
+  if (constants.broken_in(text)) return harmless(range);
+  std::optional<Real> number;
+  try {
+    Expression formula(text, constants.numbers());
+    refuse_others(formula, variables);
+    if (!formula.constant()) return formula;
+    number = constants.value(text, dimension);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; allowed is {}", error.what(), allowed_or_formula(variables)));
+  }
+  return checked(*number);
 }
 
 }  // namespace meniscus::input_values

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "constants.hpp"
 #include "scene_tree.hpp"
 
 namespace meniscus::input_values {
@@ -37,7 +38,8 @@ T exactly(const scene_tree::Value& value, const std::string& allowed) {
   refuse_kind(value, allowed);
 }
 
-std::int64_t integer(const scene_tree::Value& value, const Range& range);
+/// A text is a formula of constants.
+std::int64_t integer(const scene_tree::Value& value, const Range& range, const Constants&);
 /// "an integer, > 0".
 std::string allowed_integer(const Range& range);
 
@@ -49,6 +51,7 @@ struct Number {
   const UnitSystem& units;
   Dimension dimension;
   Range range;
+  const Constants& constants;
 
   /// As written behind a number; empty for a plain number.
   std::string unit() const;
@@ -63,8 +66,10 @@ struct Number {
  private:
   std::string allowed_or(const std::string& formula) const;
   Real checked(Real value) const;
-  /// The number of a text with or without a unit.
+  /// The number of a text with or without a unit, or of a formula of constants.
   Real converted(const std::string& text) const;
+  /// A formula in which constants occur.
+  Expression formula_of_constants(const std::string& text, Variables) const;
 };
 
 }  // namespace meniscus::input_values

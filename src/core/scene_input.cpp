@@ -92,6 +92,7 @@ SceneInput SceneInput::from_text(std::string_view toml, std::string name,
     units.problem("system", error.what());
   }
   units.done();
+  if (const auto constants = input.root_.table("constants")) constants->node_->read_constants();
   return input;
 }
 

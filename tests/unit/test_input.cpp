@@ -154,8 +154,9 @@ TEST(Input, MessagesAboutFormulas) {
             "of x, y, z, t, > 0");
   EXPECT_EQ(
       report("p = '2 Pa*x'", read),
-      "s.toml:1:5: p: neither a quantity (unknown unit 'x'; allowed are m, s, g, N, Pa, J, "
-      "W, Hz, L (prefixes z a f p n u m c k M G T), min, h, angstrom, rad, deg) nor a "
+      "s.toml:1:5: p: neither a quantity (unknown unit 'x'; allowed are m, s, g, N, "
+      "dyn, Pa, bar, P, J, eV, W, Hz, L (prefixes z a f p n u m c k M G T), erg, kT, min, h, "
+      "angstrom, rad, deg) nor a "
       "formula (formula '2 Pa*x': unknown name 'Pa' at character 3; allowed are x, y, z, t, "
       "pi, e and functions such as sqrt); allowed is a number in Pa or a text with a unit or a "
       "formula of x, y, z, t, > 0");
@@ -203,13 +204,15 @@ TEST(Input, UnknownKeys) {
     b.done();
   };
   EXPECT_EQ(report("dimenson = 3", read),
-            "s.toml:1:1: dimenson: unknown key; allowed are units, dimension, time; did you mean "
+            "s.toml:1:1: dimenson: unknown key; allowed are units, constants, dimension, time; did "
+            "you mean "
             "'dimension'?");
-  EXPECT_EQ(report("[tmie]\nx = 1", read),
-            "s.toml:1:2: tmie: unknown key; allowed are units, dimension, time; did you mean "
-            "'time'?");
+  EXPECT_EQ(
+      report("[tmie]\nx = 1", read),
+      "s.toml:1:2: tmie: unknown key; allowed are units, constants, dimension, time; did you mean "
+      "'time'?");
   EXPECT_EQ(report("'odd key' = 1", read),
-            "s.toml:1:1: \"odd key\": unknown key; allowed are units, dimension, time");
+            "s.toml:1:1: \"odd key\": unknown key; allowed are units, constants, dimension, time");
 }
 
 TEST(Input, AllProblemsAreReportedInOneGoAndInOrder) {
@@ -232,7 +235,7 @@ s.toml:6:1: body[0].liquid.densty: unknown key; allowed are density, bulk_modulu
 s.toml:7:16: body[0].liquid.bulk_modulus: neither a quantity ('2 m' is a length (m), expected a pressure (kg/(m s^2))) nor a formula (formula '2 m': unknown name 'm' at character 3; allowed are x, y, z, t, pi, e and functions such as sqrt); allowed is a number in Pa or a text with a unit or a formula of x, y, z, > 0
 s.toml:8:10: body[0].liquid.points: 9 is out of range; allowed is >= 1 and <= 5
 s.toml:9:8: body[0].liquid.axes: has 2 entries; allowed is an array of 3 of: a number in m or a text with a unit, > 0
-s.toml:10:3: bdy: unknown key; allowed are units, dimension, body, output, expect; did you mean 'body'?
+s.toml:10:3: bdy: unknown key; allowed are units, constants, dimension, body, output, expect; did you mean 'body'?
 --set 'body[0].liquid.law=lgo': body[0].liquid.law: 'lgo' is unknown; allowed are linear, log, tait; did you mean 'log'?)toml");
 }
 
@@ -334,8 +337,8 @@ TEST(Input, WordsOfOtherProgramsLeadHome) {
   };
   for (const auto& [word, home] :
        {std::pair("gravity", "[[body_force]]"), std::pair("dt", "[time] step"),
-        std::pair("sphere", "'ball'"), std::pair("youngs_modulus", "mu = E/(2 (1 + nu))"),
-        std::pair("poissons_ratio", "lambda = 2 mu nu/(1 - 2 nu)")})
+        std::pair("sphere", "'ball'"), std::pair("youngs_modulus", "neo_hookean"),
+        std::pair("poisson_ratio", "youngs_modulus and poissons_ratio")})
     EXPECT_NE(report(std::string(word) + " = 1", read).find(home), std::string::npos) << word;
 }
 

@@ -6,11 +6,21 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace meniscus {
 
+/// Numbers that formulas may use by name.
+using NamedNumbers = std::vector<std::pair<std::string, Real>>;
+
+/// Whether formulas know `word` themselves: a variable, pi, e or a function.
+bool is_word_of_formulas(std::string_view word);
+
 /// A real function of reference position x, y, z and time t. A formula may use
-/// - the constants pi and e, numbers, brackets, + - * / ^ (with -x^2 = -(x^2)),
+/// - the constants pi and e and those that are given, numbers, brackets, + - * / ^ (with -x^2 =
+/// -(x^2)),
 /// - comparisons < > <= >= == !=, && and ||, and `condition ? a : b`,
 /// - sin cos tan asin acos atan atan2 sinh cosh tanh exp log (natural) log10 sqrt cbrt abs sign
 ///   floor ceil erf pow min max (the last two with any number of arguments).
@@ -23,7 +33,7 @@ class Expression {
   /// A constant.
   Expression(Real value = 0);
   /// Throws InputError (without a place) naming the offending part of the formula.
-  explicit Expression(std::string formula);
+  explicit Expression(std::string formula, const NamedNumbers& constants = {});
 
   /// The value at X (units of the scene) and t. Throws SolveError with place, formula, X and t if
   /// that is infinite or not a number.

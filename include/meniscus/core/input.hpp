@@ -77,6 +77,10 @@ class Block {
                                       std::optional<std::vector<Expression>> fallback,
                                       Variables = Variables::place_and_time) const;
 
+  /// From now on the absent `key` is read as if its value were `formula`, in units of the scene,
+  /// and stood where `source` does, of which it follows. Not in the complete input: `source` is.
+  void supply(std::string_view key, const std::string& formula, std::string_view source) const;
+
   /// The table `key`; nothing (and a note, if `required`) when it is absent.
   std::optional<Block> table(std::string_view key, bool required = false) const;
   /// The table `key`, or an empty one in which every key has its default, when it is absent.

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading [constants]: numbers, quantities, and formulas of each other.
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/input.hpp"
+#include "meniscus/core/names.hpp"
+#include "meniscus/core/text.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "input_node.hpp"
+#include "input_values.hpp"
+#include "quantity.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Throws InputError (without a place) if formulas could not tell the name from something else.
+void require_free_name(const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 0x80 && (std::isalnum(c) != 0 || c == '_');
+  });
+  if (name.empty() || !plain || std::isdigit(static_cast<unsigned char>(name.front())) != 0)
+    throw InputError(
+        "cannot be the name of a constant; allowed are letters, digits and _, no digit first");
+  if (is_word_of_formulas(name))
+    throw InputError(
+        fmt::format("'{}' has a meaning in formulas already; allowed is any other name, "
+                    "such as {}_0",
+                    name, name));
+  if (is_unit(name))
+    throw InputError(fmt::format(
+        "'{0}' is a unit, and 2*{0} could be both; allowed is any other name, such as {0}_0",
+        name));
+}
+
+}  // namespace
+
+/// Evaluates constants in the order in which they need each other.
+class Block::Node::ConstantsReader {
+ public:
+  explicit ConstantsReader(Node& table) : table_(table) {}
+
+  void read(const scene_tree::Entry& entry) {
+    if (!begun_.insert(entry.key).second) return;
+    under_way_.push_back(entry.key);
+    const auto sound =
+        table_.attempt(entry.value, scene_tree::joined(table_.path, entry.key),
+                       [&](const scene_tree::Value& value) { return number(entry.key, value); });
+    if (!sound.value_or(false)) constants().add_broken(entry.key);
+    under_way_.pop_back();
+  }
+
+ private:
+  Constants& constants() { return table_.document->constants; }
+  const UnitSystem& units() const { return table_.document->units; }
+
+  /// Whether there is one; if not, the problem was noted at the constant that it needs.
+  bool number(const std::string& name, const scene_tree::Value& value) {
+    require_free_name(name);
+    if (const auto* text = std::get_if<std::string>(&value.data)) {
+      if (!read_needed(*text)) return false;
+      add(name, *text);
+    } else {
+      constants().add(name, plain_number(value));
+    }
+    const auto dimension = constants().dimension_of(name).value_or(dimension::none);
+    table_.echo(name, input_values::toml(constants().numbers().back().second),
+                dimension == dimension::none ? "" : units().symbol(dimension), false);
+    return true;
+  }
+
+  Real plain_number(const scene_tree::Value& value) {
+    if (std::holds_alternative<Real>(value.data) ||
+        std::holds_alternative<std::int64_t>(value.data))
+      return input_values::Number{units(), dimension::none, range::any, constants()}.real(value);
+    input_values::refuse_kind(value, "a number, a text with a unit, or a formula of [constants]");
+  }
+
+  /// Reads the constants that occur in a text; whether all are in order.
+  bool read_needed(const std::string& text) {
+    for (const std::string& needed : names_in(text)) {
+      const scene_tree::Entry* entry = table_.table->find(needed);
+      if (entry == nullptr) continue;
+      if (const auto begin = std::find(under_way_.begin(), under_way_.end(), needed);
+          begin != under_way_.end()) {
+        std::vector<std::string> circle(begin, under_way_.end());
+        circle.push_back(needed);
+        throw InputError(fmt::format("needs itself: {}; allowed are formulas of other constants",
+                                     joined(circle, " -> ")));
+      }
+      read(*entry);
+    }
+    return !constants().broken_in(text);
+  }
+
+  /// A formula if one of the constants occurs in it, else a quantity if it can be one.
+  void add(const std::string& name, const std::string& text) {
+    if (constants().in(text)) return constants().add_formula(name, text);
+    std::optional<Dimension> dimension;
+    std::string not_quantity;
+    try {
+      dimension = read_quantity(text).unit.dimension;
+    } catch (const InputError& error) {
+      not_quantity = error.what();
+    }
+    if (dimension) {
+      const Real number = units().quantity(text, *dimension);
+      const bool plain = *dimension == dimension::none;
+      return constants().add(name, number, plain ? std::nullopt : dimension);
+    }
+    try {
+      constants().add_formula(name, text);
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("neither a quantity ({}) nor a formula ({})", not_quantity, error.what()));
+    }
+  }
+
+  Node& table_;
+  std::set<std::string> begun_;
+  std::vector<std::string> under_way_;  ///< each needs the next
+};
+
+void Block::Node::read_constants() {
+  std::vector<std::string> in_file;
+  for (const scene_tree::Entry& entry : table->entries)
+    if (entry.place.setting == place.setting) in_file.push_back(entry.key);
+  ConstantsReader reader(*this);
+  for (const scene_tree::Entry& entry : table->entries) {
+    was_read.push_back(entry.key);
+    if (entry.place.setting != place.setting)
+      note(entry.place, scene_tree::joined(path, entry.key),
+           "no such constant in the scene; " + allowed_names(entry.key, in_file));
+    reader.read(entry);
+  }
+}
+
+}  // namespace meniscus
