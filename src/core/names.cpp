@@ -48,6 +48,10 @@ std::string did_you_mean(std::string_view given, const std::vector<std::string>&
 
 namespace {
 
+constexpr std::string_view moduli = "isotropic solids have youngs_modulus and poissons_ratio";
+constexpr std::string_view isotropic =
+    "neo_hookean, st_venant_kirchhoff and mooney_rivlin have them";
+
 /// What other programs call something, and where it is here.
 constexpr std::pair<std::string_view, std::string_view> foreign_words[] = {
     {"gravity", "a weight is a table [[body_force]] with its acceleration"},
@@ -58,10 +62,10 @@ constexpr std::pair<std::string_view, std::string_view> foreign_words[] = {
     {"circle", "a circle is a 'disk'"},
     {"cube", "a cube is a 'box'"},
     {"square", "a square is a 'rectangle'"},
-    {"youngs_modulus", "from E and nu follow mu = E/(2 (1 + nu)), lambda = 2 mu nu/(1 - 2 nu)"},
-    {"young_modulus", "from E and nu follow mu = E/(2 (1 + nu)), lambda = 2 mu nu/(1 - 2 nu)"},
-    {"poissons_ratio", "from E and nu follow mu = E/(2 (1 + nu)), lambda = 2 mu nu/(1 - 2 nu)"},
-    {"poisson_ratio", "from E and nu follow mu = E/(2 (1 + nu)), lambda = 2 mu nu/(1 - 2 nu)"},
+    {"youngs_modulus", isotropic},
+    {"poissons_ratio", isotropic},
+    {"young_modulus", moduli},
+    {"poisson_ratio", moduli},
 };
 
 std::string hint(std::string_view given, const std::vector<std::string>& known) {

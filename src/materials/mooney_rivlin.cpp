@@ -2,6 +2,7 @@
 // Modified Mooney-Rivlin solid, W = c1 (I1 - 3 I3^(1/3)) + c2 (I2 - 3 I3^(2/3)) + lambda/2 (ln
 // I3)^2 (Fan 2014, (4.9)). Shear modulus 2 (c1 + c2), bulk modulus 4 lambda (constitutive
 // note 3.2).
+#include "meniscus/physics/elastic_moduli.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <fmt/core.h>
@@ -12,6 +13,8 @@ namespace {
 struct MooneyRivlin {
   static constexpr std::string_view type_name = "mooney_rivlin";
   static constexpr bool viscous = false;
+  static constexpr OfModuli of_moduli[] = {{"c1", "{E}/(4*(1 + {nu})) - {c2}"},
+                                           {"lambda", "{E}/(12*(1 - 2*{nu}))"}};
   Real density, c1, c2, lambda;
 
   static Rows<MooneyRivlin> rows() {

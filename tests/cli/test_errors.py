@@ -258,9 +258,10 @@ class Scenes(ProgramTest):
             self.assertEqual(len(report.splitlines()), 1, report)
 
     def test_words_of_other_programs(self):
-        text = self.change(BLOCK, ("mu = 1e5", "youngs_modulus = 1e5"), ("lambda = 1e5", "poissons_ratio = 0.3"),
+        text = self.change(BLOCK, ("mu = 1e5", "young_modulus = 1e5"), ("lambda = 1e5", "poisson_ratio = 0.3"),
                            ("check_every", "dt = 1\ncheck_every"), ("[time]", "gravity = [0, 0, -9.81]\n[time]"))
-        self.assert_refused(text, "[[body_force]]", "[time] step", "mu = E/(2 (1 + nu))")
+        self.assert_refused(text, "[[body_force]]", "[time] step",
+                            "isotropic solids have youngs_modulus and poissons_ratio")
         self.assert_refused(self.change(BLOCK, ("end = 0.4", "end = 10 ms")), "scene.toml:4:", 'write "10 ms"')
 
     def test_start(self):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of isotropic solids with Lame's two parameters.
 #pragma once
+#include "meniscus/physics/elastic_moduli.hpp"
 #include "meniscus/physics/law.hpp"
 
 namespace meniscus {
@@ -8,6 +9,8 @@ namespace meniscus {
 /// Base of a law whose only numbers are these.
 struct LameSolid {
   static constexpr bool viscous = false;
+  static constexpr OfModuli of_moduli[] = {{"mu", "{E}/(2*(1 + {nu}))"},
+                                           {"lambda", "{E}*{nu}/((1 + {nu})*(1 - 2*{nu}))"}};
   Real density, mu, lambda;
 
   /// Rows of the law L.

@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/core/key_table.hpp"
 #include "meniscus/core/registry.hpp"
+#include "meniscus/physics/elastic_moduli.hpp"
 #include "meniscus/physics/law.hpp"
 #include "meniscus/physics/material.hpp"
 
@@ -132,10 +133,23 @@ std::string typical_text() {
   return text;
 }
 
+/// Numbers that follow from those the scene gives.
+template <Law L>
+void supply_numbers([[maybe_unused]] const Block& block) {
+  if constexpr (LawOfModuli<L>) supply_moduli(block, L::of_moduli);
+}
+
+template <int D, Law L>
+std::unique_ptr<Material<D>> read_with_supply(const Block& block) {
+  supply_numbers<L>(block);
+  return read_material<D, L>(block);
+}
+
 template <Law L>
 LawEntry make_entry() {
-  LawEntry entry{L::type_name, L::viscous, key_texts(L::rows()), typical_text<L>(),
-                 nullptr,      nullptr,    read_material<2, L>,  read_material<3, L>};
+  LawEntry entry{L::type_name, L::viscous, key_texts(L::rows()),   typical_text<L>(),
+                 nullptr,      nullptr,    read_with_supply<2, L>, read_with_supply<3, L>};
+  if constexpr (LawOfModuli<L>) add_moduli(entry.keys, L::of_moduli);
   if constexpr (DirectedLaw<L>)
     entry.keys.push_back({ReferenceDirector::key, "numbers or formulas", "1", "",
                           "normal of the walls",
@@ -145,6 +159,7 @@ LawEntry make_entry() {
     return std::make_unique<AnyLawOf<L>>(typical_law<L>());
   };
   entry.read = [](const Block& block) -> std::unique_ptr<AnyLaw> {
+    supply_numbers<L>(block);
     L law = meniscus::read<L>(block);
     if constexpr (DirectedLaw<L>)
       if (block.has(ReferenceDirector::key)) {
