@@ -7,7 +7,7 @@
 #include "meniscus/core/names.hpp"
 #include "meniscus/io/info.hpp"
 #include "meniscus/io/provenance.hpp"
-#include "meniscus/scene/settings.hpp"
+#include "meniscus/scene/key_reference.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -31,10 +31,34 @@ void print_version() {
   for (const auto& library : b.libraries) say("{} {}\n", library.first, library.second);
 }
 
-void print_keys() {
+/// What `meniscus keys` is asked for.
+struct KeysRequest {
+  std::string wanted;
+  bool markdown = false, json = false;
+};
+
+void print_reference(const KeysRequest& request) {
   std::ostringstream text;
-  describe_keys(text);
+  if (request.json)
+    print_key_schema(text);
+  else if (request.markdown)
+    print_keys_as_markdown(text, request.wanted);
+  else
+    print_keys(text, request.wanted);
   print_text(text.str());
+}
+
+void add_keys_options(CLI::App& command, KeysRequest& request) {
+  CLI::Option* wanted = command.add_option("WORD", request.wanted,
+                                           "a table (contact, ball, neo_hookean, ...) or a key, or "
+                                           "what the meaning of keys mentions; all "
+                                           "if not given");
+  CLI::Option* markdown = command.add_flag("--markdown", request.markdown, "as tables of Markdown");
+  command
+      .add_flag("--json", request.json,
+                "a JSON Schema, by which editors complete and check scenes as one writes")
+      ->excludes(wanted)
+      ->excludes(markdown);
 }
 
 void add_scene_options(CLI::App& command, RunRequest& request) {
@@ -134,6 +158,8 @@ int dispatch(int argc, char** argv) {
   CLI::App* check_command = app.add_subcommand("check", "do everything short of running");
   add_scene_options(*check_command, request);
   CLI::App* keys_command = app.add_subcommand("keys", "print every key of a scene");
+  KeysRequest keys_request;
+  add_keys_options(*keys_command, keys_request);
   CLI::App* info_command =
       app.add_subcommand("info", "print what is in a result file or checkpoint");
   info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")
@@ -156,7 +182,7 @@ int dispatch(int argc, char** argv) {
   if (run_command->parsed()) return run(request);
   if (check_command->parsed()) check(request);
   if (study_command->parsed()) hand_over_to_studies(argv);
-  if (keys_command->parsed()) print_keys();
+  if (keys_command->parsed()) print_reference(keys_request);
   if (info_command->parsed()) print_text(describe_file(file));
   if (version_command->parsed()) print_version();
   require_printed();

@@ -6,6 +6,7 @@
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/core/optional_rows.hpp"
 #include "meniscus/physics/law_registry.hpp"
+#include "meniscus/scene/key_reference.hpp"
 #include "meniscus/scene/load.hpp"
 #include "meniscus/solve/stepper.hpp"
 
@@ -164,7 +165,8 @@ void add(std::vector<KeyTable>& tables, std::vector<KeyTable> more) {
   std::move(more.begin(), more.end(), std::back_inserter(tables));
 }
 
-/// The tables of a scene in the order of the reference.
+}  // namespace
+
 std::vector<KeyTable> key_tables() {
   std::vector<KeyTable> tables{
       {"top level",
@@ -173,6 +175,13 @@ std::vector<KeyTable> key_tables() {
       {"[units]",
        {{"system", "text", "", "", "\"SI\"",
          "SI, or the units of length, time and mass such as \"nm-ps-ag\""}}},
+      {"[constants]",
+       {{"NAME", "number or formula", "any", "", "",
+         "a number, a text with a unit, or a formula of other constants, by its name for every "
+         "number and formula of the scene; `--set constants.NAME=VALUE` changes it"}},
+       "[constants]\nradius = \"5 nm\"\nduration = \"2 ns\"\nspeed = \"radius/duration\"\n"
+       "[[body]]\nsemi_axes = [\"radius\", \"1.5*radius\", \"radius\"]\n"
+       "initial_velocity = [\"-speed\", 0, 0]\n"},
       {"[time]", key_texts(TimeSettings::rows())},
       {"[output]", key_texts(OutputSettings::rows())},
       {"[[body]]", key_texts(BodySettings::rows())},
@@ -195,16 +204,6 @@ std::vector<KeyTable> key_tables() {
     if (!loads<3>().find(name)) add(tables, load.keys());
   tables.push_back({"[expect.NAME]", key_texts(ExpectSettings::rows())});
   return tables;
-}
-
-}  // namespace
-
-void describe_keys(std::ostream& out) {
-  out << "A plain number is in the unit system of the scene; a text such as \"72.8 mN/m\" has its "
-         "own\n"
-         "unit. The units and defaults below are those of SI. A formula is a text in x, y, z, "
-         "t.\n\n";
-  for (const KeyTable& table : key_tables()) print(out, table);
 }
 
 }  // namespace meniscus

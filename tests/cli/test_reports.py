@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results of all kinds, and what the program says: info, check, keys, version, help, progress.
 Usage: test_reports.py PROGRAM"""
+import json
 import os
 import pty
 import re
 import select
 import subprocess
+import tomllib
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -17,6 +20,39 @@ from program import BLOCK, DROP, ENVIRONMENT, SHEET, ProgramTest, state_of, with
 FIELDS = {"displacement": (3, "m"), "velocity": (3, "m/s"), "force": (3, "N"), "J": (1, "1"),
           "F": (9, "1"), "pressure": (1, "Pa"), "von_mises": (1, "Pa"), "cauchy_stress": (9, "Pa")}
 ALL = "fields = [" + ", ".join(f'"{name}"' for name in FIELDS) + "]"
+
+
+def violations(schema, value, place=""):
+    """Where a value does not follow a schema of those words that ours is made of."""
+    known = {"type", "enum", "properties", "required", "additionalProperties", "items", "minItems", "maxItems",
+             "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "anyOf", "description", "title", "$schema"}
+    assert schema.keys() <= known, schema.keys() - known
+    kind = {bool: "boolean", int: "integer", float: "number", str: "string", list: "array", dict: "object"}[type(value)]
+    types = schema.get("type", kind)
+    if kind not in types and not (kind == "integer" and "number" in types):
+        yield f"{place}: type"
+        return
+    if value not in schema.get("enum", [value]):
+        yield f"{place}: enum"
+    if kind in ("integer", "number") and not (
+            schema.get("minimum", value) <= value <= schema.get("maximum", value)
+            and value > schema.get("exclusiveMinimum", -np.inf) and value < schema.get("exclusiveMaximum", np.inf)):
+        yield f"{place}: bound"
+    if "anyOf" in schema and all(list(violations(option, value, place)) for option in schema["anyOf"]):
+        yield f"{place}: none of all"
+    if kind == "array":
+        if not schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)):
+            yield f"{place}: length"
+        for i, item in enumerate(value):
+            yield from violations(schema["items"], item, f"{place}[{i}]")
+    if kind == "object":
+        yield from (f"{place}: {key} is missing" for key in schema.get("required", []) if key not in value)
+        for key, item in value.items():
+            below = schema["properties"].get(key, schema["additionalProperties"])
+            if below is False:
+                yield f"{place}: {key}"
+            else:
+                yield from violations(below, item, f"{place}.{key}".lstrip("."))
 
 
 class Results(ProgramTest):
@@ -146,6 +182,34 @@ class Results(ProgramTest):
         with h5py.File(self.directory / "nm/run.h5") as file:
             self.assertEqual(file["steps/0/velocity"].attrs["units"], b"nm/ps")
 
+    def test_named_numbers(self):
+        """A scene of constants has the bits of one of numbers, also when --set changes one of them."""
+        text = DROP + '[constants]\nR = "5 nm"\nlong = "R + R/2"\ngamma = "72.8 mN/m"\nmu = "gamma/v"\nv = "1 m/s"\nn = 2\n'
+        for old, new in (('["5 nm", "7.5 nm", "5 nm"]', '["R", "long", "R"]'), ("layers = 2", 'layers = "n"'),
+                         ('gamma = "72.8', 'gamma = "gamma"\n#'), ('viscosity = "0.6 mPa s"', 'viscosity = "mu"')):
+            self.assertIn(old, text)
+            text = text.replace(old, new, 1)
+        file = self.scene(text)
+        for R, v in (5e-9, 121), (6e-9, 145):
+            named = self.call("run", file, "--output", f"named{v}", "--set", f"constants.R={R * 1e9:.0f} nm",
+                              "--set", f"constants.v={v} m/s")
+            plain = self.scene(DROP.replace('["5 nm", "7.5 nm", "5 nm"]', f"[{R!r}, {R + R / 2!r}, {R!r}]").replace(
+                '"0.6 mPa s"', repr(0.0728 / v)), "plain")
+            self.assertEqual(state_of(named), state_of(self.call("run", plain, "--output", f"plain{v}")))
+        self.refused(["run", file, "--restart", "named121", "--set", "constants.v=2 m/s"], 3, "constants.v")
+
+    def test_moduli(self):
+        """Young's modulus and Poisson's ratio stand for a law's own numbers, on a graded body, too."""
+        own = BLOCK.replace("mu = 1e5\nlambda = 1e5", 'mu = "(6e5*(1 + x))/(2*(1 + (0.25)))"\n'
+                            'lambda = "(6e5*(1 + x))*(0.25)/((1 + (0.25))*(1 - 2*(0.25)))"')
+        moduli = BLOCK.replace("mu = 1e5\nlambda = 1e5",
+                               'youngs_modulus = "6e5*(1 + x)"\npoissons_ratio = 0.25')
+        states = [state_of(self.call("run", self.scene(text, name), "--output", name))
+                  for text, name in ((own, "own"), (moduli, "moduli"))]
+        self.assertEqual(*states)
+        self.refused(["check", self.scene(moduli.replace("0.25", '"0.3 + x"'))], 3, "scene.toml:",
+                     "the bulk modulus lambda + 2/3 mu must be positive")
+
     def test_result_does_not_depend_on_what_is_written(self):
         a = self.call("run", self.scene(BLOCK), "--output", "a")
         b = self.call("run", self.scene(with_output(BLOCK, ALL)), "--output", "b", "--set",
@@ -229,7 +293,7 @@ class Reports(ProgramTest):
         tables = {heading.split(": ")[0]: keys
                   for heading, keys in re.findall(r"^(\S.*)\n((?:  .*\n)+)", text, re.M)}
         for heading, keys in {
-                "top level": "title dimension", "[units]": "system",
+                "top level": "title dimension", "[units]": "system", "[constants]": "NAME",
                 "[time]": "end step safety check_every viscosity solver force_tolerance shape_tolerance",
                 "[output]": "frames_every history_every fields measures precision compression "
                             "restartable checkpoint_minutes",
@@ -252,6 +316,55 @@ class Reports(ProgramTest):
             self.assertIn(f'[[body]] shape = "{shape}"', text)
         for law in ("newtonian", "st_venant_kirchhoff", "neo_hookean", "mooney_rivlin"):
             self.assertIn(f'[body.material] type = "{law}"', text)
+
+    def test_keys_of_a_word(self):
+        """A table, a key, or what meanings mention."""
+        def headings(*arguments):
+            return [line for line in self.call("keys", *arguments).stdout.splitlines() if line[:1].strip()]
+
+        self.assertEqual(headings("time"), ["[time]"])
+        self.assertEqual(headings("[time]"), ["[time]"])
+        contact = headings("contact")
+        self.assertEqual(contact[0].split(":")[0], "[[contact]]")
+        self.assertIn('[[contact]] interaction = "smooth_young"', {line.split(":")[0] for line in contact})
+        self.assertEqual(headings("neo_hookean"), ['[body.material] type = "neo_hookean"'])
+        self.assertEqual({line.split(" (")[0] for line in headings("ball")},
+                         {'[[body]] shape = "ball"', '[contact.partner] type = "ball": ball; in 2D a cylinder across the plane'})
+        text = self.call("keys", "youngs_modulus").stdout
+        self.assertEqual(re.findall(r"^  (\w+)", text, re.M), 3 * ["key", "youngs_modulus"])
+        self.assertIn("  cutoff ", self.call("keys", "CUT-OFF").stdout)
+        self.refused(["keys", "gama"], 3, "'gama' is no table and no key", "did you mean 'gamma'?")
+        self.refused(["keys", "[]"], 3, "'[]' is no table")
+        self.refused(["keys", "time", "--json"], 2, "--json")
+
+    def test_keys_as_markdown(self):
+        text = self.call("keys", "--markdown").stdout
+        plain = self.call("keys").stdout
+        self.assertEqual(re.findall(r"^## `(.*)`$", text, re.M), re.findall(r"^(\S.*)\n  key ", plain, re.M))
+        for line in text.splitlines():
+            if line.startswith("|"):
+                self.assertEqual(len(re.findall(r"(?<!\\)\|", line)), 7, line)
+        self.assertIn("| `type` | text |  | ball \\| cavity", text)
+        self.assertIn("## `[time]`", self.call("keys", "time", "--markdown").stdout)
+
+    def test_schema(self):
+        """Every scene of inputs/ follows the schema; misspelt keys, wrong types and signs do not."""
+        schema = json.loads(self.call("keys", "--json").stdout)
+        for path in sorted((Path(__file__).resolve().parents[2] / "inputs").glob("*.toml")):
+            self.assertEqual(list(violations(schema, tomllib.loads(path.read_text()))), [], path.name)
+        for old, new, what in (("check_every", "check_evry", "time: check_evry"),
+                               ("dimension = 3", 'dimension = [3]', "dimension: type"),
+                               ('shape = "box"', 'shape = "bxo"', "body[0].shape: enum"),
+                               ("size = [1, 1, 1]", "size = [1]", "body[0].size: length"),
+                               ('body = "block"\nacc', "acc", "body_force[0]: body is missing"),
+                               ("density = 1000", "density = -1", "body[0].material.density: bound"),
+                               ("[time]", "[timing]\n[time]", ": timing"),
+                               ("[time]", "[constants]\nR = true\n[time]", "constants.R: type"),
+                               ("[time]", "[expect.drop]\nwihtin = 1\n[time]", "expect.drop: wihtin"),
+                               ("[time]", "[constants]\nR = 2\nS = '5 nm'\n[time]", None)):
+            self.assertIn(old, BLOCK)
+            found = list(violations(schema, tomllib.loads(BLOCK.replace(old, new))))
+            self.assertEqual(found, [what] if what else [], new)
 
     def test_version(self):
         self.assertRegex(self.call("version").stdout, r"^meniscus \d+\.\d+\.\d+\ngit \S+.*\ncompiler ")

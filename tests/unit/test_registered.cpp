@@ -7,6 +7,7 @@
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/physics/surface_registry.hpp"
+#include "meniscus/scene/key_reference.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -63,7 +64,7 @@ TEST(Registered, WhatBringsNoExampleIsNamed) {
 /// With their examples.
 TEST(Registered, EverythingIsInTheReferenceOfKeys) {
   std::ostringstream out;
-  describe_keys(out);
+  print_keys(out);
   const std::string keys = out.str();
   const auto expect = [&](const std::string& text) {
     EXPECT_NE(keys.find(text), std::string::npos) << text;

@@ -61,7 +61,4 @@ struct ExpectSettings {
   static Rows<ExpectSettings> rows();
 };
 
-/// Prints every key of a scene with unit, range, default and meaning.
-void describe_keys(std::ostream& out);
-
 }  // namespace meniscus
