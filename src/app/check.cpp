@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dry run of a scene: everything short of running it.
+#include "meniscus/app/advice.hpp"
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/app/print.hpp"
@@ -84,6 +85,8 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
           "{:g} black; other units show it, such as [units] system = \"nm-ps-ag\"\n",
           body.name, least_drawn);
   }
+  say_units(scene.units);
+  say_drop_numbers(scene, input);
   for (const auto& term : scene.system.terms)
     say("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),
         1e-6 * static_cast<Real>(term->bytes()));
@@ -100,6 +103,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     return;
   }
   const StableStep& stable = simulation.controller().stable();
+  const Real stable_at_start = stable.dt;
   const Real dt = scene.time.step.value_or(scene.time.safety * stable.dt);
   say("stable step {:.6g} {} (", stable.dt, unit(dimension::time));
   if (stable.viscosity > 0)
@@ -127,6 +131,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
       "forces\n",
       steps, steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
       1e-6 * static_cast<Real>(scene.system.bytes()));
+  if (!scene.time.step) say_softer_drops(scene, request, stable_at_start);
   for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
   say("the scene is in order\n");
 }

@@ -310,9 +310,12 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   if (flat.lost_adhesion() > 0)
     note += fmt::format(" ({:.1f} % lost by the cut-off)", 100 * flat.lost_adhesion());
   note += fmt::format(
-      ", equilibrium gap {:.4g} {}, peak traction {:.4g} {} at {:.4g} {}, stiffness {:.4g} {}",
-      flat.equilibrium_gap, unit(dimension::length), flat.peak_traction, unit(dimension::pressure),
-      flat.peak_gap, unit(dimension::length), flat.stiffness, unit({-2, -2, 1}));
+      ", equilibrium gap {:.4g} {} ({:.2g} of the size of the facets), peak traction {:.4g} {} at "
+      "{:.4g} {}, stiffness {:.4g} {}",
+      flat.equilibrium_gap, unit(dimension::length),
+      flat.equilibrium_gap / surfaces(assembly).facet, flat.peak_traction,
+      unit(dimension::pressure), flat.peak_gap, unit(dimension::length), flat.stiffness,
+      unit({-2, -2, 1}));
   if (const std::string more = model->described(surfaces(assembly), assembly.units());
       !more.empty())
     note += ", " + more;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the numbers of a scene mean, and what would save steps: printed by `meniscus check`.
+#pragma once
+#include "meniscus/app/commands.hpp"
+#include "meniscus/core/input.hpp"
+#include "meniscus/scene/scene.hpp"
+
+namespace meniscus {
+
+/// Units of forces and pressures in those of SI, if the scene has others.
+void say_units(const UnitSystem& units);
+
+/// Ohnesorge number and times of every drop, and its Bond number if a constant body force acts on
+/// it.
+template <int D>
+void say_drop_numbers(const Scene<D>& scene, const SceneInput& input);
+
+/// Bulk moduli of drops that are a hundred times what compresses them, and how many times fewer
+/// steps they would take than those of the scene: by building it with them. `stable` is its stable
+/// step. Nothing if there is little to gain.
+template <int D>
+void say_softer_drops(const Scene<D>& scene, const RunRequest& request, Real stable);
+
+}  // namespace meniscus

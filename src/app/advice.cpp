@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the numbers of a scene mean, and what would save steps: printed by `meniscus check`.
+#include "meniscus/app/advice.hpp"
+
+#include "meniscus/app/print.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/text.hpp"
+#include "meniscus/scene/simulation.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+namespace meniscus {
+namespace {
+
+/// A drop as a ball, in the plane a disk, of its volume.
+struct RoundDrop {
+  Real radius, gamma, density, viscosity, bulk_modulus;
+  Real speed;                ///< the largest of its particles at the start
+  int principal_curvatures;  ///< 2, in the plane 1
+
+  Real ohnesorge() const { return viscosity / std::sqrt(density * gamma * radius); }
+  Real bond(Real acceleration) const { return density * acceleration * radius * radius / gamma; }
+  Real time_of_sound() const { return radius / std::sqrt(bulk_modulus / density); }
+  Real time_of_capillarity() const { return std::sqrt(density * radius * radius * radius / gamma); }
+  Real time_of_viscosity() const { return density * radius * radius / viscosity; }
+  /// Of its surface tension and its speed.
+  Real pressure() const {
+    return std::max(principal_curvatures * gamma / radius, density * speed * speed);
+  }
+};
+
+template <int D>
+RoundDrop round_drop(const Scene<D>& scene, const Drop<D>& drop) {
+  const Body<D>& body = *drop.body;
+  std::size_t number = 0;
+  while (&scene.system.bodies[number] != &body) ++number;
+  Real volume = 0, fastest = 0;
+  for (Index A = 0; A < body.size(); ++A) {
+    volume += body.cells.volume(A);
+    const Lanes& v = at(scene.initial.v, body.first + A);
+    fastest = std::max(fastest, sum(v * v));
+  }
+  const auto mean = [](const std::vector<Real>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<Real>(values.size());
+  };
+  const Real mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
+  return {D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
+                 : std::sqrt(volume / std::numbers::pi),
+          drop.gamma,
+          mass / volume,
+          mean(at(scene.viscosity, number)),
+          at(scene.bulk_modulus, number),
+          std::sqrt(fastest),
+          D - 1};
+}
+
+/// Of the body forces on a body together; nothing if there are none, or if they vary.
+template <int D>
+std::optional<Real> constant_acceleration(const SceneInput& input, const std::string& body) {
+  Vec<D> sum = Vec<D>::Zero();
+  for (const Block& force : input.root().tables("body_force")) {
+    if (force.text("body", "") != body) continue;
+    const auto acceleration =
+        force.expressions("acceleration", D, dimension::acceleration, std::nullopt);
+    for (int i = 0; i < D; ++i) {
+      if (!at(acceleration, i).constant()) return std::nullopt;
+      sum[i] += at(acceleration, i)({0, 0, 0});
+    }
+  }
+  return sum.norm() > 0 ? std::optional(sum.norm()) : std::nullopt;
+}
+
+/// Two digits that are not less.
+Real rounded_up(Real value) {
+  const Real digit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::ceil(value / digit - 1e-9) * digit;
+}
+
+/// The stable step at the start; nothing if the scene cannot be built or begun.
+template <int D>
+std::optional<Real> stable_step(const SceneInput& input) {
+  try {
+    scene_dimension(input);  // is read before all else
+    Scene<D> scene = build_scene<D>(input);
+    Simulation<D> simulation(scene);
+    simulation.begin();
+    return simulation.controller().stable().dt;
+  } catch (const InputError&) {
+  } catch (const SolveError&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void say_units(const UnitSystem& units) {
+  if (units.name() == "SI") return;
+  const UnitSystem si;
+  std::vector<std::string> equations;
+  for (const Dimension d : {dimension::pressure, dimension::viscosity, dimension::tension,
+                            dimension::force, dimension::energy})
+    equations.push_back(
+        fmt::format("1 {} = {:g} {}", units.symbol(d), units.in_si(d), si.symbol(d)));
+  say("units: {}\n", joined(equations, ", "));
+}
+
+template <int D>
+void say_drop_numbers(const Scene<D>& scene, const SceneInput& input) {
+  for (const Drop<D>& drop : scene.drops) {
+    const RoundDrop r = round_drop(scene, drop);
+    const std::string time = scene.units.symbol(dimension::time);
+    const std::string viscous =
+        r.viscosity > 0 ? fmt::format(", viscosity rho R^2/mu {:.3g}", r.time_of_viscosity()) : "";
+    std::string bond;
+    if (const auto g = constant_acceleration<D>(input, drop.body->name))
+      bond = fmt::format(", Bond number rho g R^2/gamma {:.4g}", r.bond(*g));
+    say("drop '{}': radius of its volume {:.4g} {}, Ohnesorge number mu/sqrt(rho gamma R) "
+        "{:.4g}{}; "
+        "times of sound R/c {:.3g}, capillarity sqrt(rho R^3/gamma) {:.3g}{} {}\n",
+        drop.body->name, r.radius, scene.units.symbol(dimension::length), r.ohnesorge(), bond,
+        r.time_of_sound(), r.time_of_capillarity(), viscous, time);
+  }
+}
+
+template <int D>
+void say_softer_drops(const Scene<D>& scene, const RunRequest& request, Real stable) {
+  constexpr Real hard = 100, worth_a_trial = 4, worth_saying = 1.5;
+  std::vector<std::string> settings = request.set, moduli;
+  for (const Drop<D>& drop : scene.drops) {
+    const RoundDrop r = round_drop(scene, drop);
+    const Real enough = rounded_up(hard * r.pressure());
+    if (r.bulk_modulus < worth_a_trial * enough) continue;
+    settings.push_back(fmt::format("body.{}.material.bulk_modulus={}", drop.body->name, enough));
+    moduli.push_back(fmt::format("{:g} {} of '{}'", enough, scene.units.symbol(dimension::pressure),
+                                 drop.body->name));
+  }
+  if (moduli.empty()) return;
+  const auto longer = stable_step<D>(SceneInput::from_file(request.scene, settings));
+  if (!longer || *longer < worth_saying * stable) return;
+  say("bulk_modulus {} is a hundred times what surface tension and speed press with: where nothing "
+      "else presses harder it would do, in {:.1f} times fewer steps\n",
+      joined(moduli, ", "), *longer / stable);
+}
+
+#define MENISCUS_INSTANTIATE(D)                                       \
+  template void say_drop_numbers(const Scene<D>&, const SceneInput&); \
+  template void say_softer_drops(const Scene<D>&, const RunRequest&, Real);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus
