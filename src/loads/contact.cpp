@@ -32,7 +32,9 @@ Rows<Keys> Keys::rows() {
       texts_row("bodies", &Keys::bodies,
                 "names of two bodies, or of one that has a [contact.partner]"),
       choice_row("interaction", &Keys::interaction, interactions<3>().names(),
-                 "by which they act on each other; its own keys follow in the same table",
+                 "by which they act on each other; its own keys follow in the same table. With an "
+                 "adhesion or a contact_angle it may be left out: it is smooth_young then, or "
+                 "with sigma0 scaled_lennard_jones",
                  "lennard_jones"),
       choice_row("form", &Keys::form, {contact_form_names.begin(), contact_form_names.end()},
                  "gradient of the surface energy (conserves energy and momenta exactly); "
@@ -110,7 +112,7 @@ struct Contact final : Load<D>, Keys {
 
   void read_inner(const Block& block) {
     if (!block.has("interaction") && (block.has("contact_angle") || block.has("adhesion")))
-      interaction = "smooth_young";
+      interaction = block.has("sigma0") ? "scaled_lennard_jones" : "smooth_young";
     model = interactions<D>().at(interaction).read(block);
     if (!block.has("form")) form = model->usual_form();
     if (const auto table = block.table("partner")) {

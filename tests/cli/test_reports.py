@@ -294,6 +294,17 @@ class Reports(ProgramTest):
         self.assertNotIn("times fewer", self.call("check", file, "--set", "time.step=1 ns").stdout)
         self.assertNotIn("times fewer", self.call("check", self.scene(DROP)).stdout)
 
+    def test_contact_by_its_adhesion(self):
+        """An adhesion, with a range or with sigma0, is the one that bodies and rigid partners have."""
+        second = BLOCK[BLOCK.index("[[body]]"):BLOCK.index("[[body_force]]")].replace("block", "twin")
+        second = second.replace("cells", "centre = [0, 0, 1.4]\ncells")
+        wall = '[contact.partner]\ntype = "half_space"\npoint = [0, 0, -0.9]\nnormal = [0, 0, 1]\n'
+        for keys, law in ('range = 0.4\noffset = 0.3\n', "smooth_young"), ("sigma0 = 0.4\n", "scaled_lennard_jones"):
+            for scene in (BLOCK + f'[[contact]]\nbodies = ["block"]\nadhesion = "50 mJ/m^2"\n{keys}{wall}',
+                          BLOCK + second + f'[[contact]]\nbodies = ["block", "twin"]\nadhesion = "50 mJ/m^2"\n{keys}'):
+                self.assertIn(f", {law}, form energy: adhesion W = 0.05 N/m",
+                              self.call("check", self.scene(scene)).stdout)
+
     def test_units_in_si(self):
         text = self.call("check", self.scene('units.system = "nm-ps-ag"\n' + DROP)).stdout
         self.assertIn("units: 1 ag/(nm ps^2) = 1e+12 Pa, 1 ag/(nm ps) = 1 Pa s, 1 ag/ps^2 = 1000 N/m, "
