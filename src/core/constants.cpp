@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "quantity.hpp"
@@ -37,8 +38,23 @@ std::size_t end_of_number(std::string_view text, std::size_t i) {
   return exponent;
 }
 
+/// Formulas are made with the constants that occur in them, as there may be a thousand; with all,
+/// if one is to be said that was meant.
+Expression expression_of(const std::string& formula, const NamedNumbers& constants) {
+  const std::vector<std::string> names = names_in(formula);
+  NamedNumbers used;
+  std::copy_if(constants.begin(), constants.end(), std::back_inserter(used), [&](const auto& c) {
+    return std::find(names.begin(), names.end(), c.first) != names.end();
+  });
+  try {
+    return Expression(formula, used);
+  } catch (const InputError&) {
+    return Expression(formula, constants);
+  }
+}
+
 Real single_number(const std::string& formula, const NamedNumbers& constants) {
-  const Expression expression(formula, constants);
+  const Expression expression = expression_of(formula, constants);
   if (!expression.constant())
     throw InputError(fmt::format("formula '{}': a single number knows no x, y, z, t", formula));
   return expression({0, 0, 0});
