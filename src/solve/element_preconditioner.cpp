@@ -9,6 +9,7 @@
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
+#include "meniscus/solve/nested_dissection.hpp"
 #include "meniscus/solve/sparse_factors.hpp"
 
 #include <fmt/core.h>
@@ -102,6 +103,17 @@ std::vector<MatrixEntry> stiffness(const System<D>& system, const Body<D>& body,
   return entries;
 }
 
+/// Rows of K as its factors take them. In 3D the factors have two thirds of what minimum degree
+/// gives (15^3 nodes), and are made in half the time.
+template <int D>
+std::vector<Index> order_of_rows(const Grid<D>& grid) {
+  std::vector<Index> order;
+  order.reserve(D * grid.X.size());
+  for (const Index node : nested_dissection(grid))
+    for (int i = 0; i < D; ++i) order.push_back(node * D + i);
+  return order;
+}
+
 /// About T^-1, and the transpose of that. T has eigenvalues near zero, in modes in which
 /// coefficients move and places hardly do. Those of a bulk body are stiffer than T^t K T has them,
 /// those of a shell of few layers are not: what is added to T is just enough for the former
@@ -189,8 +201,8 @@ class ElementPreconditioner<D>::OfBody {
 
   void renew(const System<D>& system, const Body<D>& body, const ElasticModuli& moduli,
              const ImplicitEuler<D>* step) {
-    factors_ =
-        std::make_unique<SparseCholesky>(D * body.size(), stiffness(system, body, moduli, step));
+    factors_ = std::make_unique<SparseCholesky>(
+        D * body.size(), stiffness(system, body, moduli, step), order_of_rows(body.geometry.grid));
     if (!(factors_->smallest_pivot().value > 0))
       throw SolveError(fmt::format("body '{}' has no stiffness in its reference", body.name));
   }

@@ -10,6 +10,7 @@ namespace meniscus {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<Real>;
+using Ordering = Eigen::AMDOrdering<int>;
 
 Sparse sum_of(Index n, const std::vector<Eigen::Triplet<Real>>& entries) {
   Sparse A(n, n);
@@ -20,11 +21,13 @@ Sparse sum_of(Index n, const std::vector<Eigen::Triplet<Real>>& entries) {
 }  // namespace
 
 struct SparseCholesky::Factors {
-  Eigen::SimplicialLDLT<Sparse> of_scaled;
+  Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> of_scaled;
   Eigen::VectorXd scale, permuted;
+  std::vector<Index> row_at;  ///< row of the matrix that the factors have at a place
 };
 
-SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries)
+SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries,
+                               std::vector<Index> order)
     : factors_(std::make_unique<Factors>()) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
   for (const MatrixEntry& e : entries)
@@ -35,12 +38,21 @@ SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries)
   for (const MatrixEntry& e : entries)
     scaled.emplace_back(e.row, e.column,
                         e.value * factors_->scale[e.row] * factors_->scale[e.column]);
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> to_place(n);
   const Sparse A = sum_of(n, scaled);
-  factors_->of_scaled.compute(A);
+  if (order.empty()) {
+    Ordering()(A, to_place);
+    order.assign(to_place.indices().begin(), to_place.indices().end());
+  }
+  for (Index k = 0; k < n; ++k) to_place.indices()[at(order, k)] = k;
+  Sparse permuted(n, n);
+  permuted = A.twistedBy(to_place);
+  factors_->row_at = std::move(order);
+  factors_->of_scaled.compute(permuted);
   if (factors_->of_scaled.info() != Eigen::Success) {
     // A pivot that is exactly zero ends the factors; with a shift it shows as the smallest.
     factors_->of_scaled.setShift(1e-15);
-    factors_->of_scaled.compute(A);
+    factors_->of_scaled.compute(permuted);
   }
   factors_->permuted.resize(n);
 }
@@ -48,27 +60,22 @@ SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries)
 SparseCholesky::~SparseCholesky() = default;
 
 SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
-  const auto& of = factors_->of_scaled;
-  Index at = 0;
-  const Real value = of.vectorD().minCoeff(&at);
-  const auto& permuted = of.permutationP().indices();
-  Index row = 0;
-  for (Index i = 0; i < static_cast<Index>(permuted.size()); ++i)
-    if (permuted[i] == at) row = i;
-  return {value, row};
+  Index place = 0;
+  const Real value = factors_->of_scaled.vectorD().minCoeff(&place);
+  return {value, at(factors_->row_at, place)};
 }
 
 void SparseCholesky::solve(std::vector<Real>& b) const {
   Eigen::VectorXd& x = factors_->permuted;
   const auto& of = factors_->of_scaled;
-  const auto& permuted = of.permutationP().indices();
-  for (Index i = 0; i < static_cast<Index>(x.size()); ++i)
-    x[permuted[i]] = at(b, i) * factors_->scale[i];
+  const std::vector<Index>& row_at = factors_->row_at;
+  for (Index k = 0; k < static_cast<Index>(x.size()); ++k)
+    x[k] = at(b, at(row_at, k)) * factors_->scale[at(row_at, k)];
   of.matrixL().solveInPlace(x);
   x.array() /= of.vectorD().array();
   of.matrixU().solveInPlace(x);
-  for (Index i = 0; i < static_cast<Index>(x.size()); ++i)
-    at(b, i) = x[permuted[i]] * factors_->scale[i];
+  for (Index k = 0; k < static_cast<Index>(x.size()); ++k)
+    at(b, at(row_at, k)) = x[k] * factors_->scale[at(row_at, k)];
 }
 
 std::size_t SparseCholesky::bytes() const {

@@ -17,8 +17,8 @@ struct MatrixEntry {
 class SparseCholesky {
  public:
   /// Of the n x n matrix with the sums of `entries`, both triangles given. Its diagonal is scaled
-  /// to one first.
-  SparseCholesky(Index n, const std::vector<MatrixEntry>& entries);
+  /// to one first. Rows are eliminated in `order` (order[new] = old); by minimum degree if empty.
+  SparseCholesky(Index n, const std::vector<MatrixEntry>& entries, std::vector<Index> order = {});
   ~SparseCholesky();
 
   /// The smallest pivot of the scaled matrix and its row: about round-off if that row depends on
