@@ -68,7 +68,7 @@ struct Lanes {
 };
 
 /// The first three lanes as a vector in space.
-inline Eigen::Vector3d spatial(Lanes x) {
+inline Eigen::Vector3d spatial(const Lanes& x) {
   return {x[0], x[1], x[2]};
 }
 
