@@ -10,12 +10,19 @@ namespace meniscus {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<Real>;
-using Ordering = Eigen::AMDOrdering<int>;
+using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
 Sparse sum_of(Index n, const std::vector<Eigen::Triplet<Real>>& entries) {
   Sparse A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());
   return A;
+}
+
+/// order[new] = old
+std::vector<Index> by_minimum_degree(const Sparse& A) {
+  Permutation old_of_new;
+  Eigen::AMDOrdering<int>()(A, old_of_new);
+  return {old_of_new.indices().begin(), old_of_new.indices().end()};
 }
 
 }  // namespace
@@ -38,12 +45,9 @@ SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries,
   for (const MatrixEntry& e : entries)
     scaled.emplace_back(e.row, e.column,
                         e.value * factors_->scale[e.row] * factors_->scale[e.column]);
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> to_place(n);
   const Sparse A = sum_of(n, scaled);
-  if (order.empty()) {
-    Ordering()(A, to_place);
-    order.assign(to_place.indices().begin(), to_place.indices().end());
-  }
+  if (order.empty()) order = by_minimum_degree(A);
+  Permutation to_place(n);
   for (Index k = 0; k < n; ++k) to_place.indices()[at(order, k)] = k;
   Sparse permuted(n, n);
   permuted = A.twistedBy(to_place);
