@@ -162,6 +162,13 @@ void Constraints::project(std::span<NodalVector> w) {
   add_over_mass(a_, -1, w);
 }
 
+void Constraints::balance(std::span<NodalVector> force, std::vector<Real>& lambda) const {
+  apply_over_mass(force, lambda);
+  for (Real& x : lambda) x = -x;
+  solve(lambda);
+  add_transposed(lambda, 1, force);
+}
+
 void Constraints::rates(Real time, Real h, bool begins) {
   targets(time, g_);
   targets(time + h, ahead_);

@@ -2,23 +2,12 @@
 // Search for rigid motions without a force.
 #include "meniscus/solve/free_motions.hpp"
 
-#include "meniscus/core/parallel.hpp"
+#include "meniscus/core/nodal_algebra.hpp"
 
 #include <cmath>
 
 namespace meniscus {
 namespace {
-
-Real dot(const NodalVectors& a, const NodalVectors& b) {
-  return parallel_sum(static_cast<Index>(a.size()), 0.0,
-                      [&](Index A) { return sum(at(a, A) * at(b, A)); });
-}
-
-void subtract(NodalVectors& w, Real s, const NodalVectors& mode) {
-  for_chunks(static_cast<Index>(w.size()), [&](Index, Index begin, Index end) {
-    for (Index A = begin; A < end; ++A) at(w, A) -= s * at(mode, A);
-  });
-}
 
 template <int D>
 Vec<D> place(const Body<D>& body, const NodalVectors& u, Index A) {
@@ -117,7 +106,7 @@ void FreeMotions<D>::add(NodalVectors mode) {
 
 template <int D>
 void FreeMotions<D>::remove_from(NodalVectors& w) const {
-  for (const NodalVectors& mode : modes_) subtract(w, dot(w, mode), mode);
+  for (const NodalVectors& mode : modes_) meniscus::add(w, -dot(w, mode), mode);
 }
 
 template class FreeMotions<2>;

@@ -3,6 +3,7 @@
 #include "meniscus/solve/implicit_viscosity.hpp"
 
 #include "meniscus/core/dense.hpp"
+#include "meniscus/core/nodal_algebra.hpp"
 
 #include <fmt/core.h>
 
@@ -27,11 +28,6 @@ ImplicitViscosity<D>::ImplicitViscosity(System<D>& system) : system_(system), ag
   diagonal_ = half_ = e_ = Ce_ = r_ = z_ = p_ = q_ = zero;
   for (auto& term : system.terms)
     if (term->viscous()) term->expect_viscous_calls();
-}
-
-template <int D>
-Real ImplicitViscosity<D>::dot(const NodalVectors& a, const NodalVectors& b) const {
-  return parallel_sum(system_.size(), 0.0, [&](Index A) { return sum(at(a, A) * at(b, A)); });
 }
 
 template <int D>

@@ -169,11 +169,30 @@ std::string net_forces(const System<D>& system, const State& state) {
   return text;
 }
 
+template <int D>
+std::string unbalanced(System<D>& system, State& state, Real time) {
+  const NodalVectors still(state.u.size(), Lanes::zero());
+  system.add_up({time, state.u, still}, state.force);
+  const std::string net = net_forces(system, state);
+  return net.empty() ? "" : "; " + net + ", which nothing balances";
+}
+
+template <int D>
+void stop_motion(const System<D>& system, State& state) {
+  state.books.dissipated += parallel_sum(system.size(), 0.0, [&](Index A) {
+    return 0.5 * at(system.mass, A) * sum(at(state.v, A) * at(state.v, A));
+  });
+  std::fill(state.v.begin(), state.v.end(), Lanes::zero());
+  state.books.begin({}, 0);
+}
+
 #define MENISCUS_INSTANTIATE(D)                                                        \
   template void remove_free_drift(const System<D>&, const State&, const NodalVectors&, \
                                   NodalVectors&);                                      \
   template class FluidRest<D>;                                                         \
-  template std::string net_forces(const System<D>&, const State&);
+  template std::string net_forces(const System<D>&, const State&);                     \
+  template std::string unbalanced(System<D>&, State&, Real);                           \
+  template void stop_motion(const System<D>&, State&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -3,7 +3,7 @@
 #include "meniscus/solve/time_step.hpp"
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "meniscus/core/nodal_algebra.hpp"
 
 #include <cmath>
 
@@ -87,11 +87,6 @@ void StableStepEstimator<D>::archive(const Archive& a) {
   for (std::size_t k = 0; k < field_modes_.size(); ++k)
     a.in("field_modes")(system_.fields[k].spec.name, field_modes_[k],
                         system_.fields[k].spec.components);
-}
-
-template <int D>
-Real StableStepEstimator<D>::dot(const NodalVectors& a, const NodalVectors& b) const {
-  return parallel_sum(system_.size(), 0.0, [&](Index A) { return sum(at(a, A) * at(b, A)); });
 }
 
 template <int D>

@@ -4,7 +4,6 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/solve/implicit_euler.hpp"
-#include "meniscus/solve/quasi_statics.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -165,8 +165,8 @@ void expect_loaded_brick(const std::string& law) {
   newton.begin(one.state);
   newton.step(one.state, 1);
   EXPECT_TRUE(newton.arrived());
-  EXPECT_LE(newton.iterations(), 10) << law;
-  EXPECT_GT(newton.stability(), 0.1);
+  EXPECT_LE(newton.method().iterations(), 10) << law;
+  EXPECT_GT(newton.method().stability(), 0.1);
   EXPECT_EQ(newton.jumps(), 0);
   // Places but for the translation, which is free; where the middle of the target is.
   Lanes drift = Lanes::zero();
@@ -290,7 +290,7 @@ TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
   EXPECT_NEAR(with.external_work, released, 5e-4);
   EXPECT_NEAR(with.balance(), without.balance(), 5e-4);
   EXPECT_NEAR(without.external_work, 0, 1e-4);
-  EXPECT_GT(jumps.newton().stability(), 0);
+  EXPECT_GT(jumps.newton().method().stability(), 0);
 }
 
 /// A bar between held ends is stretched: the stress of uniform plane strain, to round-off of what

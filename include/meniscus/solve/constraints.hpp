@@ -42,6 +42,9 @@ class Constraints {
   /// w -= M^-1 C^T S^-1 C w: what is left is free, C w = 0.
   void project(std::span<NodalVector> w);
 
+  /// At rest: adds to the force C^T lambda, the reactions that leave no C M^-1 f.
+  void balance(std::span<NodalVector> force, std::vector<Real>& lambda) const;
+
   /// Moves places and velocities to where they are prescribed at state.time: the nearest in the
   /// norm of the masses.
   void make_consistent(State& state);

@@ -38,7 +38,6 @@ class ImplicitViscosity {
   /// q = C p; returns p . (M p + dt/2 q).
   Real apply(const State& state, Real dt);
   void add_missing_rigid_motion(State& state) const;
-  Real dot(const NodalVectors& a, const NodalVectors& b) const;
 
   System<D>& system_;
   NodalVectors diagonal_;                       // of C

@@ -50,4 +50,12 @@ class FluidRest {
 template <int D>
 std::string net_forces(const System<D>& system, const State& state);
 
+/// The same of the forces at a time, to end a message with.
+template <int D>
+std::string unbalanced(System<D>& system, State& state, Real time);
+
+/// The kinetic energy of a state becomes heat.
+template <int D>
+void stop_motion(const System<D>& system, State& state);
+
 }  // namespace meniscus

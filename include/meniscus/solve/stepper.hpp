@@ -66,7 +66,15 @@ struct StepperChoice {
   bool implicit_viscosity = false;                ///< of Dynamics
   std::optional<Real> step = {};                  ///< given in the scene
   std::string place = {};                         ///< of the choice, to begin a message with
+
+  /// That given, or a twentieth of the run.
+  Real load_step() const { return step.value_or(end / 20); }
 };
+
+/// Whether a step from `time` meets `end`, but for round-off.
+inline bool reaches(Real time, Real step, Real end) {
+  return end - time <= step * (1 + 1e-9);
+}
 
 struct StepperEntry {
   static constexpr const char* kind = "solver";

@@ -41,7 +41,6 @@ class StableStepEstimator {
   /// result = - (f(u + du mode, v + dv mode) - f(u, v)).
   void force_change(const State& state, Real du, Real dv, NodalVectors& result);
   Real field_limit(const State& state, std::size_t number);
-  Real dot(const NodalVectors& a, const NodalVectors& b) const;
 
   System<D>& system_;
   bool viscous_counts_;
