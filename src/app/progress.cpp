@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Progress on one line of a terminal.
+// Progress on one line of a terminal, or in lines of a file.
 #include "meniscus/app/progress.hpp"
 
 #include "meniscus/app/print.hpp"
@@ -7,40 +7,114 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 
 namespace meniscus {
+namespace {
 
-Progress::Progress(const State& begin, Real end, std::string time_unit, std::string energy_unit,
-                   bool quiet)
-    : first_time_(begin.time),
-      end_(end),
-      first_step_(begin.step),
-      time_unit_(std::move(time_unit)),
-      energy_unit_(std::move(energy_unit)),
-      on_(!quiet && isatty(STDOUT_FILENO)) {}
+constexpr double seconds_on_terminal = 0.5, seconds_to_first_line = 10, seconds_of_line = 60;
+
+/// As people say it: "40 s", "3 min", "5.2 h".
+std::string duration(double seconds) {
+  constexpr double minute = 60, hour = 3600, day = 86400;
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 100 * minute) return fmt::format("{:.0f} min", seconds / minute);
+  if (seconds < 2 * day) return fmt::format("{:.1f} h", seconds / hour);
+  return fmt::format("{:.1f} days", seconds / day);
+}
+
+}  // namespace
+
+void Pace::add(double seconds, const State& state, Real dt) {
+  constexpr double seconds_between_marks = 5, seconds_of_memory = 60;
+  constexpr std::int64_t least_steps = 10;
+  last_step_seconds_ = seconds - now_.seconds;
+  dt_ = dt;
+  now_ = {seconds, state.time, state.step};
+  // A mark is forgotten if the next one is old enough, too.
+  while (marks_.size() > 1 && seconds - marks_[1].seconds >= seconds_of_memory &&
+         state.step - marks_[1].step >= least_steps)
+    marks_.pop_front();
+  if (seconds - marks_.back().seconds >= seconds_between_marks) marks_.push_back(now_);
+}
+
+double Pace::steps_per_second() const {
+  return static_cast<double>(steps_since_first_mark()) / std::max(1e-9, seconds_since_first_mark());
+}
+
+std::optional<double> Pace::seconds_to(Real end) const {
+  constexpr std::int64_t least_steps = 10;
+  constexpr Real alike = 1.5;
+  const auto steps = static_cast<Real>(steps_since_first_mark());
+  const Real way = now_.time - marks_.front().time;
+  if (steps < least_steps || !(way > 0)) return std::nullopt;
+  const Real usual = way / steps;
+  if (dt_ * alike < usual || dt_ > alike * usual) return std::nullopt;
+  return (end - now_.time) / way * seconds_since_first_mark();
+}
+
+Progress::Progress(const State& begin, Real end, Text text, Shown shown,
+                   std::function<void(const std::string&)> log, Seconds seconds)
+    : end_(end),
+      text_(std::move(text)),
+      shown_(shown),
+      log_(std::move(log)),
+      seconds_(std::move(seconds)),
+      next_on_terminal_(seconds_() + seconds_on_terminal),
+      next_line_(next_on_terminal_ - seconds_on_terminal + seconds_to_first_line),
+      pace_(next_on_terminal_ - seconds_on_terminal, begin) {}
 
 void Progress::show(const State& state, Real dt, const std::optional<Ledger>& ledger) {
-  if (!on_) return;
   if (ledger) ledger_ = *ledger;
-  const Clock::time_point now = Clock::now();
-  if (now - last_shown_ < std::chrono::milliseconds(500)) return;
-  last_shown_ = now;
-  const double seconds = std::chrono::duration<double>(now - begin_).count();
-  const Real done = (state.time - first_time_) / (end_ - first_time_);
-  const Real rate = static_cast<Real>(state.step - first_step_) / seconds;
+  const double now = seconds_();
+  pace_.add(now, state, dt);
+  if (now >= next_line_) {
+    next_line_ = now + seconds_of_line;
+    const std::string text = line(state, dt);
+    log_(text);
+    if (shown_ == Shown::in_lines) {
+      say("{}\n", text);
+      std::fflush(stdout);
+    }
+  }
+  if (shown_ == Shown::on_terminal && now >= next_on_terminal_) {
+    next_on_terminal_ = now + seconds_on_terminal;
+    say("\r\033[K{}", line(state, dt));
+    std::fflush(stdout);
+  }
+}
+
+std::string Progress::line(const State& state, Real dt) const {
+  const auto left = pace_.seconds_to(end_);
+  const std::string duration_left =
+      left ? fmt::format("{} {} left", text_.may_end_earlier ? "at most" : "about", duration(*left))
+           : "time left unknown";
+  const double rate = pace_.steps_per_second();
+  std::string speed = fmt::format("{:.3g} steps/s", rate);
+  if (rate < 1)
+    speed = fmt::format("{} per step, the last took {}", duration(1 / rate),
+                        duration(pace_.seconds_of_last_step()));
   std::string energies = fmt::format("kinetic {:.3g}", ledger_.kinetic);
   for (const auto& [kind, energy] : ledger_.stored)
     energies += fmt::format(", {} {:.3g}", kind, energy);
-  say("\r\033[Kstep {}  t {:.4g} {}  dt {:.3g}  {:.1f} %  ETA {:.0f} s  {:.0f} steps/s  {} {}",
-      state.step, state.time, time_unit_, dt, 100 * done, seconds * (1 - done) / done, rate,
-      energies, energy_unit_);
-  std::fflush(stdout);
+  return fmt::format("step {}, t = {:.4g} of {:.4g} {} ({:.1f} %), dt = {:.3g}, {}, {}; {} {}",
+                     state.step, state.time, end_, text_.time_unit, 100 * state.time / end_, dt,
+                     speed, duration_left, energies, text_.energy_unit);
 }
 
 void Progress::finish() {
-  if (on_) say("\r\033[K");
+  if (shown_ == Shown::on_terminal) say("\r\033[K");
   std::fflush(stdout);
+}
+
+Progress::Shown Progress::for_stdout(bool quiet) {
+  return quiet ? Shown::in_log_only : isatty(STDOUT_FILENO) ? Shown::on_terminal : Shown::in_lines;
+}
+
+double Progress::wall_time() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace meniscus

@@ -176,6 +176,22 @@ void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunD
       directory.path().string()));
 }
 
+/// All warnings of the run together: where they came, much was said after them.
+void repeat_warnings(bool quiet, RunLog& log) {
+  const auto warnings = log.warnings();
+  if (warnings.empty()) return;
+  int count = 0;
+  for (const auto& [text, times] : warnings) count += times;
+  std::vector<std::string> lines{fmt::format("{} warning{}:", count, count == 1 ? "" : "s")};
+  for (const auto& [text, times] : warnings)
+    lines.push_back(
+        fmt::format("  {}{}", text, times == 1 ? "" : fmt::format(" ({} times)", times)));
+  for (const std::string& line : lines) {
+    log.info(line);
+    if (!quiet) say("{}\n", line);
+  }
+}
+
 /// The run itself, once its directory is open.
 template <int D>
 int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance& origin,
@@ -187,8 +203,12 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
     CheckpointWriter(directory, origin)
         .write(begin.step, begin.time, epochs.simulation().snapshot());
   Recorder<D> recorder(epochs.simulation(), directory, origin, in_place);
-  Progress progress(begin, stop, epochs.scene().units.symbol(dimension::time),
-                    epochs.scene().symbol_of_sum(dimension::energy), request.quiet);
+  Progress progress(begin, stop,
+                    {epochs.scene().units.symbol(dimension::time),
+                     epochs.scene().symbol_of_sum(dimension::energy),
+                     !epochs.simulation().stepper().residuals(begin).empty()},
+                    Progress::for_stdout(request.quiet),
+                    [&log](const std::string& line) { log.info(line); });
   const std::int64_t first_step = begin.step;
   const double set_up_seconds = interruption.elapsed_seconds();
   std::optional<int> signal;
@@ -201,6 +221,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   } catch (const SolveError& e) {
     progress.finish();
     log.error(e.what());
+    repeat_warnings(request.quiet, log);
     recorder.write_last_good_frame();
     return exit_numerical;
   }
@@ -211,6 +232,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
   log.info(summary);
   if (!request.quiet) say("{}\nresults in {}\n", summary, directory.path().string());
+  repeat_warnings(request.quiet, log);
   if (!signal) {
     const bool rest = report_rest(simulation, log);
     const int expected = report_expectations(simulation, directory, log);

@@ -10,6 +10,8 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 
+#include <algorithm>
+
 namespace meniscus {
 namespace {
 
@@ -41,6 +43,7 @@ struct RunLog::Logger {
     log.set_error_handler([](const std::string&) {});
   }
   spdlog::logger log;
+  std::vector<std::pair<std::string, int>> warnings;
 };
 
 RunLog::RunLog() : logger_(new Logger{stderr_sink()}) {}
@@ -55,9 +58,19 @@ void RunLog::info(std::string_view message) {
 }
 void RunLog::warning(std::string_view message) {
   logger_->log.warn(message);
+  auto& all = logger_->warnings;
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const auto& known) { return known.first == message; });
+  if (found == all.end())
+    all.emplace_back(message, 1);
+  else
+    ++found->second;
 }
 void RunLog::error(std::string_view message) {
   logger_->log.error(message);
+}
+const std::vector<std::pair<std::string, int>>& RunLog::warnings() const {
+  return logger_->warnings;
 }
 
 }  // namespace meniscus

@@ -87,12 +87,23 @@ TEST_F(Histories, LogGoesToFileAndWarningsToStderr) {
     log.info("step {} of 10");
     log.warning("support enlarged");
     log.error("J <= 0");
+    EXPECT_EQ(log.warnings(), (std::vector<std::pair<std::string, int>>{{"support enlarged", 1}}));
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "warning: support enlarged\nerror: J <= 0\n");
   const std::string text = content(path() / "run.log");
   EXPECT_NE(text.find("Z info: step {} of 10\n"), text.npos) << text;
   EXPECT_NE(text.find("Z error: J <= 0\n"), text.npos) << text;
   EXPECT_THROW_WITH(RunLog(path() / "run.log" / "below a file"), FileError, "cannot write");
+}
+
+TEST(RunLogs, EachWarningIsKeptOnce) {
+  testing::internal::CaptureStderr();
+  RunLog log;
+  for (const char* text : {"b", "a", "b", "b"}) log.warning(text);
+  log.info("c");
+  log.error("d");
+  EXPECT_EQ(log.warnings(), (std::vector<std::pair<std::string, int>>{{"b", 3}, {"a", 1}}));
+  testing::internal::GetCapturedStderr();
 }
 
 }  // namespace

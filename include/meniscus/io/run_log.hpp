@@ -3,7 +3,10 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace meniscus {
 
@@ -21,6 +24,9 @@ class RunLog {
   void info(std::string_view message);
   void warning(std::string_view message);
   void error(std::string_view message);
+
+  /// The warnings so far in the order of their first time, each text once with how often it came.
+  const std::vector<std::pair<std::string, int>>& warnings() const;
 
  private:
   struct Logger;
