@@ -54,7 +54,7 @@ def main(run, printed, picture):
     block = next(body for body in results.bodies if body.name == "block")
     frame = int(np.argmin(np.abs(results.times - DEPTH)))
     top = np.flatnonzero(np.abs(block.X[:, 1] - block.X[:, 1].max()) < 1e-9)
-    x = results.places(frame, block)[top, 0]
+    x = results.points(frame, block)[top, 0]
     pressure = -results.field(frame, "cauchy_stress", block)[top].reshape(len(top), -1)
     across = pressure[:, 4 if pressure.shape[1] == 9 else 3 if pressure.shape[1] == 4 else 1]
     order = np.argsort(x)

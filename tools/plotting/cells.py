@@ -51,7 +51,7 @@ def picture(run, body):
     )
     frames = [0, len(run.frames) - 1]
     for frame, color, text in zip(frames, ("0.75", style.COLORS[0]), ("start", "end")):
-        x = in_own_axes(body, run.places(frame, body))
+        x = in_own_axes(body, run.points(frame, body))
         lines = sections.outline(body, x, plane) * factor
         axis.add_collection(
             plt.matplotlib.collections.LineCollection(lines, colors=color, lw=1.6, zorder=2)

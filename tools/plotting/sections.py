@@ -47,7 +47,7 @@ class Cut:
     show the same ones."""
 
     def __init__(self, run, body, plane, frame, name):
-        x = run.places(frame, body)
+        x = run.points(frame, body)
         values = run.field(frame, name, body)
         if values.ndim > 1:
             values = np.linalg.norm(values.reshape(len(values), -1), axis=1)

@@ -34,7 +34,7 @@ def view(bodies):
 
 def picture(run, bodies, frames):
     axes_of_view = view(bodies)
-    scenes = [[run.places(k, body) @ axes_of_view.T for body in bodies] for k in frames]
+    scenes = [[run.points(k, body) @ axes_of_view.T for body in bodies] for k in frames]
     points = np.concatenate([x for scene in scenes for x in scene])
     low, high = points.min(axis=0), points.max(axis=0)
     size = (high - low)[:2] * 1.04

@@ -64,7 +64,7 @@ class Profile:
 
     def __init__(self, run, wall, frame):
         body = body_of(run, wall, frame)
-        x = run.places(frame, body)
+        x = run.points(frame, body)
         nodes = np.unique(body.surface)
         along = wall.along(x)
         middle = (along * body.volume[:, None]).sum(axis=0) / body.volume.sum()
@@ -119,7 +119,7 @@ def patches(run, wall, frames):
     seen = []
     for frame in frames:
         body = body_of(run, wall, frame)
-        x = run.places(frame, body)
+        x = run.points(frame, body)
         quads = body.surface[:, [0, 1, 3, 2]]
         place, gap = wall.along(x)[quads], wall.heights(x)[quads].mean(axis=1)
         a, b = x[quads[:, 2]] - x[quads[:, 0]], x[quads[:, 3]] - x[quads[:, 1]]
