@@ -5,6 +5,7 @@
 Usage: check_plots.py PROGRAM (meniscus)
 """
 
+import html.parser
 import pathlib
 import subprocess
 import sys
@@ -36,6 +37,26 @@ gamma = 1
 [expect]
 aspect = {{ of = "drop.aspect", at = 0.02, value = 1.2, within = 1 }}
 """
+
+
+class Page(html.parser.HTMLParser):
+    """Reads a page: its text, where its pictures come from, and which elements were left open."""
+
+    def __init__(self):
+        super().__init__()
+        self.text, self.sources, self.open = "", [], []
+
+    def handle_starttag(self, tag, attrs):
+        if tag == "img":
+            self.sources.append(dict(attrs)["src"])
+        elif tag != "meta":
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text += " " + data
 
 
 class Theory(unittest.TestCase):
@@ -134,6 +155,36 @@ type = "half_space"
             names = {"wall_profile", "wall_front"} | ({"wall_patch"} if dimension == 3 else set())
             self.assertEqual({name for name in pictures if "wall" in name}, names)
             self.assertGreater(min(pictures.values()), 10000)
+
+    def test_report(self):
+        """One page, whole in itself: what was expected, doubted and drawn, the input, and who made it."""
+        shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2\nintegration = 'nodal'"
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            scene = "title = 'A <drop> & more'\n" + SCENE.format(dimension=2, shape=shape)
+            scene += "missed = { of = 'drop.aspect', at = 0.02, value = 9, within = 1 }\n"
+            (folder / "scene.toml").write_text(scene)
+            subprocess.run(
+                [PROGRAM, "run", folder / "scene.toml", "--output", folder / "run"],
+                capture_output=True, check=False,
+            )  # fmt: skip
+            script = ROOT / "tools/plotting/report.py"
+            report = subprocess.run(
+                ["/usr/bin/python3", "-B", script, folder / "run"], capture_output=True, text=True
+            )
+            self.assertEqual(report.returncode, 0, report.stderr)
+            page = (folder / "run/report.html").read_text()
+        reader = Page()
+        reader.feed(page)
+        self.assertEqual(reader.open, [])
+        self.assertEqual(len(reader.sources), 4)
+        for source in reader.sources:  # nothing from elsewhere
+            self.assertTrue(source.startswith("data:image/png;base64,iVBOR"))
+        text = " ".join(reader.text.split())
+        for words in ("A <drop> & more", "aspect", "MISSED", "met", "drop.p2", "drop ellipse newtonian",
+                      'type = "newtonian"', "git_hash", "mean spacing",
+                      "nodal\" has modes without energy and is unstable"):  # fmt: skip
+            self.assertIn(words, text)
 
     def test_unknown_field(self):
         shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2"

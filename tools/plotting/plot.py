@@ -51,15 +51,19 @@ def pictures_of(args):
     if args.beside:
         runs = {d.resolve().name: Results(d) for d in (args.dir, *args.beside)}
         return comparison.draw(runs, args.measure)
-    run = Results(args.dir)
+    return pictures_of_run(Results(args.dir), args.field, args.frames)
+
+
+def pictures_of_run(run, field, frames):
+    """Figures by name; `field` colours `frames` cross-sections."""
     return {
         **histories.draw(run),
         **contacts.draw(run),
         **drop_decay.draw(run),
         **cells.draw(run),
-        **sections.draw(run, args.field, args.frames),
+        **sections.draw(run, field, frames),
         **surfaces.draw(run),
-        **wetting.draw(run, args.frames),
+        **wetting.draw(run, frames),
     }
 
 

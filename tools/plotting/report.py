@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes one page about a run: pictures, expectations, warnings, what was decided, input, provenance.
+Called by tools/report."""
+
+import argparse
+import base64
+import collections
+import html
+import io
+import pathlib
+import re
+import sys
+
+import numpy as np
+
+import plot
+import style
+from results import Results
+
+LOOKS = """
+body { font: 16px/1.45 Georgia, "Times New Roman", serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #222 }
+h1 { font-size: 1.6em; margin-bottom: 0.2em } h2 { font-size: 1.2em; margin-top: 1.8em; border-bottom: 1px solid #ccc }
+table { border-collapse: collapse; font-size: 0.92em } th { text-align: left }
+td, th { padding: 0.15em 0.9em 0.15em 0; vertical-align: top } td.number { text-align: right; font-variant-numeric: tabular-nums }
+pre, code { font: 0.82em/1.4 "DejaVu Sans Mono", monospace } pre { overflow-x: auto; background: #f6f6f4; padding: 0.8em }
+figure { display: inline-block; margin: 0.6em 1em 0.6em 0; vertical-align: top; max-width: 100% }
+figure img { max-width: 100%; height: auto } figcaption { font-size: 0.85em; color: #555 }
+.met { color: #00734d } .missed { color: #a33c00; font-weight: bold } .warning { color: #a33c00 }
+"""
+
+
+class Log:
+    """run.log: what was said, by kind. A run that was continued says more than once how it begins."""
+
+    LINE = re.compile(r"^\S+Z (info|warning|error): (.*)$")
+    EXPECTED = re.compile(r"^(\S+) +(\S+) +(\S+) +(\S+)  (met|MISSED|not reached)$")
+
+    def __init__(self, path):
+        said = []
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if match := self.LINE.match(line):
+                said.append(match.groups())
+            elif said:  # a message of several lines
+                said[-1] = (said[-1][0], f"{said[-1][1]}\n{line}")
+
+        def texts(kind):
+            return [text for level, text in said if level == kind]
+
+        self.warnings = collections.Counter(texts("warning"))
+        self.errors = texts("error")
+        self.calls = [t for t in texts("info") if re.match(r"meniscus \d", t)]
+        self.ends = [t for t in texts("info") if re.match(r"\d+ steps in ", t)]
+        # The last run alone says what is true now.
+        last = max((k for k, (_, t) in enumerate(said) if re.match(r"meniscus \d", t)), default=0)
+        now = [t for level, t in said[last:] if level == "info"]
+        self.expected = [m.groups() for t in now if (m := self.EXPECTED.match(t))]
+        skip = re.compile(
+            r"meniscus \d|expectation +obtained|\d+ warnings?:$|  |step \d+, t = |\d+ steps in "
+        )
+        self.decided = [t for t in now if not skip.match(t) and not self.EXPECTED.match(t)]
+
+
+def escaped(text):
+    return html.escape(str(text))
+
+
+def table(rows, heading=(), numbers=()):
+    """Rows of texts; columns `numbers` are aligned to the right."""
+    lines = ["<tr>" + "".join(f"<th>{escaped(h)}</th>" for h in heading) + "</tr>"] if heading else []
+    for row in rows:
+        cells = (
+            f'<td class="number">{escaped(c)}</td>' if k in numbers else f"<td>{escaped(c)}</td>"
+            for k, c in enumerate(row)
+        )
+        lines.append("<tr>" + "".join(cells) + "</tr>")
+    return "<table>\n" + "\n".join(lines) + "\n</table>"
+
+
+def items(texts, kind="info"):
+    lines = "".join(f"<li>{escaped(text)}</li>" for text in texts)
+    return f'<ul class="{kind}">{lines}</ul>'
+
+
+def expectations(log):
+    if not log.expected:
+        return ""
+    rows = []
+    for name, obtained, expected, within, verdict in log.expected:
+        kind = "met" if verdict == "met" else "missed"
+        cells = "".join(f'<td class="number">{escaped(c)}</td>' for c in (obtained, expected, within))
+        rows.append(f'<tr><td>{escaped(name)}</td>{cells}<td class="{kind}">{escaped(verdict)}</td></tr>')
+    head = "".join(f"<th>{h}</th>" for h in ("expectation", "obtained", "expected", "within", ""))
+    return "<h2>Expectations</h2><table><tr>" + head + "</tr>" + "".join(rows) + "</table>"
+
+
+def warnings(log):
+    if not log.warnings and not log.errors:
+        return ""
+    texts = [text if n == 1 else f"{text} ({n} times)" for text, n in log.warnings.items()]
+    return "<h2>Warnings</h2>" + items([f"error: {text}" for text in log.errors] + texts, "warning")
+
+
+def bodies(run):
+    rows = []
+    for body in run.epochs[-1]:
+        shape, law = body.settings["shape"], body.settings["material"]["type"]
+        rows.append((body.name, shape, law, len(body), len(body.cells), f"{body.spacing:.4g}"))
+    heading = ("body", "shape", "material", "particles", "cells", f"spacing ({run.length_unit})")
+    return table(rows, heading, numbers=(3, 4, 5))
+
+
+def columns(run):
+    rows = []
+    for name, values in run.history.items():
+        if name != "time":
+            numbers = (values[0], values[-1], values.min(), values.max())
+            rows.append((name, style.pretty(run.units[name]), *(f"{x:.6g}" for x in numbers)))
+    return table(rows, ("column", "unit", "first", "last", "least", "largest"), numbers=(2, 3, 4, 5))
+
+
+def figures(run, args):
+    shown = []
+    for name, figure in plot.pictures_of_run(run, args.field, args.frames).items():
+        picture = io.BytesIO()
+        figure.savefig(picture, format="png", dpi=130, bbox_inches="tight", pad_inches=0.04)
+        text = base64.b64encode(picture.getvalue()).decode()
+        shown.append(f'<figure><img alt="{escaped(name)}" src="data:image/png;base64,{text}">'
+                     f"<figcaption>{escaped(name.replace('_', ' '))}</figcaption></figure>")  # fmt: skip
+    return "\n".join(shown)
+
+
+def provenance(run):
+    attributes = run.files[-1]["meta"].attrs
+    texts = {}
+    for name in sorted(attributes):
+        value = attributes[name]
+        texts[name] = value.decode() if isinstance(value, bytes) else value
+    return table([(name, text) for name, text in texts.items() if np.ndim(text) == 0])
+
+
+def page(run, log, args):
+    title = run.input.get("title") or args.dir.resolve().name
+    end, factor = run.times[-1], style.scale(run.time_unit, run.times)
+    begun = f"{len(run.frames)} frames to t = {end * factor[0]:.6g} {factor[1]}, step {run.steps[-1]}"
+    parts = [
+        f"<h1>{escaped(title)}</h1>",
+        f"<p>{escaped('. '.join([begun, *log.ends[-1:]]))}</p>",
+        bodies(run),
+        expectations(log),
+        warnings(log),
+        "<h2>Pictures</h2>",
+        figures(run, args),
+        "<h2>History</h2>",
+        columns(run),
+        "<h2>What was decided</h2>",
+        items(log.decided),
+        "<h2>Input</h2><p>With all defaults; itself a scene.</p>",
+        f"<pre>{escaped(run.files[-1]['meta/input'][()].decode())}</pre>",
+        "<h2>Provenance</h2>",
+        provenance(run),
+        items(log.calls) if len(log.calls) > 1 else "",
+    ]
+    return (
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        f"<title>{escaped(title)}</title><style>{LOOKS}</style></head>\n<body>\n"
+        + "\n".join(part for part in parts if part)
+        + "\n</body></html>\n"
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        prog="tools/report", description="Writes DIR/report.html, one page about a run."
+    )
+    parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run")
+    parser.add_argument("--field", help="as of tools/plot")
+    parser.add_argument("--frames", type=int, default=5, help="as of tools/plot")
+    args = parser.parse_args()
+    try:
+        text = page(Results(args.dir), Log(args.dir / "run.log"), args)
+    except (OSError, ValueError) as error:
+        sys.exit(f"tools/report: {error}")
+    path = args.dir / "report.html"
+    path.write_text(text, encoding="utf-8")
+    print(path)
+
+
+if __name__ == "__main__":
+    main()
