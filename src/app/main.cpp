@@ -34,12 +34,14 @@ void print_version() {
 /// What `meniscus keys` is asked for.
 struct KeysRequest {
   std::string wanted;
-  bool markdown = false, json = false;
+  bool markdown = false, json = false, measures = false;
 };
 
 void print_reference(const KeysRequest& request) {
   std::ostringstream text;
-  if (request.json)
+  if (request.measures)
+    print_measures(text);
+  else if (request.json)
     print_key_schema(text);
   else if (request.markdown)
     print_keys_as_markdown(text, request.wanted);
@@ -54,11 +56,18 @@ void add_keys_options(CLI::App& command, KeysRequest& request) {
                                            "what the meaning of keys mentions; all "
                                            "if not given");
   CLI::Option* markdown = command.add_flag("--markdown", request.markdown, "as tables of Markdown");
+  CLI::Option* json =
+      command
+          .add_flag("--json", request.json,
+                    "a JSON Schema, by which editors complete and check scenes as one writes")
+          ->excludes(wanted)
+          ->excludes(markdown);
   command
-      .add_flag("--json", request.json,
-                "a JSON Schema, by which editors complete and check scenes as one writes")
+      .add_flag("--measures", request.measures,
+                "instead: what can be measured of bodies and loads, with units and meanings")
       ->excludes(wanted)
-      ->excludes(markdown);
+      ->excludes(markdown)
+      ->excludes(json);
 }
 
 void add_scene_options(CLI::App& command, RunRequest& request) {

@@ -67,7 +67,7 @@ Progress::Progress(const State& begin, Real end, Text text, Shown shown,
       pace_(next_on_terminal_ - seconds_on_terminal, begin) {}
 
 void Progress::show(const State& state, Real dt, const std::optional<Ledger>& ledger) {
-  if (ledger) ledger_ = *ledger;
+  if (ledger) ledger_ = ledger;
   const double now = seconds_();
   pace_.add(now, state, dt);
   if (now >= next_line_) {
@@ -96,12 +96,16 @@ std::string Progress::line(const State& state, Real dt) const {
   if (rate < 1)
     speed = fmt::format("{} per step, the last took {}", duration(1 / rate),
                         duration(pace_.seconds_of_last_step()));
-  std::string energies = fmt::format("kinetic {:.3g}", ledger_.kinetic);
-  for (const auto& [kind, energy] : ledger_.stored)
-    energies += fmt::format(", {} {:.3g}", kind, energy);
-  return fmt::format("step {}, t = {:.4g} of {:.4g} {} ({:.1f} %), dt = {:.3g}, {}, {}; {} {}",
+  std::string energies;
+  if (ledger_) {
+    energies = fmt::format("; kinetic {:.3g}", ledger_->kinetic);
+    for (const auto& [kind, energy] : ledger_->stored)
+      energies += fmt::format(", {} {:.3g}", kind, energy);
+    energies += " " + text_.energy_unit;
+  }
+  return fmt::format("step {}, t = {:.4g} of {:.4g} {} ({:.1f} %), dt = {:.3g}, {}, {}{}",
                      state.step, state.time, end_, text_.time_unit, 100 * state.time / end_, dt,
-                     speed, duration_left, energies, text_.energy_unit);
+                     speed, duration_left, energies);
 }
 
 void Progress::finish() {

@@ -90,6 +90,20 @@ std::vector<Real> positions(const System<D>& system, const State& state) {
   return x;
 }
 
+/// A file for each line of points.
+template <int D>
+std::vector<HistoryWriter> line_writers(const Scene<D>& scene, const RunDirectory& directory,
+                                        std::optional<Real> continue_after) {
+  std::vector<HistoryWriter> writers;
+  for (const ProbedLine& line : scene.lines) {
+    std::vector<HistoryColumn> columns{{"time", scene.units.symbol(dimension::time)}};
+    for (const ProbedLine::Column& column : line.columns)
+      columns.push_back({column.name, scene.units.symbol(column.dimension)});
+    writers.emplace_back(directory.probe_file(line.name), std::move(columns), continue_after);
+  }
+  return writers;
+}
+
 /// Whether a multiple of `every` lies in (before, now].
 bool due(Real before, Real now, Real every) {
   const auto count = [every](Real t) { return std::floor(t / every + 1e-9); };
@@ -109,6 +123,8 @@ Recorder<D>::Recorder(Simulation<D>& simulation, const RunDirectory& directory,
       checkpoints_(directory, provenance),
       history_(directory.history_file(), history_columns(simulation.scene()),
                continued ? std::optional(simulation.state().time) : std::nullopt),
+      lines_(line_writers(simulation.scene(), directory,
+                          continued ? std::optional(simulation.state().time) : std::nullopt)),
       results_(make_result_file(simulation, directory, provenance, continued)) {}
 
 template <int D>
@@ -131,8 +147,10 @@ std::optional<Ledger> Recorder<D>::record(Real before) {
     write_row(*ledger);
   }
   if (last_frame_ != simulation_->state().step &&
-      (last || due(before, now, output.frames_every > 0 ? output.frames_every : end / 50)))
+      (last || due(before, now, output.frames_every > 0 ? output.frames_every : end / 50))) {
     write_frame(output.restartable);
+    write_lines();
+  }
   return ledger;
 }
 
@@ -156,6 +174,18 @@ void Recorder<D>::write_row(const Ledger& ledger) {
     row.push_back(residual.value);
   for (const MeasureSource& m : measures_) row.push_back(m.compute(state.motion()));
   history_.write(row);
+}
+
+template <int D>
+void Recorder<D>::write_lines() {
+  const State& state = simulation_->state();
+  const auto& lines = simulation_->scene().lines;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (const std::vector<Real>& point : lines[k].compute(state.motion())) {
+      std::vector<Real> row{state.time};
+      row.insert(row.end(), point.begin(), point.end());
+      lines_[k].write(row);
+    }
 }
 
 template <int D>

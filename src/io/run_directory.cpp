@@ -45,10 +45,21 @@ void remove_temporaries(const std::filesystem::path& directory) {
   }
 }
 
+/// probe-NAME.csv of the lines of any run.
+std::vector<std::filesystem::path> probe_files(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    if (entry.path().filename().string().starts_with("probe-") &&
+        entry.path().extension() == ".csv")
+      files.push_back(entry.path());
+  return files;
+}
+
 void remove_run(const std::filesystem::path& directory) {
   const auto series = result_series(directory);
   for (auto file = series.rbegin(); file != series.rend(); ++file) remove_result(*file);
   for (const char* name : run_files) remove_file(directory / name);
+  for (const auto& file : probe_files(directory)) remove_file(file);
 }
 
 }  // namespace

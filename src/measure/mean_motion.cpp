@@ -1,35 +1,102 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a body is, and how fast it moves, as a whole.
+// Where a body is, how it moves and turns, and how long it is, as a whole.
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/measure/measure_registry.hpp"
 
+#include <array>
+#include <cmath>
 #include <numeric>
 
 namespace meniscus {
 namespace {
 
-/// Centre of mass and its velocity: of the coefficients, whose momentum is that of the audit.
+/// All of these are sums over coefficients, whose momenta and energy are those of the audit.
+template <int D>
+class Whole {
+ public:
+  explicit Whole(const Body<D>& body) : body_(body) {}
+
+  Real sum(auto&& number) const {
+    return parallel_sum(body_.size(), 0.0, [&](Index A) { return at(body_.mass, A) * number(A); });
+  }
+  Real mean(auto&& number) const {
+    return sum(number) / std::accumulate(body_.mass.begin(), body_.mass.end(), Real{0});
+  }
+  Real place(const Motion& motion, Index A, int i) const {
+    return at(body_.particles.X(), A)[i] + at(motion.u, body_.first + A)[i];
+  }
+  Real velocity(const Motion& motion, Index A, int i) const {
+    return at(motion.v, body_.first + A)[i];
+  }
+  Real centre(const Motion& motion, int i) const {
+    return mean([&](Index A) { return place(motion, A, i); });
+  }
+  Real velocity_of_centre(const Motion& motion, int i) const {
+    return mean([&](Index A) { return velocity(motion, A, i); });
+  }
+  /// Component x_i v_j - x_j v_i about the centre.
+  Real spin(const Motion& motion, int i, int j) const {
+    const Real xi = centre(motion, i), xj = centre(motion, j);
+    return sum([&](Index A) {
+      return (place(motion, A, i) - xi) * velocity(motion, A, j) -
+             (place(motion, A, j) - xj) * velocity(motion, A, i);
+    });
+  }
+  Real kinetic_energy(const Motion& motion) const {
+    return sum([&](Index A) {
+      Real squares = 0;
+      for (int i = 0; i < D; ++i) squares += std::pow(velocity(motion, A, i), 2);
+      return squares / 2;
+    });
+  }
+  /// Of the ellipsoid that has the same second moments over mass, the longest first: an axis of
+  /// length 2 a has the second moment a^2/5 (ellipse: a^2/4).
+  Real axis(const Motion& motion, int k) const {
+    std::array<Real, D> x{};
+    for (int i = 0; i < D; ++i) at(x, i) = centre(motion, i);
+    Mat<D> moments;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j <= i; ++j)
+        moments(i, j) = moments(j, i) = mean([&](Index A) {
+          return (place(motion, A, i) - at(x, i)) * (place(motion, A, j) - at(x, j));
+        });
+    return 2 * std::sqrt((D + 2) * std::max(0.0, symmetric_eigenvalues<D>(moments)[D - 1 - k]));
+  }
+
+ private:
+  const Body<D>& body_;
+};
+
 template <int D>
 std::vector<MeasureSource> mean_motion(const Body<D>& body, const UnitSystem&) {
-  const auto mean = [&body](auto&& number) {
-    return [&body, number](const Motion& motion) {
-      const Real mass = std::accumulate(body.mass.begin(), body.mass.end(), Real{0});
-      return parallel_sum(body.size(), 0.0,
-                          [&](Index A) { return at(body.mass, A) * number(motion, A); }) /
-             mass;
-    };
-  };
+  const Whole<D> whole(body);
   std::vector<MeasureSource> measures;
+  const auto along = [](const char* name, int i) { return std::string(name) + "_" + "xyz"[i]; };
   for (int i = 0; i < D; ++i)
-    measures.push_back({std::string("centre_") + "xyz"[i], dimension::length, "of mass",
-                        mean([&body, i](const Motion& motion, Index A) {
-                          return body.origin(A)[i] + at(motion.u, body.first + A)[i];
-                        })});
+    measures.push_back({along("centre", i), dimension::length, "of mass",
+                        [whole, i](const Motion& m) { return whole.centre(m, i); }});
   for (int i = 0; i < D; ++i)
-    measures.push_back({std::string("velocity_") + "xyz"[i], dimension::velocity,
-                        "of the centre of mass", mean([&body, i](const Motion& motion, Index A) {
-                          return at(motion.v, body.first + A)[i];
-                        })});
+    measures.push_back({along("velocity", i), dimension::velocity, "of the centre of mass",
+                        [whole, i](const Motion& m) { return whole.velocity_of_centre(m, i); }});
+  for (int i = 0; i < D; ++i)
+    measures.push_back({along("momentum", i), of_sum(dimension::momentum, D), "mass by velocity",
+                        [whole, i](const Motion& m) {
+                          return whole.sum([&](Index A) { return whole.velocity(m, A, i); });
+                        }});
+  for (int i = D == 3 ? 0 : 2; i < 3; ++i)
+    measures.push_back({along("spin", i), of_sum(dimension::angular_momentum, D),
+                        "angular momentum about the centre of mass", [whole, i](const Motion& m) {
+                          return whole.spin(m, (i + 1) % 3, (i + 2) % 3);
+                        }});
+  measures.push_back({"kinetic_energy", of_sum(dimension::energy, D),
+                      "of the whole motion, deformation included",
+                      [whole](const Motion& m) { return whole.kinetic_energy(m); }});
+  for (int k = 0; k < D; ++k)
+    measures.push_back({"principal_extent_" + std::to_string(k + 1), dimension::length,
+                        "axis of the ellipsoid that has the same second moments of mass, the "
+                        "longest first; of an ellipsoid its own, however it is turned",
+                        [whole, k](const Motion& m) { return whole.axis(m, k); }});
   return measures;
 }
 

@@ -37,10 +37,29 @@ void Assembly<D>::field(const std::string& body, FieldSource source) {
 template <int D>
 void Assembly<D>::measure(const std::string& prefix, MeasureSource source) {
   source.name = prefix + "." + source.name;
-  if (std::any_of(scene_.measures.begin(), scene_.measures.end(),
-                  [&](const MeasureSource& other) { return other.name == source.name; }))
+  if (has_measure(source.name))
     throw std::logic_error("there are two measures called '" + source.name + "'");
   scene_.measures.push_back(std::move(source));
+}
+
+template <int D>
+void Assembly<D>::record(const std::string& prefix, MeasureSource source) {
+  scene_.output.measures.push_back(prefix + "." + source.name);
+  measure(prefix, std::move(source));
+}
+
+template <int D>
+bool Assembly<D>::has_measure(const std::string& name) const {
+  return std::any_of(scene_.measures.begin(), scene_.measures.end(),
+                     [&](const MeasureSource& other) { return other.name == name; });
+}
+
+template <int D>
+std::vector<FieldSource> Assembly<D>::fields_of(const std::string& body) const {
+  std::vector<FieldSource> sources;
+  for (const BodyField& field : scene_.fields)
+    if (field.body == number_of(body)) sources.push_back(field.source);
+  return sources;
 }
 
 template <int D>

@@ -131,7 +131,7 @@ void refuse_loads_of_other_dimension(const Block& root) {
 template <int D>
 void plan_loads(const Block& root, Plan<D>& plan) {
   std::set<std::string> claims;
-  for (const Stage stage : {Stage::surface, Stage::volume, Stage::contact})
+  for (const Stage stage : {Stage::surface, Stage::volume, Stage::contact, Stage::measure})
     for (const auto& [name, kind] : loads<D>())
       if (kind.stage == stage) plan_loads(root, kind, claims, plan);
   refuse_loads_of_other_dimension<D>(root);

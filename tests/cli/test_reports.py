@@ -433,10 +433,10 @@ class Reports(ProgramTest):
         self.assertNotIn("\r", self.call("run", file, "--output", "a").stdout)
         more = ["--set", "time.end='1 ms'", "--max-walltime", "3"]
         text = self.on_terminal("run", file, "--output", "b", *more)
-        for word in ("\r\033[Kstep ", " t ", " dt ", " % ", " ETA ", " steps/s ", "kinetic", "surface"):
+        for word in ("\r\033[Kstep ", ", t = ", " of 0.001 s (0.0 %)", " dt = ", " steps/s", " left", "kinetic", "surface"):
             self.assertIn(word, text)
         # The line is gone before anything else is said.
-        self.assertRegex(text, r"steps/s [^\n]*\r\033\[K(warning: [^\n]*\n\r\033\[K)?"
+        self.assertRegex(text, r"steps/s[^\n]*\r\033\[K(warning: [^\n]*\n\r\033\[K)?"
                                r"\d+ steps in [^\n]*\n(.*\n)*warning: stopped")
         self.assertNotIn("\r\033", self.on_terminal("run", file, "--output", "c", "--quiet", *more))
 

@@ -2,6 +2,7 @@
 // Cases: small scenes with everything that is registered, for the tests that run over all of it.
 // They are made of the examples that registered things bring for `meniscus keys`.
 #pragma once
+#include "meniscus/scene/example_scenes.hpp"
 #include "meniscus/scene/simulation.hpp"
 
 #include <string>
@@ -41,12 +42,9 @@ std::vector<std::string> missing_examples(const Registry& registry, const std::s
   return missing;
 }
 
-/// A fluid ball (2D: disk) 'drop' of radius 1 about the origin.
-std::string one_drop(int D);
-/// And an elastic one, 'other', that moves towards it, their surfaces 0.2 apart.
-std::string two_drops(int D);
-/// A hollow elastic 'shell' of outer radius 2.
-std::string one_shell();
+using meniscus::one_drop;
+using meniscus::one_shell;
+using meniscus::two_drops;
 
 template <int D>
 Scene<D> scene_of(const std::string& text) {

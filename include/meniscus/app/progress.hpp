@@ -73,7 +73,7 @@ class Progress {
   Seconds seconds_;
   double next_on_terminal_, next_line_;
   Pace pace_;
-  Ledger ledger_;
+  std::optional<Ledger> ledger_;  ///< none before the first row of the history
 };
 
 }  // namespace meniscus

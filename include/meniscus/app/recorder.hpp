@@ -30,6 +30,7 @@ class Recorder {
 
  private:
   void write_row(const Ledger& ledger);
+  void write_lines();
   void write_frame(bool with_state);
 
   Simulation<D>* simulation_;
@@ -39,6 +40,7 @@ class Recorder {
   std::vector<std::string> energy_kinds_;
   CheckpointWriter checkpoints_;
   HistoryWriter history_;  // before the frames: it refuses other columns before anything is dropped
+  std::vector<HistoryWriter> lines_;
   std::unique_ptr<ResultFile> results_;
   std::int64_t last_frame_ = -1;
 };

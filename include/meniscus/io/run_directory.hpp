@@ -2,6 +2,7 @@
 // Results directory of a run, locked for one writer.
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace meniscus {
@@ -22,9 +23,9 @@ std::filesystem::path view_of(const std::filesystem::path& result_file);
 /// Removes a result file and its view. Throws FileError.
 void remove_result(const std::filesystem::path& result_file);
 
-/// DIR/run.h5 (run.1.h5, ... after remaps), run.vtkhdf, run.xdmf, history.csv, run.log,
-/// checkpoint-a.h5, checkpoint-b.h5. While the object lives no other program can write results
-/// there; the lock ends with the process, however it ends.
+/// DIR/run.h5 (run.1.h5, ... after remaps), run.vtkhdf, run.xdmf, history.csv, probe-NAME.csv of
+/// lines of points, run.log, checkpoint-a.h5, checkpoint-b.h5. While the object lives no other
+/// program can write results there; the lock ends with the process, however it ends.
 class RunDirectory {
  public:
   /// Makes the directory if needed. Throws FileError if it cannot be made or written to, is not a
@@ -38,6 +39,9 @@ class RunDirectory {
   /// Of that number in the series.
   std::filesystem::path result_file(std::size_t number = 0) const;
   std::filesystem::path history_file() const { return path_ / "history.csv"; }
+  std::filesystem::path probe_file(const std::string& name) const {
+    return path_ / ("probe-" + name + ".csv");
+  }
   std::filesystem::path log_file() const { return path_ / "run.log"; }
 
  private:

@@ -32,6 +32,13 @@ class Assembly {
   void field(const std::string& body, FieldSource source);
   /// Adds a measure called `prefix`.NAME. Throws std::logic_error if there is one.
   void measure(const std::string& prefix, MeasureSource source);
+  /// The same, and it is in the history whether the scene asks for it or not.
+  void record(const std::string& prefix, MeasureSource source);
+  bool has_measure(const std::string& name) const;
+  /// Adds a line of points, for a file of its own.
+  void line(ProbedLine line) { scene_.lines.push_back(std::move(line)); }
+  /// What was added of that body so far.
+  std::vector<FieldSource> fields_of(const std::string& body) const;
   /// The measure of that full name; it has been added.
   std::function<Real(const Motion&)> measure_named(const std::string& name) const;
   /// Says that a body is a drop.

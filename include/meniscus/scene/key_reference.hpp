@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference of all keys of a scene: to read, for documents, and for editors.
+// The reference of all keys of a scene: to read, for documents, and for editors; and of measures.
 #pragma once
 #include "meniscus/core/key_table.hpp"
 
@@ -28,6 +28,9 @@ void print_keys(std::ostream& out, const std::string& wanted = "");
 
 /// The same in Markdown.
 void print_keys_as_markdown(std::ostream& out, const std::string& wanted = "");
+
+/// Prints every measure with unit and meaning, by what has it. Builds small scenes: takes a moment.
+void print_measures(std::ostream& out);
 
 /// A JSON Schema (draft 7) of scenes, by which editors complete and check keys. It knows tables,
 /// keys, types, choices, required keys and signs; what depends on units and on other keys,

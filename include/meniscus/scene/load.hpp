@@ -50,7 +50,7 @@ const BodyPlan<D>* require_body(const Block& block, const BodyPlans<D>& bodies,
 
 /// Loads are built, and their forces added up, by stage, then by the name of the kind, then as they
 /// follow each other in the scene. A later stage can ask what an earlier one has said of a body.
-enum class Stage { surface, volume, contact };
+enum class Stage { surface, volume, contact, measure };
 
 /// One table of a scene.
 template <int D>

@@ -29,6 +29,17 @@ struct BodyField {
   FieldSource source;
 };
 
+/// Fields along a line of points of a body, for a file of their own.
+struct ProbedLine {
+  struct Column {
+    std::string name;
+    Dimension dimension;
+  };
+  std::string name;
+  std::vector<Column> columns;
+  std::function<std::vector<std::vector<Real>>(const Motion&)> compute;  ///< [point][column]
+};
+
 /// When a body is to be referred anew to where it is.
 struct PlannedRemap {
   std::string body;
@@ -59,6 +70,7 @@ struct Scene : RunSettings {
   /// Measures by full name, e.g. "drop.aspect".
   std::vector<MeasureSource> measures;
   std::vector<BodyField> fields;
+  std::vector<ProbedLine> lines;
   std::vector<PlannedRemap> remaps;
   std::vector<Wetting<D>> wetting;
   std::map<std::string, std::string> kept_references;  ///< [body] why it cannot be referred anew

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reference of all measures: those that small scenes with everything registered have.
+#include "meniscus/physics/interaction_registry.hpp"
+#include "meniscus/physics/partner_registry.hpp"
+#include "meniscus/scene/example_scenes.hpp"
+#include "meniscus/scene/key_reference.hpp"
+#include "meniscus/scene/scene.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+constexpr int dimensions = 3;  // has all that 2D has
+constexpr const char* tension = "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n";
+
+struct MeasureText {
+  std::string name, unit, meaning;  ///< name: "BODY.aspect" or "NAME.gap"
+};
+
+struct MeasureTable {
+  std::string heading;
+  std::vector<MeasureText> measures;
+};
+
+bool has(const MeasureTable& table, const std::string& name) {
+  return std::any_of(table.measures.begin(), table.measures.end(),
+                     [&](const MeasureText& m) { return m.name == name; });
+}
+
+/// Adds the measures of a scene, without those of bodies that are in `known`.
+void add(MeasureTable& table, const std::string& text, const std::vector<MeasureTable>& known) {
+  const SceneInput input = SceneInput::from_text(text);
+  scene_dimension(input);
+  const Scene<dimensions> scene = build_scene<dimensions>(input);
+  const auto& bodies = scene.system.bodies;
+  for (const MeasureSource& source : scene.measures) {
+    const std::size_t dot = source.name.find('.');
+    const std::string of = source.name.substr(0, dot);
+    const bool of_body =
+        std::any_of(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == of; });
+    const std::string name = (of_body ? "BODY" : "NAME") + source.name.substr(dot);
+    const bool known_already =
+        of_body && std::any_of(known.begin(), known.end(),
+                               [&](const MeasureTable& other) { return has(other, name); });
+    if (!known_already && !has(table, name))
+      table.measures.push_back({name, scene.units.symbol(source.dimension), source.meaning});
+  }
+}
+
+/// Contacts of a drop with each partner and with a soft body, by each interaction.
+std::vector<std::string> contact_scenes() {
+  std::vector<std::string> scenes{
+      scene_with_load(dimensions, "contact", legacy_contact(dimensions))};
+  for (const auto& [interaction, by] : interactions<dimensions>()) {
+    if (interaction == "legacy_switch") continue;  // above
+    const std::string law = fmt::format("interaction = \"{}\"\n{}", interaction, by.example);
+    scenes.push_back(
+        scene_with_load(dimensions, "contact", "bodies = [\"drop\", \"other\"]\n" + law + tension));
+    for (const auto& [name, partner] : partners<dimensions>())
+      scenes.push_back(scene_with_load(
+          dimensions, "contact",
+          fmt::format("bodies = [\"drop\"]\n{}[contact.partner]\ntype = \"{}\"\n{}{}", law, name,
+                      partner.example, tension)));
+  }
+  return scenes;
+}
+
+std::vector<MeasureTable> measure_tables() {
+  std::vector<MeasureTable> tables;
+  const auto section = [&](const std::string& heading, const std::vector<std::string>& scenes) {
+    MeasureTable table{heading, {}};
+    for (const std::string& scene : scenes) add(table, scene, tables);
+    if (!table.measures.empty()) tables.push_back(std::move(table));
+  };
+  const std::string heading = example_heading(dimensions);
+  section("of every body", {heading + example_ball(dimensions, "other") + example_solid()});
+  section("of a fluid", {heading + one_drop(dimensions)});
+  section("of a shell", {heading + one_shell()});
+  const auto of_load = [&](const std::string& name, const std::string& example) {
+    std::vector<std::string> scenes{scene_with_load(dimensions, name, example)};
+    if (name == "cavity")  // that of a shell has a gap, too
+      scenes.push_back(scene_with_load(dimensions, name,
+                                       "body = \"shell\"\nsurface = \"inner\"\npressure = 0.3\n"));
+    if (name == "contact")
+      for (std::string& scene : contact_scenes()) scenes.push_back(std::move(scene));
+    section("with [[" + name + "]]", scenes);
+  };
+  // First the one that scenes of others have, too.
+  of_load("surface_tension", std::string(loads<dimensions>().at("surface_tension").example));
+  for (const auto& [name, load] : loads<dimensions>())
+    if (name != "surface_tension") of_load(name, std::string(load.example));
+  return tables;
+}
+
+}  // namespace
+
+void print_measures(std::ostream& out) {
+  const std::vector<MeasureTable> tables = measure_tables();
+  out << "Measures, numbers over time: the names of them in output.measures and in \"of\" of\n"
+         "[expect.*]. BODY is the name of a body, NAME that of a contact, probe, face, ... Units "
+         "are\n"
+         "those of SI; in the plane a sum over a body is per unit depth. A name that a scene does "
+         "not\n"
+         "have is refused with a list of those it has.\n";
+  std::size_t widest = 0, widest_unit = 0;
+  for (const MeasureTable& table : tables)
+    for (const MeasureText& m : table.measures) {
+      widest = std::max(widest, m.name.size());
+      widest_unit = std::max(widest_unit, m.unit.size());
+    }
+  for (const MeasureTable& table : tables) {
+    out << "\n" << table.heading << "\n";
+    for (const MeasureText& m : table.measures)
+      out << fmt::format("  {:<{}}  {:<{}}  {}\n", m.name, widest, m.unit, widest_unit, m.meaning);
+  }
+}
+
+}  // namespace meniscus
