@@ -440,6 +440,19 @@ class Reports(ProgramTest):
                                r"\d+ steps in [^\n]*\n(.*\n)*warning: stopped")
         self.assertNotIn("\r\033", self.on_terminal("run", file, "--output", "c", "--quiet", *more))
 
+    def test_warnings_come_again_at_the_end(self):
+        """Together and once each, where much was said after them; with --quiet in the log alone."""
+        file = self.scene(BLOCK.replace("[body.material]", 'integration = "nodal"\n[body.material]'))
+        for options in ([], ["--quiet"]):
+            done = self.call("run", file, "--output", "out", "--overwrite", "--until", "0.01", *options)
+            said = re.findall(r"^warning: (.*)$", done.stderr, re.M)
+            self.assertEqual(len(said), 1, done.stderr)
+            self.assertIn("is unstable", said[0])
+            self.assertEqual(done.stdout.endswith(f"results in out\n1 warning:\n  {said[0]}\n"), not options)
+            log = (self.directory / "out/run.log").read_text()
+            self.assertRegex(log, rf"info: 1 warning:\n\S+ info:   {re.escape(said[0])}\n")
+        self.assertNotIn("warning", self.call("run", self.scene(SHEET), "--output", "calm").stdout)
+
     def on_terminal(self, *arguments):
         ours, theirs = pty.openpty()
         process = subprocess.Popen([program.PROGRAM, *arguments], cwd=self.directory, stdout=theirs,

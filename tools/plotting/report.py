@@ -124,7 +124,9 @@ def figures(run, args):
         picture = io.BytesIO()
         figure.savefig(picture, format="png", dpi=130, bbox_inches="tight", pad_inches=0.04)
         text = base64.b64encode(picture.getvalue()).decode()
-        shown.append(f'<figure><img alt="{escaped(name)}" src="data:image/png;base64,{text}">'
+        width = int.from_bytes(picture.getvalue()[16:20], "big")  # two curves beside each other
+        shown.append(f'<figure><img alt="{escaped(name)}" width="{0.72 * width:.0f}" '
+                     f'src="data:image/png;base64,{text}">'
                      f"<figcaption>{escaped(name.replace('_', ' '))}</figcaption></figure>")  # fmt: skip
     return "\n".join(shown)
 
