@@ -164,6 +164,10 @@ bool report_rest(const Simulation<D>& simulation, RunLog& log) {
   return rest;
 }
 
+std::string name_of(int signal) {
+  return signal == SIGALRM ? "the limit on wall-clock time" : fmt::format("signal {}", signal);
+}
+
 template <int D>
 void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunDirectory& directory,
                          RunLog& log) {
@@ -171,8 +175,7 @@ void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunD
       "stopped after step {}, t = {:.9g} {}, by {}; to continue, run the same command with "
       "--restart {}",
       simulation.state().step, simulation.state().time,
-      simulation.scene().units.symbol(dimension::time),
-      signal == SIGALRM ? "the limit on wall-clock time" : fmt::format("signal {}", signal),
+      simulation.scene().units.symbol(dimension::time), name_of(signal),
       directory.path().string()));
 }
 
@@ -211,13 +214,18 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
                     [&log](const std::string& line) { log.info(line); });
   const std::int64_t first_step = begin.step;
   const double set_up_seconds = interruption.elapsed_seconds();
+  bool has_begun = restart.has_value();
   std::optional<int> signal;
   try {
+    epochs.simulation().stop_when([&] { return interruption.requested().has_value(); });
     if (!restart) {
       epochs.simulation().settle();
       recorder.record(-1);
+      has_begun = true;
     }
     signal = run_steps(epochs, recorder, log, interruption, progress, stop);
+  } catch (const Interrupted&) {
+    signal = interruption.requested();
   } catch (const SolveError& e) {
     progress.finish();
     log.error(e.what());
@@ -226,6 +234,11 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
     return exit_numerical;
   }
   progress.finish();
+  if (!has_begun) {
+    log.warning(fmt::format("stopped by {} before the first state was found: nothing to continue",
+                            name_of(signal.value())));
+    return exit_signal + *signal;
+  }
   recorder.checkpoint();
 
   Simulation<D>& simulation = epochs.simulation();

@@ -133,10 +133,21 @@ void Simulation<D>::advance() {
 }
 
 template <int D>
+void Simulation<D>::stop_when(const std::function<bool()>& asked) {
+  stepper_->stop_when(asked);
+  may_be_interrupted_ = stepper_->implicit();
+}
+
+template <int D>
 template <class Work>
 void Simulation<D>::or_give_up(const Work& work) {
+  std::optional<Snapshot> before;
+  if (may_be_interrupted_) before = snapshot();
   try {
     work();
+  } catch (const Interrupted&) {
+    restore(before.value());
+    throw;
   } catch (const StepError& e) {
     give_up(e.failure);
   } catch (const SolveError& e) {

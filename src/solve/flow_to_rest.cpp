@@ -13,7 +13,7 @@ namespace meniscus {
 namespace {
 
 /// Of the energy that the next iteration would release: what is missed is left to the next step.
-constexpr Real tolerance = 1e-6;
+constexpr Real tolerance_of_flow = 1e-6;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ FlowToRest<D>::FlowToRest(System<D>& system, const StepperChoice& choice)
       choice_(choice),
       fluids_(system, choice.fluid),
       euler_(system),
-      method_(system, &euler_, tolerance),
+      method_(system, &euler_, tolerance_of_flow),
       work_(system) {
   still_.assign(static_cast<std::size_t>(system.size()), Lanes::zero());
   middle_force_ = still_;

@@ -138,6 +138,7 @@ typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const 
   std::vector<Real> diagonal, beside;
   Real carried = 0;  // of the last iteration to the diagonal
   for (int k = 0; k < most_tangents && rz > 0; ++k) {
+    if (asked_to_stop_()) throw Interrupted();
     const Real curvature = apply(time, u);
     diagonal.push_back(curvature / rz + carried);
     if (!(curvature > 0)) {

@@ -43,6 +43,7 @@ Real QuasiStatics<D>::longest_step(const State& state) {
 template <int D>
 void QuasiStatics<D>::step(State& state, Real dt) {
   const State before = state;
+  const std::size_t noted = notes_.size();
   const Real end = state.time + dt;
   try {
     settle(state);
@@ -76,6 +77,7 @@ void QuasiStatics<D>::step(State& state, Real dt) {
     }
   } catch (...) {
     state = before;
+    notes_.resize(noted);
     throw;
   }
   state.time = end;

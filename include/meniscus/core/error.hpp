@@ -2,6 +2,7 @@
 // Errors; app maps each kind to its exit code.
 #pragma once
 #include <cstdint>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -38,6 +39,11 @@ struct StepFailure {
 struct StepError : SolveError {
   explicit StepError(StepFailure f) : SolveError(f.text()), failure(std::move(f)) {}
   StepFailure failure;
+};
+
+/// A long step was asked to stop, which is no error.
+struct Interrupted : std::exception {
+  const char* what() const noexcept override { return "the step was interrupted"; }
 };
 
 /// A file cannot be read or written, or would be overwritten (exit code 5).

@@ -6,6 +6,8 @@
 #include "meniscus/solve/step_controller.hpp"
 #include "meniscus/solve/stepper.hpp"
 
+#include <functional>
+
 namespace meniscus {
 
 /// The D components of a nodal field, without padding.
@@ -31,6 +33,10 @@ class Simulation {
   /// times. Throws StepError; the state is then back at the places before the step, but not
   /// complete.
   void advance();
+
+  /// From now on steps that take long stop when they are asked to: settle() and advance() then
+  /// throw Interrupted, and all is as it was before, bit for bit.
+  void stop_when(const std::function<bool()>& asked);
 
   /// Whether the end of the scene, or the rest that it asks for, is reached.
   bool finished() const;
@@ -61,7 +67,7 @@ class Simulation {
   void refuse_impossible_states() const;
   void refuse_impossible_surfaces() const;
   [[noreturn]] void give_up(StepFailure failure);
-  /// Failures of `work` get their step and time.
+  /// Failures of `work` get their step and time; of one that is interrupted nothing is left.
   template <class Work>
   void or_give_up(const Work& work);
 
@@ -69,6 +75,7 @@ class Simulation {
   State state_;
   State before_;  // the step, where a term may reject it
   bool keeps_state_before_;
+  bool may_be_interrupted_ = false;
   StepController<D> controller_;
   std::unique_ptr<Stepper<D>> stepper_;
   Audit audit_;

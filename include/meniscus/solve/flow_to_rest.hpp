@@ -32,6 +32,7 @@ class FlowToRest final : public Stepper<D> {
   std::vector<Residual> residuals(const State& state) const override;
   std::string obstacle(const State& state) const override;
   std::string effort() const override { return method_.effort(); }
+  void stop_when(const std::function<bool()>& asked) override { method_.stop_when(asked); }
   void archive(const Archive& a, const State& state) override;
 
  private:

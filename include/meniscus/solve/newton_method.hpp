@@ -4,6 +4,7 @@
 #include "meniscus/solve/free_motions.hpp"
 #include "meniscus/solve/held_preconditioner.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -45,7 +46,9 @@ class NewtonMethod {
     bool winding() const;
     bool hard() const { return winding() || stuck; }
   };
+  /// Throws Interrupted when it is asked to stop.
   Solution solve(const Start& start);
+  void stop_when(const std::function<bool()>& asked) { asked_to_stop_ = asked; }
 
   /// Least eigenvalue of the tangent, relative to the preconditioner, that the last iteration has
   /// seen: negative at a state that is not stable.
@@ -96,6 +99,7 @@ class NewtonMethod {
   Real left_ = 1;             // of the last decrement, relative to that
   Real stability_ = 0;
   std::int64_t iterations_ = 0, tangents_ = 0;
+  std::function<bool()> asked_to_stop_ = [] { return false; };
   std::string broken_;  // why forces could not be computed where that was tried last
 };
 

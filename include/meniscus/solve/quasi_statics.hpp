@@ -35,6 +35,7 @@ class QuasiStatics final : public Stepper<D> {
   std::string obstacle(const State& state) const override;
   std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   std::string effort() const override { return method_.effort(); }
+  void stop_when(const std::function<bool()>& asked) override { method_.stop_when(asked); }
   void archive(const Archive& a, const State& state) override;
 
   const NewtonMethod<D>& method() const { return method_; }

@@ -5,6 +5,7 @@
 #include "meniscus/core/registry.hpp"
 #include "meniscus/solve/system.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -39,6 +40,10 @@ class Stepper {
   virtual void try_step(State& state, Real dt) { step(state, dt); }
   /// Whether try_step() may ask for a shorter step.
   virtual bool may_reject_steps() const { return false; }
+
+  /// A step that takes long asks now and then whether to stop, and then throws Interrupted. What
+  /// the stepper knows of the past is then to be restored by the caller.
+  virtual void stop_when(const std::function<bool()>&) {}
 
   /// Whether the state that the stepper looks for is reached, so that the run ends.
   virtual bool arrived() const { return false; }
