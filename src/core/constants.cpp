@@ -60,6 +60,12 @@ Real single_number(const std::string& formula, const NamedNumbers& constants) {
   return expression({0, 0, 0});
 }
 
+bool any_in(std::string_view formula, const std::set<std::string>& set) {
+  const std::vector<std::string> names = names_in(formula);
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return set.count(name) != 0; });
+}
+
 }  // namespace
 
 std::vector<std::string> names_in(std::string_view formula) {
@@ -87,10 +93,16 @@ void Constants::add(const std::string& name, Real value, std::optional<Dimension
                                                 : std::numeric_limits<Real>::quiet_NaN());
 }
 
+void Constants::add_angle(const std::string& name, Real radians) {
+  add(name, radians);
+  angles_.insert(name);
+}
+
 void Constants::add_formula(const std::string& name, const std::string& formula) {
   const Real value = single_number(formula, numbers());
   if (!std::isfinite(value)) throw InputError(range::any.refusal(value));
   if (!in(formula)) return add(name, value);
+  if (angle_in(formula)) angles_.insert(name);
   std::array<Real, 4> values{};
   for (std::size_t i = 0; i < numbers_.size(); ++i)
     at(values, i) = single_number(formula, at(numbers_, i));
@@ -107,9 +119,11 @@ bool Constants::in(std::string_view formula) const {
 }
 
 bool Constants::broken_in(std::string_view formula) const {
-  const std::vector<std::string> names = names_in(formula);
-  return std::any_of(names.begin(), names.end(),
-                     [&](const std::string& name) { return broken_.count(name) != 0; });
+  return any_in(formula, broken_);
+}
+
+bool Constants::angle_in(std::string_view formula) const {
+  return any_in(formula, angles_);
 }
 
 Real Constants::value(const std::string& formula, Dimension expected) const {

@@ -28,6 +28,8 @@ class Constants {
   /// What a formula of the constants so far gives. Throws InputError (without a place) if it
   /// depends on anything else or is not finite.
   void add_formula(const std::string& name, const std::string& formula);
+  /// One given in deg or rad, of which formulas know the radians; so is what follows from it.
+  void add_angle(const std::string& name, Real radians);
   /// One with a problem that was noted; formulas of it need no message of their own.
   void add_broken(const std::string& name) { broken_.insert(name); }
 
@@ -36,6 +38,7 @@ class Constants {
   /// A formula uses one of them, broken ones included.
   bool in(std::string_view formula) const;
   bool broken_in(std::string_view formula) const;
+  bool angle_in(std::string_view formula) const;
 
   /// The number of a formula without variables. Throws InputError (without a place) if there are
   /// some, or if it has a dimension by its constants that is not `expected`; plain numbers are
@@ -47,7 +50,7 @@ class Constants {
 
  private:
   std::array<NamedNumbers, 4> numbers_;  ///< as measured; with half the unit of length, time, mass
-  std::set<std::string> broken_;
+  std::set<std::string> broken_, angles_;
 };
 
 }  // namespace meniscus

@@ -124,9 +124,18 @@ Real Number::real(const Value& value) const {
   refuse_kind(value, allowed());
 }
 
+void Number::refuse_radians(const std::string& text) const {
+  if (dimension == dimension::degrees && constants.angle_in(text))
+    throw InputError(fmt::format(
+        "formula '{}' has a constant in deg or rad, whose number is that of radians, expected {}; "
+        "give the constant as a number of degrees, without a unit",
+        text, name_of(dimension)));
+}
+
 Real Number::converted(const std::string& text) const {
   try {
     if (constants.broken_in(text)) return harmless(range);
+    refuse_radians(text);
     if (constants.in(text)) return constants.value(text, dimension);
     return units.quantity(text, dimension);
   } catch (const InputError& error) {
@@ -162,6 +171,7 @@ Expression Number::formula_of_constants(const std::string& text, Variables varia
   if (constants.broken_in(text)) return harmless(range);
   std::optional<Real> number;
   try {
+    refuse_radians(text);
     Expression formula(text, constants.numbers());
     refuse_others(formula, variables);
     if (!formula.constant()) return formula;

@@ -68,6 +68,7 @@ struct Number {
   Real checked(Real value) const;
   /// The number of a text with or without a unit, or of a formula of constants.
   Real converted(const std::string& text) const;
+  void refuse_radians(const std::string& text) const;
   /// A formula in which constants occur.
   Expression formula_of_constants(const std::string& text, Variables) const;
 };

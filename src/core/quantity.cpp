@@ -46,8 +46,8 @@ constexpr NamedUnit known_units[] = {
     {"min", {dimension::time, 0, 60}, false},
     {"h", {dimension::time, 0, 3600}, false},
     {"angstrom", {dimension::length, -10}, false},
-    {"rad", {dimension::none}, false},
-    {"deg", {dimension::none, 0, std::numbers::pi / 180}, false},
+    {"rad", {dimension::none, 0, 1, 1}, false},
+    {"deg", {dimension::none, 0, degree, 1}, false},
 };
 
 constexpr std::pair<std::string_view, int> prefixes[] = {
@@ -331,6 +331,7 @@ class QuantityReader {
     result.dimension.time += by.dimension.time * power;
     result.dimension.mass += by.dimension.mass * power;
     result.tens += by.tens * power;
+    result.angle += by.angle * power;
     result.factor *= std::pow(by.factor, power);
     for (int value :
          {result.dimension.length, result.dimension.time, result.dimension.mass, result.tens})

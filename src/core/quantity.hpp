@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/core/units.hpp"
 
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -13,7 +14,10 @@ struct Unit {
   Dimension dimension;
   int tens = 0;
   Real factor = 1;
+  int angle = 0;  ///< the power of rad and deg in it
 };
+/// In rad.
+inline constexpr Real degree = std::numbers::pi / 180;
 
 /// The unit called `symbol`, prefix included, e.g. "mPa". Throws InputError (without a place) that
 /// names the units that look or sound like it.

@@ -103,17 +103,17 @@ class Block::Node::ConstantsReader {
   /// A formula if one of the constants occurs in it, else a quantity if it can be one.
   void add(const std::string& name, const std::string& text) {
     if (constants().in(text)) return constants().add_formula(name, text);
-    std::optional<Dimension> dimension;
+    std::optional<Unit> unit;
     std::string not_quantity;
     try {
-      dimension = read_quantity(text).unit.dimension;
+      unit = read_quantity(text).unit;
     } catch (const InputError& error) {
       not_quantity = error.what();
     }
-    if (dimension) {
-      const Real number = units().quantity(text, *dimension);
-      const bool plain = *dimension == dimension::none;
-      return constants().add(name, number, plain ? std::nullopt : dimension);
+    if (unit) {
+      const Real number = units().quantity(text, unit->dimension);
+      if (unit->dimension != dimension::none) return constants().add(name, number, unit->dimension);
+      return unit->angle ? constants().add_angle(name, number) : constants().add(name, number);
     }
     try {
       constants().add_formula(name, text);

@@ -62,6 +62,7 @@ Real decimal(std::string_view digits, int tens) {
 }  // namespace
 
 std::string name_of(Dimension d) {
+  if (d == dimension::degrees) return "an angle (deg)";
   for (const auto& [known, name] : dimension_names)
     if (known == d)
       return d == dimension::none ? std::string(name)
@@ -110,6 +111,8 @@ Real UnitSystem::factor(Dimension d) const {
 
 Real UnitSystem::quantity(std::string_view text, Dimension expected) const {
   const auto [digits, exponent, unit] = read_quantity(text);
+  if (expected == dimension::degrees && unit.dimension == dimension::none)
+    return decimal(digits, exponent + unit.tens) * (unit.factor / std::pow(degree, unit.angle));
   if (unit.dimension != expected) {
     if (unit.dimension == dimension::none)
       throw InputError(
@@ -125,6 +128,7 @@ std::string UnitSystem::symbol(Dimension d) const {
   static constexpr std::pair<Dimension, std::string_view> derived[] = {
       {dimension::pressure, "Pa"}, {dimension::viscosity, "Pa s"}, {dimension::tension, "N/m"},
       {dimension::force, "N"},     {dimension::energy, "J"},       {dimension::power, "W"}};
+  if (d == dimension::degrees) return "deg";
   if (name_ == "SI")
     for (const auto& [known, symbol] : derived)
       if (known == d) return std::string(symbol);

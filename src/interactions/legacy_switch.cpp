@@ -185,7 +185,7 @@ struct Keys {
   std::optional<Real> gap;
 
   static Rows<Keys> rows() {
-    return {real_row("contact_angle", &Keys::angle, dimension::none, {1, 179},
+    return {real_row("contact_angle", &Keys::angle, dimension::degrees, {1, 179},
                      "in degrees, of the tensions of wet triangles and of their edge"),
             real_row("adhesion", &Keys::adhesion, dimension::tension, range::positive,
                      "energy per area of the Lennard-Jones wall that pulls along its normal; it "

@@ -86,18 +86,18 @@ struct ScaledKeys : Keys {
   std::optional<Real> angle, work;  // one of them
 
   static Rows<ScaledKeys> rows() {
-    return {
-        optional_row("contact_angle", &ScaledKeys::angle, dimension::none, {1, 179}, "by adhesion",
-                     "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension "
-                     "of the first body"),
-        optional_row("adhesion", &ScaledKeys::work, dimension::tension, range::positive,
-                     "by contact_angle",
-                     "energy per area that two half spaces release in contact (between two "
-                     "bodies with the cut-off); epsilon and the densities follow from it"),
-        of_all(kernel_row()),
-        of_all(sigma0_row()),
-        of_all(cutoff_row()),
-        of_all(least_gap_row())};
+    return {optional_row("contact_angle", &ScaledKeys::angle, dimension::degrees, {1, 179},
+                         "by adhesion",
+                         "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension "
+                         "of the first body"),
+            optional_row("adhesion", &ScaledKeys::work, dimension::tension, range::positive,
+                         "by contact_angle",
+                         "energy per area that two half spaces release in contact (between two "
+                         "bodies with the cut-off); epsilon and the densities follow from it"),
+            of_all(kernel_row()),
+            of_all(sigma0_row()),
+            of_all(cutoff_row()),
+            of_all(least_gap_row())};
   }
   Real adhesion(const ContactSurfaces& surfaces) const {
     return work ? *work : adhesion_of_angle(*angle, surfaces.tension());

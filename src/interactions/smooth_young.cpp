@@ -33,7 +33,7 @@ struct SmoothYoung final : Interaction {
   static Rows<SmoothYoung> rows() {
     return {
         optional_expression_row(
-            "contact_angle", &SmoothYoung::angle, dimension::none, {1, 179}, "by adhesion",
+            "contact_angle", &SmoothYoung::angle, dimension::degrees, {1, 179}, "by adhesion",
             "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension of the body; "
             "like adhesion and actin a number, or with a rigid partner a formula of the time t and "
             "the place x, y, z on the partner (a partner that is moved takes it along), smooth "

@@ -149,9 +149,9 @@ std::vector<MeasureSource> ridge_measures(const Body<D>& drop, const Body<D>& gr
            [ridge](const Motion& motion) { return ridge->height(motion); }},
           {"ridge_radius", dimension::length, "of that place, from the middle of the drop",
            [ridge](const Motion& motion) { return ridge->radius(motion); }},
-          {"liquid_angle", dimension::none, "in degrees, of the drop at the ridge",
+          {"liquid_angle", dimension::degrees, "in degrees, of the drop at the ridge",
            [ridge](const Motion& motion) { return ridge->angles(motion).liquid; }},
-          {"solid_angle", dimension::none, "in degrees, of the ridge",
+          {"solid_angle", dimension::degrees, "in degrees, of the ridge",
            [ridge](const Motion& motion) { return ridge->angles(motion).solid; }}};
 }
 

@@ -165,13 +165,13 @@ std::vector<MeasureSource> cap_measures(const Body<D>& body, HeightAbove<D> heig
       {"film", dimension::length,
        "mean gap where the surface is in contact; least gap where it is not",
        [cap](const Motion& motion) { return cap->film(motion); }},
-      {"contact_angle", dimension::none,
+      {"contact_angle", dimension::degrees,
        "in degrees, of the sphere that fits the free surface best (2D: circle)",
        [cap](const Motion& motion) { return cap->angle(motion) / degree; }},
       {"height", dimension::length, "of the apex of that sphere over the film",
        [cap](const Motion& motion) { return cap->height(motion); }}};
   if (flat)
-    all.push_back({"contact_angle_vh", dimension::none,
+    all.push_back({"contact_angle_vh", dimension::degrees,
                    "in degrees, of the cap of this volume and height",
                    [cap](const Motion& motion) { return cap->angle_of_volume(motion) / degree; }});
   return all;

@@ -15,7 +15,7 @@ namespace {
 
 /// Of the tolerance, where another iteration would be idle.
 constexpr Real polished = 1e-3;
-constexpr int most_iterations = 60, most_tangents = 400;
+constexpr int most_directions = 60, most_tangents = 400;
 
 }  // namespace
 
@@ -210,11 +210,11 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
   Real before = 0;
   bool bent = false;  // in the last iteration
   for (;; ++solution.iterations) {
-    if (solution.iterations == most_iterations) {
+    if (solution.iterations == most_directions) {
       solution.failure = fmt::format(
           "Newton's method has not ended after {} iterations, {:.2g} of "
           "the energy is left",
-          most_iterations, left_);
+          most_directions, left_);
       return;
     }
     constexpr Real loosest = 0.1, sharper = 0.9;

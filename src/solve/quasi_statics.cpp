@@ -14,7 +14,7 @@ namespace meniscus {
 namespace {
 
 /// Of the energy that the next step would release, relative to the largest that one has.
-constexpr Real tolerance = 1e-9;
+constexpr Real tolerance_of_rest = 1e-9;
 /// Of the energy that a piece of a step exchanges: what is lost beyond the work by a jump.
 constexpr Real noticeable = 0.05;
 /// What jumps is looked at in pieces of this part.
@@ -24,7 +24,7 @@ constexpr Real piece_of_jump = 1.0 / 8;
 
 template <int D>
 QuasiStatics<D>::QuasiStatics(System<D>& system, const StepperChoice& choice)
-    : system_(system), choice_(choice), method_(system, nullptr, tolerance), work_(system) {}
+    : system_(system), choice_(choice), method_(system, nullptr, tolerance_of_rest), work_(system) {}
 
 template <int D>
 void QuasiStatics<D>::begin(const State&) {
@@ -134,7 +134,7 @@ void QuasiStatics<D>::book_jump(State& state, Real since, Real released) {
 
 template <int D>
 std::vector<Residual> QuasiStatics<D>::residuals(const State&) const {
-  return {{"energy left", method_.left(), tolerance},
+  return {{"energy left", method_.left(), tolerance_of_rest},
           {"stability", method_.stability(), std::nullopt},
           {"jumps", static_cast<Real>(jumps_), std::nullopt}};
 }

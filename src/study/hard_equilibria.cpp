@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of equilibria by Newton's method: an arch that snaps through, a nearly incompressible
-// block pressed to half, an end that is turned by half a turn, a surface that jumps into contact.
+// block pressed to half, an end that is turned by half a turn, a surface that jumps into contact,
+// thin drops that flow to a circle.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -110,6 +111,21 @@ void jump_in(HardCases& cases, bool full) {
   cases.require(name, "gap at the end, after pull-off", outcome.measure("plate.gap"), {0.7, 1.3});
 }
 
+/// Jittered, four times as long as thick, with viscosities a hundred thousand times apart.
+void thin_drop(HardCases& cases, Real viscosity) {
+  const std::string name = fmt::format("thin drop of viscosity {:g} flows to a circle", viscosity);
+  const HardOutcome outcome = cases.stays_stable(
+      name,
+      scene(2, 1e5, 1e5,
+            fmt::format(
+                "shape = \"ellipse\"\nsemi_axes = [3, 0.7]\ncore = 6\nrings = 4\njitter = 0.2\n"
+                "material = {{ type = \"newtonian\", density = 1, bulk_modulus = 100, "
+                "viscosity = {:g} }}\n[[surface_tension]]\nbody = \"body\"\ngamma = 1\n",
+                viscosity)),
+      1e-2);
+  cases.require(name, "circumference / least", outcome.measure("body.isoperimetric"), {1 - 1e-4, 1 + 1e-4});
+}
+
 }  // namespace
 }  // namespace meniscus::hard_equilibria_study
 
@@ -122,6 +138,7 @@ void hard_equilibria(HardCases& cases) {
   pressed_block(cases, full);
   half_a_turn(cases, full);
   jump_in(cases, full);
+  for (const Real viscosity : {0.01, 1000.0}) thin_drop(cases, viscosity);
 }
 
 }  // namespace meniscus::study

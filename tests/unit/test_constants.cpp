@@ -137,6 +137,17 @@ TEST(Constants, AFormulaOfAnotherDimensionIsRefused) {
             "s.toml:1:7: key: formula 'radius' is a length (m), expected a plain number");
 }
 
+/// A formula takes 30 deg for 0.52, which a contact angle would take for half a degree.
+TEST(Constants, AnglesAreNoDegrees) {
+  using namespace dimension;
+  EXPECT_EQ(real("'20*ratio'", degrees), 30);
+  EXPECT_EQ(complaint("'2*angle'", degrees),
+            "s.toml:1:7: key: formula '2*angle' has a constant in deg or rad, whose number is that "
+            "of radians, expected an angle (deg); give the constant as a number of degrees, "
+            "without a unit; allowed is a number in deg or a text with a unit or a formula of "
+            "[constants]");
+}
+
 TEST(Constants, MessagesAboutTheirUse) {
   using namespace dimension;
   EXPECT_EQ(complaint("'2*radus'", length).substr(0, 59),

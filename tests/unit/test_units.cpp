@@ -74,6 +74,21 @@ TEST(Units, QuantitiesInSiAreTheNearestDoubles) {
   EXPECT_EQ(si.quantity("0.5", none), 0.5);
 }
 
+/// Angles are numbers of radians, but where degrees are expected; "2 rad/s" is a rate.
+TEST(Units, Angles) {
+  const UnitSystem si, nano("nm-ps-ag");
+  for (const UnitSystem* units : {&si, &nano}) {
+    EXPECT_EQ(units->quantity("120 deg", dimension::degrees), 120);
+    EXPECT_EQ(units->quantity("120", dimension::degrees), 120);
+    EXPECT_DOUBLE_EQ(units->quantity("2 rad", dimension::degrees), 2 * 180 / std::numbers::pi);
+    EXPECT_DOUBLE_EQ(units->quantity("120 deg", dimension::none), 2 * std::numbers::pi / 3);
+    EXPECT_EQ(units->symbol(dimension::degrees), "deg");
+  }
+  EXPECT_DOUBLE_EQ(si.quantity("90 deg/s", dimension::rate), std::numbers::pi / 2);
+  EXPECT_EQ(message(si, "2 m", dimension::degrees),
+            "'2 m' is a length (m), expected an angle (deg)");
+}
+
 TEST(Units, PowersAndProductsAsTheyArePasted) {
   const UnitSystem si;
   using namespace dimension;

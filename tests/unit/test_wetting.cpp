@@ -32,6 +32,13 @@ TEST(SmoothYoung, HasTheAdhesionOfTheAngle) {
   }
 }
 
+TEST(SmoothYoung, TakesTheAngleInItsUnit) {
+  for (const char* angle : {"120", "'120 deg'", "'2.0943951023931953 rad'"})
+    EXPECT_NEAR(model(std::string("contact_angle = ") + angle)->flat(true, {"", 0.2, 2}).adhesion,
+                1, 1e-14)
+        << angle;
+}
+
 TEST(SmoothYoung, TakesItsLengthsFromTheFacets) {
   const PlaneContact flat = model("adhesion = 2")->flat(true, {"", 0.2, std::nullopt});
   EXPECT_DOUBLE_EQ(flat.equilibrium_gap, 0.05);

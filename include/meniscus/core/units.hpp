@@ -9,9 +9,10 @@
 
 namespace meniscus {
 
-/// Exponents of length, time and mass.
+/// Exponents of length, time and mass; or an angle whose number is one of degrees.
 struct Dimension {
   int length = 0, time = 0, mass = 0;
+  bool degrees = false;
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
@@ -19,7 +20,7 @@ namespace dimension {
 inline constexpr Dimension none{}, length{1, 0, 0}, area{2, 0, 0}, volume{3, 0, 0}, time{0, 1, 0},
     rate{0, -1, 0}, velocity{1, -1, 0}, acceleration{1, -2, 0}, mass{0, 0, 1}, density{-3, 0, 1},
     pressure{-1, -2, 1}, viscosity{-1, -1, 1}, tension{0, -2, 1}, force{1, -2, 1}, energy{2, -2, 1},
-    power{2, -3, 1}, momentum{1, -1, 1}, angular_momentum{2, -1, 1};
+    power{2, -3, 1}, momentum{1, -1, 1}, angular_momentum{2, -1, 1}, degrees{0, 0, 0, true};
 }
 
 /// The dimension of a sum over bodies (mass, force, energy): in the plane it is per unit depth.
@@ -43,7 +44,8 @@ class UnitSystem {
   explicit UnitSystem(std::string_view name = "SI");
 
   /// The number of `text`, e.g. "72.8 mN/m" or "2.2 GPa", in this system. Powers of ten are moved
-  /// into the decimal exponent, so "72.8 mN/m" is exactly the double 0.0728 in SI.
+  /// into the decimal exponent, so "72.8 mN/m" is exactly the double 0.0728 in SI. "2 rad" and
+  /// "115 deg" are numbers of radians, but where degrees are expected.
   /// Throws InputError (without a place) on an unknown unit or one of another dimension.
   Real quantity(std::string_view text, Dimension expected) const;
 
