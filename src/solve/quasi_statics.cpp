@@ -24,7 +24,10 @@ constexpr Real piece_of_jump = 1.0 / 8;
 
 template <int D>
 QuasiStatics<D>::QuasiStatics(System<D>& system, const StepperChoice& choice)
-    : system_(system), choice_(choice), method_(system, nullptr, tolerance_of_rest), work_(system) {}
+    : system_(system),
+      choice_(choice),
+      method_(system, nullptr, tolerance_of_rest),
+      work_(system) {}
 
 template <int D>
 void QuasiStatics<D>::begin(const State&) {

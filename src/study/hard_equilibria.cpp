@@ -123,7 +123,8 @@ void thin_drop(HardCases& cases, Real viscosity) {
                 "viscosity = {:g} }}\n[[surface_tension]]\nbody = \"body\"\ngamma = 1\n",
                 viscosity)),
       1e-2);
-  cases.require(name, "circumference / least", outcome.measure("body.isoperimetric"), {1 - 1e-4, 1 + 1e-4});
+  cases.require(name, "circumference / least", outcome.measure("body.isoperimetric"),
+                {1 - 1e-4, 1 + 1e-4});
 }
 
 }  // namespace
