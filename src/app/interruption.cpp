@@ -2,7 +2,10 @@
 // Signal handlers that only set a flag.
 #include "meniscus/app/interruption.hpp"
 
+#include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <limits>
 #include <string_view>
 #include <vector>
@@ -22,9 +25,27 @@ void handle_by(void (*handler)(int)) {
   }
 }
 
+using Nanoseconds = std::int64_t;
+std::atomic<Nanoseconds> caught_at = 0;
+static_assert(std::atomic<Nanoseconds>::is_always_lock_free, "as signal handlers need it");
+
+Nanoseconds now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return Nanoseconds{1'000'000'000} * time.tv_sec + time.tv_nsec;
+}
+
+/// A second signal is not waited for, unless it is the first one again: `timeout` sends it to the
+/// program, and then to its group.
 void note(int signal) {
-  caught = signal;
-  handle_by(SIG_DFL);  // a second one is not waited for
+  constexpr Nanoseconds same_request = 1'000'000'000;
+  if (!caught) {
+    caught_at = now();  // first: another thread may be given the second one
+    caught = signal;
+  } else if (now() - caught_at > same_request) {
+    handle_by(SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 /// Whether the text is one to `most` digits.

@@ -176,6 +176,18 @@ class Signals(FaultTest):
                 done = self.call("run", file, "--restart", output)
                 self.assertEqual(program.state_of(done), whole)
 
+    def test_same_request_twice(self):
+        """`timeout` sends its signal to the program and at once to its group."""
+        process = self.start("run", self.scene(BLOCK.replace("end = 0.4", "end = 40")), "--output", "out")
+        while not (self.directory / "out/run.xdmf").exists():
+            self.assertIsNone(process.poll())
+        process.terminate()
+        time.sleep(0.001)
+        process.terminate()
+        _, stderr = process.communicate()
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM, stderr)
+        self.assertIn("to continue, run the same command with --restart out", stderr)
+
     def test_set_up(self):
         """While nothing was written yet, a signal ends the program at once."""
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1, signal.SIGXCPU):
