@@ -4,11 +4,9 @@ Called by tools/report."""
 
 import argparse
 import base64
-import collections
 import html
 import io
 import pathlib
-import re
 import sys
 
 import numpy as np
@@ -16,6 +14,7 @@ import numpy as np
 import plot
 import style
 from results import Results
+from runlog import Log
 
 LOOKS = """
 body { font: 16px/1.45 Georgia, "Times New Roman", serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #222 }
@@ -27,37 +26,6 @@ figure { display: inline-block; margin: 0.6em 1em 0.6em 0; vertical-align: top; 
 figure img { max-width: 100%; height: auto } figcaption { font-size: 0.85em; color: #555 }
 .met { color: #00734d } .missed { color: #a33c00; font-weight: bold } .warning { color: #a33c00 }
 """
-
-
-class Log:
-    """run.log: what was said, by kind. A run that was continued says more than once how it begins."""
-
-    LINE = re.compile(r"^\S+Z (info|warning|error): (.*)$")
-    EXPECTED = re.compile(r"^(\S+) +(\S+) +(\S+) +(\S+)  (met|MISSED|not reached)$")
-
-    def __init__(self, path):
-        said = []
-        for line in path.read_text(encoding="utf-8").splitlines():
-            if match := self.LINE.match(line):
-                said.append(match.groups())
-            elif said:  # a message of several lines
-                said[-1] = (said[-1][0], f"{said[-1][1]}\n{line}")
-
-        def texts(kind):
-            return [text for level, text in said if level == kind]
-
-        self.warnings = collections.Counter(texts("warning"))
-        self.errors = texts("error")
-        self.calls = [t for t in texts("info") if re.match(r"meniscus \d", t)]
-        self.ends = [t for t in texts("info") if re.match(r"\d+ steps in ", t)]
-        # The last run alone says what is true now.
-        last = max((k for k, (_, t) in enumerate(said) if re.match(r"meniscus \d", t)), default=0)
-        now = [t for level, t in said[last:] if level == "info"]
-        self.expected = [m.groups() for t in now if (m := self.EXPECTED.match(t))]
-        skip = re.compile(
-            r"meniscus \d|expectation +obtained|\d+ warnings?:$|  |step \d+, t = |\d+ steps in "
-        )
-        self.decided = [t for t in now if not skip.match(t) and not self.EXPECTED.match(t)]
 
 
 def escaped(text):
