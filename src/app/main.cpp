@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line.
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/documents.hpp"
 #include "meniscus/app/interruption.hpp"
+#include "meniscus/app/manual.hpp"
 #include "meniscus/app/print.hpp"
+#include "meniscus/app/sweep.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
+#include "meniscus/io/files.hpp"
 #include "meniscus/io/info.hpp"
 #include "meniscus/io/provenance.hpp"
 #include "meniscus/scene/key_reference.hpp"
@@ -72,9 +76,8 @@ void add_keys_options(CLI::App& command, KeysRequest& request) {
 
 void add_scene_options(CLI::App& command, RunRequest& request) {
   command.add_option("SCENE", request.scene, "scene file (TOML)")->required();
-  command
-      .add_option("--set", request.set,
-                  "key=value: replace a key of the scene, e.g. time.end='1 ns'")
+  command.add_option("--set", request.set, "replace a key of the scene, e.g. time.end='1 ns'")
+      ->type_name("KEY=VALUE")
       ->type_size(1)
       ->allow_extra_args(false);
   command.add_option("--threads", request.threads, "number of threads; all cores by default")
@@ -123,6 +126,83 @@ void add_run_options(CLI::App& command, RunRequest& request) {
   command.add_flag("-q,--quiet", request.quiet, "print nothing but errors and expectations");
 }
 
+struct NewRequest {
+  std::string name, like;
+  bool list = false;
+};
+
+void add_new_options(CLI::App& command, NewRequest& request) {
+  CLI::Option* name = command.add_option("NAME", request.name, "of the new file, without .toml");
+  CLI::Option* like =
+      command.add_option("--like", request.like, "scene of the gallery that it begins as")
+          ->type_name("EXAMPLE");
+  command.add_flag("--list", request.list, "instead: name the scenes of the gallery")
+      ->excludes(name)
+      ->excludes(like);
+}
+
+void write_new_scene(const NewRequest& request) {
+  if (request.list) return print_text(list_of_scenes());
+  if (request.name.empty() || request.like.empty())
+    throw CLI::RequiredError("NAME --like EXAMPLE, or --list,");
+  const Document& like = document_called(request.like, gallery_scenes(), "scene of the gallery");
+  const std::string file = request.name.ends_with(".toml") ? request.name : request.name + ".toml";
+  write_new_file(file, commented_scene(like));
+  say("{0} begins as '{1}'; next: meniscus check {0}\n", file, request.like);
+}
+
+void add_sweep_options(CLI::App& command, SweepRequest& request) {
+  command.add_option("SCENE", request.scene, "scene file (TOML)")->required();
+  command
+      .add_option("--set", request.set,
+                  "run with each of the values; several --set: with all combinations")
+      ->type_name("KEY=VALUE,VALUE,...")
+      ->required()
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command
+      .add_option("--output", request.output,
+                  "directory of sweep.csv and of the runs; results/SCENE-sweep by default")
+      ->type_name("DIR");
+  command.add_option("--threads", request.threads, "number of threads; all cores by default")
+      ->check(integer_between(1, 4096));
+  command.add_flag("--overwrite", request.overwrite,
+                   "begin anew; without it runs that are done stay, and others go on");
+}
+
+/// What the command line knows about itself.
+std::vector<CommandText> texts_of(const CLI::App& app) {
+  std::vector<CommandText> commands;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    CommandText text{command->get_name(), command->get_description(), {}};
+    for (const CLI::Option* option : command->get_options()) {
+      OptionText o{{}, {}, option->get_description(), option->get_required()};
+      for (const std::string& name : option->get_lnames()) o.names.push_back("--" + name);
+      for (const std::string& name : option->get_snames()) o.names.push_back("-" + name);
+      if (option->get_expected_max() > 0)
+        o.value = o.names.empty() ? option->get_name() : option->get_type_name();
+      text.options.push_back(std::move(o));
+    }
+    commands.push_back(std::move(text));
+  }
+  return commands;
+}
+
+void print_help(const std::string& topic, const CLI::App& app) {
+  if (topic.empty())
+    return print_text("Topics, for `meniscus help TOPIC`; of a command it prints the options:\n" +
+                      list_of_topics());
+  std::vector<std::string> known = names_of(guide_topics());
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == topic) return print_text(command->help());
+    known.push_back(command->get_name());
+  }
+  if (std::find(known.begin(), known.end(), topic) == known.end())
+    throw InputError(
+        fmt::format("'{}' is no topic and no command; {}", topic, allowed_names(topic, known)));
+  print_text(printed_topic(document_called(topic, guide_topics(), "topic")));
+}
+
 /// Replaces this process by meniscus-study, which lies beside this program.
 [[noreturn]] void hand_over_to_studies(char** argv) {
   std::error_code error;
@@ -150,13 +230,14 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
 int dispatch(int argc, char** argv) {
   CLI::App app("Meniscus: a meshfree simulator of drops, solids and cells");
   app.require_subcommand(1);
-  app.footer(
+  const std::string exit_codes =
       "Exit codes: 0 ok, 1 internal error, 2 usage, 3 input, 4 numerical failure, 5 files,\n"
       "7 an expectation of the scene or study was missed, 128 + n stopped by signal n after a "
       "checkpoint\n"
       "(130 Ctrl-C, 143 SIGTERM; SIGHUP, SIGUSR1 and SIGXCPU too; 142 the limit on wall-clock "
       "time).\n"
-      "A second signal ends at once.");
+      "A second signal ends at once.";
+  app.footer(exit_codes);
   RunRequest request;
   request.command_line = portable_command_line(argc, argv);
   std::string file;
@@ -177,6 +258,20 @@ int dispatch(int argc, char** argv) {
   CLI::App* study_command =
       app.add_subcommand("study", "error, observed order, time and memory of a family of methods");
   study_command->prefix_command()->set_help_flag();
+  CLI::App* help_command = app.add_subcommand("help", "print a topic of the guide");
+  std::string topic;
+  help_command->add_option("TOPIC", topic, "contact, units, restart, ...; a list if not given");
+  CLI::App* new_command =
+      app.add_subcommand("new", "write a scene to begin with, as one of the gallery, explained");
+  NewRequest new_request;
+  add_new_options(*new_command, new_request);
+  CLI::App* sweep_command =
+      app.add_subcommand("sweep", "run a scene with all combinations of values of some keys");
+  SweepRequest sweep_request;
+  add_sweep_options(*sweep_command, sweep_request);
+  CLI::App* completion_command =
+      app.add_subcommand("completion", "print the completion of bash for this program");
+  CLI::App* manual_command = app.add_subcommand("manual", "print the manual page, for man");
   CLI::App* version_command = app.add_subcommand("version", "print version and build");
 
   if (const auto refusal = unknown_command(app, argc, argv)) {
@@ -185,6 +280,7 @@ int dispatch(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
+    if (new_command->parsed()) write_new_scene(new_request);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? exit_ok : exit_usage;
   }
@@ -194,6 +290,12 @@ int dispatch(int argc, char** argv) {
   if (keys_command->parsed()) print_reference(keys_request);
   if (info_command->parsed()) print_text(describe_file(file));
   if (version_command->parsed()) print_version();
+  if (help_command->parsed()) print_help(topic, app);
+  if (sweep_command->parsed()) return sweep(sweep_request);
+  if (completion_command->parsed()) print_text(bash_completion(texts_of(app)));
+  if (manual_command->parsed())
+    print_text(
+        manual_page(texts_of(app), build().version, app.get_description() + ".", exit_codes));
   require_printed();
   return exit_ok;
 }

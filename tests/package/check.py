@@ -32,6 +32,10 @@ def main():
         step, measure = run(folder / "example/example", SCENE, "drop.area").split()
 
         program = installed / "bin/meniscus"
+        for shipped in ("man/man1/meniscus.1", "bash-completion/completions/meniscus",
+                        "meniscus/meniscus.py", "meniscus/inputs/guide/contact.md"):  # fmt: skip
+            if not (installed / "share" / shipped).stat().st_size:
+                sys.exit(f"share/{shipped} is empty")
         run(program, "run", SCENE, "--output", folder / "out", "--quiet")
         lines = (folder / "out/history.csv").read_text().splitlines()
         columns = lines[0].lstrip("# ").split(",")

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// This program called by itself, in a process of its own.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+struct ChildEnd {
+  int exit_code;       ///< 128 + n if signal n ended it
+  std::string output;  ///< what it wrote to stdout
+};
+
+/// Calls this program and waits for its end. While the object lives, signals that ask to stop are
+/// handed on to it. One object at a time.
+class Child {
+ public:
+  Child();
+  ~Child();
+  Child(const Child&) = delete;
+
+  /// Throws FileError if it cannot be started.
+  ChildEnd call(const std::vector<std::string>& arguments);
+  /// The first signal that was handed on, or came between two calls.
+  std::optional<int> signal() const;
+};
+
+}  // namespace meniscus

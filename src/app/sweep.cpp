@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene run with all combinations of values of some keys.
+#include "meniscus/app/sweep.hpp"
+
+#include "meniscus/app/child.hpp"
+#include "meniscus/app/commands.hpp"
+#include "meniscus/app/print.hpp"
+#include "meniscus/core/error.hpp"
+#include "meniscus/core/text.hpp"
+#include "meniscus/io/files.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+namespace meniscus {
+namespace {
+
+using Values = SweepTable::Values;
+using Columns = std::vector<std::array<std::string, 3>>;  ///< name, unit, number
+
+/// All combinations; the last key changes fastest.
+std::vector<Values> combinations(const std::vector<SweptKey>& keys) {
+  std::vector<Values> all(1);
+  for (const SweptKey& key : keys) {
+    std::vector<Values> longer;
+    for (const Values& begun : all)
+      for (const std::string& value : key.values) {
+        longer.push_back(begun);
+        longer.back().push_back(value);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+/// "gamma" of "surface_tension.drop.gamma", unless another key ends so, too.
+std::string short_name(const std::string& key, const std::vector<SweptKey>& keys) {
+  const auto last = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
+  const auto same = std::count_if(keys.begin(), keys.end(),
+                                  [&](const SweptKey& k) { return last(k.key) == last(key); });
+  return same == 1 ? last(key) : key;
+}
+
+/// "gamma=72.8mN/m" without what would not do in the name of a directory.
+std::string directory_name(const std::vector<SweptKey>& keys, const Values& values) {
+  std::string name;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    name += (i > 0 ? "," : "") + short_name(keys[i].key, keys) + "=" + values[i];
+  for (char& c : name) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                       std::string_view("+-.,=_^").find(c) != std::string_view::npos;
+    if (!plain) c = '_';
+  }
+  return name;
+}
+
+std::vector<std::string> directory_names(const std::vector<SweptKey>& keys,
+                                         const std::vector<Values>& all) {
+  constexpr std::size_t longest = 255;  // of a name in a file system
+  std::vector<std::string> names;
+  for (const Values& values : all) {
+    names.push_back(directory_name(keys, values));
+    if (names.back().size() > longest)
+      throw InputError(
+          fmt::format("the directory of a run would be called '{}', which is too long; "
+                      "[constants] of the scene give short values names",
+                      names.back()));
+    if (std::count(names.begin(), names.end(), names.back()) > 1)
+      throw InputError(
+          fmt::format("two runs would have the directory '{}'; allowed are values that differ in "
+                      "letters and digits",
+                      names.back()));
+  }
+  return names;
+}
+
+/// The last row of the history of a run; nothing if there is none.
+Columns last_row(const std::filesystem::path& history) {
+  if (!std::filesystem::exists(history)) return {};
+  std::istringstream lines(read_file(history));
+  std::string names, units, row, line;
+  std::getline(lines, names);
+  std::getline(lines, units);
+  while (std::getline(lines, line)) row = line;
+  Columns columns;
+  std::istringstream name(names.substr(std::min<std::size_t>(2, names.size()))),
+      unit(units.substr(std::min<std::size_t>(2, units.size()))), number(row);
+  std::array<std::string, 3> next;
+  while (std::getline(name, next[0], ',') && std::getline(unit, next[1], ',') &&
+         std::getline(number, next[2], ','))
+    columns.push_back(next);
+  return columns;
+}
+
+/// Of the table of expectations that a run prints: what it obtained.
+Columns expectations(const std::string& printed) {
+  Columns columns;
+  std::istringstream lines(printed);
+  std::string line;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    std::string name, obtained, expected, within, verdict;
+    if (words >> name >> obtained >> expected >> within >> verdict &&
+        (verdict == "met" || verdict == "MISSED"))
+      columns.push_back({"expect." + name, "", obtained});
+  }
+  return columns;
+}
+
+/// Such a run would end so again.
+bool is_done(int exit_code) {
+  return exit_code == exit_ok || exit_code == exit_expectation || exit_code == exit_numerical;
+}
+
+/// The more, the graver.
+int gravity(int exit_code) {
+  constexpr int rising[] = {exit_ok,    exit_expectation, exit_numerical,
+                            exit_input, exit_file,        exit_internal};
+  return static_cast<int>(std::find(std::begin(rising), std::end(rising), exit_code) -
+                          std::begin(rising));
+}
+
+class Sweep {
+ public:
+  explicit Sweep(const SweepRequest& request)
+      : request_(request), folder_(request.output), table_(keys_of(request)) {
+    for (const std::string& setting : request.set) keys_.push_back(swept_key(setting));
+    if (folder_.empty())
+      folder_ = std::filesystem::path("results") /
+                (std::filesystem::path(request.scene).stem().string() + "-sweep");
+  }
+
+  int run() {
+    const std::vector<Values> all = combinations(keys_);
+    const std::vector<std::string> names = directory_names(keys_, all);
+    open();
+    Child child;
+    int worst = exit_ok;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const std::string counted = fmt::format("{} of {}: {}", k + 1, all.size(), names[k]);
+      const SweepTable::Row* row = table_.find(all[k]);
+      int code = row != nullptr ? row->exit_code : exit_ok;
+      if (row != nullptr && is_done(code)) {
+        say("{}: done before, exit code {}\n", counted, code);
+      } else {
+        code = run_one(child, all[k], folder_ / names[k]);
+        say("{}: exit code {}\n", counted, code);
+      }
+      if (const auto signal = child.signal()) {
+        say("stopped by signal {}; the same command goes on{}\n", *signal,
+            request_.overwrite ? ", without --overwrite" : "");
+        return exit_signal + *signal;
+      }
+      if (gravity(code) > gravity(worst)) worst = code;
+    }
+    say("{} runs, a row each in {}\n", all.size(), (folder_ / "sweep.csv").string());
+    return worst;
+  }
+
+ private:
+  static std::vector<std::string> keys_of(const SweepRequest& request) {
+    std::vector<std::string> keys;
+    for (const std::string& setting : request.set) {
+      keys.push_back(swept_key(setting).key);
+      if (std::count(keys.begin(), keys.end(), keys.back()) > 1)
+        throw InputError(fmt::format("--set {}: the key is named twice", keys.back()));
+    }
+    return keys;
+  }
+
+  /// The directory, with what was done before; a copy of the scene tells whether it was the same.
+  void open() {
+    const std::filesystem::path copy = folder_ / "scene.toml", csv = folder_ / "sweep.csv";
+    const std::string scene = read_file(request_.scene);
+    make_directory(folder_);
+    if (request_.overwrite) remove_file(csv);
+    if (!request_.overwrite && std::filesystem::exists(csv)) {
+      if (read_file(copy) != scene)
+        throw InputError(fmt::format(
+            "{} has runs of another scene, that of {}; --output names another directory, "
+            "--overwrite begins anew",
+            folder_.string(), copy.string()));
+      table_.read(read_file(csv), csv.string());
+    }
+    replace_file(copy, scene);
+  }
+
+  int run_one(Child& child, const Values& values, const std::filesystem::path& directory) {
+    const bool begun = std::filesystem::exists(directory / "checkpoint-a.h5") ||
+                       std::filesystem::exists(directory / "checkpoint-b.h5");
+    std::optional<ChildEnd> end;
+    if (begun && !request_.overwrite)
+      end = child.call(arguments(values, {"--restart", directory.string()}));
+    if (!end || end->exit_code == exit_input || end->exit_code == exit_file)
+      end = child.call(arguments(values, {"--output", directory.string(), "--overwrite"}));
+    Columns columns = last_row(directory / "history.csv");
+    const Columns expected = expectations(end->output);
+    columns.insert(columns.end(), expected.begin(), expected.end());
+    table_.put(values, end->exit_code, columns);
+    replace_file(folder_ / "sweep.csv", table_.text());
+    return end->exit_code;
+  }
+
+  std::vector<std::string> arguments(const Values& values,
+                                     const std::vector<std::string>& where) const {
+    std::vector<std::string> words{"run", request_.scene, "--quiet"};
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      words.push_back("--set");
+      words.push_back(keys_[i].key + "=" + values[i]);
+    }
+    if (request_.threads > 0) {
+      words.push_back("--threads");
+      words.push_back(fmt::format("{}", request_.threads));
+    }
+    words.insert(words.end(), where.begin(), where.end());
+    return words;
+  }
+
+  const SweepRequest& request_;
+  std::filesystem::path folder_;
+  std::vector<SweptKey> keys_;
+  SweepTable table_;
+};
+
+}  // namespace
+
+SweptKey swept_key(const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  SweptKey result{setting.substr(0, equals), {}};
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(fmt::format(
+        "--set {}: expected KEY=VALUE,VALUE,... such as body.drop.core=4,6,8", setting));
+  std::string value;
+  int depth = 0;
+  char quote = 0;
+  const auto end_value = [&] {
+    const std::size_t first = value.find_first_not_of(' '), last = value.find_last_not_of(' ');
+    if (first == std::string::npos)
+      throw InputError(fmt::format("--set {}: a value is missing", setting));
+    result.values.push_back(value.substr(first, last + 1 - first));
+    value.clear();
+  };
+  for (const char c : setting.substr(equals + 1)) {
+    if (quote == 0 && depth == 0 && c == ',') {
+      end_value();
+      continue;
+    }
+    if (c == '"' || c == '\'')
+      quote = quote == 0 ? c : quote == c ? char{0} : quote;
+    else if (quote == 0 && (c == '(' || c == '[' || c == '{'))
+      ++depth;
+    else if (quote == 0 && (c == ')' || c == ']' || c == '}'))
+      --depth;
+    value += c;
+  }
+  end_value();
+  const std::set<std::string> different(result.values.begin(), result.values.end());
+  if (different.size() < result.values.size())
+    throw InputError(fmt::format("--set {}: a value is named twice", setting));
+  return result;
+}
+
+int sweep(const SweepRequest& request) {
+  return Sweep(request).run();
+}
+
+}  // namespace meniscus
