@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dynamics with implicit viscosity: steps that only sound, tension and contact limit.
 #pragma once
+#include "meniscus/solve/force_prediction.hpp"
 #include "meniscus/solve/system.hpp"
 
 namespace meniscus {
@@ -12,9 +13,9 @@ namespace meniscus {
 /// As a step between states at whole steps, where v_n = (v- + v+)/2:
 ///   v+ = v_n + dt/2 M^-1 (f_n - C v_n),   u_n+1 = u_n + dt v+,
 ///   (M + dt/2 C) v_n+1 = M v+ + dt/2 f_n+1.
-/// The last by conjugate gradients with the diagonal as preconditioner; it begins with the
-/// acceleration of the step before. Stable where central differences without viscosity are. The
-/// heat of a kick is dt v_n . C v_n without error, and momentum and angular momentum are kept
+/// The last by conjugate gradients with the diagonal as preconditioner; they begin with the force
+/// that those of the steps before predict. Stable where central differences without viscosity are.
+/// The heat of a kick is dt v_n . C v_n without error, and momentum and angular momentum are kept
 /// whatever is left of the residual: each body gets the rigid motion that it misses.
 template <int D>
 class ImplicitViscosity {
@@ -40,6 +41,7 @@ class ImplicitViscosity {
   void add_missing_rigid_motion(State& state) const;
 
   System<D>& system_;
+  ForcePrediction prediction_;
   NodalVectors diagonal_;                       // of C
   std::int64_t age_ = 0;                        // steps since it was computed
   NodalVectors half_, e_, Ce_, r_, z_, p_, q_;  // v+, v - guess, C e, and those of the iteration
