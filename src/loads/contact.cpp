@@ -25,22 +25,40 @@ struct Keys {
   static Rows<Keys> rows();
 };
 
+/// What an absent key stands for.
+std::string usual_interaction(const Block& block) {
+  if (!block.has("contact_angle") && !block.has("adhesion")) return "lennard_jones";
+  return block.has("sigma0") ? "scaled_lennard_jones" : "smooth_young";
+}
+std::vector<std::string> forms() {
+  return {contact_form_names.begin(), contact_form_names.end()};
+}
+
 Rows<Keys> Keys::rows() {
+  Row<Keys> interaction =
+      choice_row("interaction", &Keys::interaction, interactions<3>().names(),
+                 "by which they act on each other; its own keys follow in the same table. With an "
+                 "adhesion or a contact_angle it may be left out: it is smooth_young then, or "
+                 "with sigma0 scaled_lennard_jones",
+                 "lennard_jones");
+  interaction.read = [](Keys& keys, const Block& block) {
+    keys.interaction =
+        block.choice("interaction", interactions<3>().names(), usual_interaction(block));
+  };
+  Row<Keys> form =
+      choice_row("form", &Keys::form, forms(),
+                 "gradient of the surface energy (conserves energy and momenta exactly); "
+                 "disjoining pressure; forces between volume points; traction of the dissertation "
+                 "(not the gradient of any energy), the only one of legacy_switch",
+                 "energy");
+  form.read = [](Keys&, const Block&) {};  // with the interaction, which knows its usual one
   return {
       text_row("name", &Keys::name, "by which messages and measures call it; empty: the bodies",
                ""),
       texts_row("bodies", &Keys::bodies,
                 "names of two bodies, or of one that has a [contact.partner]"),
-      choice_row("interaction", &Keys::interaction, interactions<3>().names(),
-                 "by which they act on each other; its own keys follow in the same table. With an "
-                 "adhesion or a contact_angle it may be left out: it is smooth_young then, or "
-                 "with sigma0 scaled_lennard_jones",
-                 "lennard_jones"),
-      choice_row("form", &Keys::form, {contact_form_names.begin(), contact_form_names.end()},
-                 "gradient of the surface energy (conserves energy and momenta exactly); "
-                 "disjoining pressure; forces between volume points; traction of the dissertation "
-                 "(not the gradient of any energy), the only one of legacy_switch",
-                 "energy"),
+      interaction,
+      form,
       choice_row("density", &Keys::density, {"constant", "referential"},
                  "surface forms: beta per current volume, or per reference volume (beta/J); the "
                  "form volume is referential",
@@ -111,10 +129,8 @@ struct Contact final : Load<D>, Keys {
   std::optional<Partner<D>> partner;  // none: between two bodies
 
   void read_inner(const Block& block) {
-    if (!block.has("interaction") && (block.has("contact_angle") || block.has("adhesion")))
-      interaction = block.has("sigma0") ? "scaled_lennard_jones" : "smooth_young";
     model = interactions<D>().at(interaction).read(block);
-    if (!block.has("form")) form = model->usual_form();
+    form = block.choice("form", forms(), model->usual_form());
     if (const auto table = block.table("partner")) {
       partner = read<Partner<D>>(*table);
       table->done();

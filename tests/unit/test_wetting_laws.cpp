@@ -365,6 +365,27 @@ TEST(WettingLaws, SwitchedTensionsGoWithTheirTriangles) {
                     InputError, "legacy_switch is for a body and a half space");
 }
 
+/// What an absent interaction and an absent form stand for.
+TEST(WettingLaws, TheCompleteInputNamesTheLawThatActs) {
+  const auto contact = [](const std::string& lines, const std::string& key) {
+    std::string text = on_wall_text<2>(lines);
+    if (lines == switched)
+      text.replace(text.find("gamma = 1\n"), 10, "gamma = 1\nform = \"triangles\"\n");
+    const SceneInput input = SceneInput::from_text(text);
+    scene_dimension(input);
+    build_scene<2>(input);
+    const std::string complete = input.complete(), start = "\n" + key + " = \"";
+    const std::size_t table = complete.find("[[contact]]"),
+                      begin = complete.find(start, table) + start.size();
+    return complete.substr(begin, complete.find('"', begin) - begin);
+  };
+  EXPECT_EQ(contact("contact_angle = 60\n", "interaction"), "smooth_young");
+  EXPECT_EQ(contact("adhesion = 1\nsigma0 = 0.3\n", "interaction"), "scaled_lennard_jones");
+  EXPECT_EQ(contact("epsilon = 1\nsigma0 = 0.3\nbeta = 1\n", "interaction"), "lennard_jones");
+  EXPECT_EQ(contact("contact_angle = 60\n", "form"), "energy");
+  EXPECT_EQ(contact(switched, "form"), "dissertation");
+}
+
 /// Few points do no harm where the field of the partner is smooth.
 TEST(WettingLaws, UnresolvedGapsAreOfPartnersWithCorners) {
   const std::string few =
