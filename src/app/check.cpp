@@ -93,6 +93,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
 
   Simulation<D> simulation = set_up(input, [&] { return Simulation<D>(scene); });
   set_up(input, [&] { simulation.begin(); });
+  for (const std::string& note : simulation.take_notes()) say("{}\n", note);
   if (scene.time.solver == "newton") {
     const StableStep stable = StableStepEstimator<D>(scene.system).estimate(simulation.state());
     say("stable step of motion {:.6g} {}; newton: load steps of {:.6g}\n", stable.dt,
@@ -112,7 +113,8 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
   say("used: {:.6g})\n", dt);
   constexpr Real worth_it = 2;
   if (const Real ratio = 2 / (stable.stiffness * stable.dt);
-      stable.viscosity > 0 && scene.time.solver == "dynamics" && ratio > worth_it)
+      stable.viscosity > 0 && scene.time.solver == "dynamics" &&
+      scene.time.viscosity == "explicit" && ratio > worth_it)
     say("viscosity limits the step: time.viscosity = \"implicit\" allows up to {:.1f} times as "
         "long "
         "ones, for a few iterations per step\n",

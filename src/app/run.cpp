@@ -277,6 +277,7 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
   RunLog log(directory.log_file());
   const Provenance origin = provenance(request.command_line, complete);
   introduce(epochs->scene(), origin, restart, epochs->simulation().controller().stable(), log);
+  for (const std::string& note : epochs->simulation().take_notes()) log.info(note);
   if (!restart) report_residuals(epochs->simulation(), log);
   try {
     return run_recorded(*epochs, request, origin, restart, interruption, stop, directory, log);

@@ -168,7 +168,7 @@ RunSettings read_settings(const Block& root) {
     run.time.step_place = block->place("step");
     run.time.solver_place = block->place("solver");
     run.time.viscosity_place = block->place("viscosity");
-    if (run.time.viscosity == "implicit" && run.time.solver != "dynamics")
+    if (run.time.viscosity != "explicit" && run.time.solver != "dynamics")
       block->problem("viscosity", fmt::format("has no meaning for solver = \"{}\"; allowed is it "
                                               "with solver = \"dynamics\"",
                                               run.time.solver));

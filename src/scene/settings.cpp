@@ -35,10 +35,12 @@ Rows<TimeSettings> TimeSettings::rows() {
       integer_row("check_every", &S::check_every, {1, 1e9},
                   "most steps between two estimates of the stable step; fewer while it changes",
                   250),
-      choice_row("viscosity", &S::viscosity, {"explicit", "implicit"},
+      choice_row("viscosity", &S::viscosity, {"explicit", "implicit", "automatic"},
                  "dynamics: viscous forces of the velocity before, which limit the step, or of the "
                  "mean of those before and after, found by a few iterations per step: worth it "
-                 "where fine or stretched particles of a fluid make steps short",
+                 "where fine or stretched particles of a fluid make steps short. automatic: "
+                 "implicit where its steps are more than twice as long at the start (a fixed step: "
+                 "where it is too long for explicit ones), as the log says",
                  "explicit"),
       choice_row(
           "solver", &S::solver, Registry<StepperEntry>::all().names(),

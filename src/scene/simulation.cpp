@@ -5,10 +5,12 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/measure/drop_measures.hpp"
 #include "meniscus/solve/central_difference.hpp"
+#include "meniscus/solve/viscosity_choice.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace meniscus {
 
@@ -24,12 +26,12 @@ std::vector<Real> packed(const NodalVectors& field) {
 namespace {
 
 template <int D>
-StepperChoice stepper_choice(const Scene<D>& scene) {
+StepperChoice stepper_choice(const Scene<D>& scene, bool implicit_viscosity) {
   StepperChoice choice{scene.time.end,
                        scene.time.force_tolerance,
                        scene.time.shape_tolerance,
                        {},
-                       scene.time.viscosity == "implicit",
+                       implicit_viscosity,
                        scene.time.step,
                        scene.time.solver_place};
   if (choice.implicit_viscosity && !scene.system.viscous())
@@ -49,22 +51,48 @@ Simulation<D>::Simulation(Scene<D>& scene)
       state_(scene.initial),
       keeps_state_before_(std::any_of(
           scene.system.terms.begin(), scene.system.terms.end(),
-          [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
-      controller_(scene.system, {scene.time.step, scene.time.safety, scene.time.check_every,
-                                 scene.time.step_place, scene.time.viscosity == "implicit"}),
-      stepper_(Registry<StepperEntry>::all()
-                   .at(scene.time.solver)
-                   .make(scene.system, stepper_choice(scene))) {
+          [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })) {
+  make_stepper(scene.time.viscosity == "implicit");
   keeps_state_before_ |= !scene.time.step && stepper_->may_reject_steps();
+}
+
+template <int D>
+void Simulation<D>::make_stepper(bool implicit_viscosity) {
+  const TimeSettings& time = scene_.time;
+  implicit_viscosity_ = implicit_viscosity;
+  controller_.emplace(scene_.system,
+                      typename StepController<D>::Choice{time.step, time.safety, time.check_every,
+                                                         time.step_place, implicit_viscosity});
+  stepper_ = Registry<StepperEntry>::all()
+                 .at(time.solver)
+                 .make(scene_.system, stepper_choice(scene_, implicit_viscosity));
+}
+
+/// By the present state, where the scene leaves it open.
+template <int D>
+void Simulation<D>::choose_viscosity() {
+  if (scene_.time.viscosity != "automatic") return;
+  const ViscosityChoice choice =
+      meniscus::choose_viscosity(scene_.system, state_, scene_.time.step);
+  notes_.push_back(choice.reason);
+  if (choice.implicit != implicit_viscosity_) make_stepper(choice.implicit);
+}
+
+template <int D>
+std::vector<std::string> Simulation<D>::take_notes() {
+  std::vector<std::string> notes = std::exchange(notes_, {});
+  for (std::string& note : stepper_->take_notes()) notes.push_back(std::move(note));
+  return notes;
 }
 
 template <int D>
 void Simulation<D>::begin() {
   start(scene_.system, state_);
+  choose_viscosity();
   if (stepper_->implicit())  // without motion
     std::fill(state_.v.begin(), state_.v.end(), Lanes::zero());
   else
-    controller_.begin(state_);
+    controller_->begin(state_);
   audit_.begin(take_ledger(scene_.system, state_));
   stepper_->begin(state_);
 }
@@ -74,13 +102,14 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
   Snapshot history;
   before.archive_terms(Archive::writing(history));
   archive_terms(Archive::reading(history));
+  if (implicit_viscosity_ != before.implicit_viscosity_) make_stepper(before.implicit_viscosity_);
   state_ = std::move(state);
   ++state_.epoch;
   last_step_ = before.last_step_;
   start(scene_.system, state_);
   state_.books.remapped += take_ledger(scene_.system, state_).balance() -
                            take_ledger(before.scene_.system, before.state_).balance();
-  if (!stepper_->implicit()) controller_.begin(state_);
+  if (!stepper_->implicit()) controller_->begin(state_);
   audit_ = before.audit_;
   stepper_->begin(state_);
 }
@@ -103,7 +132,7 @@ void Simulation<D>::step(Real dt) {
         stepper_->step(state_, dt);
       else
         stepper_->try_step(state_, dt);
-      if (halvings > 0) controller_.shorten(dt);
+      if (halvings > 0) controller_->shorten(dt);
       return;
     } catch (StepError& e) {
       e.failure.halvings = halvings;
@@ -124,7 +153,7 @@ void Simulation<D>::advance() {
   or_give_up([&] {
     const Real longest = stepper_->longest_step(state_);
     last_step_ = stepper_->implicit() ? std::min(longest, scene_.time.end - state_.time)
-                                      : controller_.next(state_, scene_.time.end, longest);
+                                      : controller_->next(state_, scene_.time.end, longest);
     if (keeps_state_before_)
       step(last_step_);
     else
@@ -212,11 +241,12 @@ void Simulation<D>::archive(const Archive& a) {
   state_.archive(a, D);
   a("last_step", last_step_, dimension::time);
   require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
+  archive_viscosity(a);
   if (!stepper_->implicit()) {
     if (a.is_reading() && !a.has("step_control"))  // the run took implicit steps
-      controller_.begin(state_);
+      controller_->begin(state_);
     else
-      controller_.archive(a.in("step_control"));
+      controller_->archive(a.in("step_control"));
   }
   const Archive stepper = a.in("stepper").in(scene_.time.solver);
   if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's
@@ -227,6 +257,17 @@ void Simulation<D>::archive(const Archive& a) {
   audit_.archive(a.in("audit"), D);
   archive_terms(a);
   archive_references(a.in("references"));
+}
+
+/// What was chosen at the beginning, where the scene leaves it open, is kept to the end.
+template <int D>
+void Simulation<D>::archive_viscosity(const Archive& a) {
+  if (scene_.time.viscosity != "automatic") return;
+  const Archive choice = a.in("viscosity");
+  if (a.is_reading() && !a.has("viscosity")) return choose_viscosity();  // it was not open
+  bool implicit = implicit_viscosity_;
+  choice("implicit", implicit);
+  if (implicit != implicit_viscosity_) make_stepper(implicit);
 }
 
 template <int D>

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "cases.hpp"
 #include "io_helpers.hpp"
@@ -65,6 +66,61 @@ TEST(ImplicitViscosity, IsRefusedWhereItHasNoMeaning) {
                     InputError, "viscosity");
   Scene<2> inviscid = test::scene_of<2>(drop("viscosity = \"implicit\"\n", 0));
   EXPECT_THROW_WITH(Simulation<2>{inviscid}, InputError, "this has none");
+}
+
+/// What `time` says in words, and its run.
+struct Chosen : Flight {
+  std::string note;
+  Chosen(const std::string& time, Real viscosity) : Flight(drop(time, viscosity), 0) {
+    for (const std::string& text : simulation.take_notes()) note += text;
+    follow(0.05);
+  }
+  void follow(Real end) {
+    while (simulation.state().time < end) simulation.advance();
+  }
+};
+
+void expect_same_motion(Simulation<2>& a, Simulation<2>& b) {
+  ASSERT_EQ(a.state().step, b.state().step);
+  EXPECT_EQ(test::norm(test::sum_of(a.state().u, -1, b.state().u)), 0);
+  EXPECT_EQ(test::norm(test::sum_of(a.state().v, -1, b.state().v)), 0);
+}
+
+TEST(ImplicitViscosity, IsChosenWhereItsStepsAreMuchLonger) {
+  const std::string automatic = "viscosity = \"automatic\"\n",
+                    implicitly = "viscosity = \"implicit\"\n";
+  Chosen thick(automatic, 30), thin(automatic, 0.01), by_name(implicitly, 30), usual("", 0.01);
+  EXPECT_EQ(thick.note.find("viscosity is implicit: implicit steps may be "), 0u) << thick.note;
+  EXPECT_EQ(thin.note.find("viscosity is explicit: implicit steps may be 1"), 0u) << thin.note;
+  EXPECT_TRUE(by_name.note.empty() && usual.note.empty());
+  expect_same_motion(thick.simulation, by_name.simulation);
+  expect_same_motion(thin.simulation, usual.simulation);
+}
+
+TEST(ImplicitViscosity, IsChosenForAFixedStepThatIsTooLongWithout) {
+  const Real limit = Flight(drop("", 0.3), 0).simulation.controller().stable().dt;
+  const auto note = [&](Real step) {
+    return Chosen("viscosity = \"automatic\"\nstep = " + std::to_string(step) + "\n", 0.3).note;
+  };
+  EXPECT_EQ(note(0.9 * limit).find("viscosity is explicit: the explicit limit is"), 0u);
+  EXPECT_EQ(note(1.1 * limit).find("viscosity is implicit: the explicit limit is"), 0u);
+  Chosen inviscid("viscosity = \"automatic\"\n", 0);
+  EXPECT_EQ(inviscid.note, "viscosity is explicit: nothing is viscous");
+}
+
+/// A later state would choose otherwise, and the forces of the past are kept, too.
+TEST(ImplicitViscosity, ARestoredRunGoesOnAsItWasChosen) {
+  for (const Real viscosity : {30.0, 0.01}) {
+    Chosen run("viscosity = \"automatic\"\n", viscosity);
+    const Snapshot half = run.simulation.snapshot();
+    run.follow(0.1);
+    Scene<2> scene = test::scene_of<2>(drop("viscosity = \"automatic\"\n", viscosity));
+    Simulation<2> again(scene);
+    again.restore(half);
+    EXPECT_TRUE(again.take_notes().empty());
+    while (again.state().time < 0.1) again.advance();
+    expect_same_motion(run.simulation, again);
+  }
 }
 
 }  // namespace

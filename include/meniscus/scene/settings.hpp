@@ -17,7 +17,7 @@ struct TimeSettings {
   Real safety = 0.9;
   int check_every = 0;    ///< most steps between estimates of the stable step
   std::string solver;     ///< "dynamics" or "relax"
-  std::string viscosity;  ///< "explicit" or "implicit"
+  std::string viscosity;  ///< "explicit", "implicit" or "automatic"
   Real force_tolerance = 0, shape_tolerance = 0;  ///< of relax (solve/relaxation.hpp)
   static Rows<TimeSettings> rows();
 };

@@ -7,6 +7,7 @@
 #include "meniscus/solve/stepper.hpp"
 
 #include <functional>
+#include <optional>
 
 namespace meniscus {
 
@@ -44,11 +45,11 @@ class Simulation {
   const Scene<D>& scene() const { return scene_; }
   const State& state() const { return state_; }
   Real last_step() const { return last_step_; }
-  StepController<D>& controller() { return controller_; }
+  StepController<D>& controller() { return *controller_; }
   const Audit& audit() const { return audit_; }
   const Stepper<D>& stepper() const { return *stepper_; }
-  /// As Stepper::take_notes().
-  std::vector<std::string> take_notes() { return stepper_->take_notes(); }
+  /// What the log should say of begin() and of the steps since it was asked last.
+  std::vector<std::string> take_notes();
   /// The ledger of now; widens the scales of the audit. Throws SolveError for a state that cannot
   /// be: what a check of the scene finds, or a drop that has lost its shape (an isoperimetric ratio
   /// below 1 - 1e-3).
@@ -61,6 +62,10 @@ class Simulation {
 
  private:
   void archive(const Archive& a);
+  /// Makes the stepper and its step control. Throws InputError as the stepper does.
+  void make_stepper(bool implicit_viscosity);
+  void choose_viscosity();
+  void archive_viscosity(const Archive& a);
   void archive_terms(const Archive& a);
   void archive_references(const Archive& a) const;
   void step(Real dt);
@@ -76,8 +81,10 @@ class Simulation {
   State before_;  // the step, where a term may reject it
   bool keeps_state_before_;
   bool may_be_interrupted_ = false;
-  StepController<D> controller_;
+  bool implicit_viscosity_ = false;
+  std::optional<StepController<D>> controller_;
   std::unique_ptr<Stepper<D>> stepper_;
+  std::vector<std::string> notes_;
   Audit audit_;
   Real last_step_ = 0;
 };
