@@ -43,7 +43,9 @@ class Dynamics final : public Stepper<D> {
   }
   void archive(const Archive& a, const State&) override {
     resolution_.archive(a.in("energy_resolution"));
-    if (viscosity_) viscosity_->archive(a.in("implicit_viscosity"));
+    // A run whose viscosity was explicit so far has none.
+    if (viscosity_ && (!a.is_reading() || a.has("implicit_viscosity")))
+      viscosity_->archive(a.in("implicit_viscosity"));
   }
 
  private:

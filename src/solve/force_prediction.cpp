@@ -102,10 +102,10 @@ void ForcePrediction::step_stands() {
 }
 
 void ForcePrediction::archive(const Archive& a, int components) {
-  a("known", known_);
-  a("dt", dt_, dimension::time);
-  require_saved(known_ >= 0 && known_ <= order && dt_ >= 0, a, "known");
-  for (std::size_t k = 1; k <= order; ++k) a("f_" + std::to_string(k), f_[k], components);
+  a("past_forces", known_);
+  a("past_step", dt_, dimension::time);
+  require_saved(known_ >= 0 && known_ <= order && dt_ >= 0, a, "past_forces");
+  for (std::size_t k = 1; k <= order; ++k) a("force_" + std::to_string(k), f_[k], components);
 }
 
 }  // namespace meniscus

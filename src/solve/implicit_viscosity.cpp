@@ -176,7 +176,7 @@ template <int D>
 void ImplicitViscosity<D>::archive(const Archive& a) {
   a("diagonal", diagonal_, D);
   a("age", age_);
-  prediction_.archive(a.in("prediction"), D);
+  prediction_.archive(a, D);
   require_saved(age_ >= 0 && age_ <= longest_age, a, "implicit_viscosity/age");
 }
 

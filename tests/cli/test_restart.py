@@ -128,6 +128,25 @@ class Drop(EveryWay, Restart):
     SCENE, TIME, LATER = DROP, "20.3 ps", "41 ps"
 
 
+class ViscousDrop(Restart):
+    """Its viscosity is implicit; stopped in the second epoch."""
+    SCENE = REMAPPED_DROP.replace("[time]\n", "[time]\nviscosity = \"automatic\"\n").replace(
+        "0.6 mPa s", "6 mPa s")
+
+    def test_choice(self):
+        self.reference(self.SCENE)
+        self.assertIn("viscosity is implicit", (self.directory / "whole/run.log").read_text())
+        self.stop_at("20.3 ps", "part")
+        self.assert_same(self.go_on("part", "--restart", "part", "--threads", "1"), "part")
+
+    def test_it_may_change(self):
+        self.reference(self.SCENE)
+        for before, after in (("explicit", "automatic"), ("implicit", "explicit"), ("automatic", "implicit")):
+            with self.subTest(before=before, after=after):
+                self.call("run", self.file, "--output", before, "--until", "2 ps", "--set", f"time.viscosity={before}")
+                self.call("run", self.file, "--restart", before, "--until", "3 ps", "--set", f"time.viscosity={after}")
+
+
 class ChangedState(Restart):
     """A state with the right hash that no run has is refused, by its name."""
     NO_NUMBERS = {"nan": np.nan, "inf": np.inf}
