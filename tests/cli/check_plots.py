@@ -6,16 +6,24 @@ Usage: check_plots.py PROGRAM (meniscus)
 """
 
 import html.parser
+import io
+import math
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import numpy as np
+from PIL import Image
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tools/plotting"))
 import drop_theory  # noqa: E402
+import movies  # noqa: E402
+import partners  # noqa: E402
+import style  # noqa: E402
 
 PROGRAM = sys.argv.pop(1)
 
@@ -86,6 +94,27 @@ class Theory(unittest.TestCase):
         self.assertIsInstance(drop_theory.slow_rate(0.76648), float)
 
 
+class Words(unittest.TestCase):
+    def test_names(self):
+        for key, words in (("von_mises", "von Mises stress"), ("force_x", "force $x$"), ("J", "volume ratio J"),
+                           ("base_radius", "base radius"), ("cavity_gap", "cavity gap"), ("x", "x")):  # fmt: skip
+            self.assertEqual(style.column_name(key), words)
+
+    def test_units(self):
+        for unit, printed in (("m^2", "m²"), ("um", "µm"), ("ag/(nm ps^2)", "ag/(nm ps²)"), ("m^-1", "m⁻¹"),
+                              ("deg", "°"), ("s", "s"), ("um^3/us", "µm³/µs")):  # fmt: skip
+            self.assertEqual(style.pretty(unit), printed)
+
+    def test_where_a_partner_is(self):
+        t = 0.3
+        for formula, value in ((2, 2), ("-0.42*(1 - abs(t - 2)/2)", -0.42 * (1 - 1.7 / 2)),
+                               ("0.1*sin(2*pi*t)^2", 0.1 * math.sin(0.6 * math.pi) ** 2),
+                               ("min(1, max(0, (t - 4)/5))", 0), ("t < 1 ? t : 1", None), ("x", None),
+                               ("__import__('os')", None), ("1/(t - 0.3)", None)):  # fmt: skip
+            found = partners.value_at(formula, t)
+            self.assertTrue(found == value or abs(found - value) < 1e-14, formula)
+
+
 class Pictures(unittest.TestCase):
     def draw(self, dimension, shape, *options, tables="", scene=SCENE):
         with tempfile.TemporaryDirectory() as folder:
@@ -98,6 +127,7 @@ class Pictures(unittest.TestCase):
             done = subprocess.run(
                 ["/usr/bin/python3", "-B", script, run, *options], capture_output=True, text=True
             )
+            self.files = {path.name: path.read_bytes() for path in run.glob("plots/*")}
             pictures = {path.stem: path.stat().st_size for path in run.glob("plots/*.png")}
             return done, pictures
 
@@ -185,6 +215,74 @@ type = "half_space"
                       'type = "newtonian"', "git_hash", "mean spacing",
                       "nodal\" has modes without energy and is unstable"):  # fmt: skip
             self.assertIn(words, text)
+
+    def test_a_field_on_surfaces_and_lines_of_probes(self):
+        shape = "shape = 'ball'\nradius = 1\ncore = 4\nlayers = 2"
+        probes = """
+[[probe]]
+name = "axis"
+body = "drop"
+from = [0, 0, -0.9]
+to = [0, 0, 0.9]
+points = 5
+[[probe]]
+name = "middle"
+body = "drop"
+at = [0, 0, 0]
+"""
+        done, pictures = self.draw(3, shape, "--field", "pressure", "--frames", "2", tables=probes)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLessEqual({"surface", "surface_pressure", "axis_line", "middle_point"}, set(pictures))
+        self.assertGreater(min(pictures.values()), 10000)
+
+    def test_vector_formats(self):
+        shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2"
+        for ending, begin in ("pdf", b"%PDF-"), ("svg", b"<?xml"):
+            done, _ = self.draw(2, shape, "--format", ending)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(self.files), 4)
+            for name, content in self.files.items():
+                self.assertTrue(name.endswith(f".{ending}") and content.startswith(begin), name)
+
+    def test_movie(self):
+        """All frames, or as many as are asked for; each another picture, with a wall that moves."""
+        wall = """
+[[contact]]
+bodies = ["drop"]
+contact_angle = 80
+[contact.partner]
+type = "half_space"
+displacement = {zeros}, "-0.4*t"]
+"""
+        shapes = {
+            2: ("shape = 'disk'\nradius = 1\ncore = 4\nrings = 2", "[0", "point = [0, -1.1]\nnormal = [0, 1]"),
+            3: ("shape = 'ball'\nradius = 1\ncore = 4\nlayers = 2", "[0, 0",
+                "point = [0, 0, -1.1]\nnormal = [0, 0, 1]"),
+        }  # fmt: skip
+        for dimension, (shape, zeros, place) in shapes.items():
+            tables = wall.format(zeros=zeros) + place
+            for options, count in ((), 6), (("--frames", "3"), 3):
+                done, pictures = self.draw(dimension, shape, "--movie", "gif", *options, tables=tables)
+                self.assertEqual((done.returncode, pictures), (0, {}), done.stderr)
+                self.assertEqual(list(self.files), ["movie.gif"])
+                with Image.open(io.BytesIO(self.files["movie.gif"])) as movie:
+                    self.assertEqual(movie.n_frames, count)
+                    self.assertEqual((movie.width % 2, movie.height % 2), (0, 0))
+                    frames = []
+                    for k in range(count):
+                        movie.seek(k)
+                        frames.append(np.array(movie.convert("RGB"), dtype=int))
+                for before, after in zip(frames, frames[1:]):
+                    self.assertGreater(np.abs(after - before).max(), 50)
+
+    def test_movie_formats(self):
+        self.assertEqual(movies.file_format("gif"), "gif")
+        if movies.animation.writers.is_available("ffmpeg"):
+            self.assertEqual(movies.file_format("best"), "mp4")
+        else:
+            self.assertEqual(movies.file_format("best"), "gif")
+            with self.assertRaisesRegex(ValueError, "ffmpeg, which is not installed"):
+                movies.file_format("mp4")
 
     def test_unknown_field(self):
         shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2"

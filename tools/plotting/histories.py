@@ -12,8 +12,11 @@ def draw(run):
     for body in run.bodies:
         if figure := shape(run, body):
             pictures[f"{body.name}_shape"] = figure
-        if figure := measures(run, body):
+        if figure := measures(run, body.name):
             pictures[f"{body.name}_measures"] = figure
+    for probe in run.input.get("probe", []):
+        if figure := measures(run, probe["name"]):
+            pictures[f"{probe['name']}_point"] = figure
     return pictures
 
 
@@ -31,7 +34,7 @@ def energies(run):
     columns = {"kinetic": run.history["kinetic_energy"]}
     for name, values in run.history.items():
         if name.endswith("_energy") and name != "kinetic_energy":
-            columns[f"{column(name)[:-7]}, change"] = values - values[0]
+            columns[f"{name[:-7].replace('_', ' ')}, change"] = values - values[0]
     for name in ("dissipated", "external_work", "remapped"):
         if np.any(run.history.get(name, 0)):
             columns[name.replace("_", " ")] = run.history[name]
@@ -60,7 +63,7 @@ def energies(run):
 
 
 def column(name):
-    return name.rsplit(".", 1)[-1].replace("_", " ")
+    return style.column_name(name.rsplit(".", 1)[-1])
 
 
 def panels(run, groups, height=2.3):
@@ -87,10 +90,10 @@ def shape(run, body):
     return drawn and drawn[0]
 
 
-def measures(run, body):
-    """A panel for each other measure of the body."""
+def measures(run, name):
+    """A panel for each other measure of the body or probe of that name."""
     elsewhere = {"aspect", "p2", *(f"extent_{i}" for i in "xyz")}
-    names = [n for n in run.history if n.startswith(f"{body.name}.")]
+    names = [n for n in run.history if n.startswith(f"{name}.")]
     names = [n for n in names if n.split(".", 1)[1] not in elsewhere]
     drawn = panels(run, [[name] for name in names], 2.0)
     return drawn and drawn[0]
@@ -113,7 +116,7 @@ def curves(run, axis, names):
             time * time_factor, value * factor, tolerance * factor, fmt="o", ms=4.5, mfc="white",
             color="black", capsize=2.5, lw=0.9, label="expected", clip_on=False, zorder=3,
         )  # fmt: skip
-    text = column(names[0]) if len(names) == 1 else column(names[0]).split()[0]
+    text = column(names[0] if len(names) == 1 else names[0].rpartition("_")[0] or names[0])
     axis.set_ylabel(style.label(text, unit))
     if len(names) > 1 or expected:
         axis.legend()

@@ -1,41 +1,122 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rigid partners of contact, drawn into pictures of plane scenes where they are at rest."""
+"""Rigid partners of contact where they are in a frame: outlines in the plane, walls in space."""
+
+import math
+import re
 
 import numpy as np
+from matplotlib.collections import PolyCollection
+
+LOOKS = {"color": "0.45", "lw": 1.2, "zorder": 0}
+WALL, WALL_BEFORE = (0.55, 0.57, 0.60, 0.35), (0.55, 0.57, 0.60, 0.12)
+
+FUNCTIONS = {
+    name: getattr(math, name)
+    for name in "sin cos tan asin acos atan atan2 sinh cosh tanh exp log log10 sqrt floor ceil erf pow pi e".split()
+} | {"min": min, "max": max, "abs": abs, "sign": lambda a: (a > 0) - (a < 0), "cbrt": np.cbrt}
 
 
-def outlines(run):
+def partners(run, frame):
+    """(table [contact.partner], displacement) of those whose place in the frame is known."""
+    for contact in run.input.get("contact", []):
+        partner = contact.get("partner")
+        if not partner:
+            continue
+        moved = partner.get("displacement") or [0] * run.dimension
+        values = [value_at(formula, run.times[frame]) for formula in moved]
+        if None not in values:
+            yield partner, np.array(values, dtype=float)
+
+
+def value_at(formula, t):
+    """A formula of the time; None if it is none of Python's, too (a ? b : c)."""
+    if not isinstance(formula, str):
+        return formula
+    text = formula.replace("^", "**").replace("&&", " and ").replace("||", " or ")
+    if not re.fullmatch(r"[\w\s.+*/(),<>=!-]*", text) or "__" in text:
+        return None
+    try:
+        return float(eval(text, {"__builtins__": {}}, {**FUNCTIONS, "t": t}))  # pylint: disable=eval-used
+    except (ArithmeticError, NameError, SyntaxError, TypeError, ValueError):
+        return None
+
+
+def near_walls(run, frame, points):
+    """Places of half spaces and balls next to the bodies [wall, i], which pictures should show: those
+    no farther than half of the extent of all points."""
+    centre, extent = points.mean(axis=0), np.ptp(points, axis=0).max()
+    found = []
+    for partner, moved in partners(run, frame):
+        if partner["type"] == "half_space":
+            normal = np.array(partner["normal"], dtype=float)
+            normal /= np.linalg.norm(normal)
+            foot = centre - ((centre - np.array(partner["point"]) - moved) @ normal) * normal
+        elif partner["type"] == "ball":
+            away = centre - np.array(partner["centre"]) - moved
+            foot = centre - away * (1 - partner["radius"] / np.linalg.norm(away))
+        else:
+            continue
+        if np.linalg.norm(points - foot, axis=1).min() < extent / 2:
+            found.append(foot)
+    return np.array(found).reshape(-1, points.shape[1])
+
+
+def outlines(run, frame=0):
     """Closed polygons [corner, i] around the rooms of frames, which pictures should show whole."""
     found = []
-    for partner in resting(run):
+    for partner, moved in partners(run, frame):
         if partner["type"] == "frame":
             (left, bottom), (right, top) = partner["low"], partner["high"]
             corners = [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)]
-            found.append(np.array(corners, dtype=float))
+            found.append(np.array(corners, dtype=float) + moved)
     return found
 
 
-def draw(axis, run, factor):
-    """Draws all resting partners; lengths are multiplied by `factor`."""
-    looks = {"color": "0.45", "lw": 1.2, "zorder": 0}
-    for polygon in outlines(run):
-        axis.plot(*(polygon * factor).T, **looks)
-    for partner in resting(run):
+def draw(axis, run, factor, frame):
+    """Draws all partners of a plane scene; lengths are multiplied by `factor`."""
+    if run.dimension == 3:
+        return
+    for polygon in outlines(run, frame):
+        axis.plot(*(polygon * factor).T, **LOOKS)
+    for partner, moved in partners(run, frame):
         if partner["type"] == "half_space":
-            x, y = np.array(partner["point"]) * factor
+            x, y = (np.array(partner["point"]) + moved) * factor
             normal = partner["normal"]
-            axis.axline((x, y), (x + normal[1], y - normal[0]), **looks)
+            axis.axline((x, y), (x + normal[1], y - normal[0]), **LOOKS)
         elif partner["type"] in ("ball", "cavity"):
             angle = np.linspace(0, 2 * np.pi, 200)
             circle = partner["radius"] * np.array([np.cos(angle), np.sin(angle)])
-            axis.plot(*(factor * (np.array(partner["centre"])[:, None] + circle)), **looks)
+            axis.plot(*(factor * ((np.array(partner["centre"]) + moved)[:, None] + circle)), **LOOKS)
 
 
-def resting(run):
-    """Tables [contact.partner] of partners without a prescribed motion; none in 3D."""
-    if run.input["dimension"] == 3:
-        return
-    for contact in run.input.get("contact", []):
-        partner = contact.get("partner")
-        if partner and not partner.get("displacement"):
-            yield partner
+def walls(run, frame, axes_of_view, centre, width):
+    """(collection, whether it is between the eye and the bodies) of half spaces and balls in space;
+    a wall is a square of that width around the foot of the centre of what is seen."""
+    for partner, moved in partners(run, frame):
+        if partner["type"] == "half_space":
+            normal = np.array(partner["normal"], dtype=float)
+            normal /= np.linalg.norm(normal)
+            point = np.array(partner["point"]) + moved
+            foot = centre - ((centre - point) @ normal) * normal
+            first = np.cross(normal, [1, 0, 0] if abs(normal[0]) < 0.7 else [0, 1, 0])
+            first /= np.linalg.norm(first)
+            second = np.cross(normal, first)
+            lines = np.linspace(-width / 2, width / 2, 9)
+            squares = [
+                foot + a * first + b * second + np.outer(s, first) + np.outer(t, second)
+                for a in lines[:-1] for b in lines[:-1]
+                for s, t in [(np.array([0, 1, 1, 0]) * width / 8, np.array([0, 0, 1, 1]) * width / 8)]
+            ]  # fmt: skip
+            before = normal @ axes_of_view[2] < 0
+            yield filled(np.array(squares) @ axes_of_view.T, before), before
+        elif partner["type"] == "ball":
+            place = (np.array(partner["centre"]) + moved) @ axes_of_view.T
+            angle = np.linspace(0, 2 * np.pi, 120)
+            circle = place[:2] + partner["radius"] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+            before = place[2] > centre @ axes_of_view[2]
+            yield filled(circle[None], before), before
+
+
+def filled(polygons, before):
+    color = WALL_BEFORE if before else WALL
+    return PolyCollection(polygons[..., :2], facecolors=[color], edgecolors=[(1, 1, 1, 0.6)], linewidths=0.5)

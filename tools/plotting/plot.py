@@ -14,12 +14,21 @@ import comparison
 import contacts
 import drop_decay
 import histories
+import movies
+import probes
 import sections
 import studies
 import style
 import surfaces
 import wetting
 from results import Results
+
+
+def positive(text):
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{number} is below 1")
+    return number
 
 
 def arguments():
@@ -29,11 +38,19 @@ def arguments():
     parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run or study")
     parser.add_argument(
         "--field",
-        help="field that colours the cross-sections (default: the first scalar); "
+        help="field that colours cross-sections, surfaces and movie (default: the first scalar); "
         "error of a study that is drawn (default: the first two)",
     )
     parser.add_argument(
-        "--frames", type=int, default=5, help="number of cross-sections (default 5)"
+        "--frames", type=positive, metavar="N",
+        help="number of cross-sections and lines (default 5), of surfaces (3), of the movie (all)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--movie", nargs="?", const="best", choices=("best", *movies.FORMATS), metavar="FORMAT",
+        help="writes a movie instead: mp4 or gif; if not said, mp4 where ffmpeg is installed",
+    )  # fmt: skip
+    parser.add_argument(
+        "--format", choices=("png", "pdf", "svg"), default="png", help="of the pictures (default png)"
     )
     parser.add_argument(
         "--beside", metavar="DIR", type=pathlib.Path, nargs="+", default=[],
@@ -55,31 +72,36 @@ def pictures_of(args):
 
 
 def pictures_of_run(run, field, frames):
-    """Figures by name; `field` colours `frames` cross-sections."""
+    """Figures by name; `field` colours `frames` of them; None: their defaults."""
     return {
         **histories.draw(run),
+        **probes.draw(run, frames or 5),
         **contacts.draw(run),
         **drop_decay.draw(run),
         **cells.draw(run),
-        **sections.draw(run, field, frames),
-        **surfaces.draw(run),
-        **wetting.draw(run, frames),
+        **sections.draw(run, field, frames or 5),
+        **surfaces.draw(run, field, frames or 3),
+        **wetting.draw(run, frames or 5),
     }
 
 
 def main():
     args = arguments()
+    folder = args.dir / "plots"
     try:
+        if args.movie:
+            run = Results(args.dir)
+            folder.mkdir(exist_ok=True)
+            print(movies.write(run, folder, args.movie, args.field, args.frames))
+            return
         pictures = pictures_of(args)
     except (OSError, ValueError) as error:
         sys.exit(f"tools/plot: {error}")
-    folder = args.dir / "plots"
     folder.mkdir(exist_ok=True)
     for name, figure in pictures.items():
-        figure.savefig(
-            folder / f"{name}.png", dpi=style.DPI, bbox_inches="tight", pad_inches=0.04
-        )
-        print(folder / f"{name}.png")
+        path = folder / f"{name}.{args.format}"
+        figure.savefig(path, dpi=style.DPI, bbox_inches="tight", pad_inches=0.04)
+        print(path)
 
 
 if __name__ == "__main__":

@@ -144,7 +144,7 @@ def main():
     )
     parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run")
     parser.add_argument("--field", help="as of tools/plot")
-    parser.add_argument("--frames", type=int, default=5, help="as of tools/plot")
+    parser.add_argument("--frames", type=int, help="as of tools/plot")
     args = parser.parse_args()
     try:
         text = page(Results(args.dir), Log(args.dir / "run.log"), args)

@@ -6,6 +6,8 @@ import sys
 
 import numpy as np
 
+import style
+
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import meniscus  # noqa: E402  pylint: disable=wrong-import-position
 
@@ -28,6 +30,22 @@ class Results(meniscus.Run):
             way = np.arange(len(way))
         targets = np.linspace(0, way[-1], min(count, len(way)))
         return sorted({int(np.argmin(np.abs(way - target))) for target in targets})
+
+    def field_of(self, name):
+        """That field, or the default one. Raises ValueError if there is none."""
+        name = name or self.default_field()
+        if name not in self.fields:
+            raise ValueError(f"there is no field '{name}' in run.h5; it has {', '.join(self.fields)}")
+        return name
+
+    def sizes(self, frame, name, body):
+        """Values of a scalar field [particle], norms of one of vectors or tensors."""
+        values = self.field(frame, name, body)
+        return values if values.ndim == 1 else np.linalg.norm(values.reshape(len(values), -1), axis=1)
+
+    def field_in_words(self, name):
+        words = style.column_name(name)
+        return f"|{words}|" if self.frames[0][name].ndim > 1 else words
 
     def default_field(self):
         """The first scalar among the fields of the scene, or else the first field."""

@@ -12,11 +12,7 @@ PANELS_IN_ROW = 6
 
 
 def draw(run, name, count):
-    name = name or run.default_field()
-    first = run.frames[0]
-    if name not in first:
-        known = ", ".join(k for k in first if k != "state")
-        raise ValueError(f"there is no field '{name}' in run.h5; it has {known}")
+    name = run.field_of(name)
     frames = run.spread_frames(count)
     plane = Plane(run)
     cuts = [[Cut(run, body, plane, frame, name) for body in run.epochs[frame]] for frame in frames]
@@ -48,9 +44,7 @@ class Cut:
 
     def __init__(self, run, body, plane, frame, name):
         x = run.points(frame, body)
-        values = run.field(frame, name, body)
-        if values.ndim > 1:
-            values = np.linalg.norm(values.reshape(len(values), -1), axis=1)
+        values = run.sizes(frame, name, body)
         near = np.ones(len(x), bool)
         if plane.normal is not None:
             beside = np.abs(body.X[:, plane.normal] - plane.place)
@@ -114,7 +108,7 @@ def picture(run, plane, frames, cuts, name):
             dots.set_array(cut.values * factor)
             axis.add_collection(dots)
             axis.add_collection(LineCollection(cut.outline * length_factor, colors="0.2", lw=0.9))
-        partners.draw(axis, run, length_factor)
+        partners.draw(axis, run, length_factor, frame)
         axis.set_title(style.time_text(run.times[frame], time_unit, time_factor), fontsize=10)
         axis.set_xlim(low[0] * length_factor, high[0] * length_factor)
         axis.set_ylim(low[1] * length_factor, high[1] * length_factor)
@@ -123,8 +117,7 @@ def picture(run, plane, frames, cuts, name):
         axis.set_xlabel(style.label(f"${'xyz'[plane.axes[0]]}$", length_unit))
     for axis in axes[:, 0]:
         axis.set_ylabel(style.label(f"${'xyz'[plane.axes[1]]}$", length_unit))
-    vector = run.field(frames[0], name, run.bodies[0]).ndim > 1
     bar = figure.colorbar(dots, ax=axes, shrink=0.9, pad=0.01, aspect=25)
-    bar.set_label(style.label(f"|{name}|" if vector else name.replace("_", " "), unit))
+    bar.set_label(style.label(run.field_in_words(name), unit))
     bar.outline.set_linewidth(0.5)
     return figure

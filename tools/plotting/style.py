@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Looks shared by all pictures: fonts, colours, and numbers with units that can be read."""
 
+import re
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -52,15 +54,39 @@ def scale(unit, values):
     return 10.0 ** (-power * exponent), PREFIXES[power] + pretty(unit)
 
 
+SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
+
 def pretty(unit):
-    return unit.replace("^2", "²").replace("^3", "³").replace("*", " ")
+    """As it is printed: µm, ag/(nm ps²), m⁻¹; degrees are ° alone."""
+    if unit == "deg":
+        return "°"
+    unit = re.sub(r"\^(-?\d+)", lambda power: power.group(1).translate(SUPERSCRIPTS), unit)
+    return re.sub(r"\bu(?=[a-zA-Z])", "µ", unit).replace("*", " ")
 
 
 def label(text, unit):
     return f"{text} ({unit})" if unit else text
 
 
+# Names in words of fields and measures whose keys are short.
+WORDS = {
+    "von_mises": "von Mises stress", "J": "volume ratio J", "F": "deformation gradient F",
+    "P": "first Piola stress P", "ca": "capillary number", "p2": "second mode $p_2$", "min_J": "least volume ratio J",
+    "isoperimetric": "isoperimetric ratio", "base_radius": "base radius", "evans_fung_rms": "difference from Evans and Fung",
+    "contact_angle_vh": "contact angle of volume and height", "dt": "time step", "spin": "angular momentum",
+    "aspect": "aspect ratio", "state_error": "error of the state", "profile_rms": "difference from the profile",
+}  # fmt: skip
+AXES = {"x": "$x$", "y": "$y$", "z": "$z$"}
+
+
 def column_name(name):
+    """A key in words: von Mises stress, force x, contact angle."""
+    if name in WORDS:
+        return WORDS[name]
+    stem, _, axis = name.rpartition("_")
+    if stem and axis in AXES:
+        return f"{column_name(stem)} {AXES[axis]}"
     return name.replace("_", " ")
 
 

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface in the first frame, halfway, and in the last: facets in parallel projection, lit."""
+"""Surfaces: facets in parallel projection, lit, with the colour of the body or of a field, and the
+walls that they touch."""
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
+import partners
 import style
 
 # The eye looks along -EYE; up in the picture is z. Light comes from the upper left of the eye.
@@ -15,11 +17,42 @@ FILL, FILL_STRENGTH = np.array([0.80, 0.05, 0.60]), 0.16
 AMBIENT, GLOSS, SHININESS = 0.40, 0.30, 40
 
 
-def draw(run):
-    bodies = [body for body in run.bodies if body.dimension == 3]
-    if not bodies:
+def draw(run, field=None, count=3):
+    """The surface in the first frame, in those between, and in the last; with a field also coloured
+    by it."""
+    if run.dimension == 2:
         return {}
-    return {"surface": picture(run, bodies, run.spread_frames(3))}
+    frames = run.spread_frames(count)
+    pictures = {"surface": picture(run, frames)}
+    if field:
+        name = run.field_of(field)
+        pictures[f"surface_{name}"] = picture(run, frames, Coloring(run, name, frames))
+    return pictures
+
+
+class Coloring:
+    """Colours of the values of a field at the particles, the same for all of the frames."""
+
+    def __init__(self, run, name, frames):
+        self.run, self.name = run, name
+        on_surface = [
+            run.sizes(k, name, body)[np.unique(body.surface)] for k in frames for body in run.epochs[k]
+        ]
+        values = np.concatenate(on_surface)
+        self.factor, self.unit = style.scale(run.unit_of(name), values)
+        self.norm = plt.Normalize(*(np.percentile(values, (0.5, 99.5)) * self.factor))
+
+    def __call__(self, values):
+        return plt.get_cmap("viridis")(self.norm(values * self.factor))[..., :3]
+
+    def values(self, frame, body):
+        return self.run.sizes(frame, self.name, body)
+
+    def bar(self, figure, axes):
+        mappable = plt.matplotlib.cm.ScalarMappable(self.norm, "viridis")
+        bar = figure.colorbar(mappable, ax=axes, shrink=0.8, pad=0.02, aspect=25)
+        bar.set_label(style.label(self.run.field_in_words(self.name), self.unit))
+        bar.outline.set_linewidth(0.5)
 
 
 def view(bodies):
@@ -32,34 +65,58 @@ def view(bodies):
     return np.array([right, np.cross(eye, right), eye])
 
 
-def picture(run, bodies, frames):
-    axes_of_view = view(bodies)
-    scenes = [[run.points(k, body) @ axes_of_view.T for body in bodies] for k in frames]
-    points = np.concatenate([x for scene in scenes for x in scene])
-    low, high = points.min(axis=0), points.max(axis=0)
-    size = (high - low)[:2] * 1.04
-    panel = 2.4
+def window(run, frames, axes_of_view):
+    """Lower corner and size (right, up) of what is seen of all bodies in those frames."""
+    seen = []
+    for k in frames:
+        points = np.concatenate([run.points(k, body) for body in run.epochs[k]])
+        seen += [points @ axes_of_view.T, partners.near_walls(run, k, points) @ axes_of_view.T]
+    points = np.concatenate(seen)
+    low, high = points.min(axis=0)[:2], points.max(axis=0)[:2]
+    size = (high - low) * 1.04
+    return (low + high) / 2 - size / 2, size
+
+
+def picture(run, frames, coloring=None):
+    axes_of_view = view(run.bodies)
+    corner, size = window(run, frames, axes_of_view)
+    panel, bar = 2.4, 0.9 if coloring else 0
     figure, axes = plt.subplots(
-        1, len(frames), figsize=(panel * len(frames), panel * size[1] / size[0] + 0.35),
+        1, len(frames), figsize=(panel * len(frames) + bar, panel * size[1] / size[0] + 0.35),
         squeeze=False, gridspec_kw={"wspace": 0.02},
     )  # fmt: skip
     top = 1 - 0.3 / figure.get_figheight()
     figure.subplots_adjust(left=0.01, right=0.99, bottom=0.02, top=top)
     time_factor, time_unit = style.scale(run.time_unit, run.times)
-    centre = (low + high)[:2] / 2
-    for axis, frame, scene in zip(axes[0], frames, scenes):
-        axis.add_collection(facets(bodies, scene))
-        axis.set_xlim(centre[0] - size[0] / 2, centre[0] + size[0] / 2)
-        axis.set_ylim(centre[1] - size[1] / 2, centre[1] + size[1] / 2)
-        axis.set_aspect("equal")
-        axis.axis("off")
+    for axis, frame in zip(axes[0], frames):
+        panel_of(axis, run, frame, axes_of_view, (corner, size), coloring)
         axis.set_title(style.time_text(run.times[frame], time_unit, time_factor), fontsize=10)
-    scale_bar(axes[0, 0], run, centre - size / 2, size)
+    scale_bar(axes[0, 0], run, corner, size)
+    if coloring:
+        coloring.bar(figure, axes)
     return figure
 
 
-def facets(bodies, scene):
-    """Polygons from back to front. `scene`: positions of each body, seen."""
+def panel_of(axis, run, frame, axes_of_view, seen, coloring=None, parts=6):
+    """One frame: bodies, and behind or before them the walls."""
+    corner, size = seen
+    bodies = run.epochs[frame]
+    scene = [run.points(frame, body) @ axes_of_view.T for body in bodies]
+    colors = coloring and [coloring(coloring.values(frame, body)) for body in bodies]
+    middle = np.mean([x.mean(axis=0) for x in scene], axis=0) @ axes_of_view
+    for wall, before in partners.walls(run, frame, axes_of_view, middle, 1.2 * size.max()):
+        wall.set_zorder(2 if before else 0)
+        axis.add_collection(wall)
+    axis.add_collection(facets(bodies, scene, colors, parts))
+    axis.set_xlim(corner[0], corner[0] + size[0])
+    axis.set_ylim(corner[1], corner[1] + size[1])
+    axis.set_aspect("equal")
+    axis.axis("off")
+
+
+def facets(bodies, scene, colors=None, parts=6):
+    """Polygons from back to front. `scene`: positions of each body, seen; `colors`: [body][particle],
+    those of the bodies if not given."""
     polygons, depths, faces, edges = [], [], [], []
 
     def add(corners, depth, face, edge):
@@ -75,9 +132,12 @@ def facets(bodies, scene):
         outline = quads[:, [0, 1, 3, 2]]
         # Before the neighbouring facets, too, which else would cover half of the line.
         add(outline, outline[:, :, 2].max(axis=1) + 0.5 * body.spacing, (0, 0, 0, 0), EDGE)
-        color = plt.matplotlib.colors.to_rgb(style.COLORS[number % len(style.COLORS)])
-        for patch, normal in divided(quads, normals):
-            shaded = shade(normal, color)
+        color = np.array(plt.matplotlib.colors.to_rgb(style.COLORS[number % len(style.COLORS)]))
+        corner_colors = np.broadcast_to(color, (*quads.shape[:2], 3))
+        if colors:
+            corner_colors = colors[number][body.surface[seen]]
+        for patch, normal, of_patch in divided(quads, normals, corner_colors, parts):
+            shaded = shade(normal, of_patch, bool(colors))
             add(patch, patch[:, :, 2].mean(axis=1), shaded, shaded)
     order = np.argsort(np.concatenate(depths), kind="stable")
     return PolyCollection(
@@ -105,8 +165,8 @@ def corner_normals(body, x):
     return normals
 
 
-def divided(quads, normals, parts=6):
-    """Each facet (corners in tensor order) in parts^2 patches: their corners and normals."""
+def divided(quads, normals, colors, parts):
+    """Each facet (corners in tensor order) in parts^2 patches: their corners, normals and colours."""
     ends = np.linspace(0, 1, parts + 1)
 
     def at(values, s, t):
@@ -117,19 +177,25 @@ def divided(quads, normals, parts=6):
         for t0, t1 in zip(ends, ends[1:]):
             around = [(s0, t0), (s1, t0), (s1, t1), (s0, t1)]
             patch = np.stack([at(quads, s, t) for s, t in around], axis=1)
-            normal = at(normals, (s0 + s1) / 2, (t0 + t1) / 2)
-            yield patch, normal / np.linalg.norm(normal, axis=1)[:, None]
+            middle = ((s0 + s1) / 2, (t0 + t1) / 2)
+            normal = at(normals, *middle)
+            yield patch, normal / np.linalg.norm(normal, axis=1)[:, None], at(colors, *middle)
 
 
-def shade(normals, color):
-    """Lambert's law for two lights, and a highlight of the first (Blinn)."""
+def shade(normals, colors, of_field):
+    """Lambert's law for two lights, and a highlight of the first (Blinn); [patch, i]. Colours of a field
+    are those of its bar, but for a little shade."""
     light = np.full(len(normals), AMBIENT)
     for direction, strength in ((KEY, KEY_STRENGTH), (FILL, FILL_STRENGTH)):
         light += strength * np.clip(normals @ (direction / np.linalg.norm(direction)), 0, None)
     halfway = KEY / np.linalg.norm(KEY) + [0, 0, 1]
     highlight = np.clip(normals @ (halfway / np.linalg.norm(halfway)), 0, None) ** SHININESS
-    base = 0.62 * np.array(color) + 0.38
-    rgb = np.clip(light[:, None] * base + GLOSS * highlight[:, None], 0, 1)
+    if of_field:
+        rgb = (0.55 + 0.45 * np.clip(light, 0, 1))[:, None] * colors + 0.5 * GLOSS * highlight[:, None]
+        rgb = np.clip(rgb, 0, 1)
+    else:
+        base = 0.62 * colors + 0.38
+        rgb = np.clip(light[:, None] * base + GLOSS * highlight[:, None], 0, 1)
     return np.hstack([rgb, np.ones((len(rgb), 1))])
 
 
