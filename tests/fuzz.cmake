@@ -18,7 +18,7 @@ target_include_directories(meniscus_fuzzed PUBLIC ${PROJECT_SOURCE_DIR}/include
 target_compile_definitions(meniscus_fuzzed PRIVATE MENISCUS_BUILD_FLAGS="fuzzer")
 target_compile_options(meniscus_fuzzed PUBLIC -fsanitize=fuzzer-no-link)
 target_link_libraries(meniscus_fuzzed PUBLIC meniscus_options Eigen3::Eigen fmt::fmt hdf5::hdf5
-  tomlplusplus::tomlplusplus ${MUPARSER_LIBRARY})
+  tomlplusplus::tomlplusplus ${MUPARSER_LIBRARY} OpenSSL::Crypto)
 add_dependencies(meniscus_fuzzed meniscus_version)
 
 foreach(reader scene checkpoint)

@@ -43,6 +43,7 @@ CONFINED = {
     "nanoflann": (r"nanoflann", None),
     "CLI11": (r"CLI/", "src/app/*main*"),
     "spdlog": (r"spdlog/", None),
+    "OpenSSL": (r"openssl/", None),
     "HDF5": (r"hdf5|H5", "src/io/hdf5*"),
 }
 

@@ -4,6 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
+#include "meniscus/core/names.hpp"
 
 #include <fmt/core.h>
 
@@ -16,27 +17,6 @@
 
 namespace meniscus {
 namespace {
-
-bool is_digit_or_point(char c) {
-  return (c >= '0' && c <= '9') || c == '.';
-}
-bool begins_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-bool continues_name(char c) {
-  return begins_name(c) || (c >= '0' && c <= '9');
-}
-
-/// Behind the number that begins at `i`.
-std::size_t end_of_number(std::string_view text, std::size_t i) {
-  while (i < text.size() && is_digit_or_point(text[i])) ++i;
-  if (i == text.size() || (text[i] != 'e' && text[i] != 'E')) return i;
-  std::size_t exponent = i + 1;
-  if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
-  if (exponent == text.size() || !is_digit_or_point(text[exponent])) return i;
-  while (exponent < text.size() && is_digit_or_point(text[exponent])) ++exponent;
-  return exponent;
-}
 
 /// Formulas are made with the constants that occur in them, as there may be a thousand; with all,
 /// if one is to be said that was meant.
@@ -70,17 +50,8 @@ bool any_in(std::string_view formula, const std::set<std::string>& set) {
 
 std::vector<std::string> names_in(std::string_view formula) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < formula.size();) {
-    if (is_digit_or_point(formula[i])) {
-      i = end_of_number(formula, i);
-    } else if (begins_name(formula[i])) {
-      const std::size_t begin = i;
-      while (i < formula.size() && continues_name(formula[i])) ++i;
-      names.emplace_back(formula.substr(begin, i - begin));
-    } else {
-      ++i;
-    }
-  }
+  for (const NamePlace& place : name_places(formula))
+    names.emplace_back(formula.substr(place.begin, place.end - place.begin));
   return names;
 }
 
@@ -112,10 +83,20 @@ void Constants::add_formula(const std::string& name, const std::string& formula)
 
 bool Constants::in(std::string_view formula) const {
   if (empty()) return false;
+  if (functions.in(formula)) return true;
   const std::vector<std::string> names = names_in(formula);
   return broken_in(formula) || std::any_of(numbers().begin(), numbers().end(), [&](const auto& c) {
            return std::find(names.begin(), names.end(), c.first) != names.end();
          });
+}
+
+std::string Constants::hint(std::string_view formula) const {
+  for (const std::string& name : names_in(formula)) {
+    const bool known = is_word_of_formulas(name) || in(name);
+    const std::string meant = known ? "" : did_you_mean(name, functions.names());
+    if (!meant.empty()) return meant;
+  }
+  return "";
 }
 
 bool Constants::broken_in(std::string_view formula) const {

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "functions.hpp"
+
 namespace meniscus {
 
 /// Names in a formula, in their order, functions and variables included; not the e of 2e9.
@@ -33,9 +35,9 @@ class Constants {
   /// One with a problem that was noted; formulas of it need no message of their own.
   void add_broken(const std::string& name) { broken_.insert(name); }
 
-  bool empty() const { return numbers().empty() && broken_.empty(); }
+  bool empty() const { return numbers().empty() && broken_.empty() && functions.empty(); }
   const NamedNumbers& numbers() const { return numbers_[0]; }
-  /// A formula uses one of them, broken ones included.
+  /// A formula uses one of them, or one of the functions, broken ones included.
   bool in(std::string_view formula) const;
   bool broken_in(std::string_view formula) const;
   bool angle_in(std::string_view formula) const;
@@ -47,6 +49,13 @@ class Constants {
   /// The dimension that a formula without variables has by its constants; nothing if it is none, as
   /// of radius + 1.
   std::optional<Dimension> dimension_of(const std::string& formula) const;
+
+  /// "; did you mean 'bump'?" of a name in the formula that nobody knows, if a function is called
+  /// nearly so.
+  std::string hint(std::string_view formula) const;
+
+  /// Those of [functions]. What stands above is said of formulas without calls of them.
+  Functions functions;
 
  private:
   std::array<NamedNumbers, 4> numbers_;  ///< as measured; with half the unit of length, time, mass

@@ -100,6 +100,11 @@ struct Block::Node {
   /// refer to each other.
   void read_constants();
   class ConstantsReader;
+  /// Takes every entry of this table as a function of the document; their formulas may use
+  /// constants that are read later.
+  void read_functions();
+  /// When there are constants: notes what is wrong with the formulas of functions.
+  void check_functions();
 
   /// Appends this table and those below as TOML, with `header` as its full name.
   void write(std::string& toml, const std::string& header, bool in_array) const;

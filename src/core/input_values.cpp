@@ -69,8 +69,9 @@ std::string allowed_integer(const Range& range) {
 
 namespace {
 
-std::int64_t integer_of_constants(const std::string& formula, const Range& range,
+std::int64_t integer_of_constants(const std::string& given, const Range& range,
                                   const Constants& constants) {
+  const std::string formula = constants.functions.expanded(given);
   if (constants.broken_in(formula)) return static_cast<std::int64_t>(harmless(range));
   const Real value = constants.value(formula, dimension::none);
   constexpr Real largest = 9007199254740992;  // beyond, not every integer is a Real
@@ -132,14 +133,23 @@ void Number::refuse_radians(const std::string& text) const {
         text, name_of(dimension)));
 }
 
-Real Number::converted(const std::string& text) const {
+/// The formula as given and as it was read, if those are not the same, to begin a message with.
+std::string origin(const std::string& given, const std::string& read) {
+  return given == read ? "" : fmt::format("'{}' by [functions]: ", given);
+}
+
+Real Number::converted(const std::string& given) const {
+  std::string text = given;
   try {
+    if (constants.in(given) && !constants.broken_in(given))
+      text = constants.functions.expanded(given);
     if (constants.broken_in(text)) return harmless(range);
     refuse_radians(text);
-    if (constants.in(text)) return constants.value(text, dimension);
+    if (constants.in(given)) return constants.value(text, dimension);
     return units.quantity(text, dimension);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}; allowed is {}", error.what(), allowed()));
+    throw InputError(fmt::format("{}{}{}; allowed is {}", origin(given, text), error.what(),
+                                 constants.hint(given), allowed()));
   }
 }
 
@@ -160,24 +170,29 @@ Expression Number::expression(const Value& value, Variables variables) const {
   try {
     formula.emplace(*text);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("neither a quantity ({}) nor a formula ({}); allowed is {}",
-                                 not_quantity, error.what(), allowed_or_formula(variables)));
+    throw InputError(fmt::format("neither a quantity ({}) nor a formula ({}{}); allowed is {}",
+                                 not_quantity, error.what(), constants.hint(*text),
+                                 allowed_or_formula(variables)));
   }
   refuse_others(*formula, variables);
   return formula->constant() ? checked((*formula)({0, 0, 0})) : *std::move(formula);
 }
 
-Expression Number::formula_of_constants(const std::string& text, Variables variables) const {
-  if (constants.broken_in(text)) return harmless(range);
+Expression Number::formula_of_constants(const std::string& given, Variables variables) const {
+  if (constants.broken_in(given)) return harmless(range);
+  std::string text = given;
   std::optional<Real> number;
   try {
+    text = constants.functions.expanded(given);
+    if (constants.broken_in(text)) return harmless(range);
     refuse_radians(text);
     Expression formula(text, constants.numbers());
     refuse_others(formula, variables);
     if (!formula.constant()) return formula;
     number = constants.value(text, dimension);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}; allowed is {}", error.what(), allowed_or_formula(variables)));
+    throw InputError(fmt::format("{}{}{}; allowed is {}", origin(given, text), error.what(),
+                                 constants.hint(given), allowed_or_formula(variables)));
   }
   return checked(*number);
 }

@@ -67,10 +67,10 @@ struct Number {
   std::string allowed_or(const std::string& formula) const;
   Real checked(Real value) const;
   /// The number of a text with or without a unit, or of a formula of constants.
-  Real converted(const std::string& text) const;
+  Real converted(const std::string& given) const;
   void refuse_radians(const std::string& text) const;
   /// A formula in which constants occur.
-  Expression formula_of_constants(const std::string& text, Variables) const;
+  Expression formula_of_constants(const std::string& given, Variables) const;
 };
 
 }  // namespace meniscus::input_values

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading [constants]: numbers, quantities, and formulas of each other.
+// Reading [constants]: numbers, quantities, and formulas of each other; and [functions].
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 #include "meniscus/core/names.hpp"
@@ -64,9 +64,13 @@ class Block::Node::ConstantsReader {
   /// Whether there is one; if not, the problem was noted at the constant that it needs.
   bool number(const std::string& name, const scene_tree::Value& value) {
     require_free_name(name);
-    if (const auto* text = std::get_if<std::string>(&value.data)) {
-      if (!read_needed(*text)) return false;
-      add(name, *text);
+    if (constants().functions.find(name) != nullptr)
+      throw InputError("is the name of one of [functions], too; allowed is any other name");
+    if (const auto* given = std::get_if<std::string>(&value.data)) {
+      if (constants().broken_in(*given)) return false;
+      const std::string text = constants().functions.expanded(*given);
+      if (!read_needed(text)) return false;
+      constants().functions.in(*given) ? constants().add_formula(name, text) : add(name, text);
     } else {
       constants().add(name, plain_number(value));
     }
@@ -139,6 +143,64 @@ void Block::Node::read_constants() {
       note(entry.place, scene_tree::joined(path, entry.key),
            "no such constant in the scene; " + allowed_names(entry.key, in_file));
     reader.read(entry);
+  }
+}
+
+void Block::Node::read_functions() {
+  Constants& constants = document->constants;
+  for (const scene_tree::Entry& entry : table->entries) {
+    was_read.push_back(entry.key);
+    std::string name = entry.key.substr(0, entry.key.find('('));
+    const auto sound = attempt(
+        entry.value, scene_tree::joined(path, entry.key), [&](const scene_tree::Value& value) {
+          Functions::Function function = Functions::signature(entry.key);
+          name = function.name;
+          require_free_name(name);
+          if (constants.functions.find(name) != nullptr)
+            throw InputError("is the name of another function, too; allowed is any other name");
+          for (const std::string& argument : function.arguments)
+            if (is_word_of_formulas(argument) && argument.find_first_not_of("xyzt") == 0)
+              throw InputError(fmt::format(
+                  "the argument '{}' has a meaning in formulas already; allowed is any other name",
+                  argument));
+          if (const auto* real = std::get_if<Real>(&value.data))
+            function.formula = input_values::toml(*real);
+          else if (const auto* integer = std::get_if<std::int64_t>(&value.data))
+            function.formula = input_values::toml(*integer);
+          else
+            function.formula = input_values::exactly<std::string>(value, "a formula");
+          constants.functions.add(std::move(function));
+          return true;
+        });
+    if (!sound) constants.add_broken(name);
+  }
+}
+
+void Block::Node::check_functions() {
+  Constants& constants = document->constants;
+  for (const scene_tree::Entry& entry : table->entries) {
+    const std::size_t bracket = std::min(entry.key.find('('), entry.key.size());
+    const std::string name = entry.key.substr(0, bracket);
+    const Functions::Function* function = constants.functions.find(name);
+    if (function == nullptr || constants.broken_in(name)) continue;
+    const auto sound =
+        attempt(entry.value, scene_tree::joined(path, entry.key), [&](const scene_tree::Value&) {
+          const std::string formula = constants.functions.body(*function);
+          if (constants.broken_in(formula)) return false;
+          NamedNumbers numbers = constants.numbers();
+          for (const std::string& argument : function->arguments) {
+            std::erase_if(numbers,
+                          [&](const auto& constant) { return constant.first == argument; });
+            if (!is_word_of_formulas(argument)) numbers.emplace_back(argument, 1);
+          }
+          try {
+            Expression{formula, numbers};
+          } catch (const InputError& error) {
+            throw InputError(error.what() + constants.hint(formula));
+          }
+          return true;
+        });
+    if (!sound.value_or(false)) constants.add_broken(name);
   }
 }
 

@@ -92,7 +92,10 @@ SceneInput SceneInput::from_text(std::string_view toml, std::string name,
     units.problem("system", error.what());
   }
   units.done();
-  if (const auto constants = input.root_.table("constants")) constants->node_->read_constants();
+  const auto constants = input.root_.table("constants"), functions = input.root_.table("functions");
+  if (functions) functions->node_->read_functions();
+  if (constants) constants->node_->read_constants();
+  if (functions) functions->node_->check_functions();
   return input;
 }
 

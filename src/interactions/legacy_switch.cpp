@@ -245,6 +245,9 @@ class Model final : public ContactModel<D> {
   }
   /// Of the Lennard-Jones wall.
   PlaneContact flat(bool, const ContactSurfaces&) const override { return plane_contact(law_, 1); }
+  Real greatest_pressure(bool, const ContactSurfaces&) const override {
+    return plane_state(law_, 1, law_.guard * law_.sigma0).pressure;
+  }
   std::string described(const ContactSurfaces&, const UnitSystem& units) const override {
     return fmt::format("wet below the gap {:.4g} {} at {:.4g} degrees by switched tensions",
                        switch_gap(), units.symbol(dimension::length), k_.angle);

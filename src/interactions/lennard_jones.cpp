@@ -148,6 +148,10 @@ class Model final : public ContactModel<D> {
   PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const override {
     return plane_contact(law(rigid, surfaces), k_.beta * k_.beta_other);
   }
+  Real greatest_pressure(bool rigid, const ContactSurfaces& surfaces) const override {
+    const LennardJones between(law(rigid, surfaces), k_.beta * k_.beta_other);
+    return between.at(between.least_gap()).pressure;
+  }
   std::optional<std::string> doubt(const ContactSurfaces&) const override { return std::nullopt; }
 
  private:

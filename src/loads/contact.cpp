@@ -9,6 +9,7 @@
 #include "meniscus/physics/containment.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
+#include "meniscus/scene/contact_advice.hpp"
 
 #include <fmt/core.h>
 
@@ -346,6 +347,11 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   assembly.note(
       fmt::format("contact '{}': {:.1f} MB", name, 1e-6 * static_cast<Real>(term.bytes())));
   report_points(assembly);
+  advise<D>(
+      {name, bodies,
+       partner ? partner_motion().velocity(0, 1e-6 * assembly.end_time()) : Vec<D>(Vec<D>::Zero()),
+       flat.adhesion, model->greatest_pressure(partner.has_value(), surfaces(assembly))},
+      assembly);
   if (const auto doubt = model->doubt(surfaces(assembly)))
     assembly.warn(fmt::format("contact '{}': {}", name, *doubt));
   if (form == "dissertation")

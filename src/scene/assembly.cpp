@@ -80,6 +80,28 @@ Real Assembly<D>::bulk_modulus(const std::string& name) const {
 }
 
 template <int D>
+Real Assembly<D>::shear_modulus(const std::string& name) const {
+  constexpr Real small = 1e-4;
+  const Body<D>& sheared = body(name);
+  const NodalVectors rest(scene_.system.mass.size(), Lanes::zero());
+  Real volume = 0, energy = 0;
+  const auto strain_energy = [&](const NodalVectors& u) {
+    Real sum = 0;
+    for (const auto& term : scene_.system.terms)
+      if (term->energy_kind() == "strain") sum += term->stored_energy({0, u, rest}).value_or(0);
+    return sum;
+  };
+  for (const Real shear : {small, -small}) {  // what is linear in it is of a stressed reference
+    NodalVectors u = rest;
+    for (Index A = 0; A < sheared.size(); ++A)
+      at(u, sheared.first + A).set(0, shear * sheared.origin(A)[1]);
+    energy += strain_energy(u) / 2;
+  }
+  for (Index A = 0; A < sheared.size(); ++A) volume += sheared.cells.volume(A);
+  return 2 * (energy - strain_energy(rest)) / (small * small * volume);
+}
+
+template <int D>
 std::optional<Real> Assembly<D>::surface_energy(const std::string& body) const {
   const auto found = surface_energy_.find(body);
   return found == surface_energy_.end() ? std::nullopt : std::optional(found->second);

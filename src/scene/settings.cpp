@@ -184,6 +184,12 @@ std::vector<KeyTable> key_tables() {
        "[constants]\nradius = \"5 nm\"\nduration = \"2 ns\"\nspeed = \"radius/duration\"\n"
        "[[body]]\nsemi_axes = [\"radius\", \"1.5*radius\", \"radius\"]\n"
        "initial_velocity = [\"-speed\", 0, 0]\n"},
+      {"[functions]",
+       {{"NAME", "formula", "any", "", "",
+         "a formula of x, y, z, t and constants, by its name for every formula of the scene; a key "
+         "\"NAME(a, b)\" in quotes is one of arguments, called as NAME(2*x, 1)"}},
+       "[functions]\nwave = \"sin(2*pi*x)\"\n\"bump(r, width)\" = \"exp(-(r/width)^2)\"\n"
+       "[[body]]\ninitial_velocity = [\"0.1*wave\", \"bump(sqrt(x^2 + y^2), 0.3)\", 0]\n"},
       {"[time]", key_texts(TimeSettings::rows())},
       {"[output]", key_texts(OutputSettings::rows())},
       {"[[body]]", key_texts(BodySettings::rows())},

@@ -305,6 +305,26 @@ class Reports(ProgramTest):
                 self.assertIn(f", {law}, form energy: adhesion W = 0.05 N/m",
                               self.call("check", self.scene(scene)).stdout)
 
+    def test_numbers_of_contact(self):
+        """Impact pressure rho c v and elastocapillary number W/(mu R) by hand, of a block of 1 m^3."""
+        text = BLOCK.replace('name = "block"', 'name = "block"\ninitial_velocity = [0, 0, "-SPEED"]')
+        text += ('[[contact]]\nname = "wall"\nbodies = ["block"]\nadhesion = ADHESION\nrange = 0.2\noffset = 0.1\n'
+                 '[contact.partner]\ntype = "half_space"\npoint = [0, 0, -0.9]\nnormal = [0, 0, 1]\n')
+        R, c = (3 / (4 * np.pi))**(1 / 3), (3e5 / 1e3)**0.5
+        for speed, adhesion, warned in (0.1, 500, ()), (20, 500, ("impact",)), (0, 2e5, ("W/(mu R)",)):
+            said = self.call("check", self.scene(text.replace("SPEED", str(speed)).replace("ADHESION", str(adhesion))))
+            softness = float(re.search(r"^contact 'wall': elastocapillary number W/\(mu R\) of 'block' (\S+)$",
+                                       said.stdout, re.M).group(1))
+            self.assertAlmostEqual(softness / (adhesion / (1e5 * R)), 1, delta=0.006)
+            impact = re.search(r"'block' moves at (\S+) m/s, so .* = (\S+) Pa; the contact holds (\S+) Pa", said.stdout)
+            self.assertEqual(impact is None, speed == 0)
+            if impact:
+                expected = (speed, 1000 * c * speed, 500 * 100 * 0.375**2 / 0.2)  # least gap: a quarter of offset
+                np.testing.assert_allclose([float(x) for x in impact.groups()], expected, rtol=0.006)
+            warnings = [line for line in said.stdout.splitlines() if line.startswith("warning:")]
+            self.assertEqual([word for word in ("impact", "W/(mu R)") if any(word in w for w in warnings)],
+                             list(warned), warnings)
+
     def test_units_in_si(self):
         text = self.call("check", self.scene('units.system = "nm-ps-ag"\n' + DROP)).stdout
         self.assertIn("units: 1 ag/(nm ps^2) = 1e+12 Pa, 1 ag/(nm ps) = 1 Pa s, 1 ag/ps^2 = 1000 N/m, "
@@ -345,6 +365,7 @@ class Reports(ProgramTest):
                   for heading, keys in re.findall(r"^(\S.*)\n((?:  .*\n)+)", text, re.M)}
         for heading, keys in {
                 "top level": "title dimension", "[units]": "system", "[constants]": "NAME",
+                "[functions]": "NAME",
                 "[time]": "end step safety check_every viscosity solver force_tolerance shape_tolerance",
                 "[output]": "frames_every history_every fields measures precision compression "
                             "restartable checkpoint_minutes",

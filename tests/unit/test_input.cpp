@@ -204,15 +204,17 @@ TEST(Input, UnknownKeys) {
     b.done();
   };
   EXPECT_EQ(report("dimenson = 3", read),
-            "s.toml:1:1: dimenson: unknown key; allowed are units, constants, dimension, time; did "
+            "s.toml:1:1: dimenson: unknown key; allowed are units, constants, functions, "
+            "dimension, time; did "
             "you mean "
             "'dimension'?");
-  EXPECT_EQ(
-      report("[tmie]\nx = 1", read),
-      "s.toml:1:2: tmie: unknown key; allowed are units, constants, dimension, time; did you mean "
-      "'time'?");
+  EXPECT_EQ(report("[tmie]\nx = 1", read),
+            "s.toml:1:2: tmie: unknown key; allowed are units, constants, functions, dimension, "
+            "time; did you mean "
+            "'time'?");
   EXPECT_EQ(report("'odd key' = 1", read),
-            "s.toml:1:1: \"odd key\": unknown key; allowed are units, constants, dimension, time");
+            "s.toml:1:1: \"odd key\": unknown key; allowed are units, constants, functions, "
+            "dimension, time");
 }
 
 TEST(Input, AllProblemsAreReportedInOneGoAndInOrder) {
@@ -235,7 +237,7 @@ s.toml:6:1: body[0].liquid.densty: unknown key; allowed are density, bulk_modulu
 s.toml:7:16: body[0].liquid.bulk_modulus: neither a quantity ('2 m' is a length (m), expected a pressure (kg/(m s^2))) nor a formula (formula '2 m': unknown name 'm' at character 3; allowed are x, y, z, t, pi, e and functions such as sqrt); allowed is a number in Pa or a text with a unit or a formula of x, y, z, > 0
 s.toml:8:10: body[0].liquid.points: 9 is out of range; allowed is >= 1 and <= 5
 s.toml:9:8: body[0].liquid.axes: has 2 entries; allowed is an array of 3 of: a number in m or a text with a unit, > 0
-s.toml:10:3: bdy: unknown key; allowed are units, constants, dimension, body, output, expect; did you mean 'body'?
+s.toml:10:3: bdy: unknown key; allowed are units, constants, functions, dimension, body, output, expect; did you mean 'body'?
 --set 'body[0].liquid.law=lgo': body[0].liquid.law: 'lgo' is unknown; allowed are linear, log, tait; did you mean 'log'?)toml");
 }
 

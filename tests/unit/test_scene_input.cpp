@@ -100,7 +100,7 @@ TEST(Input, LineEndsByteOrderMarkAndUnicode) {
     b.done();
   };
   EXPECT_EQ(report("name = 'Tr\u00f6pfchen'\r\nx = 1\r\n", read),
-            "s.toml:2:1: x: unknown key; allowed are units, constants, name");
+            "s.toml:2:1: x: unknown key; allowed are units, constants, functions, name");
   EXPECT_EQ(report("\xef\xbb\xbfname = 'Tr\u00f6pfchen'\n", read), "");
 }
 

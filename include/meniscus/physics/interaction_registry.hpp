@@ -51,6 +51,8 @@ class ContactModel {
                                                   const ContactSurfaces& surfaces) const = 0;
   /// What it means for flat surfaces.
   virtual PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const = 0;
+  /// The pressure of flat surfaces at the least gap: what presses harder comes through.
+  virtual Real greatest_pressure(bool rigid, const ContactSurfaces& surfaces) const = 0;
   /// The lengths that it chose, in words; empty: flat() says it all.
   virtual std::string described(const ContactSurfaces&, const UnitSystem&) const { return {}; }
   /// Why it may be wrong there, if it may.

@@ -57,6 +57,9 @@ class Assembly {
   const std::vector<Real>& viscosity(const std::string& body) const;
   /// The least bulk modulus of a body at its reference state.
   Real bulk_modulus(const std::string& body) const;
+  /// Stiffness of a body against a small simple shear, x over y, at its reference state, in the
+  /// mean over it; 0 of a fluid.
+  Real shear_modulus(const std::string& body) const;
   /// For the log: what was decided, and what is doubtful.
   void note(std::string sentence) { scene_.notes.push_back(std::move(sentence)); }
   void warn(std::string sentence) { scene_.warnings.push_back(std::move(sentence)); }
@@ -75,6 +78,8 @@ class Assembly {
 
   const UnitSystem& units() const { return scene_.units; }
   Real end_time() const { return scene_.time.end; }
+  /// Bodies have inertia: the solver is not one that looks for equilibria.
+  bool is_dynamic() const { return scene_.time.solver == "dynamics"; }
   /// Null if the scene does not begin there.
   const State* initial() const { return begins_ ? &scene_.initial : nullptr; }
   /// A failure of the initial state, with body and place of its particle.

@@ -75,6 +75,10 @@ class GapContact final : public ContactModel<D> {
   PlaneContact flat(bool, const ContactSurfaces& surfaces) const override {
     return law_(surfaces)->flat();
   }
+  Real greatest_pressure(bool, const ContactSurfaces& surfaces) const override {
+    const auto law = law_(surfaces);
+    return law->at(law->least_gap()).pressure;
+  }
   std::string described(const ContactSurfaces& surfaces, const UnitSystem& units) const override {
     return law_(surfaces)->described(units);
   }
