@@ -2,6 +2,7 @@
 // The command line.
 #include "meniscus/app/commands.hpp"
 #include "meniscus/app/documents.hpp"
+#include "meniscus/app/hand_over.hpp"
 #include "meniscus/app/interruption.hpp"
 #include "meniscus/app/manual.hpp"
 #include "meniscus/app/print.hpp"
@@ -15,10 +16,8 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <sstream>
 
@@ -203,20 +202,6 @@ void print_help(const std::string& topic, const CLI::App& app) {
   print_text(printed_topic(document_called(topic, guide_topics(), "topic")));
 }
 
-/// Replaces this process by meniscus-study, which lies beside this program.
-[[noreturn]] void hand_over_to_studies(char** argv) {
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path program = self.parent_path() / "meniscus-study";
-  const std::string name = program.string();
-  argv[1] = const_cast<char*>(name.c_str());
-  execvp(name.c_str(), argv + 1);
-  throw FileError(
-      fmt::format("'{}' is not there: studies are built on demand, by: cmake --build {} --target "
-                  "meniscus-study",
-                  program.string(), self.parent_path().string()));
-}
-
 /// What is wrong with the first word if it is no command.
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return std::nullopt;
@@ -258,6 +243,13 @@ int dispatch(int argc, char** argv) {
   CLI::App* study_command =
       app.add_subcommand("study", "error, observed order, time and memory of a family of methods");
   study_command->prefix_command()->set_help_flag();
+  // So are those of these two.
+  CLI::App* plot_command =
+      app.add_subcommand("plot", "pictures or a movie of a run or study: meniscus plot DIR");
+  plot_command->prefix_command()->set_help_flag();
+  CLI::App* report_command =
+      app.add_subcommand("report", "one page about a run: meniscus report DIR");
+  report_command->prefix_command()->set_help_flag();
   CLI::App* help_command = app.add_subcommand("help", "print a topic of the guide");
   std::string topic;
   help_command->add_option("TOPIC", topic, "contact, units, restart, ...; a list if not given");
@@ -287,6 +279,8 @@ int dispatch(int argc, char** argv) {
   if (run_command->parsed()) return run(request);
   if (check_command->parsed()) check(request);
   if (study_command->parsed()) hand_over_to_studies(argv);
+  if (plot_command->parsed()) hand_over_to_python("plot", argv);
+  if (report_command->parsed()) hand_over_to_python("report", argv);
   if (keys_command->parsed()) print_reference(keys_request);
   if (info_command->parsed()) print_text(describe_file(file));
   if (version_command->parsed()) print_version();

@@ -18,7 +18,7 @@ from program import BLOCK, DROP, SHEET, ProgramTest
 ROOT = Path(__file__).resolve().parents[2]
 TOPICS = sorted(path.stem for path in (ROOT / "inputs" / "guide").glob("*.md"))
 SCENES = sorted((ROOT / "inputs").glob("*.toml"))
-COMMANDS = ["run", "check", "keys", "info", "study", "help", "new", "sweep", "completion", "manual", "version"]
+COMMANDS = ["run", "check", "keys", "info", "study", "plot", "report", "help", "new", "sweep", "completion", "manual", "version"]
 
 
 class Help(ProgramTest):
@@ -148,6 +148,18 @@ class Sweep(ProgramTest):
         self.scene(SHEET + "# changed\n")
         self.refused(["sweep", scene, "--set", "time.end=0.001", "--output", "x"], 3, "another scene")
         self.call("sweep", scene, "--set", "time.end=0.001", "--output", "x", "--overwrite")
+
+
+class Pictures(ProgramTest):
+    def test_plot_and_report(self):
+        self.call("run", self.scene(SHEET), "--output", "out", "--until", "0.01")
+        self.assertIn("out/plots/energies.pdf", self.call("plot", "out", "--format", "pdf").stdout)
+        self.assertTrue((self.directory / "out/plots/energies.pdf").exists())
+        self.call("report", "out")
+        self.assertIn("<h2>History</h2>", (self.directory / "out/report.html").read_text())
+        self.assertIn("usage: meniscus plot", self.call("plot", "--help").stdout)
+        self.refused(["plot", "nowhere"], 1, "meniscus plot: ", "nowhere")
+        self.refused(["report", "out", "--nonsense"], 2, "usage: meniscus report", "--nonsense")
 
 
 class CommandLine(ProgramTest):

@@ -33,10 +33,11 @@ def main():
 
         program = installed / "bin/meniscus"
         for shipped in ("man/man1/meniscus.1", "bash-completion/completions/meniscus",
-                        "meniscus/meniscus.py", "meniscus/inputs/guide/contact.md"):  # fmt: skip
+                        "meniscus/meniscus.py", "meniscus/plotting/plot.py", "meniscus/inputs/guide/contact.md"):  # fmt: skip
             if not (installed / "share" / shipped).stat().st_size:
                 sys.exit(f"share/{shipped} is empty")
         run(program, "run", SCENE, "--output", folder / "out", "--quiet")
+        run(program, "plot", folder / "out")  # by what is installed beside it
         lines = (folder / "out/history.csv").read_text().splitlines()
         columns = lines[0].lstrip("# ").split(",")
         last = dict(zip(columns, lines[-1].split(",")))

@@ -16,5 +16,7 @@ function(meniscus_embed output)
     string(APPEND code "};\nstd::span<const meniscus::Document> meniscus::${name}() {\n"
       "  return of_${name};\n}\n")
   endforeach()
+  string(APPEND code "std::string_view meniscus::plotting_sources() {\n"
+    "  return \"${CMAKE_CURRENT_SOURCE_DIR}/tools/plotting\";\n}\n")
   file(GENERATE OUTPUT ${output} CONTENT "${code}")
 endfunction()

@@ -33,7 +33,7 @@ def positive(text):
 
 def arguments():
     parser = argparse.ArgumentParser(
-        prog="tools/plot", description="Draws pictures of a run or a study into DIR/plots."
+        prog=style.COMMAND, description="Draws pictures of a run or a study into DIR/plots."
     )
     parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run or study")
     parser.add_argument(
@@ -96,7 +96,7 @@ def main():
             return
         pictures = pictures_of(args)
     except (OSError, ValueError) as error:
-        sys.exit(f"tools/plot: {error}")
+        sys.exit(f"{style.COMMAND}: {error}")
     folder.mkdir(exist_ok=True)
     for name, figure in pictures.items():
         path = folder / f"{name}.{args.format}"

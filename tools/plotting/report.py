@@ -140,7 +140,7 @@ def page(run, log, args):
 
 def main():
     parser = argparse.ArgumentParser(
-        prog="tools/report", description="Writes DIR/report.html, one page about a run."
+        prog=style.COMMAND, description="Writes DIR/report.html, one page about a run."
     )
     parser.add_argument("dir", metavar="DIR", type=pathlib.Path, help="directory of the run")
     parser.add_argument("--field", help="as of tools/plot")
@@ -149,7 +149,7 @@ def main():
     try:
         text = page(Results(args.dir), Log(args.dir / "run.log"), args)
     except (OSError, ValueError) as error:
-        sys.exit(f"tools/report: {error}")
+        sys.exit(f"{style.COMMAND}: {error}")
     path = args.dir / "report.html"
     path.write_text(text, encoding="utf-8")
     print(path)

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Looks shared by all pictures: fonts, colours, and numbers with units that can be read."""
 
+import os
+import pathlib
 import re
+import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
+# How the scripts here were called, for messages.
+COMMAND = os.environ.get("MENISCUS_COMMAND", f"tools/{pathlib.Path(sys.argv[0]).stem}")
 DPI = 200
 # Distinguishable with any kind of colour vision (Okabe and Ito).
 COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]

@@ -17,6 +17,9 @@ std::span<const Document> guide_topics();
 /// The scenes of inputs/, by name.
 std::span<const Document> gallery_scenes();
 
+/// Where the sources of this program have tools/plotting.
+std::string_view plotting_sources();
+
 std::vector<std::string> names_of(std::span<const Document> documents);
 /// The document of that name. Throws InputError, which begins with `kind` ("topic"), if there is
 /// none.
