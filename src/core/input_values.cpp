@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "quantity.hpp"
+
 namespace meniscus::input_values {
 
 using scene_tree::Value;
