@@ -305,6 +305,24 @@ class Reports(ProgramTest):
                 self.assertIn(f", {law}, form energy: adhesion W = 0.05 N/m",
                               self.call("check", self.scene(scene)).stdout)
 
+    def test_functions_are_their_formulas(self):
+        """A scene of functions has the bits of one of formulas, its complete input too, and goes on."""
+        plain = with_output(BLOCK, "restartable = true").replace("end = 0.4", "end = 0.08")
+        named = plain.replace('"20*sin(40*t)*(1 + z)"', '"shake(40, 20)*(1 + z)"').replace(
+            '"5*y*cos(11*t)"', '"push"')
+        named += '[functions]\n"shake(rate, size)" = "size*sin(rate*t)"\npush = "5*y*cos(11*t)"\n'
+        self.assertEqual(named.count("shake("), 2)
+        states = {program.state_of(self.call("run", self.scene(text, name), "--output", name))
+                  for name, text in (("plain", plain), ("named", named))}
+        with h5py.File(self.directory / "named/run.h5") as file:
+            complete = file["meta/input"][()].decode()
+        self.assertNotIn("shake(", complete)
+        states.add(program.state_of(self.call("run", self.scene(complete, "complete"))))
+        states.add(program.state_of(self.call("run", "named.toml", "--restart", "named", "--frame", "1")))
+        self.assertEqual(len(states), 1)
+        self.refused(["run", "named.toml", "--restart", "named", "--frame", "1", "--set",
+                      "functions.push=6*y"], 3, "body_force[0].acceleration[1] differs")
+
     def test_numbers_of_contact(self):
         """Impact pressure rho c v and elastocapillary number W/(mu R) by hand, of a block of 1 m^3."""
         text = BLOCK.replace('name = "block"', 'name = "block"\ninitial_velocity = [0, 0, "-SPEED"]')
