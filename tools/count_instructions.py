@@ -24,7 +24,7 @@ EFFECTS = {
     "implicit viscosity": r"ImplicitViscosity<|add_viscous",
     "cell average": r"InternalForce<[23], meniscus::CellAverage<",
     "internal force": r"InternalForce<",
-    "contact": r"(Pair|Rigid)Contact<|GapPair<|(Contact|Patch)Points<|(Contact|Reach)List<|sum_over_partners|"
+    "contact": r"(Pair|Rigid)Contact<|PairSums|GapPair<|(Contact|Patch)Points<|(Contact|Reach)List<|sum_over_partners|"
     r"contact_demand",
 }
 

@@ -1,32 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact of two deformable bodies: one loop over the pairs of a list, the form and the kernel are
-// compiled into it.
+// Contact of two deformable bodies: their points, the list of pairs, the limits of steps and
+// measures.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_demand.hpp"
-#include "meniscus/physics/contact_forms.hpp"
 #include "meniscus/physics/contact_list.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "pair_sums.hpp"
 
 namespace meniscus {
 namespace {
-
-/// Forces on the points of one body.
-template <int D>
-struct Evaluation {
-  AlignedVector<Lanes> T, S;  ///< [cluster][i], as in contact_forms.hpp
-  std::vector<Real> nearest;  ///< [active cluster] least squared distance to the other body
-
-  Evaluation(Index clusters, bool moment) {
-    T.assign(static_cast<std::size_t>(clusters) * D, Lanes::zero());
-    if (moment) S = T;
-    nearest.reserve(static_cast<std::size_t>(clusters));
-  }
-};
 
 /// Where the points of both bodies are.
 template <int D>
@@ -41,21 +30,21 @@ ContactPoints<D> points_of(const ContactBody<D>& b, const ContactChoice& choice,
   return surface_contact_points(b.body, b.beta, choice, side);
 }
 
-template <int D, class Form, PairKernel K>
+template <int D>
 class PairContact final : public ForceTerm {
  public:
   PairContact(const ContactBody<D>& first, const ContactBody<D>& second, const ContactLaw& law,
               const ContactChoice& choice)
       : name_(choice.name),
         law_(law),
-        pair_law_(law),
+        sums_(pair_sums<D>(law, choice.form)),
         interaction_(law, first.beta * second.beta),
         first_(points_of(first, choice, 0)),
         second_(points_of(second, choice, 1)),
         list_(law.reach(), choice.skin * law.sigma0),
         now_{first_.at_rest(), second_.at_rest()},
-        first_result_(first_.clusters(), Form::moment),
-        second_result_(second_.clusters(), Form::moment) {}
+        first_result_(first_.clusters(), sums_->moment()),
+        second_result_(second_.clusters(), sums_->moment()) {}
 
   std::string name() const override { return "contact '" + name_ + "'"; }
   std::string_view energy_kind() const override { return "contact"; }
@@ -64,8 +53,8 @@ class PairContact final : public ForceTerm {
     move(motion, now_);
     list_.update(now_.first.x, now_.second.x);
     update_weights(motion, list_, now_);
-    sum_all(now_.first, list_.of_first(), now_.second, first_result_);
-    sum_all(now_.second, list_.of_second(), now_.first, second_result_);
+    sums_->evaluate(now_.first, list_.of_first(), now_.second, first_result_);
+    sums_->evaluate(now_.second, list_.of_second(), now_.first, second_result_);
     first_.add_force(now_.first, list_.of_first().active, first_result_.T, first_result_.S, force);
     second_.add_force(now_.second, list_.of_second().active, second_result_.T, second_result_.S,
                       force);
@@ -88,17 +77,14 @@ class PairContact final : public ForceTerm {
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
     return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
-      return energy(places, list.of_first());
+      return sums_->energy(places.first, first_.clusters(), list.of_first(), places.second);
     });
   }
 
   /// The forces of the others are not the gradient of their energy.
   std::optional<Real> potential(const Motion& motion) override {
-    if constexpr (std::is_same_v<Form, contact::Energy<D>> ||
-                  std::is_same_v<Form, contact::Volume<D>>)
-      return stored_energy(motion);
-    else
-      return std::nullopt;
+    if (!sums_->conservative()) return std::nullopt;
+    return stored_energy(motion);
   }
 
   bool may_reject_steps() const override { return true; }
@@ -114,9 +100,8 @@ class PairContact final : public ForceTerm {
   std::vector<MeasureSource> measures() const override;
 
   std::size_t bytes() const override {
-    const Evaluation<D>&a = first_result_, &b = second_result_;
     return first_.bytes() + second_.bytes() + now_.first.bytes() + now_.second.bytes() +
-           list_.bytes() + (a.T.size() + a.S.size() + b.T.size() + b.S.size()) * sizeof(Lanes);
+           list_.bytes() + first_result_.bytes() + second_result_.bytes();
   }
   Offset pairs() const override {
     return first_.pairs() + second_.pairs() + 2 * list_.pairs() * Lanes::width * Lanes::width;
@@ -148,28 +133,6 @@ class PairContact final : public ForceTerm {
     return f(places, list);
   }
 
-  void sum_all(const ContactPlaces<D>& points, const Rows& rows, const ContactPlaces<D>& others,
-               Evaluation<D>& result) const {
-    result.nearest.resize(rows.active.size());
-    parallel_for(
-        static_cast<Index>(rows.active.size()),
-        [&](Index k) {
-          const Index c = at(rows.active, k);
-          Lanes T[D], S[D];
-          for (int i = 0; i < D; ++i) T[i] = S[i] = Lanes::zero();
-          const Lanes nearest =
-              contact::sum_over_partners<Form, D>(pair_law_, law_.reach(), points.x_of(c),
-                                                  points.weight_of(c), rows.of(c), others, T, S);
-          at(result.nearest, k) =
-              std::min(std::min(nearest[0], nearest[1]), std::min(nearest[2], nearest[3]));
-          for (int i = 0; i < D; ++i) {
-            at(result.T, c * D + i) = T[i];
-            if (Form::moment) at(result.S, c * D + i) = S[i];
-          }
-        },
-        4);
-  }
-
   /// The points of one body with their changes.
   struct Changing {
     ContactPoints<D>& points;
@@ -180,40 +143,9 @@ class PairContact final : public ForceTerm {
   void add_change(const Changing& own, const ContactPlaces<D>& others,
                   const ContactChanges<D>& changes, const Motion& motion, const Motion& change,
                   Forces force) const {
-    AlignedVector<Lanes> dT(own.places.x.size(), Lanes::zero()), S, dS;
-    if (Form::moment) S = dS = dT;
-    parallel_for(
-        static_cast<Index>(own.rows.active.size()),
-        [&](Index k) {
-          const Index c = at(own.rows.active, k);
-          Dual<Lanes> t[D], s[D];
-          for (int i = 0; i < D; ++i) t[i] = s[i] = 0.0;
-          contact::sum_changes_over_partners<Form, D>(pair_law_, law_.reach(), own.places.x_of(c),
-                                                      own.changes.x_of(c), own.places.weight_of(c),
-                                                      &at(own.changes.weight, c * Form::components),
-                                                      own.rows.of(c), others, changes, t, s);
-          for (int i = 0; i < D; ++i) {
-            at(dT, c * D + i) = t[i].d;
-            if (!Form::moment) continue;
-            at(S, c * D + i) = s[i].v;
-            at(dS, c * D + i) = s[i].d;
-          }
-        },
-        4);
-    own.points.add_force_change(own.places, own.changes, motion, change, own.rows.active, dT, S, dS,
-                                force);
-  }
-
-  Real energy(const PairPlaces<D>& places, const Rows& rows) const {
-    // Over all clusters: the order of summation must not depend on which are active.
-    return parallel_sum(first_.clusters(), 0.0, [&](Index c) {
-      Lanes T[D], S[1];
-      T[0] = Lanes::zero();
-      contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
-          pair_law_, law_.reach(), places.first.x_of(c), places.first.weight_of(c), rows.of(c),
-          places.second, T, S);
-      return sum(T[0]);
-    });
+    const PairChange by = sums_->change(own.places, own.changes, own.rows, others, changes);
+    own.points.add_force_change(own.places, own.changes, motion, change, own.rows.active, by.dT,
+                                by.S, by.dS, force);
   }
 
   /// Least squared distance between points within reach of the list; `unbounded` if there are none.
@@ -246,18 +178,18 @@ class PairContact final : public ForceTerm {
 
   std::string name_;
   ContactLaw law_;
-  PairLaw<K> pair_law_;
+  std::unique_ptr<PairSums<D>> sums_;
   LennardJones interaction_;
   ContactPoints<D> first_, second_;
   ContactList<D> list_;
   // Work space of a force.
   PairPlaces<D> now_;
-  Evaluation<D> first_result_, second_result_;
+  PairEvaluation<D> first_result_, second_result_;
 };
 
 /// What the places and velocities of a force mean for the step.
-template <int D, class Form, PairKernel K>
-Report PairContact<D, Form, K>::report(const Motion& motion) const {
+template <int D>
+Report PairContact<D>::report(const Motion& motion) const {
   Report report;
   const std::vector<Real>& nearest = first_result_.nearest;
   if (nearest.empty()) {
@@ -274,8 +206,8 @@ Report PairContact<D, Form, K>::report(const Motion& motion) const {
   return report;
 }
 
-template <int D, class Form, PairKernel K>
-Failure PairContact<D, Form, K>::describe_overlap(Real gap) const {
+template <int D>
+Failure PairContact<D>::describe_overlap(Real gap) const {
   const auto& active = list_.of_first().active;
   const std::vector<Real>& nearest = first_result_.nearest;
   const auto k = std::min_element(nearest.begin(), nearest.end()) - nearest.begin();
@@ -290,11 +222,11 @@ Failure PairContact<D, Form, K>::describe_overlap(Real gap) const {
           true};
 }
 
-template <int D, class Form, PairKernel K>
-Vec<D> PairContact<D, Form, K>::force_on_first(const Motion& motion) const {
+template <int D>
+Vec<D> PairContact<D>::force_on_first(const Motion& motion) const {
   return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
-    Evaluation<D> result(first_.clusters(), Form::moment);
-    sum_all(places.first, list.of_first(), places.second, result);
+    PairEvaluation<D> result(first_.clusters(), sums_->moment());
+    sums_->evaluate(places.first, list.of_first(), places.second, result);
     Vec<D> force = Vec<D>::Zero();
     for (const Index c : list.of_first().active)
       for (int i = 0; i < D; ++i) force[i] -= sum(at(result.T, c * D + i));
@@ -302,8 +234,8 @@ Vec<D> PairContact<D, Form, K>::force_on_first(const Motion& motion) const {
   });
 }
 
-template <int D, class Form, PairKernel K>
-std::vector<MeasureSource> PairContact<D, Form, K>::measures() const {
+template <int D>
+std::vector<MeasureSource> PairContact<D>::measures() const {
   const auto gap = [this](const Motion& motion) {
     PairPlaces<D> places{first_.at_rest(), second_.at_rest()};
     move(motion, places);
@@ -321,37 +253,13 @@ std::vector<MeasureSource> PairContact<D, Form, K>::measures() const {
   return all;
 }
 
-template <int D, PairKernel K>
-std::unique_ptr<ForceTerm> with_form(const ContactBody<D>& first, const ContactBody<D>& second,
-                                     const ContactLaw& law, const ContactChoice& choice) {
-  using namespace contact;
-  switch (choice.form) {
-    case ContactForm::pressure:
-      return std::make_unique<PairContact<D, Pressure<D>, K>>(first, second, law, choice);
-    case ContactForm::volume:
-      return std::make_unique<PairContact<D, Volume<D>, K>>(first, second, law, choice);
-    case ContactForm::dissertation:
-      return std::make_unique<PairContact<D, Dissertation<D>, K>>(first, second, law, choice);
-    case ContactForm::energy:
-      break;
-  }
-  return std::make_unique<PairContact<D, Energy<D>, K>>(first, second, law, choice);
-}
-
 }  // namespace
 
 template <int D>
 std::unique_ptr<ForceTerm> contact_pair(const ContactBody<D>& first, const ContactBody<D>& second,
                                         const ContactLaw& law, const ContactChoice& choice) {
   if (!law.cut()) throw InputError("the contact of two deformable bodies needs a cut-off");
-  if (dimension_of(law.kernel) != D)
-    throw InputError("the kernel of the contact has another dimension than the bodies");
-  if constexpr (D == 3)
-    return with_form<D, PairKernel::space>(first, second, law, choice);
-  else if (law.kernel == PairKernel::planar)
-    return with_form<D, PairKernel::planar>(first, second, law, choice);
-  else
-    return with_form<D, PairKernel::integrated>(first, second, law, choice);
+  return std::make_unique<PairContact<D>>(first, second, law, choice);
 }
 
 template std::unique_ptr<ForceTerm> contact_pair(const ContactBody<2>&, const ContactBody<2>&,

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sums of contact over pairs of points, with form and kernel compiled into them.
+#pragma once
+#include "meniscus/core/dual.hpp"
+#include "meniscus/physics/contact.hpp"
+#include "meniscus/physics/contact_list.hpp"
+#include "meniscus/physics/contact_points.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace meniscus {
+
+/// Forces on the points of one body.
+template <int D>
+struct PairEvaluation {
+  AlignedVector<Lanes> T, S;  ///< [cluster][i], as in contact_forms.hpp
+  std::vector<Real> nearest;  ///< [active cluster] least squared distance to the other body
+
+  PairEvaluation(Index clusters, bool moment) {
+    T.assign(static_cast<std::size_t>(clusters) * D, Lanes::zero());
+    if (moment) S = T;
+    nearest.reserve(static_cast<std::size_t>(clusters));
+  }
+  std::size_t bytes() const { return (T.size() + S.size()) * sizeof(Lanes); }
+};
+
+/// Changes of T, and S with its changes, of the points of one body; [cluster][i].
+struct PairChange {
+  AlignedVector<Lanes> dT, S, dS;
+};
+
+template <int D>
+class PairSums {
+ public:
+  using Rows = typename ContactList<D>::Rows;
+
+  virtual ~PairSums() = default;
+  /// Whether the form has S.
+  virtual bool moment() const = 0;
+  /// Whether its force is minus the gradient of its energy.
+  virtual bool conservative() const = 0;
+  /// Forces of `others` on `points`, which has these partners.
+  virtual void evaluate(const ContactPlaces<D>& points, const Rows& rows,
+                        const ContactPlaces<D>& others, PairEvaluation<D>& result) const = 0;
+  virtual PairChange change(const ContactPlaces<D>& points, const ContactChanges<D>& changes,
+                            const Rows& rows, const ContactPlaces<D>& others,
+                            const ContactChanges<D>& other_changes) const = 0;
+  /// Potential energy of all `clusters` of the points.
+  virtual Real energy(const ContactPlaces<D>& points, Index clusters, const Rows& rows,
+                      const ContactPlaces<D>& others) const = 0;
+};
+
+/// Throws InputError if the kernel of the law has another dimension.
+template <int D>
+std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form);
+
+}  // namespace meniscus
