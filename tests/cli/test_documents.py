@@ -68,7 +68,6 @@ class Documents(ProgramTest):
         self.assertEqual(len(lines.splitlines()), 5)
         try:
             import pandas  # noqa: F401  pylint: disable=import-outside-toplevel
-            lines = "import pandas\n" + lines
         except ImportError:
             lines = "\n".join(line for line in lines.splitlines() if "pandas" not in line)
         (self.directory / "tools").symlink_to(ROOT / "tools")
