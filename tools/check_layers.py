@@ -39,7 +39,7 @@ LEAVES = {
 # Library: (beginning of its headers' names, files that may see it; None: any one source).
 CONFINED = {
     "toml++": (r"toml\+\+/|toml\.hpp", None),
-    "muParser": (r"muParser", None),
+    "muParser": (r"muParser", "src/core/expression*"),
     "nanoflann": (r"nanoflann", None),
     "CLI11": (r"CLI/", "src/app/*main*"),
     "spdlog": (r"spdlog/", None),

@@ -3,6 +3,7 @@
 #include "meniscus/body/shapes.hpp"
 
 #include "meniscus/body/imperfection.hpp"
+#include "meniscus/body/placement.hpp"
 #include "meniscus/core/error.hpp"
 
 namespace meniscus {
@@ -30,7 +31,8 @@ Geometry<D> read_geometry(const Block& block) {
   try {
     auto made = shapes<D>().at(*name).make(block);
     if (!made) return stand_in<D>();
-    Geometry<D> geometry = *std::move(made);
+    Geometry<D> geometry = read_placement(block, *std::move(made));
+    if (!block.in_order()) return stand_in<D>();
     if (imperfection > 0)
       geometry = with_imperfection(std::move(geometry), imperfection,
                                    static_cast<std::uint64_t>(imperfection_seed));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formulas in scenes. The only file that sees muParser.
+// Formulas in scenes.
 #include "meniscus/core/expression.hpp"
 
 #include "meniscus/core/error.hpp"
@@ -13,8 +13,11 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "expression_jets.hpp"
 
 namespace meniscus {
 
@@ -24,6 +27,8 @@ struct Expression::Parsed {
   std::array<Real, 4> variables{};  ///< x, y, z, t
   mu::Parser parser;
   std::string place;
+  NamedNumbers constants;
+  std::optional<ExpressionJets> jets;  ///< once they were asked for
 };
 
 namespace {
@@ -168,6 +173,7 @@ Expression::Expression(std::string formula, const NamedNumbers& constants)
     const auto& used = parsed->parser.GetUsedVar();
     for (std::size_t i = 0; i < variable_names.size(); ++i)
       at(depends_on_, i) = used.count(variable_names[i]) != 0;
+    parsed->constants = constants;
     if (!used.empty()) parsed_ = std::move(parsed);
   } catch (const mu::ParserError& error) {
     throw InputError(fmt::format("formula '{}': {}", text_, explain(error, parsed->parser, text_)));
@@ -198,6 +204,13 @@ Real Expression::unchecked(const Eigen::Vector3d& X, Real t) const {
   const std::lock_guard guard(parsed_->lock);
   parsed_->variables = {X[0], X[1], X[2], t};
   return parsed_->parser.Eval();
+}
+
+Jet<3> Expression::jet(const Eigen::Vector3d& X, Real t) const {
+  if (constant()) return value_;
+  const std::lock_guard guard(parsed_->lock);
+  if (!parsed_->jets) parsed_->jets.emplace(text_, parsed_->constants);
+  return (*parsed_->jets)(X, t);
 }
 
 }  // namespace meniscus

@@ -195,6 +195,13 @@ std::vector<KeyTable> key_tables() {
       {"[[body]]", key_texts(BodySettings::rows())},
       {"[[body]] of any shape",
        {{"shape", "text", "", "", "required", "one of the shapes below"},
+        {"map", "3 numbers or formulas", "m", "any", "",
+         "where the place x, y, z of the shape is in the body, e.g. [\"x\", \"y\", "
+         "\"z*(1 + x^2)\"]; normals and curvature are exact"},
+        {"rotate", "number", "deg", "any", "0",
+         "the body is turned about its middle, after the map"},
+        {"rotate_axis", "3 numbers", "", "any", "[0, 0, 1]", "the axis (3D)"},
+        {"move", "3 numbers", "m", "any", "0", "the body is moved by this, at last"},
         {"imperfection", "number", "m", ">= 0", "0",
          "rms of a smooth random displacement of the reference"},
         {"imperfection_seed", "integer", "", ">= 0", "1", "seed of the displacement"},

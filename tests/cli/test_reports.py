@@ -389,7 +389,8 @@ class Reports(ProgramTest):
                             "restartable checkpoint_minutes",
                 "[[body]]": "name integration gauss_points volumetric window support_factor support_rank "
                             "support_spacings initial_displacement initial_velocity",
-                "[[body]] of any shape": "shape imperfection imperfection_seed jitter jitter_seed",
+                "[[body]] of any shape": "shape map rotate rotate_axis move imperfection "
+                                          "imperfection_seed jitter jitter_seed",
                 "[[surface_tension]]": "body gamma form points coefficient_damping",
                 "[[body_force]]": "body acceleration",
                 "[[exact]]": "body displacement velocity rate",

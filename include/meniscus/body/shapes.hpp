@@ -207,10 +207,11 @@ bool register_shape() {
 }
 
 /// The body that a table of the scene describes: `shape` names a registered shape, its own keys
-/// follow in the same table, `imperfection` (rms length, default 0) with `imperfection_seed`
-/// displaces the body smoothly (imperfection.hpp), and `jitter` (fraction of the shortest edge,
-/// default 0) with `jitter_seed` moves the interior nodes. Numbers that make no body are noted in
-/// the block as a problem and a coarse stand-in is returned. The caller calls block.done().
+/// follow in the same table, then what places it (placement.hpp), `imperfection` (rms length,
+/// default 0) with `imperfection_seed` displaces the body smoothly (imperfection.hpp), and `jitter`
+/// (fraction of the shortest edge, default 0) with `jitter_seed` moves the interior nodes. Numbers
+/// that make no body are noted in the block as a problem and a coarse stand-in is returned. The
+/// caller calls block.done().
 template <int D>
 Geometry<D> read_geometry(const Block& block);
 

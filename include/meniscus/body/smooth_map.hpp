@@ -2,10 +2,9 @@
 // Smooth maps of space with exact first and second derivatives: they stretch unit shapes to bodies
 // and are the exact solutions of curvature tests.
 #pragma once
-#include "meniscus/core/types.hpp"
+#include "meniscus/core/jet.hpp"
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -38,42 +37,6 @@ SmoothMap<3> twist_ellipsoid();
 /// (X1, X2, X3 (0.207161 + 2.002558 r^2 - 1.122762 r^4) / 2), r^2 = X1^2 + X2^2: takes the unit
 /// sphere to the resting shape of a red blood cell (RKPM note 3.1).
 SmoothMap<3> biconcave();
-
-/// A number with its gradient and Hessian with respect to X: formulas written with it yield exact
-/// derivatives.
-template <int D>
-struct Jet {
-  Real value;
-  Vec<D> gradient = Vec<D>::Zero();
-  Mat<D> hessian = Mat<D>::Zero();
-
-  Jet(Real constant) : value(constant) {}
-  Jet(Real v, const Vec<D>& g, const Mat<D>& h) : value(v), gradient(g), hessian(h) {}
-  /// The coordinate X_k itself.
-  static Jet variable(const Vec<D>& X, int k) { return {X[k], Vec<D>::Unit(k), Mat<D>::Zero()}; }
-
-  /// f(*this) for a function with this value, slope and second derivative.
-  Jet chain(Real f, Real slope, Real second) const {
-    return {f, slope * gradient, slope * hessian + second * gradient * gradient.transpose()};
-  }
-  friend Jet operator+(const Jet& a, const Jet& b) {
-    return {a.value + b.value, a.gradient + b.gradient, a.hessian + b.hessian};
-  }
-  friend Jet operator-(const Jet& a, const Jet& b) {
-    return {a.value - b.value, a.gradient - b.gradient, a.hessian - b.hessian};
-  }
-  friend Jet operator*(const Jet& a, const Jet& b) {
-    return {a.value * b.value, a.value * b.gradient + b.value * a.gradient,
-            a.value * b.hessian + b.value * a.hessian + a.gradient * b.gradient.transpose() +
-                b.gradient * a.gradient.transpose()};
-  }
-  friend Jet sin(const Jet& a) {
-    return a.chain(std::sin(a.value), std::cos(a.value), -std::sin(a.value));
-  }
-  friend Jet cos(const Jet& a) {
-    return a.chain(std::cos(a.value), -std::sin(a.value), -std::cos(a.value));
-  }
-};
 
 /// The map of a formula: f takes and returns std::array<Jet<D>, D>.
 template <int D, class Formula>

@@ -12,6 +12,9 @@
 
 namespace meniscus {
 
+template <int D>
+struct Jet;
+
 /// Numbers that formulas may use by name.
 using NamedNumbers = std::vector<std::pair<std::string, Real>>;
 
@@ -40,6 +43,10 @@ class Expression {
   Real operator()(const Eigen::Vector3d& X, Real t = 0) const;
   /// The same for callers with a range of their own; it may be infinite or not a number.
   Real unchecked(const Eigen::Vector3d& X, Real t = 0) const;
+  /// The value with its exact first and second derivatives with respect to x, y, z; those of abs,
+  /// sign, floor, ceil, min, max and of conditions are of the branch at X. What is not finite is
+  /// for the caller to find.
+  Jet<3> jet(const Eigen::Vector3d& X, Real t = 0) const;
   /// Where the formula stands, "file:line:column: key", to begin messages with.
   void set_place(std::string place);
   /// Empty if nobody said it, or of a constant.
