@@ -70,20 +70,17 @@ void advise_on_impact(const BeginningContact<D>& contact, const std::vector<Touc
   const Real impact = speed * (two ? 1 / (1 / Z + 1 / touching[1].impedance()) : Z);
   const std::string pressure = assembly.units().symbol(dimension::pressure);
   assembly.note(fmt::format(
-      "contact '{}': '{}' moves at {:.3g} {}, so that an impact presses with up to rho c v = "
-      "{:.3g} "
-      "{}; the contact holds {:.3g} {} at its least gap",
+      "contact '{}': '{}' moves at {:.3g} {}, so that an impact presses with up to "
+      "rho c v = {:.3g} {}; the contact holds {:.3g} {} at its least gap",
       contact.name, contact.bodies[0], speed, assembly.units().symbol(dimension::velocity), impact,
       pressure, contact.greatest_pressure, pressure));
   // Balls of 321 and 997 particles came through at 0.26 (scaled_lennard_jones) and at 0.74
   // (smooth_young) of it, and did not at 0.13 and 0.49.
   if (impact > contact.greatest_pressure / 5)
     assembly.warn(fmt::format(
-        "contact '{}': an impact at {:.3g} {} may press with {:.3g} {}, where the "
-        "contact holds {:.3g} "
-        "{}: beyond a fifth of that surfaces may pass through each other, which stops the "
-        "run; allowed "
-        "are stronger contacts, softer bodies or less speed",
+        "contact '{}': an impact at {:.3g} {} may press with {:.3g} {}, where the contact holds "
+        "{:.3g} {}: beyond a fifth of that surfaces may pass through each other, which stops the "
+        "run; allowed are stronger contacts, softer bodies or less speed",
         contact.name, speed, assembly.units().symbol(dimension::velocity), impact, pressure,
         contact.greatest_pressure, pressure));
 }
