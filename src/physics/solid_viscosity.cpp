@@ -3,6 +3,7 @@
 #include "meniscus/physics/solid_viscosity.hpp"
 
 #include "meniscus/core/tensor.hpp"
+#include "meniscus/physics/stress_point_force.hpp"
 
 namespace meniscus {
 namespace {
@@ -27,9 +28,11 @@ class SolidViscosity final : public ForceTerm {
     windows_.accumulate(body_.part(std::span<NodalVector>(force)),
                         [&](int chunk, Index begin, Index end, NodalVector* f) {
                           Lanes power = Lanes::zero();
+                          KeptDeformations kept(kept_.empty() ? nullptr : kept_.data());
                           for (Index g = begin; g < end; ++g) {
                             Tensor<Lanes> H, F_rate;
                             rule_.gather(g, u, H);
+                            kept.take(g, H);
                             rule_.gather(g, v, F_rate);
                             const Tensor<Lanes> P = stress(H, F_rate);
                             const Lanes w = rule_.weight(g);
@@ -43,7 +46,40 @@ class SolidViscosity final : public ForceTerm {
     return report;
   }
 
-  std::size_t bytes() const override { return rule_.bytes() + windows_.bytes(); }
+  void expect_viscous_calls() override { kept_.resize(static_cast<std::size_t>(rule_.groups())); }
+  void add_viscous(const Motion& motion, Forces force) override {
+    const NodalVector* v = motion.v.data() + body_.first;
+    windows_.accumulate(body_.part(std::span<NodalVector>(force)),
+                        [&](int, Index begin, Index end, NodalVector* f) {
+                          for (Index g = begin; g < end; ++g) {
+                            Tensor<Lanes> F_rate;
+                            rule_.gather(g, v, F_rate);
+                            rule_.scatter(g, -rule_.weight(g) * stress(at(kept_, g), F_rate), f);
+                          }
+                        });
+  }
+  /// Of component i: mu |F_i|^2 delta_KL + (mu + lambda) F_iK F_iL, with the rows F_i of F.
+  void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
+    windows_.accumulate(body_.part(diagonal), [&](int, Index begin, Index end, NodalVector* sum) {
+      for (Index g = begin; g < end; ++g) {
+        const Tensor<Lanes> F = add_diagonal(at(kept_, g), Lanes(1.0));
+        const Lanes w = rule_.weight(g);
+        std::array<Tensor<Lanes>, D> weighted;
+        for (int i = 0; i < D; ++i) {
+          const Lanes along = F(i, 0) * F(i, 0) + F(i, 1) * F(i, 1) + F(i, 2) * F(i, 2);
+          at(weighted, i) = Tensor<Lanes>::map([&](int K, int L) {
+            const Lanes across = (shear_ + volumetric_) * F(i, K) * F(i, L);
+            return w * (K == L ? across + shear_ * along : across);
+          });
+        }
+        rule_.add_diagonal(g, weighted, sum);
+      }
+    });
+  }
+
+  std::size_t bytes() const override {
+    return rule_.bytes() + windows_.bytes() + kept_.size() * sizeof(Tensor<Lanes>);
+  }
   Offset pairs() const override { return rule_.pairs(); }
 
  private:
@@ -58,6 +94,7 @@ class SolidViscosity final : public ForceTerm {
   CellRule<D> rule_;
   ForceWindows windows_;
   Lanes shear_, volumetric_;
+  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [group] H
 };
 
 }  // namespace

@@ -246,6 +246,22 @@ void Constraints::react(State& state, Real dt) {
   book(state, a_, before_, after_);
 }
 
+void Constraints::prescribe(std::span<const NodalVector> half, Real time, Real dt,
+                            std::span<NodalVector> v) {
+  rates(time, dt, false);
+  apply(half, before_);
+  apply(v, a_);
+  for (std::size_t r = 0; r < a_.size(); ++r)
+    a_[r] = before_[r] + dt / 2 * acceleration_[r] - a_[r];
+  solve(a_);
+  add_over_mass(a_, 1, v);
+}
+
+bool Constraints::hold_any(Index first, Index count) const {
+  const auto next = std::lower_bound(touched_.begin(), touched_.end(), first);
+  return next != touched_.end() && *next < first + count;
+}
+
 void Constraints::restore_velocities(State& state) {
   apply(state.v, before_);
   for (std::size_t r = 0; r < a_.size(); ++r) a_[r] = rate_[r] - before_[r];

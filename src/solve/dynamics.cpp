@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dynamics: the motion as it is.
-#include "meniscus/core/error.hpp"
 #include "meniscus/solve/central_difference.hpp"
 #include "meniscus/solve/energy_resolution.hpp"
 #include "meniscus/solve/implicit_viscosity.hpp"
@@ -56,9 +55,6 @@ class Dynamics final : public Stepper<D> {
 
 template <int D>
 std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
-  if (choice.implicit_viscosity && system.constraints)
-    throw InputError(choice.place +
-                     ": implicit viscosity does not know held faces; leave time.viscosity out");
   return std::make_unique<Dynamics<D>>(system, choice.implicit_viscosity);
 }
 

@@ -29,19 +29,21 @@ ImplicitViscosity<D>::ImplicitViscosity(System<D>& system)
   diagonal_ = half_ = e_ = Ce_ = r_ = z_ = p_ = q_ = zero;
   for (auto& term : system.terms)
     if (term->viscous()) term->expect_viscous_calls();
+  if (system.constraints) lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
 }
 
 template <int D>
 void ImplicitViscosity<D>::advance(State& state, Real dt) {
-  half_ = state.v;
-  leapfrog::kick(half_, state.force, system_.mass, dt / 2);
+  leapfrog::kick(state.v, state.force, system_.mass, dt / 2);
   leapfrog::kick_fields(state, dt / 2);
-  state.v = half_;
   leapfrog::drift(state, dt);
+  system_.constrain(state, dt);
+  half_ = state.v;
   // The guess of v_n+1, by the predicted force.
   NodalVectors& predicted = r_;
   prediction_.predict(state.force, dt, system_.mass, predicted);
   leapfrog::kick(state.v, predicted, system_.mass, dt / 2);
+  if (system_.constraints) system_.constraints->prescribe(half_, state.time, dt, state.v);
   Report report;
   try {
     report = forces_with_velocity(state, dt);
@@ -50,6 +52,9 @@ void ImplicitViscosity<D>::advance(State& state, Real dt) {
     leapfrog::drift(state, -dt);
     throw;
   }
+  std::swap(state.v, half_);  // reactions are of the last half kick, which begins with that
+  system_.react(state, dt);
+  std::swap(state.v, half_);
   leapfrog::settle(state, dt);
   leapfrog::kick_fields(state, dt / 2);
   leapfrog::conclude(system_, state, report, dt, 0.5);
@@ -120,11 +125,14 @@ void ImplicitViscosity<D>::renew_diagonal() {
 
 template <int D>
 Real ImplicitViscosity<D>::precondition(Real dt) {
-  return parallel_sum(system_.size(), 0.0, [&](Index A) {
+  if (system_.constraints) system_.constraints->balance(r_, lambda_);
+  const Real rz = parallel_sum(system_.size(), 0.0, [&](Index A) {
     const Lanes& r = at(r_, A);
     at(z_, A) = r / (at(system_.mass, A) + dt / 2 * at(diagonal_, A));
     return sum(r * at(z_, A));
   });
+  if (system_.constraints) system_.constraints->project(z_);
+  return rz;
 }
 
 template <int D>
@@ -139,10 +147,12 @@ Real ImplicitViscosity<D>::apply(const State& state, Real dt) {
 }
 
 /// The residual of each body is taken by the rigid motion with the momenta that it stands for.
-/// Rigid motions cause no viscous force, but for friction, which does not keep momenta.
+/// Rigid motions cause no viscous force, but for friction, which does not keep momenta. Nor does a
+/// body that is held, which has no rigid motion.
 template <int D>
 void ImplicitViscosity<D>::add_missing_rigid_motion(State& state) const {
   for (const Body<D>& body : system_.bodies) {
+    if (system_.constraints && system_.constraints->hold_any(body.first, body.size())) continue;
     Real mass = 0;
     Eigen::Vector3d centre = Eigen::Vector3d::Zero(), momentum = centre, angular = centre;
     const auto place = [&](Index A) {

@@ -24,7 +24,6 @@ template <int D>
 ViscosityChoice choose_viscosity(System<D>& system, const State& start,
                                  const std::optional<Real>& fixed_step) {
   if (!system.viscous()) return explicit_for("nothing is viscous");
-  if (system.constraints) return explicit_for("implicit viscosity does not know held faces");
   State still = start;
   std::fill(still.v.begin(), still.v.end(), Lanes::zero());
   const Real limit = StableStepEstimator<D>(system).estimate(still).dt;

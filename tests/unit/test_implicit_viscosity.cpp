@@ -123,5 +123,71 @@ TEST(ImplicitViscosity, ARestoredRunGoesOnAsItWasChosen) {
   }
 }
 
+/// A viscous block that is turned and pulled by a grip, and a drop that lies on it.
+std::string gripped(const std::string& time) {
+  const std::string way = "(t - sin(2*pi*t)/(2*pi))";
+  return "dimension = 2\n[time]\nend = 1\n" + time +
+         "[[body]]\nname = \"block\"\nshape = \"rectangle\"\nsize = [1, 1]\ncells = [8, 8]\n"
+         "jitter = 0.3\nmaterial = { type = \"neo_hookean\", density = 1, mu = 1, lambda = 1.5 }\n"
+         "[[solid_viscosity]]\nbody = \"block\"\nshear = 2\n"
+         "[[held]]\nbody = \"block\"\nface = \"x_min\"\n"
+         "[[held]]\nname = \"grip\"\nbody = \"block\"\nface = \"x_max\"\n"
+         "displacement = [\"0.2*" +
+         way + "\", \"0.1*" + way + "\"]\nangle = \"0.3*" + way + "\"\ncentre = [0.5, 0]\n" +
+         "[[body]]\nname = \"drop\"\nshape = \"disk\"\nradius = 0.3\ncore = 4\nrings = 2\n"
+         "centre = [3, 0]\ninitial_velocity = [\"0.3*(x-3) - 0.2*y + 0.5\", \"-0.3*y\"]\n"
+         "material = { type = \"newtonian\", density = 1, bulk_modulus = 20, viscosity = 0.2 }\n";
+}
+
+struct Grip : Flight {
+  Real missed = 0;  // most of C u - g at any step
+  explicit Grip(const std::string& time, Real end = 0.4) : Flight(gripped(time), 0) {
+    const Constraints& held = *scene.system.constraints;
+    std::vector<Real> g(static_cast<std::size_t>(held.rows())), Cu = g;
+    while (simulation.state().time < end * (1 - 1e-9)) {
+      simulation.advance();
+      held.targets(simulation.state().time, g);
+      held.apply(u(), Cu);
+      for (std::size_t r = 0; r < g.size(); ++r) missed = std::max(missed, std::abs(g[r] - Cu[r]));
+    }
+  }
+  Real work() const { return simulation.state().reactions.work[1]; }
+};
+
+TEST(ImplicitViscosity, HeldFacesGoWhereTheyAreTold) {
+  Grip fine(implicit(0.001)), by_lagging_viscosity("step = 0.0005\n");
+  const auto error = [&](const Flight& run) {
+    return test::norm(test::sum_of(run.u(), -1, fine.u())) / test::norm(fine.u());
+  };
+  const auto error_of_step = [&](Real step) {
+    Grip run(implicit(step));
+    EXPECT_NEAR(run.simulation.state().time, 0.4, 1e-12);
+    EXPECT_LT(run.missed, 1e-14);
+    EXPECT_NEAR(run.work(), fine.work(), 1e-3 * fine.work());
+    const Ledger ledger = run.simulation.audit_now();
+    EXPECT_LT(std::abs(run.simulation.audit().balance_error(ledger)), 2e-4);
+    return error(run);
+  };
+  EXPECT_GT(fine.work(), 1e-2);
+  EXPECT_NEAR(by_lagging_viscosity.work(), fine.work(), 1e-3 * fine.work());
+  EXPECT_LT(error(by_lagging_viscosity), 1e-3);
+  const Real coarse = error_of_step(0.01), middle = error_of_step(0.005);
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_GT(coarse / middle, 3.2);
+}
+
+TEST(ImplicitViscosity, HeldBodiesTakeStepsBeyondTheViscousLimitAndARestartGoesOn) {
+  Grip by_viscosity("", 0.01), run("viscosity = \"implicit\"\n", 0.3);
+  EXPECT_GT(run.simulation.controller().stable().dt,
+            5 * by_viscosity.simulation.controller().stable().dt);
+  const Snapshot half = run.simulation.snapshot();
+  Scene<2> scene = test::scene_of<2>(gripped("viscosity = \"implicit\"\n"));
+  Simulation<2> again(scene);
+  again.restore(half);
+  for (Simulation<2>* each : {&run.simulation, &again})
+    while (each->state().time < 0.4) each->advance();
+  expect_same_motion(run.simulation, again);
+}
+
 }  // namespace
 }  // namespace meniscus::test_implicit_viscosity

@@ -56,6 +56,13 @@ class Constraints {
   /// Adds the reactions to the forces at the end of the step, before the last half kick.
   void react(State& state, Real dt);
 
+  /// Moves velocities at the end of a step to those of a last half kick that begins at `half` with
+  /// what react() makes of its force: C v = C half + dt/2 g''(time), the nearest in the norm of the
+  /// masses.
+  void prescribe(std::span<const NodalVector> half, Real time, Real dt, std::span<NodalVector> v);
+  /// Whether any of these particles is held.
+  bool hold_any(Index first, Index count) const;
+
   /// After react(), velocities were changed at state.time: back to the prescribed ones.
   void restore_velocities(State& state);
 

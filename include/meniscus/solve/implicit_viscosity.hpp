@@ -16,7 +16,9 @@ namespace meniscus {
 /// The last by conjugate gradients with the diagonal as preconditioner; they begin with the force
 /// that those of the steps before predict. Stable where central differences without viscosity are.
 /// The heat of a kick is dt v_n . C v_n without error, and momentum and angular momentum are kept
-/// whatever is left of the residual: each body gets the rigid motion that it misses.
+/// whatever is left of the residual: each body that is not held gets the rigid motion that it
+/// misses. Where faces are held, v_n+1 is looked for among the velocities that they allow
+/// (held-faces note 2).
 template <int D>
 class ImplicitViscosity {
  public:
@@ -34,7 +36,7 @@ class ImplicitViscosity {
  private:
   Report forces_with_velocity(State& state, Real dt);
   void renew_diagonal();
-  /// z = (M + dt/2 diagonal)^-1 r; returns r.z.
+  /// z = (M + dt/2 diagonal)^-1 r, of what faces that are held leave free; returns r.z.
   Real precondition(Real dt);
   /// q = C p; returns p . (M p + dt/2 q).
   Real apply(const State& state, Real dt);
@@ -45,6 +47,7 @@ class ImplicitViscosity {
   NodalVectors diagonal_;                       // of C
   std::int64_t age_ = 0;                        // steps since it was computed
   NodalVectors half_, e_, Ce_, r_, z_, p_, q_;  // v+, v - guess, C e, and those of the iteration
+  std::vector<Real> lambda_;                    // of what holds the residual
   std::int64_t iterations_ = 0, steps_ = 0;
 };
 
