@@ -21,6 +21,7 @@ class ContactFacets {
   struct Places {
     std::vector<Vec<D>> corner;    ///< places of the boundary nodes
     AlignedVector<Lanes> samples;  ///< [facet][i]: its corners and its middle, for a ContactList
+    std::vector<Real> radius;      ///< [facet] of its corners about its middle
   };
   Places at_rest() const;
   /// Moves all facets along with the body. Takes no memory.

@@ -61,7 +61,8 @@ ContactFacets<D>::ContactFacets(const Body<D>& body)
 
 template <int D>
 typename ContactFacets<D>::Places ContactFacets<D>::at_rest() const {
-  Places places{X_, AlignedVector<Lanes>(simplices_.size() * D, Lanes::zero())};
+  Places places{X_, AlignedVector<Lanes>(simplices_.size() * D, Lanes::zero()),
+                std::vector<Real>(simplices_.size())};
   sample(places);
   return places;
 }
@@ -81,6 +82,10 @@ void ContactFacets<D>::sample(Places& places) const {
   parallel_for(static_cast<Index>(simplices_.size()), [&](Index facet) {
     Vec<D> middle = Vec<D>::Zero();
     for (const Index corner : corners_of(facet)) middle += at(places.corner, corner) / D;
+    Real& radius = at(places.radius, facet);
+    radius = 0;
+    for (const Index corner : corners_of(facet))
+      radius = std::max(radius, (at(places.corner, corner) - middle).norm());
     for (int lane = 0; lane < Lanes::width; ++lane) {
       const Vec<D>& x = lane < D ? at(places.corner, at(corners_of(facet), lane)) : middle;
       for (int i = 0; i < D; ++i) at(places.samples, facet * D + i).set(lane, x[i]);
@@ -93,7 +98,17 @@ typename ContactFacets<D>::Foot ContactFacets<D>::foot(const Places& places, con
                                                        std::span<const Index> facets) const {
   Foot best;
   best.normal.setZero();
+  // Most facets of a list are farther than the nearest one so far by their spheres alone.
+  constexpr Real round_off = 1e-12;
+  constexpr int middle = Lanes::width - 1;  // of the samples
   for (const Index facet : facets) {
+    Real square = 0;
+    for (int i = 0; i < D; ++i) {
+      const Real away = x[i] - at(places.samples, facet * D + i)[middle];
+      square += away * away;
+    }
+    const Real beyond = best.distance + at(places.radius, facet);
+    if (square > beyond * beyond * (1 + round_off)) continue;
     std::array<Vec<D>, D> corner;
     for (std::size_t k = 0; k < D; ++k) corner[k] = at(places.corner, corners_of(facet)[k]);
     const std::array<Real, D> share = nearest_on(x, corner);

@@ -127,8 +127,8 @@ class GapPair final : public ForceTerm {
     }
     std::size_t bytes() const {
       return places.bytes() + (others.samples.size() + T.size() + S.size()) * sizeof(Lanes) +
-             foot.size() * (sizeof(foot[0]) + sizeof(Real)) + 2 * pull.size() * sizeof(Vec<D>) +
-             near.capacity() * sizeof(Index);
+             others.radius.size() * sizeof(Real) + foot.size() * (sizeof(foot[0]) + sizeof(Real)) +
+             2 * pull.size() * sizeof(Vec<D>) + near.capacity() * sizeof(Index);
     }
     Real energy() const {
       return parallel_sum(places.size, 0.0, [&](Index q) { return at(stored, q); });
