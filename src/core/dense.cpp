@@ -44,6 +44,19 @@ Mat<2> square_root(const Mat<2>& S) {
   return square_root<3>(in_space).topLeftCorner<2, 2>();
 }
 
+template <>
+Eigen::Matrix<Real, 2, 1> tangents_to(const Vec<2>& n) {
+  return Vec<2>(-n[1], n[0]);
+}
+
+template <>
+Eigen::Matrix<Real, 3, 2> tangents_to(const Vec<3>& n) {
+  Eigen::Matrix<Real, 3, 2> t;
+  t.col(0) = n.unitOrthogonal();
+  t.col(1) = n.cross(Vec<3>(t.col(0)));
+  return t;
+}
+
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& S, const Eigen::VectorXd& b) {
   return S.ldlt().solve(b);
 }

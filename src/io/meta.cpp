@@ -3,7 +3,7 @@
 #include "meta.hpp"
 
 #include "meniscus/core/error.hpp"
-#include "meniscus/io/sha256.hpp"
+#include "meniscus/core/sha256.hpp"
 
 #include <fmt/core.h>
 

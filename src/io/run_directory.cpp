@@ -18,8 +18,9 @@ namespace {
 /// Everything a run writes. One of the first four makes a directory count as used.
 constexpr const char* run_files[] = {"run.h5",      "checkpoint-a.h5", "checkpoint-b.h5",
                                      "history.csv", "run.xdmf",        "run.vtkhdf.series",
-                                     "run.log"};
+                                     "run.log",     "partners.xdmf"};
 constexpr int telling_files = 4;
+constexpr const char* series_names[] = {"run", "partners"};
 
 void refuse_existing_run(const std::filesystem::path& directory) {
   for (int i = 0; i < telling_files; ++i)
@@ -30,18 +31,21 @@ void refuse_existing_run(const std::filesystem::path& directory) {
                       directory.string(), run_files[i]));
 }
 
-std::filesystem::path in_series(const std::filesystem::path& directory, std::size_t number) {
-  return directory / (number == 0 ? std::string("run.h5") : fmt::format("run.{}.h5", number));
+std::filesystem::path in_series(const std::filesystem::path& directory, const std::string& name,
+                                std::size_t number) {
+  return directory / (number == 0 ? name + ".h5" : fmt::format("{}.{}.h5", name, number));
 }
 
 /// What a run that was killed had not brought to its place yet.
 void remove_temporaries(const std::filesystem::path& directory) {
   for (const char* name : run_files) remove_file(temporary_name(directory / name));
   // The last file may have come without its view, the next one not at all.
-  const std::size_t next = result_series(directory).size();
-  for (std::size_t number = next > 0 ? next - 1 : 0; number <= next; ++number) {
-    const std::filesystem::path file = in_series(directory, number);
-    for (const auto& path : {file, view_of(file)}) remove_file(temporary_name(path));
+  for (const char* name : series_names) {
+    const std::size_t next = result_series(directory, name).size();
+    for (std::size_t number = next > 0 ? next - 1 : 0; number <= next; ++number) {
+      const std::filesystem::path file = in_series(directory, name, number);
+      for (const auto& path : {file, view_of(file)}) remove_file(temporary_name(path));
+    }
   }
 }
 
@@ -56,18 +60,21 @@ std::vector<std::filesystem::path> probe_files(const std::filesystem::path& dire
 }
 
 void remove_run(const std::filesystem::path& directory) {
-  const auto series = result_series(directory);
-  for (auto file = series.rbegin(); file != series.rend(); ++file) remove_result(*file);
+  for (const char* name : series_names) {
+    const auto series = result_series(directory, name);
+    for (auto file = series.rbegin(); file != series.rend(); ++file) remove_result(*file);
+  }
   for (const char* name : run_files) remove_file(directory / name);
   for (const auto& file : probe_files(directory)) remove_file(file);
 }
 
 }  // namespace
 
-std::vector<std::filesystem::path> result_series(const std::filesystem::path& directory) {
+std::vector<std::filesystem::path> result_series(const std::filesystem::path& directory,
+                                                 const std::string& name) {
   std::vector<std::filesystem::path> files;
-  while (std::filesystem::exists(in_series(directory, files.size())))
-    files.push_back(in_series(directory, files.size()));
+  while (std::filesystem::exists(in_series(directory, name, files.size())))
+    files.push_back(in_series(directory, name, files.size()));
   return files;
 }
 
@@ -100,8 +107,8 @@ RunDirectory::~RunDirectory() {
   close(lock_);
 }
 
-std::filesystem::path RunDirectory::result_file(std::size_t number) const {
-  return in_series(path_, number);
+std::filesystem::path RunDirectory::result_file(std::size_t number, const std::string& name) const {
+  return in_series(path_, name, number);
 }
 
 void RunDirectory::lock() {

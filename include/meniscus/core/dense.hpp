@@ -25,6 +25,10 @@ Mat<D> inverse(const Mat<D>& A);
 template <int D>
 Vec<D> symmetric_eigenvalues(const Mat<D>& S);
 
+/// Columns that are orthonormal, and to the unit vector n.
+template <int D>
+Eigen::Matrix<Real, D, D - 1> tangents_to(const Vec<D>& n);
+
 /// Symmetric root R of a symmetric matrix without negative eigenvalues, R R = S.
 template <int D>
 Mat<D> square_root(const Mat<D>& S);

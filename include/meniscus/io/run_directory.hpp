@@ -15,16 +15,18 @@ enum class ExistingRun {
 };
 
 /// The result files of a run in `directory`, in the order of their epochs: run.h5, run.1.h5, ... as
-/// many as there are.
-std::vector<std::filesystem::path> result_series(const std::filesystem::path& directory);
+/// many as there are; or those of another name.
+std::vector<std::filesystem::path> result_series(const std::filesystem::path& directory,
+                                                 const std::string& name = "run");
 
 /// run.vtkhdf of run.h5: what viewers open.
 std::filesystem::path view_of(const std::filesystem::path& result_file);
 /// Removes a result file and its view. Throws FileError.
 void remove_result(const std::filesystem::path& result_file);
 
-/// DIR/run.h5 (run.1.h5, ... after remaps), run.vtkhdf, run.xdmf, history.csv, probe-NAME.csv of
-/// lines of points, run.log, checkpoint-a.h5, checkpoint-b.h5. While the object lives no other
+/// DIR/run.h5 (run.1.h5, ... after remaps), run.vtkhdf, run.xdmf, the same of rigid partners named
+/// partners, history.csv, probe-NAME.csv of lines of points, run.log, checkpoint-a.h5,
+/// checkpoint-b.h5. While the object lives no other
 /// program can write results there; the lock ends with the process, however it ends.
 class RunDirectory {
  public:
@@ -36,8 +38,8 @@ class RunDirectory {
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Of that number in the series.
-  std::filesystem::path result_file(std::size_t number = 0) const;
+  /// Of that number in the series of that name.
+  std::filesystem::path result_file(std::size_t number = 0, const std::string& name = "run") const;
   std::filesystem::path history_file() const { return path_ / "history.csv"; }
   std::filesystem::path probe_file(const std::string& name) const {
     return path_ / ("probe-" + name + ".csv");

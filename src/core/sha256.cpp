@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SHA-256. The only file that sees OpenSSL.
-#include "meniscus/io/sha256.hpp"
+#include "meniscus/core/sha256.hpp"
 
 #include <fmt/core.h>
 #include <openssl/sha.h>
