@@ -5,8 +5,10 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -155,17 +157,12 @@ Real angle(Real a, Real b) {
                       (y.value * y.value - x.value * x.value) / (r2 * r2), twist));
 }
 
-Real least(const Real* values, int count) {
-  Real found = values[0];
-  for (int i = 1; i < count; ++i)
-    if (number(values[i]).value < number(found).value) found = values[i];
-  return found;
-}
-Real greatest(const Real* values, int count) {
-  Real found = values[0];
-  for (int i = 1; i < count; ++i)
-    if (number(values[i]).value > number(found).value) found = values[i];
-  return found;
+/// The least with std::less, the greatest with std::greater.
+template <class Before>
+Real first_by(const Real* values, int count) {
+  return *std::min_element(values, values + count, [](Real a, Real b) {
+    return Before()(number(a).value, number(b).value);
+  });
 }
 
 Real is_less(Real a, Real b) {
@@ -221,8 +218,8 @@ void define_language(mu::Parser& parser) {
   parser.DefineFun("ceil", call<of_ceil>);
   parser.DefineFun("erf", call<of_erf>);
   parser.DefineFun("pow", power);
-  parser.DefineFun("min", least);
-  parser.DefineFun("max", greatest);
+  parser.DefineFun("min", first_by<std::less<Real>>);
+  parser.DefineFun("max", first_by<std::greater<Real>>);
   parser.DefineConst("pi", std::numbers::pi);
   parser.DefineConst("e", std::numbers::e);
   parser.DefineInfixOprt("-", negative);

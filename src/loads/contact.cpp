@@ -205,10 +205,12 @@ void Contact<D>::build(Assembly<D>& assembly) const {
     for (const std::string& body : bodies)
       assembly.keep_reference(body, "its [[contact]] has beta per volume of the reference");
   assembly.add(std::move(term), name);
-  if (partner)
+  if (partner) {
+    assembly.draw({name, partner->shape, partner_motion()});
     measure_wetting(assembly);
-  else
+  } else {
     measure_soft_wetting(assembly);
+  }
 }
 
 template <int D>

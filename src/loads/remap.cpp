@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When a body is referred anew to where it is.
+#include "meniscus/body/simplex.hpp"
 #include "meniscus/remap/distortion.hpp"
 #include "meniscus/scene/assembly.hpp"
 
@@ -38,6 +39,10 @@ struct Remaps final : Load<D> {
       block.problem("body", fmt::format("the surface of '{}' has edges, which cannot be recovered; "
                                         "allowed are smooth shapes such as ball",
                                         body));
+    if (planned && nodes == "even" && is_simplex<D>(planned->geometry.grid.cells.front()))
+      block.problem("nodes", fmt::format("'even' places the nodes of hexahedra, but '{}' is of {}; "
+                                         "allowed is particles",
+                                         body, D == 3 ? "tetrahedra" : "triangles"));
     if (at.empty() && condition == 0)
       block.problem("at", "is missing; expected are times, or a condition");
   }

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface law on the whole surface of a body.
+// Surface laws on the whole surface of a body, a table for each.
 #include "meniscus/physics/surface_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace meniscus::surface_load {
 namespace {
 
 struct Keys {
-  std::string body;
+  std::string body, type;
   int points = 3;
   std::unique_ptr<const SurfaceMaterial> law;
 
@@ -20,8 +27,10 @@ struct Keys {
   void read_inner(const Block& block) {
     const auto table = block.table("law", true);
     if (!table) return;
-    const auto type = table->kind("type", surface_laws().names());
-    if (type) law = surface_laws().at(*type).read(*table);
+    if (const auto kind = table->kind("type", surface_laws().names())) {
+      type = *kind;
+      law = surface_laws().at(type).read(*table);
+    }
     table->done();
   }
   static std::vector<KeyTable> inner_tables() {
@@ -38,20 +47,76 @@ template <int D>
 struct Surface final : Load<D>, Keys {
   static constexpr std::string_view example =
       "body = \"drop\"\n[surface.law]\ntype = \"tension\"\ngamma = 1\n";
-  std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }
-  std::string claim() const override { return "the surface of '" + body + "'"; }
+  /// A body has one tension, and beside it at most one law of every other type.
+  std::string claim() const override {
+    const std::string surface = "the surface of '" + body + "'";
+    return type == "tension" ? surface : "the " + type + " of " + surface;
+  }
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     require_body(block, bodies, body);
   }
+  /// Measures of the tension are those of the body, of other laws they have its type before them.
   void build(Assembly<D>& assembly) const override {
-    assembly.add(law->build(assembly.body(body), points), body);
-    assembly.set_surface_energy(body, law->energy_at_rest());
-    assembly.keep_reference(body, "its [[surface]] has an energy per area of the reference");
+    require_stable(assembly);
+    std::unique_ptr<ForceTerm> term = law->build(assembly.body(body), points);
+    const auto* varied = dynamic_cast<const VariedTension*>(term.get());
+    if (varied && !assembly.viscosity(body).empty())
+      assembly.check(negative_tension(*varied, assembly));
+    assembly.add(std::move(term), type == "tension" ? body : body + "." + type);
+    if (const Real energy = law->energy_at_rest(); energy > 0)
+      assembly.set_surface_energy(body, energy);
+    if (law->keeps_reference())
+      assembly.keep_reference(body, "its [[surface]] has an energy per area of the reference");
+  }
+
+ private:
+  /// The surface of a fluid that has all in all a negative tension would grow without bound.
+  StateCheck negative_tension(const VariedTension& varied, const Assembly<D>& assembly) const {
+    return [&varied, name = body, first = assembly.body(body).first,
+            symbol = assembly.units().symbol(dimension::tension),
+            constant =
+                assembly.surface_energies()](const Motion& motion) -> std::optional<Failure> {
+      const auto [gamma, particle] = varied.least(motion);
+      const auto found = constant->find(name);
+      const Real all = gamma + (found == constant->end() ? 0 : found->second);
+      if (all >= 0) return std::nullopt;
+      return Failure{first + particle,
+                     fmt::format("the tension of the surface is {:.4g} {} here, all tables of it "
+                                 "together; expected is one that is nowhere negative, or a fluid "
+                                 "makes more and more surface",
+                                 all, symbol)};
+    };
+  }
+  /// Waves along a skin with the negative modulus m that are shorter than 2 pi |m|/mu are unstable
+  /// on a body with the shear modulus mu; the shortest on a grid is twice the spacing.
+  void require_stable(Assembly<D>& assembly) const {
+    const std::optional<Real> modulus = law->unstable_modulus();
+    if (!modulus) return;
+    const bool fluid = !assembly.viscosity(body).empty();
+    const Real shear = fluid ? 0 : assembly.shear_modulus(body),
+               spacing = mean_spacing(assembly.body(body).geometry.grid),
+               least = shear > 0 ? std::numbers::pi * std::abs(std::min(0.0, *modulus)) / shear
+                                 : std::numeric_limits<Real>::infinity();
+    const std::string moduli = fmt::format(
+        "the energy of the skin of '{}' is not positive (least modulus in the surface {:.4g} {})",
+        body, *modulus, assembly.units().symbol(dimension::tension));
+    if (spacing > least)
+      assembly.warn(
+          fmt::format("{}: only the body holds it, on spacings above {:.4g} {}; here it "
+                      "is {:.4g}",
+                      moduli, least, assembly.units().symbol(dimension::length), spacing));
+    else
+      throw InputError(fmt::format(
+          "{}: {}; expected are mu >= 0 and lambda + mu >= 0{}", this->place, moduli,
+          shear > 0 ? fmt::format(", or a spacing above pi |modulus|/shear modulus = {:.4g} {}, "
+                                  "which is {:.4g}",
+                                  least, assembly.units().symbol(dimension::length), spacing)
+                    : ""));
   }
 };
 
-const bool registered = register_load<Surface>("surface", Stage::surface,
-                                               "the whole surface of a body by a law of its own");
+const bool registered = register_load<Surface>(
+    "surface", Stage::surface, "the whole surface of a body by a law; several laws add up");
 
 }  // namespace
 }  // namespace meniscus::surface_load

@@ -11,20 +11,24 @@
 namespace meniscus {
 namespace {
 
-/// cof(F) N.
+/// cof F, by which areas turn and grow.
 template <int D>
-Vec<D> area_vector(const Mat<D>& F, const Vec<D>& N) {
-  if constexpr (D == 3)
-    return N[0] * cross(F.col(1), F.col(2)) + N[1] * cross(F.col(2), F.col(0)) +
-           N[2] * cross(F.col(0), F.col(1));
-  else
-    return {F(1, 1) * N[0] - F(1, 0) * N[1], F(0, 0) * N[1] - F(0, 1) * N[0]};
+Mat<D> cofactors(const Mat<D>& F) {
+  Mat<D> C;
+  if constexpr (D == 3) {
+    C.col(0) = cross(F.col(1), F.col(2));
+    C.col(1) = cross(F.col(2), F.col(0));
+    C.col(2) = cross(F.col(0), F.col(1));
+  } else {
+    C << F(1, 1), -F(1, 0), -F(0, 1), F(0, 0);
+  }
+  return C;
 }
 
 /// Its change with dF; it is of degree D - 1.
 template <int D>
-Vec<D> area_change(const Mat<D>& F, const Mat<D>& dF, const Vec<D>& N) {
-  return 0.5 * (area_vector<D>(F + dF, N) - area_vector<D>(F - dF, N));
+Mat<D> change_of_cofactors(const Mat<D>& F, const Mat<D>& dF) {
+  return 0.5 * (cofactors<D>(F + dF) - cofactors<D>(F - dF));
 }
 
 template <int D>
@@ -37,7 +41,8 @@ class Traction final : public ForceTerm {
         ramp_(load.ramp),
         means_(cells, dead_ ? load.force : std::vector<Expression>{load.pressure}),
         cells_(std::move(cells)),
-        force_(cells_.area.size(), Lanes::zero()) {}
+        force_(cells_.area.size(), Lanes::zero()),
+        thrust_(dead_ ? 0 : cells_.area.size()) {}
 
   std::string name() const override { return "traction '" + label_ + "'"; }
 
@@ -51,8 +56,7 @@ class Traction final : public ForceTerm {
     const std::vector<Real>& p = means_.at(motion.time);
     for (Index k = 0; k < cells_.size(); ++k) {
       const Mat<D> F = Mat<D>::Identity() + gradient(motion.u, k), dF = gradient(change.u, k);
-      set(k, -ramp_.fraction(motion.time) * at(p, k) * at(cells_.area, k) *
-                 area_change<D>(F, dF, at(cells_.normal, k)));
+      set_thrust(k, ramp_.fraction(motion.time) * at(p, k), change_of_cofactors<D>(F, dF));
     }
     scatter(force);
   }
@@ -93,7 +97,10 @@ class Traction final : public ForceTerm {
     }
     return measures;
   }
-  std::size_t bytes() const override { return cells_.mean.bytes() + means_.bytes(); }
+  std::size_t bytes() const override {
+    return cells_.mean.bytes() + means_.bytes() + cells_.directed.size() * sizeof(Vec<D>) +
+           thrust_.size() * sizeof(Mat<D>);
+  }
   Offset pairs() const override { return cells_.mean.entries(); }
 
  private:
@@ -104,31 +111,52 @@ class Traction final : public ForceTerm {
       for (int i = 0; i < D; ++i) H(i, K) = at(column, K)[i];
     return H;
   }
-  void set(Index k, const Vec<D>& f) { set_vector<D>(force_, k, f); }
-  /// force_ at a motion.
+  /// Of a pressure on the face cell k with these cofactors.
+  void set_thrust(Index k, Real pressure, const Mat<D>& cofactors) {
+    at(thrust_, k) = -pressure * at(cells_.area, k) * cofactors;
+    set_vector<D>(force_, k, Vec<D>(at(thrust_, k) * at(cells_.normal, k)));
+  }
+  /// force_ and thrust_ at a motion.
   void evaluate(const Motion& motion) {
     const std::vector<Real>& mean = means_.at(motion.time);
     const Real fraction = ramp_.fraction(motion.time);
     for (Index k = 0; k < cells_.size(); ++k) {
-      const Real area = fraction * at(cells_.area, k);
       if (dead_)
-        set(k, area * Vec<D>::Map(mean.data() + static_cast<std::size_t>(k) * D));
+        set_vector<D>(force_, k,
+                      Vec<D>(fraction * at(cells_.area, k) *
+                             Vec<D>::Map(mean.data() + static_cast<std::size_t>(k) * D)));
       else
-        set(k,
-            -area * at(mean, k) *
-                area_vector<D>(Mat<D>::Identity() + gradient(motion.u, k), at(cells_.normal, k)));
+        set_thrust(k, fraction * at(mean, k),
+                   cofactors<D>(Mat<D>::Identity() + gradient(motion.u, k)));
     }
   }
   void scatter(std::span<NodalVector> force) const {
     NodalVector* own = force.data() + body_.first;
-    for (Index k = 0; k < cells_.size(); ++k) scatter_value(cells_.mean, k, at(force_, k), own);
+    for (Index k = 0; k < cells_.size(); ++k)
+      if (dead_)
+        scatter_value(cells_.mean, k, at(force_, k), own);
+      else
+        for (Offset e = at(cells_.mean.start, k); e < at(cells_.mean.start, k + 1); ++e)
+          own[at(cells_.mean.particle, e)] += directed_thrust(k, e);
   }
-  /// sum of force . mean of the field.
+  /// On the particle of an entry of face cell k.
+  NodalVector directed_thrust(Index k, Offset entry) const {
+    const Vec<D> f = at(thrust_, k) * at(cells_.directed, entry);
+    NodalVector lanes = NodalVector::zero();
+    for (int i = 0; i < D; ++i) lanes.set(i, f[i]);
+    return lanes;
+  }
+  /// sum of f_A . field_A.
   Real power(const Motion& motion, std::span<const NodalVector> field) {
     evaluate(motion);
+    const NodalVector* own = field.data() + body_.first;
     Real sum = 0;
     for (Index k = 0; k < cells_.size(); ++k)
-      sum += meniscus::sum(at(force_, k) * value_at(cells_.mean, k, field.data() + body_.first));
+      if (dead_)
+        sum += meniscus::sum(at(force_, k) * value_at(cells_.mean, k, own));
+      else
+        for (Offset e = at(cells_.mean.start, k); e < at(cells_.mean.start, k + 1); ++e)
+          sum += meniscus::sum(directed_thrust(k, e) * own[at(cells_.mean.particle, e)]);
     return sum;
   }
 
@@ -138,7 +166,8 @@ class Traction final : public ForceTerm {
   Ramp ramp_;
   FaceMeans<D> means_;
   FaceCells<D> cells_;
-  NodalVectors force_;  // of each face cell
+  NodalVectors force_;          // of each face cell
+  std::vector<Mat<D>> thrust_;  // of a pressure: force_ = thrust N
 };
 
 }  // namespace

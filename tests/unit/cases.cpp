@@ -10,6 +10,9 @@
 
 #include <fmt/core.h>
 
+#include "mesh_support.hpp"
+#include "support.hpp"
+
 namespace meniscus::test {
 
 namespace {
@@ -70,11 +73,16 @@ std::vector<Case> variants(int D) {
                   : "centre = [0.2, -2]\ndisplacement = [\"0.1*t\", 0]\n"),
       {});
   add("contact", "legacy_switch", legacy_contact(D), {});
+  add("surface", "tension by place",
+      "body = \"drop\"\n[surface.law]\ntype = \"varying_tension\"\nof = \"place\"\n"
+      "gamma = \"1 + 0.1*x + 0.2*y*sin(3*t)\"\n",
+      none);
   return cases;
 }
 
 template <int D>
 std::vector<Case> all_cases() {
+  const Claims all{true, true}, none;  // a surface law that is viscous alone has no force at rest
   std::vector<Case> cases = variants(D);
   for (const auto& [name, load] : loads<D>())
     if (!load.example.empty())
@@ -87,7 +95,7 @@ std::vector<Case> all_cases() {
            scene_with_load(
                D, "surface",
                fmt::format("body = \"drop\"\n[surface.law]\ntype = \"{}\"\n{}", name, law.example)),
-           {true, true}});
+           name == "boussinesq_scriven" ? none : all});
   // legacy_switch needs a plane and a tension: a variant above.
   const auto generic = [](const std::string& name, const auto& by) {
     return !by.example.empty() && name != "legacy_switch";
@@ -122,6 +130,9 @@ std::vector<Case> all_cases() {
                      {true, true},
                      true});
   }
+  // The files that examples name, of tetrahedra and of triangles.
+  const Grid<D> grid = test::brick<D>(std::vector<Real>(D, 3), 0.2).grid;
+  write_example(D == 3 ? "block.msh" : "plate.msh", msh_of<D>(grid, simplices_of(grid)));
   for (const auto& [name, shape] : shapes<D>())
     if (!shape.example.empty())
       cases.push_back({"shape " + name,

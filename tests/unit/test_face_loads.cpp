@@ -65,6 +65,21 @@ TEST(Traction, PressureAllAroundBalancesACompressedBlock) {
       fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_space));
 }
 
+/// The same of a disk and a ball, whose face cells are curved.
+TEST(Traction, PressureAllAroundBalancesACompressedBall) {
+  constexpr Real s = 0.9, mu = 1, lambda = 1.5;
+  const Real in_plane = mu * (s - 1 / s) / s + lambda * (s * s - 1);
+  expect_rest<2>(
+      block(2, "initial_displacement = [\"-0.1*x\", \"-0.1*y\"]\n", "end = 100",
+            "shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n") +
+      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_plane));
+  const Real in_space = mu * (s - 1 / s) / (s * s) + lambda * (s * s * s - 1);
+  expect_rest<3>(
+      block(3, "initial_displacement = [\"-0.1*x\", \"-0.1*y\", \"-0.1*z\"]\n", "end = 100",
+            "shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2\n") +
+      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_space));
+}
+
 /// Dead tractions of simple shear on the four sides.
 TEST(Traction, DeadForcesBalanceAUniformStress) {
   // F = [1.2 0.3; 0 1], J = 1.2, cof F = [1 0; -0.3 1.2]

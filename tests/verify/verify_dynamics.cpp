@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders of convergence of whole runs, which a single scene cannot state.
-// MENISCUS_VERIFY=full in the environment adds the larger sizes.
+// Orders of convergence of whole runs, which a single scene cannot state; in full with larger
+// sizes.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 
@@ -9,16 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
+
+#include "verify_form.hpp"
 
 namespace meniscus::verify_dynamics {
 namespace {
-
-bool full() {
-  const char* wish = std::getenv("MENISCUS_VERIFY");
-  return wish && std::string_view(wish) == "full";
-}
 
 /// Free cube with E = 1, nu = 0.3, rho = 1 in its Lame mode over one period (performance note 3):
 /// u = A sin(w t) (cos pi x sin pi y, -sin pi x cos pi y, 0), w = pi sqrt(2 mu / rho).
@@ -96,7 +92,7 @@ Outcome run(const LameCube& cube) {
 // spatial error.
 TEST(LameCube, StateErrorIsOfThirdOrderInTheSpacing) {
   std::vector<int> sizes{4, 6, 8};
-  if (full()) sizes.insert(sizes.end(), {12, 16});
+  if (test::full_verification()) sizes.insert(sizes.end(), {12, 16});
   std::vector<Real> errors;
   for (const int n : sizes) {
     errors.push_back(run({.cells = n, .step = 0.08 / n}).state_error);

@@ -4,8 +4,10 @@
 #include "meniscus/core/key_table.hpp"
 #include "meniscus/core/registry.hpp"
 #include "meniscus/physics/surface_force.hpp"
+#include "meniscus/physics/surface_viscosity.hpp"
 
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -17,8 +19,23 @@ class SurfaceMaterial {
   virtual ~SurfaceMaterial() = default;
   virtual std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const = 0;
   virtual std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const = 0;
-  /// Energy per area of the undeformed surface.
-  virtual Real energy_at_rest() const = 0;
+  /// Energy per area of the undeformed surface, where it is a number of the law.
+  virtual Real energy_at_rest() const { return 0; }
+  /// As ModuliSurfaceLaw.
+  virtual std::optional<Real> unstable_modulus() const { return std::nullopt; }
+  /// Whether it depends on how the surface has been deformed since the reference.
+  virtual bool keeps_reference() const { return true; }
+};
+
+/// A term whose tension is not the same everywhere.
+class VariedTension {
+ public:
+  struct Least {
+    Real gamma;
+    Index particle;  ///< the nearest one, its number in the body
+  };
+  virtual ~VariedTension() = default;
+  virtual Least least(const Motion& motion) const = 0;
 };
 
 struct SurfaceLawEntry {
@@ -50,19 +67,49 @@ class SurfaceMaterialOf final : public SurfaceMaterial {
     rest.stretch = Lanes(1.0);
     return law_.energy_density(rest)[0];
   }
+  std::optional<Real> unstable_modulus() const override {
+    if constexpr (ModuliSurfaceLaw<L>) return law_.unstable_modulus();
+    return std::nullopt;
+  }
 
  private:
   L law_;
 };
 
+template <ViscousSurfaceLaw L>
+class ViscousSurfaceOf final : public SurfaceMaterial {
+ public:
+  explicit ViscousSurfaceOf(const L& law) : law_(law) {}
+
+  std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const override {
+    return std::make_unique<SurfaceViscosity<2, L>>(body, law_, points);
+  }
+  std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
+    return std::make_unique<SurfaceViscosity<3, L>>(body, law_, points);
+  }
+  bool keeps_reference() const override { return false; }
+
+ private:
+  L law_;
+};
+
+template <class L, class Made>
+bool register_surface_law_as(std::string_view meaning) {
+  return register_entry(SurfaceLawEntry{L::type_name, meaning, example_of<L>(),
+                                        key_texts(L::rows()),
+                                        [](const Block& block) -> std::unique_ptr<SurfaceMaterial> {
+                                          return std::make_unique<Made>(meniscus::read<L>(block));
+                                        }});
+}
+
 /// Enters the law: the last line of every file in src/surfaces.
 template <SurfaceLaw L>
 bool register_surface_law(std::string_view meaning) {
-  return register_entry(
-      SurfaceLawEntry{L::type_name, meaning, example_of<L>(), key_texts(L::rows()),
-                      [](const Block& block) -> std::unique_ptr<SurfaceMaterial> {
-                        return std::make_unique<SurfaceMaterialOf<L>>(meniscus::read<L>(block));
-                      }});
+  return register_surface_law_as<L, SurfaceMaterialOf<L>>(meaning);
+}
+template <ViscousSurfaceLaw L>
+bool register_surface_viscosity(std::string_view meaning) {
+  return register_surface_law_as<L, ViscousSurfaceOf<L>>(meaning);
 }
 
 }  // namespace meniscus

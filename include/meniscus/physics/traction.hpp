@@ -17,8 +17,9 @@ struct TractionLoad {
   Ramp ramp;
 };
 
-/// A constant force on each face cell: the mean of the dead traction, or - p cof(F) N with the mean
-/// of F over the face cell. `label` in messages. The face cells have gradients for a pressure.
+/// On each face cell the mean of the dead traction, or - p cof(F) N with the means of p and F over
+/// the face cell and N point by point. `label` in messages. The face cells have gradients for a
+/// pressure.
 template <int D>
 std::unique_ptr<ForceTerm> traction(const Body<D>& body, std::string label, FaceCells<D> cells,
                                     const TractionLoad& load);

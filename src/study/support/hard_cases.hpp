@@ -66,6 +66,9 @@ void hard_equilibria(HardCases& cases);
 /// Cases of drops.
 void hard_drops(HardCases& cases);
 
+/// Cases of surface laws (cells note).
+void hard_surfaces(HardCases& cases);
+
 /// Cases of drops on walls (wetting note).
 void hard_wetting(HardCases& cases);
 
