@@ -2,6 +2,7 @@
 // Dry run of a scene: everything short of running it.
 #include "meniscus/app/advice.hpp"
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/mesh_report.hpp"
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/app/print.hpp"
 #include "meniscus/app/set_up.hpp"
@@ -85,6 +86,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
           "{:g} black; other units show it, such as [units] system = \"nm-ps-ag\"\n",
           body.name, least_drawn);
   }
+  say_meshes(scene, input);
   say_units(scene.units);
   say_drop_numbers(scene, input);
   for (const auto& term : scene.system.terms)

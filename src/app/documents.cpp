@@ -99,4 +99,15 @@ std::string list_of_scenes() {
   return listed(gallery_scenes(), title_of);
 }
 
+std::string file_of_mesh(const Document& mesh) {
+  return fmt::format("meshes/{}.msh", mesh.name);
+}
+
+std::vector<Document> meshes_of(const Document& scene) {
+  std::vector<Document> meshes;
+  for (const Document& mesh : gallery_meshes())
+    if (scene.text.find('"' + file_of_mesh(mesh) + '"') != scene.text.npos) meshes.push_back(mesh);
+  return meshes;
+}
+
 }  // namespace meniscus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curved boundary cells: distances of the exact surface from the middles of edges and facets.
+#include "meniscus/body/simplex.hpp"
 #include "meniscus/body/surface_points.hpp"
 
 #include <algorithm>
@@ -55,6 +56,7 @@ EdgeDeviations<D> edge_deviations(const Geometry<D>& geometry) {
   for (const auto& facet : geometry.grid.facets)
     for (const auto& edge : edges) {
       const Index a = at(facet.nodes, edge.corners[0]), b = at(facet.nodes, edge.corners[1]);
+      if (a == b) continue;  // of a triangle
       const auto [place, is_new] = deviations.try_emplace(edge_nodes(a, b), Vec<D>::Zero());
       if (!is_new) continue;
       const Vec<D>&A = at(geometry.grid.X, a), &B = at(geometry.grid.X, b);
@@ -66,6 +68,25 @@ EdgeDeviations<D> edge_deviations(const Geometry<D>& geometry) {
     return is_rounding(deviation.norm(), line.norm());
   });
   return deviations;
+}
+
+/// Its columns are those of edge_functions().
+template <int D>
+Bulge<D> bulge_of_simplex(const typename Grid<D>::Cell& cell, const EdgeDeviations<D>& deviations,
+                          const std::vector<char>& at_curved_edge) {
+  Bulge<D> bulge;
+  Eigen::Index e = 0;
+  for (const auto& [i, j] : simplex_edges<D>()) {
+    const Index a = at(cell, at(simplex_corners<D>(), i)),
+                b = at(cell, at(simplex_corners<D>(), j));
+    if (at(at_curved_edge, a) && at(at_curved_edge, b))
+      if (const auto found = deviations.find(edge_nodes(a, b)); found != deviations.end()) {
+        bulge.deviation.col(e) = found->second;
+        bulge.curved = (1u << D) - 1;
+      }
+    ++e;
+  }
+  return bulge;
 }
 
 template <int D>
@@ -114,9 +135,12 @@ void curve_boundary(Geometry<D>& geometry) {
   grid.bulge_of.assign(grid.cells.size(), -1);
   auto facet = grid.facets.begin();  // facets are ordered by cell
   for (Index e = 0; e < grid.cell_count(); ++e) {
-    Bulge<D> bulge = bulge_of_edges<D>(at(grid.cells, e), deviations, at_curved_edge);
+    const bool simplex = is_simplex<D>(at(grid.cells, e));
+    Bulge<D> bulge = simplex ? bulge_of_simplex<D>(at(grid.cells, e), deviations, at_curved_edge)
+                             : bulge_of_edges<D>(at(grid.cells, e), deviations, at_curved_edge);
     for (; facet != grid.facets.end() && facet->cell == e; ++facet)
-      if constexpr (D == 3) add_facet(geometry, *facet, bulge);
+      if constexpr (D == 3)
+        if (!simplex) add_facet(geometry, *facet, bulge);
     if (!bulge.curved) continue;
     at(grid.bulge_of, e) = static_cast<Index>(grid.bulges.size());
     grid.bulges.push_back(bulge);

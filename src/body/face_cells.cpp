@@ -45,26 +45,31 @@ class Chooser {
 
 /// Rows of means from rows of points, entries by ascending particle.
 template <int D>
-PointRows<D> means(const FaceCells<D>& cells, const PointRows<D>& points) {
+void take_means(const PointRows<D>& points, FaceCells<D>& cells) {
   const bool gradients = !points.gradient.empty();
-  PointRows<D> mean;
+  PointRows<D>& mean = cells.mean;
+  struct Entry {
+    std::array<Real, D + 1> row{};
+    Vec<D> directed = Vec<D>::Zero();
+  };
   for (Index k = 0; k < cells.size(); ++k) {
-    std::map<Index, std::array<Real, D + 1>> sum;
+    std::map<Index, Entry> sum;
     for (Offset q = at(cells.begin, k); q < at(cells.begin, k + 1); ++q)
       for (Offset e = at(points.start, q); e < at(points.start, q + 1); ++e) {
-        auto& entry = sum.try_emplace(at(points.particle, e)).first->second;
-        entry[0] += at(cells.share, q) * at(points.value, e);
+        auto& [row, directed] = sum[at(points.particle, e)];
+        row[0] += at(cells.share, q) * at(points.value, e);
         for (int K = 0; gradients && K < D; ++K)
-          at(entry, 1 + K) += at(cells.share, q) * at(points.gradient, e * D + K);
+          at(row, 1 + K) += at(cells.share, q) * at(points.gradient, e * D + K);
+        directed += at(cells.share, q) * at(points.value, e) * at(cells.N, q);
       }
     for (const auto& [particle, entry] : sum) {
       mean.particle.push_back(particle);
-      mean.value.push_back(entry[0]);
-      for (int K = 0; gradients && K < D; ++K) mean.gradient.push_back(at(entry, 1 + K));
+      mean.value.push_back(entry.row[0]);
+      for (int K = 0; gradients && K < D; ++K) mean.gradient.push_back(at(entry.row, 1 + K));
+      if (gradients) cells.directed.push_back(entry.directed);
     }
     mean.start.push_back(static_cast<Offset>(mean.particle.size()));
   }
-  return mean;
 }
 
 }  // namespace
@@ -112,9 +117,9 @@ FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice, bool with
   }
   if (cells.cell.empty())
     throw InputError(fmt::format("no facet of the surface of body '{}' is chosen", body.name));
-  cells.mean =
-      means(cells, build_point_rows<D>(body.particles, cells.X,
-                                       {.value = true, .gradient = with_gradients}, body.name));
+  take_means(build_point_rows<D>(body.particles, cells.X,
+                                 {.value = true, .gradient = with_gradients}, body.name),
+             cells);
   return cells;
 }
 

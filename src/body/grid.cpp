@@ -3,6 +3,7 @@
 #include "meniscus/body/grid.hpp"
 
 #include "meniscus/body/gauss.hpp"
+#include "meniscus/body/simplex.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 
@@ -41,12 +42,34 @@ std::string place(const Vec<D>& X) {
                 : fmt::format("({:g}, {:g}, {:g})", X[0], X[1], X[D - 1]);
 }
 
+/// Nodes of a side around it. Of a collapsed cell, one that is a triangle has three, one that is no
+/// side of the simplex less than D.
+template <int D>
+std::vector<Index> side_nodes(const typename Grid<D>::Cell& cell, int side) {
+  const auto local = side_corners<D>(side);
+  std::vector<Index> nodes;
+  for (std::size_t a = 0; a < local.size(); ++a) {
+    const Index node = at(cell, at(local, a ^ (a >> 1)));
+    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+/// The map of a cell, whatever its kind.
+template <int D>
+CellPoint<D, D> place_in(const Grid<D>& grid, Index cell,
+                         const std::array<Vec<D>, (1 << D)>& corners, const Vec<D>& xi) {
+  return is_simplex<D>(at(grid.cells, cell))
+             ? simplex_point<D>(corners, grid.bulge(cell), collapsed_shares<D>(xi))
+             : cell_point(corners, grid.bulge(cell), xi);
+}
+
 /// Calls f(X, weight) for the Gauss points of one cell.
 template <int D, class F>
 void for_gauss_points(const Grid<D>& grid, Index cell, const TensorRule<D>& rule, F&& f) {
   const auto corners = grid.corner_points(at(grid.cells, cell));
   for (std::size_t q = 0; q < rule.x.size(); ++q) {
-    const CellPoint<D, D> p = cell_point(corners, grid.bulge(cell), rule.x[q]);
+    const CellPoint<D, D> p = place_in(grid, cell, corners, rule.x[q]);
     f(p.X, rule.w[q] * determinant<D>(p.J));
   }
 }
@@ -56,7 +79,7 @@ void for_gauss_points(const Grid<D>& grid, Index cell, const TensorRule<D>& rule
 template <int D>
 void find_boundary(Grid<D>& grid) {
   struct Side {
-    std::array<Index, (1 << (D - 1))> key;  // ascending nodes
+    std::array<Index, (1 << (D - 1))> key;  // ascending nodes; of a triangle -1 first
     Index cell;
     int side;
     auto operator<=>(const Side&) const = default;
@@ -64,9 +87,11 @@ void find_boundary(Grid<D>& grid) {
   std::vector<Side> sides;
   for (Index e = 0; e < grid.cell_count(); ++e)
     for (int side = 0; side < 2 * D; ++side) {
+      const std::vector<Index> nodes = side_nodes<D>(at(grid.cells, e), side);
+      if (nodes.size() < D) continue;
       Side s{{}, e, side};
-      const auto local = side_corners<D>(side);
-      for (std::size_t a = 0; a < local.size(); ++a) s.key[a] = at(at(grid.cells, e), local[a]);
+      s.key.fill(-1);
+      std::copy(nodes.begin(), nodes.end(), s.key.begin());
       std::sort(s.key.begin(), s.key.end());
       sides.push_back(s);
     }
@@ -83,9 +108,9 @@ void find_boundary(Grid<D>& grid) {
       Facet<D> facet;
       facet.cell = sides[i].cell;
       facet.side = sides[i].side;
-      const auto local = side_corners<D>(facet.side);
-      for (std::size_t a = 0; a < local.size(); ++a)
-        facet.nodes[a] = at(at(grid.cells, facet.cell), local[a]);
+      std::vector<Index> nodes = side_nodes<D>(at(grid.cells, facet.cell), facet.side);
+      nodes.resize(facet.nodes.size(), nodes.back());  // a b c c of a triangle
+      for (std::size_t a = 0; a < nodes.size(); ++a) facet.nodes[a] = nodes[a ^ (a >> 1)];
       grid.facets.push_back(facet);
     }
     i = end;
@@ -95,9 +120,29 @@ void find_boundary(Grid<D>& grid) {
   });
 }
 
+namespace {
+
+/// Looks at the corners of the parts of the simplex.
+template <int D>
+std::optional<CellPoint<D, D>> find_fold_of_simplex(const Grid<D>& grid, Index cell) {
+  const auto corners = grid.corner_points(at(grid.cells, cell));
+  for (int i = 0; i <= D; ++i)
+    for (int a = 0; a < (1 << D); ++a) {
+      Vec<D> xi;
+      for (int k = 0; k < D; ++k) xi[k] = corner_sign(a, k);
+      const CellPoint<D, D> point =
+          simplex_point<D>(corners, grid.bulge(cell), part_shares<D>(i, xi));
+      if (!(determinant<D>(point.J) > 0)) return point;
+    }
+  return {};
+}
+
+}  // namespace
+
 template <int D>
 std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell) {
   constexpr int points = D == 2 ? 9 : 27;
+  if (is_simplex<D>(at(grid.cells, cell))) return find_fold_of_simplex(grid, cell);
   const auto corners = grid.corner_points(at(grid.cells, cell));
   for (int q = 0; q < points; ++q) {
     Vec<D> xi;
@@ -121,14 +166,20 @@ template <int D>
 NodeCells cells_of_nodes(const Grid<D>& grid) {
   NodeCells result;
   result.row.assign(grid.X.size() + 1, 0);
+  // The corners of a collapsed cell are nodes once each.
+  const auto is_node_of = [](const typename Grid<D>::Cell& cell, int a) {
+    return !is_simplex<D>(cell) || at(simplex_corners<D>(), simplex_corner<D>(a)) == a;
+  };
   for (const auto& cell : grid.cells)
-    for (const Index node : cell) ++at(result.row, node + 1);
+    for (int a = 0; a < Grid<D>::corners; ++a)
+      if (is_node_of(cell, a)) ++at(result.row, at(cell, a) + 1);
   std::partial_sum(result.row.begin(), result.row.end(), result.row.begin());
   result.entry.resize(static_cast<std::size_t>(result.row.back()));
   std::vector<Offset> next(result.row.begin(), result.row.end() - 1);
   for (Index e = 0; e < grid.cell_count(); ++e)
     for (int a = 0; a < Grid<D>::corners; ++a)
-      at(result.entry, at(next, at(at(grid.cells, e), a))++) = {e, a};
+      if (is_node_of(at(grid.cells, e), a))
+        at(result.entry, at(next, at(at(grid.cells, e), a))++) = {e, a};
   return result;
 }
 
@@ -145,7 +196,10 @@ Real volume(const Grid<D>& grid) {
 
 template <int D>
 Real mean_spacing(const Grid<D>& grid) {
-  return std::pow(volume(grid) / grid.cell_count(), 1.0 / D);
+  const Real V = volume(grid) / grid.cell_count();
+  // A cube is cut into six tetrahedra, a square into two triangles.
+  constexpr Real simplices = D == 3 ? 6 : 2;
+  return std::pow(is_simplex<D>(grid.cells.front()) ? simplices * V : V, 1.0 / D);
 }
 
 template <int D>
@@ -153,6 +207,14 @@ Mat<D> mean_stretch(const Grid<D>& grid) {
   Mat<D> squares = Mat<D>::Zero();
   for (Index e = 0; e < grid.cell_count(); ++e) {
     const auto corners = grid.corner_points(at(grid.cells, e));
+    if (is_simplex<D>(at(grid.cells, e))) {
+      for (const auto& [i, j] : simplex_edges<D>()) {
+        const Vec<D> edge =
+            at(corners, at(simplex_corners<D>(), j)) - at(corners, at(simplex_corners<D>(), i));
+        squares += edge * edge.transpose();
+      }
+      continue;
+    }
     const Mat<D> J = cell_point<D>(corners, grid.bulge(e), Vec<D>::Zero()).J;
     squares += J * J.transpose();
   }
@@ -178,6 +240,10 @@ std::vector<std::array<Index, D>> triangulate_boundary(const Grid<D>& grid) {
     if constexpr (D == 2) {
       simplices.push_back(v);
     } else {
+      if (v[2] == v[3]) {
+        simplices.push_back({v[0], v[1], v[2]});
+        continue;
+      }
       const auto X = [&](int a) -> const Vec<3>& { return at(grid.X, at(v, a)); };
       if ((X(0) - X(3)).squaredNorm() <= (X(1) - X(2)).squaredNorm()) {
         simplices.push_back({v[0], v[1], v[3]});

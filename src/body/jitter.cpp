@@ -22,7 +22,8 @@ std::vector<Real> shortest_edges(const Grid<D>& grid) {
     for (int a = 0; a < Grid<D>::corners; ++a)
       for (int k = 0; k < D; ++k) {
         const Index i = at(cell, a), j = at(cell, a ^ (1 << k));
-        at(shortest, i) = std::min(at(shortest, i), (at(grid.X, i) - at(grid.X, j)).norm());
+        if (i != j)
+          at(shortest, i) = std::min(at(shortest, i), (at(grid.X, i) - at(grid.X, j)).norm());
       }
   return shortest;
 }

@@ -4,6 +4,7 @@
 #include "meniscus/body/nodal_cells.hpp"
 
 #include "meniscus/body/gauss.hpp"
+#include "meniscus/body/simplex.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
@@ -102,15 +103,81 @@ class OctantTable {
   std::vector<Points> volume_, inner_, outer_;
 };
 
+/// The parts of a simplex at its corners, as octants.
+template <int D>
+class SimplexTable {
+ public:
+  using Points = std::vector<TabulatedPoint<D>>;
+  /// Where direction k of a part ends.
+  struct Side {
+    Points points;
+    int k = 0;
+  };
+
+  static const SimplexTable& instance(bool curved) {
+    static const SimplexTable straight(3), bent(D + 2);
+    return curved ? bent : straight;
+  }
+  const Points& volume(int i) const { return at(volume_, i); }
+  /// Between the parts at the corners i and j, seen from the lesser of them.
+  const Side& between(int i, int j) const {
+    return at(end_, std::min(i, j) * (D + 1) + std::max(i, j));
+  }
+  /// Of the part at corner i, on the side of the simplex opposite to corner o.
+  const Side& on_side(int i, int o) const { return at(begin_, i * (D + 1) + o); }
+
+ private:
+  explicit SimplexTable(int points) : begin_((D + 1) * (D + 1)), end_((D + 1) * (D + 1)) {
+    const TensorRule<D> cube = tensor_rule<D>(points);
+    const TensorRule<D - 1> square = tensor_rule<D - 1>(points);
+    for (int i = 0; i <= D; ++i) {
+      Points& part = volume_.emplace_back();
+      for (std::size_t q = 0; q < cube.x.size(); ++q)
+        part.push_back(tabulated(part_shares<D>(i, cube.x[q]), cube.w[q]));
+      for (int k = 0; k < D; ++k) {
+        const int other = at(directions_at<D>(i), k);
+        for (const bool end : {false, true}) {
+          Side& side = at(end ? end_ : begin_, i * (D + 1) + other);
+          side.k = k;
+          for (std::size_t q = 0; q < square.x.size(); ++q) {
+            Vec<D> xi;
+            for (int l = 0, d = 0; l < D; ++l) xi[l] = l == k ? (end ? 1 : -1) : square.x[q][d++];
+            side.points.push_back(tabulated(part_shares<D>(i, xi), square.w[q]));
+          }
+        }
+      }
+    }
+  }
+
+  static TabulatedPoint<D> tabulated(const Shares<D>& shares, Real w) {
+    TabulatedPoint<D> point{{}, {}, edge_functions<D>(shares), w};
+    point.N.setZero();
+    point.dN.setZero();
+    for (int i = 0; i <= D; ++i) {
+      point.N[at(simplex_corners<D>(), i)] = shares.value[i];
+      point.dN.row(at(simplex_corners<D>(), i)) = shares.slope.row(i);
+    }
+    return point;
+  }
+
+  std::vector<Points> volume_;
+  std::vector<Side> begin_, end_;
+};
+
 /// The map of one cell at tabulated points.
 template <int D>
 class CellMap {
  public:
-  CellMap(const Grid<D>& grid, Index cell) : bulge_(grid.bulge(cell)) {
+  CellMap(const Grid<D>& grid, Index cell)
+      : bulge_(grid.bulge(cell)), simplex_(is_simplex<D>(at(grid.cells, cell))) {
     for (int a = 0; a < (1 << D); ++a) corners_.col(a) = at(grid.X, at(at(grid.cells, cell), a));
   }
   const OctantTable<D>& table() const {
     return OctantTable<D>::instance(bulge_ ? bulge_->curved : 0);
+  }
+  /// Of a simplex; null for others.
+  const SimplexTable<D>* simplex() const {
+    return simplex_ ? &SimplexTable<D>::instance(bulge_ != nullptr) : nullptr;
   }
   CellPoint<D, D> operator()(const TabulatedPoint<D>& p) const {
     // Not the products for large matrices, which take most of the time here.
@@ -125,6 +192,7 @@ class CellMap {
  private:
   Eigen::Matrix<Real, D, (1 << D)> corners_;
   const Bulge<D>* bulge_;
+  bool simplex_;
 };
 
 /// Column k of cof J: normal of the surface xi_k = const, its length the area ratio.
@@ -173,7 +241,9 @@ void NodalCells<D>::volume_points(Index node, CellQuadrature<D>& q) const {
   q.volume_w.clear();
   for (const auto& [cell, corner] : octants_.of(node)) {
     const CellMap<D> map(*grid_, cell);
-    for (const auto& p : map.table().volume(corner)) {
+    const auto* simplex = map.simplex();
+    for (const auto& p :
+         simplex ? simplex->volume(simplex_corner<D>(corner)) : map.table().volume(corner)) {
       const CellPoint<D, D> point = map(p);
       q.volume_X.push_back(point.X);
       q.volume_w.push_back(p.w * determinant<D>(point.J));
@@ -187,20 +257,38 @@ void NodalCells<D>::facet_points(Index node, CellQuadrature<D>& q) const {
   q.facet_dA.clear();
   for (const auto& [cell, corner] : octants_.of(node)) {
     const CellMap<D> map(*grid_, cell);
+    if (const auto* simplex = map.simplex()) {
+      const int i = simplex_corner<D>(corner);
+      for (const int j : directions_at<D>(i)) {
+        const auto& side = simplex->between(i, j);
+        append_facet<D>(q, map, side.points, side.k, i < j ? 1 : -1);
+      }
+      continue;
+    }
     for (int k = 0; k < D; ++k)
       append_facet<D>(q, map, map.table().inner(corner, k), k, -corner_sign(corner, k));
   }
   q.body_facets_begin = q.facet_X.size();
   q.body_facets.clear();
-  for (const auto& [cell, corner] : octants_.of(node))
+  for (const auto& [cell, corner] : octants_.of(node)) {
+    if (at(boundary_sides_, cell) == 0) continue;
+    const CellMap<D> map(*grid_, cell);
+    const auto* simplex = map.simplex();
+    const int i = simplex_corner<D>(corner);
     for (int k = 0; k < D; ++k) {
-      const int side = 2 * k + ((corner >> k) & 1);
+      const int opposite = at(directions_at<D>(i), k);
+      const int side = simplex ? side_opposite<D>(opposite) : 2 * k + ((corner >> k) & 1);
       if (!((at(boundary_sides_, cell) >> side) & 1)) continue;
-      const CellMap<D> map(*grid_, cell);
       const std::size_t begin = q.facet_X.size();
-      append_facet<D>(q, map, map.table().outer(corner, k), k, corner_sign(corner, k));
+      if (simplex) {
+        const auto& outer = simplex->on_side(i, opposite);
+        append_facet<D>(q, map, outer.points, outer.k, -1);
+      } else {
+        append_facet<D>(q, map, map.table().outer(corner, k), k, corner_sign(corner, k));
+      }
       q.body_facets.push_back({cell, side, begin, q.facet_X.size()});
     }
+  }
 }
 
 template <int D>

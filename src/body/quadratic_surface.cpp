@@ -51,7 +51,9 @@ Mat<D> normal_gradient(const std::vector<Vec<D>>& x, const Vec<D - 1>& xi,
 }  // namespace
 
 template <int D>
-QuadraticSurface<D>::QuadraticSurface(const Grid<D>& grid, const std::vector<Vec<D>>& points) {
+QuadraticSurface<D>::QuadraticSurface(const Grid<D>& grid, const std::vector<Vec<D>>& points,
+                                      bool smooth, std::vector<char> inner)
+    : smooth_(smooth), inner_(std::move(inner)) {
   for (const auto& [key, number] : PatchNodes<D>(grid).number) point_[key] = at(points, number);
 }
 
@@ -67,7 +69,10 @@ template <int D>
 SurfacePoints<D> QuadraticSurface<D>::points(const Grid<D>& grid, int k, SurfacePart part) const {
   SurfacePoints<D> points;
   points.exact = true;
-  const auto wanted = [&](const Facet<D>&) { return part != SurfacePart::inner; };
+  const auto wanted = [&](const Facet<D>& facet) {
+    const bool inner = !inner_.empty() && at(inner_, facet.patch);
+    return part == SurfacePart::whole || inner == (part == SurfacePart::inner);
+  };
   points.per_facet = for_facet_points(grid, k, wanted, [&](Index i, const auto& xi, Real w) {
     const std::vector<Vec<D>> x = of(at(grid.facets, i));
     const auto place = patch_place<D>(PatchFunctions<D>(xi), own_points<D>(), x);
@@ -84,6 +89,20 @@ Vec<D> QuadraticSurface<D>::point(const Grid<D>&, const Facet<D>& facet,
 }
 
 template <int D>
+bool QuadraticSurface<D>::hollow() const {
+  return std::any_of(inner_.begin(), inner_.end(), [](char inner) { return inner != 0; });
+}
+
+template <int D>
+std::shared_ptr<const Surface<D>> QuadraticSurface<D>::through(std::map<Key, Vec<D>> point) const {
+  auto surface = std::shared_ptr<QuadraticSurface>(new QuadraticSurface);
+  surface->point_ = std::move(point);
+  surface->smooth_ = smooth_;
+  surface->inner_ = inner_;
+  return surface;
+}
+
+template <int D>
 std::shared_ptr<const Surface<D>> QuadraticSurface<D>::renumbered(
     std::span<const Index> order) const {
   std::vector<Index> number(order.size());
@@ -95,7 +114,7 @@ std::shared_ptr<const Surface<D>> QuadraticSurface<D>::renumbered(
     std::sort(key.begin(), key.end());
     point[key] = place;
   }
-  return std::shared_ptr<QuadraticSurface>(new QuadraticSurface(std::move(point)));
+  return through(std::move(point));
 }
 
 template <int D>
@@ -103,7 +122,7 @@ std::shared_ptr<const Surface<D>> QuadraticSurface<D>::mapped(const SmoothMap<D>
                                                               const Grid<D>&) const {
   std::map<Key, Vec<D>> point = point_;
   for (auto& [key, place] : point) place = map(place).x;
-  return std::shared_ptr<QuadraticSurface>(new QuadraticSurface(std::move(point)));
+  return through(std::move(point));
 }
 
 template <int D>

@@ -7,7 +7,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -17,12 +16,29 @@
 namespace meniscus {
 namespace {
 
+/// How many of the nodes of a facet are corners: a triangle is a b c c.
+template <int D>
+std::size_t corner_count(const Facet<D>& facet) {
+  if constexpr (D == 3)
+    return facet.nodes[2] == facet.nodes[3] ? 3 : 4;
+  else
+    return 2;
+}
+
 /// xi of a corner of a facet.
 template <int D>
 Vec<D - 1> corner_place(std::size_t corner) {
   Vec<D - 1> xi;
   for (int k = 0; k < D - 1; ++k) xi[k] = corner_sign(static_cast<int>(corner), k);
   return xi;
+}
+
+template <int D>
+Vec<D> normal_at_corner(const Facet<D>& facet, const FacetCorners<D>& corners, std::size_t a) {
+  if constexpr (D == 3)
+    if (corner_count(facet) == 3)
+      return 0.25 * cross(corners[1] - corners[0], corners[2] - corners[0]);
+  return area_normal<D>(multilinear<D, D - 1>(corners, corner_place<D>(a)).J);
 }
 
 template <int D>
@@ -43,31 +59,30 @@ BoundaryNodes<D> boundary_of(const Grid<D>& grid) {
   b.normal.assign(b.node.size(), Vec<D>::Zero());
   for (const Facet<D>& facet : grid.facets) {
     const FacetCorners<D> corners = facet_corners(facet, grid.X);
-    for (std::size_t a = 0; a < corners.size(); ++a) {
+    for (std::size_t a = 0; a < corner_count(facet); ++a) {
       const Index i = at(b.number, facet.nodes[a]);
       for (const Index other : facet.nodes)
         if (other != facet.nodes[a]) at(b.beside, i).insert(at(b.number, other));
-      at(b.normal, i) += area_normal<D>(multilinear<D, D - 1>(corners, corner_place<D>(a)).J);
+      at(b.normal, i) += normal_at_corner(facet, corners, a);
     }
   }
   for (Vec<D>& n : b.normal) n.normalize();
   return b;
 }
 
+/// A node at which the surface has an edge or corner; -1: there is none.
 template <int D>
-void require_smooth(const Grid<D>& grid, const BoundaryNodes<D>& b) {
+Index find_edge(const Grid<D>& grid, const BoundaryNodes<D>& b) {
   constexpr Real least_cosine = 0.75;  // half of a right angle is an edge
   for (const Facet<D>& facet : grid.facets) {
     const FacetCorners<D> corners = facet_corners(facet, grid.X);
-    for (std::size_t a = 0; a < corners.size(); ++a) {
-      const Vec<D> normal = area_normal<D>(multilinear<D, D - 1>(corners, corner_place<D>(a)).J);
+    for (std::size_t a = 0; a < corner_count(facet); ++a) {
+      const Vec<D> normal = normal_at_corner(facet, corners, a);
       if (normal.normalized().dot(at(b.normal, at(b.number, facet.nodes[a]))) < least_cosine)
-        throw InputError(
-            fmt::format("the surface has an edge or corner at node {}; a surface can be recovered "
-                        "from facets where it is smooth only",
-                        facet.nodes[a]));
+        return facet.nodes[a];
     }
   }
+  return -1;
 }
 
 /// Of each boundary node, whether it is on a closed part whose normals point into its inside.
@@ -111,22 +126,10 @@ std::set<Index> two_rings(const std::vector<std::set<Index>>& beside, Index i) {
   return near;
 }
 
-template <int D>
-Eigen::Matrix<Real, D, D - 1> tangents_to(const Vec<D>& n) {
-  if constexpr (D == 2) {
-    return Vec<2>(-n[1], n[0]);
-  } else {
-    Eigen::Matrix<Real, 3, 2> t;
-    t.col(0) = n.unitOrthogonal();
-    t.col(1) = n.cross(Vec<3>(t.col(0)));
-    return t;
-  }
-}
-
 /// Slope and bend (upper triangle) of the best quadratic height.
 template <int D>
 Eigen::VectorXd fitted(const Grid<D>& grid, const BoundaryNodes<D>& b, Index i,
-                       const Eigen::Matrix<Real, D, D - 1>& t) {
+                       const Eigen::Matrix<Real, D, D - 1>& t, Real least_curvature) {
   constexpr int unknowns = D - 1 + D * (D - 1) / 2;
   const Vec<D>& X = at(grid.X, at(b.node, i));
   const std::set<Index> near = two_rings(b.beside, i);
@@ -147,6 +150,7 @@ Eigen::VectorXd fitted(const Grid<D>& grid, const BoundaryNodes<D>& b, Index i,
     M += weight * p * p.transpose();
     right += weight * at(b.normal, i).dot(r) * p;
   }
+  if (least_curvature > 0) M.diagonal().array() += least_curvature * M.trace();
   Eigen::VectorXd height = solve_symmetric(M, right);
   height.tail(unknowns - (D - 1)) /= reach;  // lengths were in units of the reach
   return height;
@@ -164,8 +168,30 @@ struct RecoveredSurface<D>::Place {
 
 template <int D>
 RecoveredSurface<D>::RecoveredSurface(const Grid<D>& grid) {
+  if (const Index node = find_edge(grid, boundary_of(grid)); node >= 0)
+    throw InputError(
+        fmt::format("the surface has an edge or corner at node {}; a surface can be "
+                    "recovered from facets where it is smooth only",
+                    node));
+  recover(grid, 0);
+}
+
+template <int D>
+std::shared_ptr<const RecoveredSurface<D>> RecoveredSurface<D>::if_smooth(const Grid<D>& grid) {
+  if (find_edge(grid, boundary_of(grid)) >= 0) return nullptr;
+  return std::make_shared<const RecoveredSurface>(grid);
+}
+
+template <int D>
+std::shared_ptr<const RecoveredSurface<D>> RecoveredSurface<D>::of_piece(const Grid<D>& grid) {
+  auto surface = std::shared_ptr<RecoveredSurface>(new RecoveredSurface);
+  surface->recover(grid, 1e-10);  // of few nodes that any curvature fits, the least
+  return surface;
+}
+
+template <int D>
+void RecoveredSurface<D>::recover(const Grid<D>& grid, Real least_curvature) {
   const BoundaryNodes<D> b = boundary_of(grid);
-  require_smooth(grid, b);
   const std::vector<char> inner = inner_nodes(grid, b);
   number_ = b.number;
   for (std::size_t i = 0; i < b.node.size(); ++i) {
@@ -173,7 +199,7 @@ RecoveredSurface<D>::RecoveredSurface(const Grid<D>& grid) {
     q.X = at(grid.X, b.node[i]);
     q.n = b.normal[i];
     q.t = tangents_to<D>(q.n);
-    const Eigen::VectorXd height = fitted<D>(grid, b, static_cast<Index>(i), q.t);
+    const Eigen::VectorXd height = fitted<D>(grid, b, static_cast<Index>(i), q.t, least_curvature);
     q.slope = height.head<D - 1>();
     Eigen::Index row = D - 1;
     for (int c = 0; c < D - 1; ++c)

@@ -30,7 +30,7 @@ Geometry<D> read_geometry(const Block& block) {
   if (!name) return stand_in<D>();
   try {
     auto made = shapes<D>().at(*name).make(block);
-    if (!made) return stand_in<D>();
+    if (!made) return read_placement(block, stand_in<D>());  // its keys are known all the same
     Geometry<D> geometry = read_placement(block, *std::move(made));
     if (!block.in_order()) return stand_in<D>();
     if (imperfection > 0)
@@ -40,7 +40,7 @@ Geometry<D> read_geometry(const Block& block) {
     return geometry;
   } catch (const InputError& error) {
     block.problem("shape", error.what());
-    return stand_in<D>();
+    return read_placement(block, stand_in<D>());
   }
 }
 

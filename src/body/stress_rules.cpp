@@ -130,6 +130,23 @@ void integrate_cell(const Body<D>& body, Index cell, CellRow<D>& row) {
   row.gradient.resize(kept);
 }
 
+/// For as many entries as all rows have, by what some of them have and a quarter more: what is not
+/// filled takes no memory, but growing would take twice as much for a moment.
+template <int D>
+void reserve_entries(const Body<D>& body, CellRule<D>& rule) {
+  constexpr Index samples = 256;
+  const Index n = body.size(), step = (n + samples - 1) / samples;
+  CellRow<D> row;
+  std::size_t entries = 0;
+  for (Index cell = step / 2; cell < n; cell += step) {
+    integrate_cell(body, cell, row);
+    entries += row.candidates.size() * static_cast<std::size_t>(step);
+  }
+  entries += entries / 4;
+  rule.particle.reserve(entries);
+  rule.coefficient.reserve(entries * D);
+}
+
 /// Vertices of the regular simplex with sum t = 0 and mean t t^T = I / D.
 template <int D>
 std::array<Vec<D>, D + 1> simplex() {
@@ -181,28 +198,28 @@ PointRule<D> make_point_rule(const Body<D>& body, std::span<const Vec<D>> points
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body) {
   const Index n = body.size();
-  std::vector<CellRow<D>> rows(static_cast<std::size_t>(n));
-  parallel_for(
-      n, [&](Index L) { integrate_cell(body, L, at(rows, L)); }, 4);
-
   CellOperator<D> op;
   CellRule<D>& rule = op.rule;
   op.shape_integral.assign(static_cast<std::size_t>(n), 0.0);
-  std::size_t entries = 0;
-  for (const CellRow<D>& row : rows) entries += row.candidates.size();
-  rule.particle.reserve(entries);
-  rule.coefficient.reserve(entries * D);
-  for (Index L = 0; L < n; ++L) {
-    CellRow<D>& row = at(rows, L);
-    for (std::size_t k = 0; k < row.candidates.size(); ++k) {
-      rule.particle.push_back(row.candidates[k].particle);
-      for (const Lanes& g : row.gradient[k]) rule.coefficient.push_back(g);
-      at(op.shape_integral, row.candidates[k].particle) += row.integral[k].value;
+  reserve_entries(body, rule);
+  constexpr Index block = 1024;  // rows take three times as much before they are packed
+  std::vector<CellRow<D>> rows(static_cast<std::size_t>(std::min(block, n)));
+  for (Index begin = 0; begin < n; begin += block) {
+    const Index count = std::min(block, n - begin);
+    parallel_for(
+        count, [&](Index k) { integrate_cell(body, begin + k, at(rows, k)); }, 4);
+    for (Index k = 0; k < count; ++k) {
+      const CellRow<D>& row = at(rows, k);
+      for (std::size_t e = 0; e < row.candidates.size(); ++e) {
+        rule.particle.push_back(row.candidates[e].particle);
+        for (const Lanes& g : row.gradient[e]) rule.coefficient.push_back(g);
+        at(op.shape_integral, row.candidates[e].particle) += row.integral[e].value;
+      }
+      rule.start.push_back(static_cast<Offset>(rule.particle.size()));
+      rule.volume.push_back(body.cells.volume(begin + k));
+      for (const Lanes& xi : stress_points<D>(body.cells.covariance(begin + k)))
+        rule.point.push_back(xi);
     }
-    rule.start.push_back(static_cast<Offset>(rule.particle.size()));
-    rule.volume.push_back(body.cells.volume(L));
-    for (const Lanes& xi : stress_points<D>(body.cells.covariance(L))) rule.point.push_back(xi);
-    row = {};
   }
   return op;
 }
@@ -225,11 +242,18 @@ std::vector<Real> shape_integrals(const Body<D>& body) {
   // First moments are exact: X det J has degree 2 D + 1 per direction in curved cells.
   const auto points =
       cell_gauss_points(body.geometry.grid, body.geometry.grid.bulges.empty() ? 3 : D + 1);
-  const auto rows = build_point_rows<D>(body.particles, points.X, {.value = true}, body.name);
   std::vector<Real> integral(static_cast<std::size_t>(body.size()), 0.0);
-  for (Index q = 0; q < rows.size(); ++q)
-    for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
-      at(integral, at(rows.particle, e)) += at(points.weight, q) * at(rows.value, e);
+  constexpr std::size_t block = 20000;  // rows of all points would be larger than the rule
+  for (std::size_t begin = 0; begin < points.X.size(); begin += block) {
+    const std::size_t end = std::min(begin + block, points.X.size());
+    const std::vector<Vec<D>> X(points.X.begin() + static_cast<std::ptrdiff_t>(begin),
+                                points.X.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto rows = build_point_rows<D>(body.particles, X, {.value = true}, body.name);
+    for (Index q = 0; q < rows.size(); ++q)
+      for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
+        at(integral, at(rows.particle, e)) +=
+            points.weight[begin + static_cast<std::size_t>(q)] * at(rows.value, e);
+  }
   return integral;
 }
 

@@ -103,8 +103,8 @@ Real Assembly<D>::shear_modulus(const std::string& name) const {
 
 template <int D>
 std::optional<Real> Assembly<D>::surface_energy(const std::string& body) const {
-  const auto found = surface_energy_.find(body);
-  return found == surface_energy_.end() ? std::nullopt : std::optional(found->second);
+  const auto found = surface_energy_->find(body);
+  return found == surface_energy_->end() ? std::nullopt : std::optional(found->second);
 }
 
 template class Assembly<2>;

@@ -16,6 +16,8 @@ struct Document {
 std::span<const Document> guide_topics();
 /// The scenes of inputs/, by name.
 std::span<const Document> gallery_scenes();
+/// The meshes that they read, inputs/meshes/NAME.msh.
+std::span<const Document> gallery_meshes();
 
 /// Where the sources of this program have tools/plotting.
 std::string_view plotting_sources();
@@ -36,5 +38,9 @@ std::string list_of_scenes();
 /// A scene of the gallery as one to begin with: without what is for tests, and with what tables and
 /// keys mean beside them.
 std::string commented_scene(const Document& scene);
+/// The meshes that a scene of the gallery names.
+std::vector<Document> meshes_of(const Document& scene);
+/// "meshes/NAME.msh", as scenes name them.
+std::string file_of_mesh(const Document& mesh);
 
 }  // namespace meniscus

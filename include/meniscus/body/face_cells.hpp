@@ -31,6 +31,7 @@ struct FaceCells {
   std::vector<Vec<D>> X, N;      ///< [point] place, outward unit normal
   std::vector<Real> share;       ///< [point] of the area of its face cell; they sum to one
   PointRows<D> mean;             ///< [k] means of N_A and, if asked for, of their gradients
+  std::vector<Vec<D>> directed;  ///< [entry of mean] means of N_A N, with the gradients
 
   Index size() const { return static_cast<Index>(cell.size()); }
   Real total_area() const;

@@ -15,23 +15,30 @@ template <int D>
 class QuadraticSurface final : public Surface<D> {
  public:
   /// `points` by the numbers of PatchNodes(grid); those at corners are the nodes of the grid.
-  QuadraticSurface(const Grid<D>& grid, const std::vector<Vec<D>>& points);
+  /// `inner`: of each patch of the facets, whether it is around a cavity; empty: there is none.
+  QuadraticSurface(const Grid<D>& grid, const std::vector<Vec<D>>& points, bool smooth = true,
+                   std::vector<char> inner = {});
 
   SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const override;
   Vec<D> point(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const override;
-  bool smooth() const override { return true; }
-  bool hollow() const override { return false; }
+  bool smooth() const override { return smooth_; }
+  bool hollow() const override;
   std::shared_ptr<const Surface<D>> renumbered(std::span<const Index> order) const override;
   std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
                                            const Grid<D>& grid) const override;
 
  private:
   using Key = typename PatchNodes<D>::Key;
-  explicit QuadraticSurface(std::map<Key, Vec<D>> point) : point_(std::move(point)) {}
+  /// The same kind of surface through other points.
+  std::shared_ptr<const Surface<D>> through(std::map<Key, Vec<D>> point) const;
   /// The points of a facet.
   std::vector<Vec<D>> of(const Facet<D>& facet) const;
 
+  QuadraticSurface() = default;
+
   std::map<Key, Vec<D>> point_;
+  bool smooth_ = true;
+  std::vector<char> inner_;
 };
 
 /// The body of a grid (X and cells) with that surface. Throws InputError if a cell folds.

@@ -17,6 +17,10 @@ class RecoveredSurface final : public Surface<D> {
  public:
   /// Throws InputError if facets meet at an edge or a corner.
   explicit RecoveredSurface(const Grid<D>& grid);
+  /// Null if facets meet at an edge or a corner.
+  static std::shared_ptr<const RecoveredSurface> if_smooth(const Grid<D>& grid);
+  /// Of facets that are a part of a surface up to its edges, however few they are.
+  static std::shared_ptr<const RecoveredSurface> of_piece(const Grid<D>& grid);
 
   SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const override;
   Vec<D> point(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const override;
@@ -39,6 +43,7 @@ class RecoveredSurface final : public Surface<D> {
   struct Place;
 
   RecoveredSurface() = default;
+  void recover(const Grid<D>& grid, Real least_curvature);
   const Quadric& around(Index node) const { return at(quadrics_, at(number_, node)); }
   Place blended(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const;
 

@@ -47,6 +47,8 @@ class Assembly {
   void remap(PlannedRemap planned) { scene_.remaps.push_back(std::move(planned)); }
   /// Says where a body touches a rigid partner.
   void wets(Wetting<D> wetting) { scene_.wetting.push_back(std::move(wetting)); }
+  /// Has a rigid partner drawn.
+  void draw(DrawnPartner<D> partner) { scene_.partners.push_back(std::move(partner)); }
   /// Says why a body cannot be referred anew: something depends on its reference by more than J.
   void keep_reference(const std::string& body, std::string why) {
     scene_.kept_references[body] = std::move(why);
@@ -65,8 +67,12 @@ class Assembly {
   void warn(std::string sentence) { scene_.warnings.push_back(std::move(sentence)); }
 
   /// Says, or asks, the energy per area of the free surface of a body; none if nobody said it.
-  void set_surface_energy(const std::string& body, Real gamma) { surface_energy_[body] = gamma; }
+  void set_surface_energy(const std::string& body, Real gamma) { (*surface_energy_)[body] = gamma; }
   std::optional<Real> surface_energy(const std::string& body) const;
+  /// The same of all bodies, also what is said later.
+  std::shared_ptr<const std::map<std::string, Real>> surface_energies() const {
+    return surface_energy_;
+  }
   /// The same of the form of a [[surface_tension]]; empty if there is none.
   void set_tension_form(const std::string& body, std::string form) {
     tension_form_[body] = std::move(form);
@@ -93,7 +99,8 @@ class Assembly {
   Scene<D>& scene_;
   bool begins_;
   std::vector<std::unique_ptr<Constraint>> constraints_;
-  std::map<std::string, Real> surface_energy_;
+  std::shared_ptr<std::map<std::string, Real>> surface_energy_ =
+      std::make_shared<std::map<std::string, Real>>();
   std::map<std::string, std::string> tension_form_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene: bodies, force terms, measures and an initial state, built from a plan.
 #pragma once
+#include "meniscus/physics/partner_registry.hpp"
+#include "meniscus/physics/rigid_motion.hpp"
 #include "meniscus/remap/reseed.hpp"
 #include "meniscus/scene/plan.hpp"
 #include "meniscus/solve/system.hpp"
@@ -56,6 +58,14 @@ struct Wetting {
   ContactLine<D> line;
 };
 
+/// A rigid partner, as viewers draw it.
+template <int D>
+struct DrawnPartner {
+  std::string contact;  ///< name of the contact
+  std::shared_ptr<const PartnerShape<D>> shape;
+  RigidMotion<D> motion;
+};
+
 /// What is wrong with a motion that cannot be; looked for at the start and at output times.
 using StateCheck = std::function<std::optional<Failure>(const Motion&)>;
 
@@ -73,6 +83,7 @@ struct Scene : RunSettings {
   std::vector<ProbedLine> lines;
   std::vector<PlannedRemap> remaps;
   std::vector<Wetting<D>> wetting;
+  std::vector<DrawnPartner<D>> partners;
   std::map<std::string, std::string> kept_references;  ///< [body] why it cannot be referred anew
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of meshes for tests: grids as they are, or cut into tetrahedra (2D: triangles).
+#pragma once
+#include "meniscus/body/shapes.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace meniscus::test {
+
+/// Corners in the order of VTK.
+using CellList = std::vector<std::vector<Index>>;
+
+template <int D>
+CellList cells_of(const Grid<D>& grid) {
+  CellList cells;
+  for (const auto& cell : grid.cells) {
+    auto& own = cells.emplace_back();
+    for (int a = 0; a < Grid<D>::corners; ++a) own.push_back(at(cell, a ^ ((a >> 1) & 1)));
+  }
+  return cells;
+}
+
+/// Sides are cut at their node of least number, so that neighbours cut alike.
+inline CellList simplices_of(const Grid<2>& grid) {
+  CellList cells;
+  for (const auto& c : grid.cells) {
+    const std::vector<Index> around{c[0], c[1], c[3], c[2]};
+    const auto least = std::min_element(around.begin(), around.end()) - around.begin();
+    const auto n = [&](std::ptrdiff_t k) {
+      return around[static_cast<std::size_t>((least + k) % 4)];
+    };
+    cells.push_back({n(0), n(1), n(2)});
+    cells.push_back({n(0), n(2), n(3)});
+  }
+  return cells;
+}
+inline CellList simplices_of(const Grid<3>& grid) {
+  constexpr int sides[6][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1},
+                               {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 6, 7, 5}};
+  CellList cells;
+  for (const auto& c : grid.cells) {
+    const Index apex = *std::min_element(c.begin(), c.end());
+    for (const auto& side : sides) {
+      std::vector<Index> around;
+      for (const int a : side) around.push_back(at(c, a));
+      if (std::find(around.begin(), around.end(), apex) != around.end()) continue;
+      const auto least = std::min_element(around.begin(), around.end()) - around.begin();
+      const auto n = [&](std::ptrdiff_t k) {
+        return around[static_cast<std::size_t>((least + k) % 4)];
+      };
+      cells.push_back({n(0), n(1), n(2), apex});
+      cells.push_back({n(0), n(2), n(3), apex});
+    }
+  }
+  return cells;
+}
+
+template <int D>
+int gmsh_type(const std::vector<Index>& cell) {
+  return D == 3 ? (cell.size() == 8 ? 5 : 4) : (cell.size() == 4 ? 3 : 2);
+}
+
+/// A text mesh of Gmsh, version 2.2.
+template <int D>
+std::string msh_of(const Grid<D>& grid, const CellList& cells) {
+  std::string text =
+      fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", grid.X.size());
+  for (std::size_t i = 0; i < grid.X.size(); ++i) {
+    const Eigen::Vector3d X = spatial<D>(grid.X[i]);
+    text += fmt::format("{} {:.17g} {:.17g} {:.17g}\n", i + 1, X[0], X[1], X[2]);
+  }
+  text += fmt::format("$EndNodes\n$Elements\n{}\n", cells.size());
+  for (std::size_t e = 0; e < cells.size(); ++e) {
+    text += fmt::format("{} {} 2 0 1", e + 1, gmsh_type<D>(cells[e]));
+    for (const Index node : cells[e]) text += fmt::format(" {}", node + 1);
+    text += '\n';
+  }
+  return text + "$EndElements\n";
+}
+
+/// A folder for files of this test; the name of one with this text.
+inline std::string written(const std::string& name, const std::string& text) {
+  const auto folder = std::filesystem::temp_directory_path() /
+                      fmt::format("meniscus_mesh_{}", static_cast<long>(::getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / name) << text;
+  return (folder / name).string();
+}
+
+/// In the folder of the test, where examples of keys look for it; several tests may at once.
+inline void write_example(const std::string& name, const std::string& text) {
+  const std::string unfinished = fmt::format("{}.{}", name, static_cast<long>(::getpid()));
+  std::ofstream(unfinished) << text;
+  std::filesystem::rename(unfinished, name);
+}
+
+/// The body of such a file.
+template <int D>
+Geometry<D> geometry_of_file(const std::string& file, const std::string& more = "") {
+  const SceneInput scene =
+      SceneInput::from_text("[body]\nshape = 'mesh'\nfile = '" + file + "'\n" + more);
+  const Block block = *scene.root().table("body");
+  Geometry<D> geometry = read_geometry<D>(block);
+  block.done();
+  scene.check();
+  return geometry;
+}
+
+/// Both kinds of cells.
+template <int D>
+Geometry<D> imported(const Grid<D>& grid, bool simplices) {
+  const std::string name = fmt::format("imported_{}_{}.msh", D, simplices);
+  return geometry_of_file<D>(
+      written(name, msh_of<D>(grid, simplices ? simplices_of(grid) : cells_of(grid))));
+}
+
+}  // namespace meniscus::test
