@@ -18,6 +18,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <sstream>
 
@@ -147,6 +148,13 @@ void write_new_scene(const NewRequest& request) {
   const Document& like = document_called(request.like, gallery_scenes(), "scene of the gallery");
   const std::string file = request.name.ends_with(".toml") ? request.name : request.name + ".toml";
   write_new_file(file, commented_scene(like));
+  for (const Document& mesh : meshes_of(like)) {
+    const std::filesystem::path beside =
+        std::filesystem::path(file).parent_path() / file_of_mesh(mesh);
+    make_directory(beside.parent_path());
+    if (!std::filesystem::exists(beside)) write_new_file(beside, mesh.text);
+    say("{} is the mesh of its body\n", beside.string());
+  }
   say("{0} begins as '{1}'; next: meniscus check {0}\n", file, request.like);
 }
 

@@ -4,6 +4,7 @@
 
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/simplex.hpp"
 
 #include <fmt/core.h>
 
@@ -40,7 +41,10 @@ struct ReferenceArrays {
     }
     // From tensor order to that of VTK: around the lower face, then around the upper.
     for (const auto& cell : body.geometry.grid.cells)
-      for (int a = 0; a < Grid<D>::corners; ++a) cells.push_back(at(cell, a ^ ((a >> 1) & 1)));
+      if (is_simplex<D>(cell))
+        for (const int a : simplex_corners<D>()) cells.push_back(at(cell, a));
+      else
+        for (int a = 0; a < Grid<D>::corners; ++a) cells.push_back(at(cell, a ^ ((a >> 1) & 1)));
     for (const auto& facet : body.geometry.grid.facets)
       facets.insert(facets.end(), facet.nodes.begin(), facet.nodes.end());
   }
@@ -56,14 +60,16 @@ std::unique_ptr<ResultFile> make_result_file(const Simulation<D>& simulation,
   std::vector<BodyReference> bodies;
   for (const Body<D>& body : scene.system.bodies) {
     const ReferenceArrays<D>& a = arrays.emplace_back(body);
+    const bool simplices = is_simplex<D>(body.geometry.grid.cells.front());
     bodies.push_back({body.name,
                       {{"X", D, unit(dimension::length), a.X},
                        {"volume", 1, scene.symbol_of_sum(dimension::volume), a.volume},
                        {"support", 1, unit(dimension::length), a.support},
                        {"mass", 1, scene.symbol_of_sum(dimension::mass), a.mass}},
-                      Grid<D>::corners,
+                      simplices ? D + 1 : Grid<D>::corners,
                       a.cells,
-                      a.facets});
+                      a.facets,
+                      simplices});
   }
   return std::make_unique<ResultFile>(directory, provenance, bodies,
                                       result_options(simulation, continued));
@@ -125,7 +131,8 @@ Recorder<D>::Recorder(Simulation<D>& simulation, const RunDirectory& directory,
                continued ? std::optional(simulation.state().time) : std::nullopt),
       lines_(line_writers(simulation.scene(), directory,
                           continued ? std::optional(simulation.state().time) : std::nullopt)),
-      results_(make_result_file(simulation, directory, provenance, continued)) {}
+      results_(make_result_file(simulation, directory, provenance, continued)),
+      partners_(simulation, directory, provenance, continued) {}
 
 template <int D>
 void Recorder<D>::begin_epoch(Simulation<D>& simulation) {
@@ -217,6 +224,7 @@ void Recorder<D>::write_frame(bool with_state) {
   std::optional<Snapshot> snapshot;
   if (with_state) snapshot = simulation_->snapshot();
   results_->write_frame(state.step, state.time, fields, snapshot ? &*snapshot : nullptr);
+  partners_.write(state.step, state.time);
   last_frame_ = state.step;
 }
 

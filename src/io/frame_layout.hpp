@@ -19,7 +19,8 @@ struct StoredField {
 struct FrameLayout {
   std::int64_t particles = 0;
   std::int64_t cells = 0;
-  int corners = 8;  ///< of a cell: 8 of a hexahedron, 4 of a quadrilateral
+  std::int64_t corners = 0;  ///< of all cells together
+  int cell_type = 0;         ///< the number that VTK has for it; 0: there are several
   hdf5::Type precision = hdf5::Type::float64;
   std::vector<StoredField> fields;  ///< sorted by name
   friend bool operator==(const FrameLayout&, const FrameLayout&) = default;

@@ -69,11 +69,12 @@ std::size_t stored_count(const Handle& array, std::size_t size, const std::strin
 template <class T>
 std::vector<T> read_numbers(const Handle& array, const std::string& doing) {
   const Handle type(H5Dget_type(array), doing);
+  const auto is = [&](Type stored) { return H5Tequal(type, file_type(stored)) > 0; };
   const bool real = std::is_same_v<T, double>;
-  if (H5Tequal(type, file_type(real ? Type::float64 : Type::int64)) <= 0)
+  if (!(real ? is(Type::float64) : is(Type::int64) || is(Type::uint8)))
     throw FileError(
         fmt::format("cannot {}: it does not hold {}", doing, real ? "numbers" : "integers"));
-  std::vector<T> values(stored_count(array, sizeof(T), doing));
+  std::vector<T> values(stored_count(array, H5Tget_size(type), doing));
   check(H5Dread(array, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), doing);
   return values;
 }

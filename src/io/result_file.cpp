@@ -76,6 +76,17 @@ void write_field(hdf5::Group& group, const ResultField& field, hdf5::Storage sto
     group.write(field.name, with_zero_z(field.values), shape, storage, field.unit);
 }
 
+bool is_in_space(const BodyReference& body) {
+  return body.corners == 8 || (body.simplices && body.corners == 4);
+}
+
+/// The number that VTK has for the cells.
+int cell_type(const BodyReference& body) {
+  if (body.corners == 2) return vtkhdf::line;
+  if (body.simplices) return is_in_space(body) ? vtkhdf::tetrahedron : vtkhdf::triangle;
+  return is_in_space(body) ? vtkhdf::hexahedron : vtkhdf::quadrilateral;
+}
+
 std::string describe(const FrameLayout& layout) {
   std::vector<std::string> fields;
   for (const StoredField& f : layout.fields)
@@ -92,16 +103,18 @@ class ResultFile::Writer {
   Writer(const RunDirectory& directory, const Provenance& provenance,
          std::span<const BodyReference> bodies, const ResultOptions& options)
       : options_(options),
-        sidecars_(directory.path()),
-        path_(place_in_series(directory, options.epoch, sidecars_)),
+        sidecars_(directory.path(), options.name),
+        path_(place_in_series(directory, options.name, options.epoch, sidecars_)),
         continuing_(options.continue_after && std::filesystem::exists(path_)),
         file_(continuing_ ? hdf5::File::open_to_append(path_)
                           : hdf5::File::create(temporary_name(path_))) {
     for (const BodyReference& body : bodies) {
       bodies_.push_back({body.name, particles_});
       particles_ += particle_count(body);
-      corners_ = body.corners;
+      const int type = cell_type(body);
+      cell_type_ = cells_ == 0 || type == cell_type_ ? type : 0;
       cells_ += std::ssize(body.cells) / body.corners;
+      corners_ += std::ssize(body.cells);
     }
     if (continuing_) {
       require_same_bodies(bodies);
@@ -161,7 +174,7 @@ class ResultFile::Writer {
   }
 
   FrameLayout layout_of(std::span<const ResultField> fields) const {
-    FrameLayout layout{particles_, cells_, corners_, storage().type, {}};
+    FrameLayout layout{particles_, cells_, corners_, cell_type_, storage().type, {}};
     for (const ResultField& field : fields)
       layout.fields.push_back({field.name, stored_components(field), field.unit});
     std::sort(layout.fields.begin(), layout.fields.end(),
@@ -208,7 +221,11 @@ class ResultFile::Writer {
       mesh.surface.resize(end, 0);
       for (const Index A : bodies[b].cells)
         mesh.connectivity.push_back(bodies_[b].first_particle + A);
-      for (const Index A : bodies[b].facets) mesh.surface[first + static_cast<std::size_t>(A)] = 1;
+      mesh.types.insert(mesh.types.end(),
+                        bodies[b].cells.size() / static_cast<std::size_t>(bodies[b].corners),
+                        cell_type(bodies[b]));
+      for (const Index A : bodies[b].facets.empty() ? bodies[b].cells : bodies[b].facets)
+        mesh.surface[first + static_cast<std::size_t>(A)] = 1;
     }
     return mesh;
   }
@@ -227,7 +244,8 @@ class ResultFile::Writer {
         write_field(group, array, {hdf5::Type::float64, options_.compression});
       }
       write_corners(group, "cells", bodies[b].cells, bodies[b].corners);
-      write_corners(group, "surface", bodies[b].facets, bodies[b].corners / 2);
+      if (!bodies[b].facets.empty())
+        write_corners(group, "surface", bodies[b].facets, is_in_space(bodies[b]) ? 4 : 2);
     }
   }
 
@@ -298,7 +316,8 @@ class ResultFile::Writer {
   hdf5::File file_;
   std::vector<BodyRange> bodies_;
   std::int64_t particles_ = 0, cells_ = 0, frames_ = 0, dropped_frames_ = 0;
-  int corners_ = 8;
+  std::int64_t corners_ = 0;
+  int cell_type_ = 0;
   std::optional<vtkhdf::Mesh> mesh_;   ///< until the first frame
   std::optional<FrameLayout> layout_;  ///< of all frames; none before the first
 };

@@ -48,9 +48,9 @@ void Sidecars::write() const {
                "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n" + list + "\n  ]\n}\n");
 }
 
-std::filesystem::path place_in_series(const RunDirectory& directory, std::int64_t epoch,
-                                      Sidecars& sidecars) {
-  const auto files = result_series(directory.path());
+std::filesystem::path place_in_series(const RunDirectory& directory, const std::string& name,
+                                      std::int64_t epoch, Sidecars& sidecars) {
+  const auto files = result_series(directory.path(), name);
   std::size_t earlier = 0;
   bool present = false;
   for (; earlier < files.size(); ++earlier) {
@@ -62,7 +62,7 @@ std::filesystem::path place_in_series(const RunDirectory& directory, std::int64_
   }
   for (std::size_t k = files.size(); k > earlier + (present ? 1 : 0); --k)
     remove_result(files[k - 1]);
-  return directory.result_file(earlier);
+  return directory.result_file(earlier, name);
 }
 
 }  // namespace meniscus

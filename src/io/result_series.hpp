@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files run.h5, run.1.h5, ... of a run whose bodies were referred anew, one per epoch, and
-// run.vtkhdf.series, which names them to ParaView as one.
+// The files NAME.h5, NAME.1.h5, ... of a run whose bodies were referred anew, one per epoch, and
+// NAME.vtkhdf.series, which names them to ParaView as one.
 #pragma once
 #include "meniscus/io/run_directory.hpp"
 
@@ -12,12 +12,12 @@
 
 namespace meniscus {
 
-/// What describes the frames of all files to viewers: run.xdmf, and run.vtkhdf.series if there is
+/// What describes the frames of all files to viewers: NAME.xdmf, and NAME.vtkhdf.series if there is
 /// more than one file.
 class Sidecars {
  public:
-  explicit Sidecars(const std::filesystem::path& directory)
-      : xdmf_(directory / "run.xdmf"), series_(directory / "run.vtkhdf.series") {}
+  Sidecars(const std::filesystem::path& directory, const std::string& name)
+      : xdmf_(directory / (name + ".xdmf")), series_(directory / (name + ".vtkhdf.series")) {}
 
   /// Frame k of a file in the same directory; frames follow each other.
   void add_frame(const std::string& file, std::int64_t k, Real time, const FrameLayout& layout);
@@ -34,7 +34,7 @@ class Sidecars {
 /// frames are added to the sidecars; those of later ones are removed, for the run will make them
 /// again. Returns the place of the file, which exists only if that epoch has one already. Throws
 /// FileError.
-std::filesystem::path place_in_series(const RunDirectory& directory, std::int64_t epoch,
-                                      Sidecars& sidecars);
+std::filesystem::path place_in_series(const RunDirectory& directory, const std::string& name,
+                                      std::int64_t epoch, Sidecars& sidecars);
 
 }  // namespace meniscus

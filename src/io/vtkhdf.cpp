@@ -27,18 +27,24 @@ void write_integers(hdf5::Group& group, const std::string& name,
 
 /// All steps share one part: its counts and its cells.
 void write_cells(hdf5::Group& view, const FrameLayout& layout, const Mesh& mesh) {
-  constexpr std::int64_t quadrilateral = 9, hexahedron = 12;  // numbers of VTK
-  const auto n = static_cast<std::size_t>(layout.cells);
-  std::vector<std::int64_t> offsets(n + 1);
-  for (std::size_t c = 0; c <= n; ++c) offsets[c] = static_cast<std::int64_t>(c) * layout.corners;
+  std::vector<std::int64_t> offsets{0};
+  for (const std::int64_t type : mesh.types) offsets.push_back(offsets.back() + corners_of(type));
   write_integers(view, "NumberOfPoints", {layout.particles});
   write_integers(view, "NumberOfCells", {layout.cells});
   write_integers(view, "NumberOfConnectivityIds", {offsets.back()});
   write_integers(view, "Connectivity", mesh.connectivity);
   write_integers(view, "Offsets", offsets);
-  write_integers(view, "Types",
-                 std::vector<std::int64_t>(n, layout.corners == 8 ? hexahedron : quadrilateral),
-                 Type::uint8);
+  write_integers(view, "Types", mesh.types, Type::uint8);
+  if (layout.cell_type == 0 && layout.cells > 0) {
+    std::vector<std::int64_t> mixed;
+    for (std::size_t c = 0; c < mesh.types.size(); ++c) {
+      const std::int64_t type = mesh.types[c];  // the numbers of XDMF
+      mixed.push_back(type == hexahedron ? 9 : type == tetrahedron ? 6 : type == triangle ? 4 : 5);
+      mixed.insert(mixed.end(), mesh.connectivity.begin() + offsets[c],
+                   mesh.connectivity.begin() + offsets[c + 1]);
+    }
+    write_integers(view, mixed_topology, mixed);
+  }
 }
 
 void create_steps(hdf5::Group& view, const FrameLayout& layout, const std::string& time_unit) {
@@ -120,8 +126,10 @@ FrameLayout layout(const hdf5::Group& root) {
   FrameLayout layout;
   layout.particles = point_data.info(body_array).shape.rows;
   layout.cells = view.info("Types").shape.rows;
-  layout.corners =
-      layout.cells > 0 ? static_cast<int>(view.info("Connectivity").shape.rows / layout.cells) : 0;
+  layout.corners = view.info("Connectivity").shape.rows;
+  const std::vector<std::int64_t> types = view.integers("Types");
+  if (!types.empty() && std::count(types.begin(), types.end(), types[0]) == std::ssize(types))
+    layout.cell_type = static_cast<int>(types[0]);
   const hdf5::ArrayInfo points = view.info("Points");
   layout.precision = points.type;
   layout.fields.push_back({"position", points.shape.columns, points.unit});

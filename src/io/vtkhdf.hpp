@@ -19,7 +19,19 @@ struct Mesh {
   std::vector<std::int64_t> body;          ///< number of the body of each particle
   std::vector<std::int64_t> surface;       ///< 1 for particles on the surface of their body, else 0
   std::vector<std::int64_t> connectivity;  ///< corners of all cells in the order of VTK
+  std::vector<std::int64_t> types;         ///< of the cells
 };
+
+/// The numbers of VTK.
+enum CellType { line = 3, triangle = 5, quadrilateral = 9, tetrahedron = 10, hexahedron = 12 };
+
+/// Corners of a cell.
+constexpr std::int64_t corners_of(std::int64_t type) {
+  return type == hexahedron ? 8 : type == triangle ? 3 : type == line ? 2 : 4;
+}
+
+/// Where a file with cells of several types has them as XDMF wants them, each after its type.
+inline constexpr const char* mixed_topology = "MixedTopology";
 
 /// The point data are the fields, `body` and `surface`. Throws FileError.
 void create(hdf5::Group& root, const FrameLayout& layout, const Mesh& mesh,

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "vtkhdf.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -21,6 +23,23 @@ const char* attribute_type(int components) {
       return "Tensor";
     default:
       return "Matrix";
+  }
+}
+
+const char* topology_type(int cell_type) {
+  switch (cell_type) {
+    case vtkhdf::hexahedron:
+      return "Hexahedron";
+    case vtkhdf::quadrilateral:
+      return "Quadrilateral";
+    case vtkhdf::tetrahedron:
+      return "Tetrahedron";
+    case vtkhdf::triangle:
+      return "Triangle";
+    case vtkhdf::line:
+      return "Polyline";
+    default:
+      return "Mixed";
   }
 }
 
@@ -46,10 +65,13 @@ void XdmfSidecar::add_frame(const std::string& hdf5_name, std::int64_t k, Real t
   };
   add(fmt::format(R"(<Grid Name="frame {}" GridType="Uniform">)", k));
   add(fmt::format(R"(<Time Value="{:.17g}"/>)", time));
-  add(fmt::format(R"(<Topology TopologyType="{}" NumberOfElements="{}">)",
-                  layout.corners == 8 ? "Hexahedron" : "Quadrilateral", layout.cells));
-  add(data_item(hdf5_name + ":/VTKHDF/Connectivity", layout.cells * layout.corners, 1,
-                hdf5::Type::int64) +
+  add(fmt::format(R"(<Topology TopologyType="{}" NumberOfElements="{}"{}>)",
+                  topology_type(layout.cell_type), layout.cells,
+                  layout.cell_type == vtkhdf::line ? R"( NodesPerElement="2")" : ""));
+  const bool mixed = layout.cell_type == 0;
+  add(data_item(
+          fmt::format("{}:/VTKHDF/{}", hdf5_name, mixed ? vtkhdf::mixed_topology : "Connectivity"),
+          layout.corners + (mixed ? layout.cells : 0), 1, hdf5::Type::int64) +
       "</Topology>");
   add(R"(<Geometry GeometryType="XYZ">)");
   add(data_item(fmt::format("{}:/steps/{}/position", hdf5_name, k), n, 3, layout.precision) +

@@ -38,6 +38,10 @@ struct Frame final : PartnerShape<2> {
     }
     return nearest;
   }
+  Drawing drawing(const Box<2>&) const override {
+    const Vec<2> a = Vec<2>::Map(low.data()), b = Vec<2>::Map(high.data());
+    return {{a, {b.x(), a.y()}, b, {a.x(), b.y()}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+  }
   /// The middle of the corners of walls that end somewhere.
   std::vector<Vec<2>> places() const override {
     if (!(thickness > 0)) return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rigid half space.
+#include "meniscus/core/dense.hpp"
 #include "meniscus/physics/partner_registry.hpp"
 
 #include <cmath>
@@ -29,6 +30,19 @@ struct HalfSpace final : PartnerShape<D> {
     return {n.dot(x - Vec<D>::Map(point.data())), n, Mat<D>::Zero()};
   }
   bool flat() const override { return true; }
+  /// A square (2D: a line) twice as wide as the box.
+  typename PartnerShape<D>::Drawing drawing(const Box<D>& box) const override {
+    const auto foot = this->foot(box.centre());
+    const Vec<D> middle = box.centre() - foot.distance * foot.normal;
+    const auto tangents = tangents_to<D>(foot.normal);
+    const Vec<D> t = box.extent().norm() * tangents.col(0);
+    if constexpr (D == 2) {
+      return {{middle - t, middle + t}, {{0, 1}}};
+    } else {
+      const Vec<3> s = box.extent().norm() * tangents.col(1);
+      return {{middle - t - s, middle + t - s, middle + t + s, middle - t + s}, {{0, 1, 2, 3}}};
+    }
+  }
   std::unique_ptr<RigidPartner<D>> lennard_jones(const ContactLaw& law, Real beta) const override {
     return rigid_half_space<D>(law, beta, Vec<D>::Map(point.data()), Vec<D>::Map(normal.data()));
   }

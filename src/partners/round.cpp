@@ -2,6 +2,8 @@
 // Rigid ball, and the rigid solid around a spherical cavity.
 #include "meniscus/physics/partner_registry.hpp"
 
+#include <numbers>
+
 namespace meniscus {
 namespace {
 
@@ -27,6 +29,28 @@ struct Round final : PartnerShape<D> {
     return {sign * (r - radius), sign * k, r > 0 ? Mat<D>(sign / r * across) : Mat<D>::Zero()};
   }
   bool round() const override { return true; }
+  /// Meridians from pole to pole; in 2D a polygon.
+  typename PartnerShape<D>::Drawing drawing(const Box<D>&) const override {
+    constexpr Index around = 64, along = D == 3 ? 32 : 1;
+    constexpr Real pi = std::numbers::pi;
+    typename PartnerShape<D>::Drawing drawing;
+    for (Index j = 0; j < (D == 3 ? along + 1 : 1); ++j)
+      for (Index i = 0; i < around; ++i) {
+        const Real phi = 2 * pi * i / around, theta = D == 3 ? pi * j / along : pi / 2;
+        const Vec<3> n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                       std::cos(theta));
+        drawing.X.push_back(Vec<D>::Map(centre.data()) + radius * n.template head<D>());
+      }
+    for (Index j = 0; j < along; ++j)
+      for (Index i = 0; i < around; ++i) {
+        const Index a = j * around + i, b = j * around + (i + 1) % around;
+        if constexpr (D == 3)
+          drawing.facets.push_back({a, a + around, b + around, b});
+        else
+          drawing.facets.push_back({a, b});
+      }
+    return drawing;
+  }
   std::vector<Vec<D>> places() const override {
     if (hollow) return {};
     return {Vec<D>::Map(centre.data())};

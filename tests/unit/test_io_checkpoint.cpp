@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Snapshots, checkpoints, damaged files, SHA-256, command lines.
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/sha256.hpp"
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/info.hpp"
-#include "meniscus/io/sha256.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Output of a run: rows of the history, frames and checkpoints, and when they are due.
 #pragma once
+#include "meniscus/app/partner_frames.hpp"
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/history.hpp"
 #include "meniscus/io/result_file.hpp"
@@ -42,6 +43,7 @@ class Recorder {
   HistoryWriter history_;  // before the frames: it refuses other columns before anything is dropped
   std::vector<HistoryWriter> lines_;
   std::unique_ptr<ResultFile> results_;
+  PartnerFrames<D> partners_;
   std::int64_t last_frame_ = -1;
 };
 

@@ -10,9 +10,10 @@
 //   /meta                   provenance and the complete input
 //   /VTKHDF                 the same frames as a mesh that moves (VTK 9.3, ParaView 5.12 or newer,
 //                           which open run.vtkhdf, a link to it)
-// Every array has an attribute "units". run.xdmf describes the frames to older ParaView.
-// After an interruption, even kill -9, the file opens and has every frame that write_frame() had
-// returned from. It can be read while the run goes on.
+// Rigid partners are drawn by partners.h5 and its views in the same way: their surfaces are cells,
+// the only field is the position. Every array has an attribute "units". run.xdmf describes the
+// frames to older ParaView. After an interruption, even kill -9, the file opens and has every frame
+// that write_frame() had returned from. It can be read while the run goes on.
 #pragma once
 #include "meniscus/core/snapshot.hpp"
 #include "meniscus/core/types.hpp"
@@ -42,14 +43,19 @@ struct ResultField {
 struct BodyReference {
   std::string name;                 ///< not empty, without '/'
   std::vector<ResultField> arrays;  ///< at least one; all have one value per particle of the body
-  int corners;                      ///< of a cell: 8 of a hexahedron, 4 of a quadrilateral
+  int corners;  ///< of a cell: 8 of a hexahedron, 4 of a quadrilateral, 2 of a line; of simplices
+                ///< one more than D
   /// Corners of the cells in the order of VTK: around the face at the lower end of the third
   /// direction, then around that at the upper.
   std::span<const Index> cells;
-  std::span<const Index> facets;  ///< corners of the facets of the surface in tensor order
+  /// Corners of the facets of the surface in tensor order; a b c c of a triangle. Empty: all cells
+  /// are of the surface.
+  std::span<const Index> facets;
+  bool simplices = false;  ///< the cells are tetrahedra or triangles
 };
 
 struct ResultOptions {
+  std::string name = "run";  ///< of the files
   enum class Precision { float32, float64 };
   Precision precision = Precision::float64;  ///< of fields; a state is always double
   int compression = 0;                       ///< deflate level, 0 (none) to 9

@@ -6,10 +6,12 @@
 // check(block), which ends with
 //   const bool registered = register_partner<2, MyShape<2>>("my_shape", "what it is") && ...;
 #pragma once
+#include "meniscus/core/box.hpp"
 #include "meniscus/core/key_table.hpp"
 #include "meniscus/core/registry.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
 
+#include <array>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -37,6 +39,14 @@ class PartnerShape {
   /// Places in the material of which one would be inside of a body that has run over the partner;
   /// none where no body can be around it.
   virtual std::vector<Vec<D>> places() const { return {}; }
+
+  /// Its surface as viewers draw it: facets (2D: lines) by their corners in the order of VTK.
+  struct Drawing {
+    std::vector<Vec<D>> X;
+    std::vector<std::array<Index, (1 << (D - 1))>> facets;
+  };
+  /// Of a surface without end the part around the box.
+  virtual Drawing drawing(const Box<D>& box) const = 0;
 
   /// The field of this shape filled with `beta` particles of a Lennard-Jones law per volume. Throws
   /// InputError for numbers that make no shape.

@@ -1,0 +1,186 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Opens runs as ParaView does: cells, times, volumes, a surface, a slice, rigid partners.
+Usage: check_paraview.py PROGRAM"""
+import itertools
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from paraview.simple import (Delete, ExtractSurface, IntegrateVariables, MeshQuality, Slice, Xdmf3ReaderS,
+                             Xdmf3ReaderT, XDMFReader, servermanager)  # fmt: skip
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+PROGRAM = str(Path(sys.argv.pop(1)).resolve())
+MATERIAL = 'material = { type = "neo_hookean", density = 1, mu = 1, lambda = 2 }\n'
+WALL = """
+[[contact]]
+bodies = ["{0}"]
+adhesion = 1e-3
+range = 0.1
+partner = {{ {1} }}
+"""
+IN_SPACE = f"""
+dimension = 3
+[time]
+end = 0.1
+step = 0.01
+[output]
+frames_every = 0.02
+fields = ["velocity", "von_mises"]
+[[body]]
+name = "ball"
+shape = "ball"
+radius = 1
+core = 4
+layers = 2
+initial_velocity = ["0.1", "0", "0"]
+{MATERIAL}
+[[body]]
+name = "block"
+shape = "mesh"
+file = "block.msh"
+move = [4, 0, 0]
+{MATERIAL}
+""" + WALL.format(
+    "ball", 'type = "half_space", point = [0, 0, -1.3], normal = [0, 0, 1], displacement = ["0", "0", "-t"]'
+) + WALL.format("block", 'type = "ball", centre = [4.5, 0.5, -2], radius = 1.5')
+IN_THE_PLANE = f"""
+dimension = 2
+[time]
+end = 0.1
+step = 0.01
+[output]
+frames_every = 0.02
+[[body]]
+name = "disk"
+shape = "disk"
+radius = 1
+core = 4
+rings = 2
+{MATERIAL}
+""" + WALL.format("disk", 'type = "frame", low = [-1.4, -1.3], high = [2, 3]')
+
+
+def cube_of_tetrahedra(n):
+    """A text mesh of Gmsh of the unit cube, 6 n^3 cells."""
+    number = {x: k + 1 for k, x in enumerate(itertools.product(range(n + 1), repeat=3))}
+    nodes = [f"{k} " + " ".join(f"{v / n:.9g}" for v in x) for x, k in number.items()]
+    cells = []
+    for low in itertools.product(range(n), repeat=3):
+        for order in itertools.permutations(range(3)):
+            x, corners = list(low), [number[low]]
+            for axis in order:
+                x[axis] += 1
+                corners.append(number[tuple(x)])
+            cells.append(f"{len(cells) + 1} 4 0 " + " ".join(map(str, corners)))
+    lists = [("Nodes", nodes), ("Elements", cells)]
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + "".join(
+        f"${name}\n{len(lines)}\n" + "\n".join(lines) + f"\n$End{name}\n" for name, lines in lists
+    )
+
+
+class ParaView(unittest.TestCase):
+    def run_of(self, text):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        directory = Path(folder.name)
+        (directory / "block.msh").write_text(cube_of_tetrahedra(3))
+        (directory / "scene.toml").write_text(text)
+        subprocess.run(
+            [PROGRAM, "run", "scene.toml", "--output", "out"], cwd=directory, check=True, capture_output=True
+        )
+        return directory / "out"
+
+    def opened(self, file):
+        reader = XDMFReader(FileNames=[str(file)])
+        self.addCleanup(Delete, reader)
+        reader.UpdatePipeline()
+        return reader
+
+    def sizes(self, reader, **measures):
+        """Of each cell."""
+        quality = MeshQuality(Input=reader, **measures)
+        quality.UpdatePipeline()
+        return vtk_to_numpy(servermanager.Fetch(quality).GetCellData().GetArray("Quality"))
+
+    def total(self, source, name):
+        integral = IntegrateVariables(Input=source)
+        integral.UpdatePipeline()
+        return servermanager.Fetch(integral).GetCellData().GetArray(name).GetValue(0)
+
+    def test_bodies_in_space(self):
+        """Hexahedra of a ball beside tetrahedra of a mesh."""
+        out = self.run_of(IN_SPACE)
+        run = self.opened(out / "run.xdmf")
+        self.assertEqual(len(run.TimestepValues), 6)
+        self.assertAlmostEqual(run.TimestepValues[-1], 0.1, 12)
+        self.assertEqual(set(run.PointData.keys()), {"body", "surface", "velocity", "von_mises"})
+        types = {}
+        grid = servermanager.Fetch(run)
+        for c in range(grid.GetNumberOfCells()):
+            types[grid.GetCellType(c)] = types.get(grid.GetCellType(c), 0) + 1
+        self.assertEqual(types[10], 6 * 3**3)
+        self.assertEqual(set(types), {10, 12})
+        self.assertGreater(self.sizes(run, TetQualityMeasure="Volume", HexQualityMeasure="Volume").min(), 0)
+        # The ball by the polyhedron of its hexahedra, and the cube.
+        self.assertLess(abs(self.total(run, "Volume") - (4 * 3.14159265 / 3 + 1)), 0.4)
+        surface = ExtractSurface(Input=run)
+        surface.UpdatePipeline()
+        kinds = vtk_to_numpy(servermanager.Fetch(surface).GetPointData().GetArray("surface"))
+        self.assertEqual(kinds.min(), 1)
+        cut = Slice(Input=run, SliceType="Plane")
+        cut.SliceType.Origin, cut.SliceType.Normal = [0, 0, 0.1], [0, 0, 1]
+        cut.UpdatePipeline()
+        self.assertLess(abs(self.total(cut, "Area") - (3.14159265 * 0.99 + 1)), 0.2)
+        low, high = servermanager.Fetch(cut).GetPointData().GetArray("velocity").GetRange(0)
+        self.assertLess(abs(high - 0.1), 0.1)
+        self.assertGreater(high, low)
+
+    def test_rigid_partners(self):
+        """The plane moves away, the ball stays."""
+        walls = self.opened(self.run_of(IN_SPACE) / "partners.xdmf")
+        self.assertEqual(len(walls.TimestepValues), 6)
+        for time in (0, walls.TimestepValues[-1]):
+            walls.UpdatePipeline(time)
+            grid = servermanager.Fetch(walls)
+            self.assertEqual({grid.GetCellType(c) for c in range(grid.GetNumberOfCells())}, {9})
+            plane, ball = grid.GetCell(0).GetBounds(), grid.GetBounds()
+            self.assertAlmostEqual(plane[4], -1.3 - time, 6)
+            self.assertAlmostEqual(plane[5], -1.3 - time, 6)
+            self.assertLess(plane[0], -2)
+            self.assertAlmostEqual(ball[4], -3.5, 6)
+            self.assertAlmostEqual(ball[5], -0.5, 6)
+
+    def test_every_reader_of_paraview(self):
+        """There are three for XDMF."""
+        for text in (IN_SPACE, IN_THE_PLANE):
+            out = self.run_of(text)
+            for name in ("run", "partners"):
+                file, found = str(out / f"{name}.xdmf"), []
+                for reader in (
+                    XDMFReader(FileNames=[file]), Xdmf3ReaderS(FileName=[file]), Xdmf3ReaderT(FileName=[file])
+                ):  # fmt: skip
+                    self.addCleanup(Delete, reader)
+                    reader.UpdatePipeline(reader.TimestepValues[3])
+                    self.assertEqual(len(reader.TimestepValues), 6)
+                    data = reader.GetDataInformation()
+                    found.append((data.GetNumberOfCells(), data.GetNumberOfPoints()))
+                self.assertEqual(found, [found[0]] * 3)
+                self.assertGreater(min(found[0]), 0)
+
+    def test_the_plane(self):
+        out = self.run_of(IN_THE_PLANE)
+        run, frame = self.opened(out / "run.xdmf"), self.opened(out / "partners.xdmf")
+        self.assertEqual(servermanager.Fetch(run).GetCellType(0), 9)
+        self.assertGreater(self.sizes(run, QuadQualityMeasure="Area").min(), 0)
+        self.assertLess(abs(self.total(run, "Area") - 3.14159265), 0.2)
+        grid = servermanager.Fetch(frame)
+        self.assertEqual([grid.GetCellType(c) for c in range(grid.GetNumberOfCells())], [4] * 4)
+        self.assertEqual(grid.GetBounds(), (-1.4, 2, -1.3, 3, 0, 0))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
