@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cost against size: building and stepping the free cube of lame_cube, per particle, with one
+// thread and with two (performance note 6).
+#include "meniscus/core/parallel.hpp"
+#include "meniscus/scene/simulation.hpp"
+#include "meniscus/study/study.hpp"
+
+#include <fmt/core.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace meniscus::scaling_study {
+namespace {
+
+std::string scene_text(int cells) {
+  return fmt::format(R"toml(
+dimension = 3
+time = {{ end = 1e3 }}
+[[body]]
+name = "cube"
+shape = "box"
+size = [1, 1, 1]
+corner = [0, 0, 0]
+cells = [{0}, {0}, {0}]
+support_spacings = 2.6
+initial_velocity = ["1e-5*cos(pi*x)*sin(pi*y)", "-1e-5*sin(pi*x)*cos(pi*y)", "0"]
+material = {{ type = "neo_hookean", density = 1, mu = 0.4, lambda = 0.6 }}
+)toml",
+                     cells);
+}
+
+/// The most memory that the process has held since forget_peak(), bytes; 0 where the system does
+/// not say.
+Real peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:") {
+      Real kilobytes = 0;
+      status >> kilobytes;
+      return 1024 * kilobytes;
+    }
+  return 0;
+}
+void forget_peak() {
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+/// The fastest of three rounds of steps, s per step: others may use the machine.
+double seconds_per_step(Simulation<3>& simulation, Index particles) {
+  const int steps = std::max(2, 300000 / particles);
+  double fastest = unbounded;
+  for (int round = 0; round < 3; ++round) {
+    const Stopwatch time;
+    for (int k = 0; k < steps; ++k) simulation.advance();
+    fastest = std::min(fastest, time.seconds() / steps);
+  }
+  return fastest;
+}
+
+struct Measured {
+  Measurement result;
+  std::uint64_t hash;
+};
+
+Measured measure(int threads, int cells) {
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(threads);
+  forget_peak();
+  const Stopwatch set_up;
+  const SceneInput input = SceneInput::from_text(scene_text(cells));
+  scene_dimension(input);
+  Scene<3> scene = build_scene<3>(input);
+  Simulation<3> simulation(scene);
+  simulation.begin();
+
+  Measurement result{.method = fmt::format("{} thread{}", threads, threads > 1 ? "s" : ""),
+                     .level = cells};
+  result.set_up = set_up.seconds();
+  result.particles = scene.system.size();
+  result.h = result.particles;
+  result.bytes = scene.system.bytes();
+  result.time = seconds_per_step(simulation, result.particles);
+  const Real n = result.particles;
+  result.errors = {{"set-up, us per particle", 1e6 * result.set_up / n},
+                   {"step, ns per particle", 1e9 * result.time / n},
+                   {"forces, kB per particle", 1e-3 * static_cast<Real>(result.bytes) / n},
+                   {"peak, kB per particle", 1e-3 * peak_memory() / n}};
+  result.values = {{"chunks", chunk_count(result.particles)},
+                   {"set-up / step", result.set_up / result.time}};
+  omp_set_num_threads(before);
+  return {std::move(result), simulation.snapshot().hash()};
+}
+
+void run(StudyRun& study) {
+  study.finish_settings();
+  int different = 0;
+  for (const int cells : study.levels()) {
+    const Measured one = measure(1, cells), two = measure(2, cells);
+    different += one.hash != two.hash;
+    study.record(one.result);
+    study.record(two.result);
+    study.note(
+        fmt::format("{} particles: two threads make steps {:.2f} and the set-up {:.2f} "
+                    "times as fast as one",
+                    one.result.particles, one.result.time / two.result.time,
+                    one.result.set_up / two.result.set_up));
+  }
+  study.require("sizes with another state after the steps with two threads", different, {0, 0});
+  // A particle inside has more neighbours than one at the surface, of which large bodies have less.
+  if (study.levels().size() > 1)
+    study.require("power of the size with which memory per particle grows",
+                  study.overall_order("1 thread", "forces, kB per particle"), {-0.1, 0.1});
+}
+
+const bool registered = register_entry(
+    StudyEntry{"scaling",
+               "cost against size: set-up, step and memory per particle, one thread and two",
+               "cells per edge of a cube",
+               {9, 20, 31, 49, 62, 79},
+               {9, 14},
+               run,
+               "particles"});
+
+}  // namespace
+}  // namespace meniscus::scaling_study
