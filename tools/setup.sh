@@ -27,11 +27,11 @@ refuse() {
   exit 2
 }
 
-# Prints the packages of the given sections, one per line.
+# Prints the packages of the given sections, each once, one per line.
 packages() {
   awk -v wanted=" $* " '{ sub(/#.*/, "") }
     /^\[/ { gsub(/[][ ]/, ""); on = index(wanted, " " $0 " "); next }
-    on && NF { print $1 }' "$root/tools/packages.txt"
+    on && NF && !seen[$1]++ { print $1 }' "$root/tools/packages.txt"
 }
 
 need() {

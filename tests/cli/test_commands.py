@@ -59,6 +59,12 @@ class New(ProgramTest):
         self.assertRegex(text, r"(?m)^\[\[surface_tension\]\] +# tension of the whole surface")
         self.call("check", "mine.toml")
 
+    def test_meshes_come_along(self):
+        self.call("new", "mine", "--like", "mesh_drop")
+        self.call("new", "other", "--like", "mesh_drop")
+        self.assertEqual([path.name for path in (self.directory / "meshes").iterdir()], ["ball_tetrahedra.msh"])
+        self.assertIn("tetrahedra of a mesh", self.call("check", "mine.toml").stdout)
+
     def test_refusals(self):
         self.call("new", "mine", "--like", "lame_cube")
         self.refused(["new", "mine", "--like", "lame_cube"], 5, "mine.toml")

@@ -160,6 +160,27 @@ class Scenes(ProgramTest):
         self.assert_refused(DROP + '[[surface]]\nbody = "drop"\nlaw = { type = "tension", gamma = 1 }\n',
                             "surface", "the surface of 'drop' has a law already")
 
+    def test_numbers_of_surface_laws(self):
+        line = DROP.count("\n") + 5
+        for law, *words in (
+                ('type = "gurtin_murdok"', f"scene.toml:{line - 1}:8: surface[0].law.type", "'gurtin_murdok' is unknown",
+                 "did you mean 'gurtin_murdoch'?"),
+                ('type = "gurtin_murdoch"\nlambda = 1\nmue = 1', f"scene.toml:{line + 1}:1: surface[0].law.mue: unknown key",
+                 "surface[0].law.mu: missing", "did you mean 'mu'?"),
+                ('type = "neo_hookean_skin"\nlambda = "1 Pa"\nmu = 1', f"scene.toml:{line}:10: surface[0].law.lambda",
+                 "'1 Pa' is a pressure", "expected a tension"),
+                ('type = "neo_hookean_skin"\nlambda = -3\nmu = 1', f"scene.toml:{line - 4}:1: surface[0]", "'drop'",
+                 "least modulus in the surface -1 N/m", "expected are mu >= 0 and lambda + mu >= 0\n"),
+                ('type = "boussinesq_scriven"\nshear = -0.1\ndilatational = 0',
+                 f"scene.toml:{line}:9: surface[0].law.shear: -0.1", "allowed is >= 0"),
+                ('type = "varying_tension"\ngamma = "1 + q"', f"scene.toml:{line}:9: surface[0].law.gamma",
+                 "unknown name 'q' at character 5", "allowed are x, y, z, t"),
+                ('type = "varying_tension"\ngamma = 1\nof = "space"', f"scene.toml:{line + 1}:6: surface[0].law.of",
+                 "'space' is unknown; allowed are material, place"),
+                ('type = "varying_tension"\ngamma = "log(x)"', f"scene.toml:{line}:9: surface[0].law.gamma",
+                 "'log(x)' is not a number at x = -")):
+            self.assert_refused(DROP + f'[[surface]]\nbody = "drop"\n[surface.law]\n{law}\n', *words)
+
     def test_loads_of_space(self):
         self.assert_refused(SHEET + '[[profile]]\nbody = "sheet"\nr = [1]\nz = [0]\n',
                             "scene.toml:16:1: profile", "[[profile]] is for bodies in 3 dimensions")

@@ -4,7 +4,11 @@
 Usage: test_restart.py PROGRAM"""
 import json
 import re
+import shutil
 import signal
+import tempfile
+import unittest
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -15,11 +19,21 @@ from program import BLOCK, DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, sta
 
 
 class Restart(ProgramTest):
+    kept = {}  # [scene] a copy of the uninterrupted run, and its hash
+
     def reference(self, text):
-        """The uninterrupted run: scene, hash, history and frames, each with the state."""
+        """The uninterrupted run: scene, hash, history and frames, each with the state. Each scene is
+        run once; a test may change what it finds."""
         self.file = self.scene(with_output(text, "restartable = true"))
         self.end = re.search(r"end = (.*)", text).group(1).strip('"')
-        self.whole = state_of(self.call("run", self.file, "--output", "whole"))
+        if text not in self.kept:
+            state = state_of(self.call("run", self.file, "--output", "whole"))
+            folder = tempfile.TemporaryDirectory()
+            unittest.addModuleCleanup(folder.cleanup)
+            self.kept[text] = shutil.copytree(self.directory / "whole", Path(folder.name) / "whole"), state
+        else:
+            shutil.copytree(self.kept[text][0], self.directory / "whole")
+        self.whole = self.kept[text][1]
         self.whole_history = (self.directory / "whole/history.csv").read_text()
         self.whole_frames = self.frames("whole")
 
@@ -271,12 +285,61 @@ class RelaxingSheet(EveryWay, Restart):
         self.assertLess(self.history("rest")["force_residual"][-1], 1e-5)
 
 
+class Partners(ProgramTest):
+    """Frames of rigid partners go with those of the run."""
+    WALL = """
+[[contact]]
+bodies = ["drop"]
+interaction = "smooth_young"
+contact_angle = 90
+range = "1 nm"
+partner = { type = "half_space", point = ["0 nm", "0 nm", "-6.5 nm"], normal = [0, 0, 1], displacement = ["0 m", "0 m", "-1e-9*t/60e-12"] }
+"""
+
+    def frames_of(self, output):
+        with h5py.File(self.directory / output / "partners.h5") as partners, h5py.File(
+            self.directory / output / "run.h5"
+        ) as run:
+            times = [run["steps"][k].attrs["time"] for k in sorted(run["steps"], key=int)]
+            steps = [partners["steps"][k] for k in sorted(partners["steps"], key=int)]
+            self.assertEqual([step.attrs["time"] for step in steps], times)
+            heights = np.array([step["position"][:, 2] for step in steps])
+            for height, time in zip(heights, times):
+                self.assertTrue(np.allclose(height, -6.5e-9 - 1e-9 * time / 60e-12, rtol=0, atol=1e-15))
+            return heights
+
+    def test_they_are_dropped_and_made_again(self):
+        file = self.scene(DROP + self.WALL)
+        self.call("run", file, "--output", "whole")
+        self.call("run", file, "--output", "part")
+        self.call("run", file, "--output", "part", "--overwrite", "--until", "30 ps")
+        self.assertLess(len(self.frames_of("part")), len(self.frames_of("whole")))
+        self.call("run", file, "--output", "part", "--restart", "part")
+        self.assertTrue(np.array_equal(self.frames_of("part"), self.frames_of("whole")))
+
+
 class OtherScene(ProgramTest):
     def test_physics_may_not_change(self):
         file = self.scene(BLOCK)
         self.call("run", file, "--output", "out", "--until", "0.02")
         for change in ("body[0].material.mu=2e5", "body_force[0].acceleration=[0,0,1]"):
             self.refused(["run", file, "--restart", "out", "--set", change], 3, "another scene")
+
+    def test_nor_may_a_mesh(self):
+        """A drop of a mesh continues bit for bit, and not with another file of the same name."""
+        self.call("new", "drop", "--like", "mesh_drop")
+        scene, mesh = self.directory / "drop.toml", self.directory / "meshes/ball_tetrahedra.msh"
+        scene.write_text(scene.read_text().partition("[expect]")[0])
+        run = ["run", "drop.toml", "--set", "time.end=0.1", "--output"]
+        whole = state_of(self.call(*run, "whole"))
+        self.call(*run, "part", "--until", "0.05", "--threads", "1")
+        self.call(*run, "same", "--restart", "part")
+        self.assertEqual(state_of(self.call(*run, "part", "--restart", "part")), whole)
+        text = mesh.read_text()
+        mesh.write_text(text.replace("\n1 0.7", "\n1 0.71", 1))
+        self.refused([*run, "other", "--restart", "part"], 3, "another scene: body[0].sha256 differs")
+        mesh.unlink()
+        self.refused([*run, "other", "--restart", "part"], 3, "drop.toml", "body[0].file", "No such file")
 
     def test_what_may_change(self):
         file = self.scene(BLOCK)
