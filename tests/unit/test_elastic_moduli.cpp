@@ -12,7 +12,8 @@ namespace meniscus::test_elastic_moduli {
 namespace {
 
 bool knows_moduli(const LawEntry& law) {
-  return std::any_of(law.keys.begin(), law.keys.end(),
+  const std::vector<KeyText> keys = law.keys();
+  return std::any_of(keys.begin(), keys.end(),
                      [](const KeyText& key) { return key.key == "youngs_modulus"; });
 }
 

@@ -349,7 +349,7 @@ TEST(LawRegistry, KnowsItsLaws) {
   for (const char* name : {"newtonian", "st_venant_kirchhoff", "neo_hookean", "mooney_rivlin",
                            "liquid_crystal_elastomer"})
     EXPECT_EQ(laws().at(name).name, name);
-  EXPECT_EQ(laws().at("newtonian").keys.size(), 6U);
+  EXPECT_EQ(laws().at("newtonian").keys().size(), 6U);
   EXPECT_THROW(register_entry(laws().at("newtonian")), std::logic_error);
   try {
     laws().at("neohookean");

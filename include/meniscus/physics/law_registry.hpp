@@ -48,7 +48,7 @@ struct LawEntry {
   static constexpr const char* kind = "material law";
   std::string_view name;
   bool viscous;
-  std::vector<KeyText> keys;
+  std::vector<KeyText> (*keys)();
   std::string example;                            ///< keys and typical numbers, lines of a scene
   std::unique_ptr<AnyLaw> (*typical)();           ///< with the typical numbers of its rows
   std::unique_ptr<AnyLaw> (*read)(const Block&);  ///< uniform numbers from a scene; notes problems
@@ -146,15 +146,20 @@ std::unique_ptr<Material<D>> read_with_supply(const Block& block) {
 }
 
 template <Law L>
-LawEntry make_entry() {
-  LawEntry entry{L::type_name, L::viscous, key_texts(L::rows()),   typical_text<L>(),
-                 nullptr,      nullptr,    read_with_supply<2, L>, read_with_supply<3, L>};
-  if constexpr (LawOfModuli<L>) add_moduli(entry.keys, L::of_moduli);
+std::vector<KeyText> key_texts_of() {
+  std::vector<KeyText> keys = key_texts(L::rows());
+  if constexpr (LawOfModuli<L>) add_moduli(keys, L::of_moduli);
   if constexpr (DirectedLaw<L>)
-    entry.keys.push_back({ReferenceDirector::key, "numbers or formulas", "1", "",
-                          "normal of the walls",
-                          "reference director h0, one number or formula per dimension, of any "
-                          "length; required for shapes without walls"});
+    keys.push_back({ReferenceDirector::key, "numbers or formulas", "1", "", "normal of the walls",
+                    "reference director h0, one number or formula per dimension, of any length; "
+                    "required for shapes without walls"});
+  return keys;
+}
+
+template <Law L>
+LawEntry make_entry() {
+  LawEntry entry{L::type_name, L::viscous, key_texts_of<L>,        typical_text<L>(),
+                 nullptr,      nullptr,    read_with_supply<2, L>, read_with_supply<3, L>};
   entry.typical = []() -> std::unique_ptr<AnyLaw> {
     return std::make_unique<AnyLawOf<L>>(typical_law<L>());
   };
