@@ -59,6 +59,8 @@ struct Surface final : Load<D>, Keys {
   void build(Assembly<D>& assembly) const override {
     require_stable(assembly);
     std::unique_ptr<ForceTerm> term = law->build(assembly.body(body), points);
+    if (auto* anchored = dynamic_cast<AnchoredTerm*>(term.get()))
+      anchored->anchor(required_director(assembly));
     const auto* varied = dynamic_cast<const VariedTension*>(term.get());
     if (varied && !assembly.viscosity(body).empty())
       assembly.check(negative_tension(*varied, assembly));
@@ -70,6 +72,13 @@ struct Surface final : Load<D>, Keys {
   }
 
  private:
+  CarriedField& required_director(const Assembly<D>& assembly) const {
+    if (CarriedField* director = assembly.director(body)) return *director;
+    throw InputError(fmt::format(
+        "{}: \"{}\" acts on a director, which body '{}' has none of; expected is a body whose "
+        "material is \"nematic\"",
+        this->place, type, body));
+  }
   /// The surface of a fluid that has all in all a negative tension would grow without bound.
   StateCheck negative_tension(const VariedTension& varied, const Assembly<D>& assembly) const {
     return [&varied, name = body, first = assembly.body(body).first,

@@ -130,8 +130,9 @@ void keep_mass(Body<D>& body) {
 }  // namespace
 
 template <int D>
-void build_body(const BodyPlan<D>& planned, std::shared_ptr<const Reference<D>> reference,
-                Scene<D>& scene, Assembly<D>& assembly) {
+std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned,
+                                           std::shared_ptr<const Reference<D>> reference,
+                                           Scene<D>& scene, Assembly<D>& assembly) {
   const BodySettings& settings = planned.settings;
   Geometry<D> geometry = reference ? reference->geometry : planned.geometry;
   if (!reference) order_spatially(geometry);
@@ -161,11 +162,14 @@ void build_body(const BodyPlan<D>& planned, std::shared_ptr<const Reference<D>> 
   for (const auto& [name, group] : measures<D>())
     for (MeasureSource& source : group.make(body, scene.units))
       assembly.measure(body.name, std::move(source));
+  return std::move(built.nematic);
 }
 
-template void build_body(const BodyPlan<2>&, std::shared_ptr<const Reference<2>>, Scene<2>&,
-                         Assembly<2>&);
-template void build_body(const BodyPlan<3>&, std::shared_ptr<const Reference<3>>, Scene<3>&,
-                         Assembly<3>&);
+template std::unique_ptr<NematicBody<2>> build_body(const BodyPlan<2>&,
+                                                    std::shared_ptr<const Reference<2>>, Scene<2>&,
+                                                    Assembly<2>&);
+template std::unique_ptr<NematicBody<3>> build_body(const BodyPlan<3>&,
+                                                    std::shared_ptr<const Reference<3>>, Scene<3>&,
+                                                    Assembly<3>&);
 
 }  // namespace meniscus

@@ -8,6 +8,7 @@
 
 #include <stdexcept>
 
+#include "add_director.hpp"
 #include "build_body.hpp"
 
 namespace meniscus {
@@ -90,10 +91,14 @@ Scene<D> build(const Plan<D>& plan, const References<D>& references) {
   Scene<D> scene;
   static_cast<RunSettings&>(scene) = plan;
   Assembly<D> assembly(scene, references.empty());
+  std::vector<std::unique_ptr<NematicBody<D>>> nematics;
   for (const BodyPlan<D>& body : plan.bodies) {
     const auto found = references.find(body.settings.name);
-    build_body(body, found == references.end() ? nullptr : found->second, scene, assembly);
+    nematics.push_back(
+        build_body(body, found == references.end() ? nullptr : found->second, scene, assembly));
   }
+  for (std::size_t b = 0; b < nematics.size(); ++b)
+    if (nematics[b]) add_director(scene.system.bodies[b], std::move(*nematics[b]), scene, assembly);
   set_initial_state(plan, scene);
   for (const auto& load : plan.loads) load->build(assembly);
   if (auto constraints = assembly.take_constraints(); !constraints.empty())

@@ -276,6 +276,8 @@ void Simulation<D>::archive_terms(const Archive& a) {
     ForceTerm& term = *scene_.system.terms[k];
     term.archive(a.in(fmt::format("terms/{} {}", k, term.name())));
   }
+  for (std::size_t k = 0; k < scene_.system.carried.size(); ++k)
+    scene_.system.carried[k]->archive(a.in(fmt::format("carried/{}", k)));
 }
 
 /// The scene is built on its references, so that a state that is read only has to be of the same.

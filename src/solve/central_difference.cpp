@@ -30,8 +30,10 @@ template <int D>
 void advance(System<D>& system, State& state, Real dt,
              const std::function<void(const State&)>& judge) {
   kick(system, state, dt / 2);
+  system.depart(state);
   leapfrog::drift(state, dt);
   system.constrain(state, dt);
+  system.arrive(state, dt);
   Report report;
   try {
     report = system.compute_forces(state.motion(), state.forces());

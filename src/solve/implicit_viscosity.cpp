@@ -36,8 +36,10 @@ template <int D>
 void ImplicitViscosity<D>::advance(State& state, Real dt) {
   leapfrog::kick(state.v, state.force, system_.mass, dt / 2);
   leapfrog::kick_fields(state, dt / 2);
+  system_.depart(state);
   leapfrog::drift(state, dt);
   system_.constrain(state, dt);
+  system_.arrive(state, dt);
   half_ = state.v;
   // The guess of v_n+1, by the predicted force.
   NodalVectors& predicted = r_;

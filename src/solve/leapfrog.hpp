@@ -25,7 +25,8 @@ inline void drift(NodalVectors& x, const NodalVectors& v, Real dt) {
 }
 inline void drift(State& state, Real dt) {
   drift(state.u, state.v, dt);
-  for (Unknown& field : state.fields) drift(field.x, field.rate, dt);
+  for (Unknown& field : state.fields)
+    if (field.spec.evolution != Evolution::carried) drift(field.x, field.rate, dt);
   state.time += dt;
 }
 

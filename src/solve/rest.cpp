@@ -172,7 +172,7 @@ std::string net_forces(const System<D>& system, const State& state) {
 template <int D>
 std::string unbalanced(System<D>& system, State& state, Real time) {
   const NodalVectors still(state.u.size(), Lanes::zero());
-  system.add_up({time, state.u, still}, state.force);
+  system.add_up({time, state.u, still, state.fields}, state.forces());
   const std::string net = net_forces(system, state);
   return net.empty() ? "" : "; " + net + ", which nothing balances";
 }

@@ -52,7 +52,8 @@ void State::archive(const Archive& a, int space_dimension) {
     Dimension rate = field.spec.dimension;
     --rate.time;
     part("value", field.x, field.spec.components, field.spec.dimension);
-    part("rate", field.rate, field.spec.components, rate);
+    if (field.spec.evolution != Evolution::carried)
+      part("rate", field.rate, field.spec.components, rate);
     part("force", field.f, field.spec.components);
   }
   if (!reactions.force.empty()) {

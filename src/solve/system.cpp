@@ -51,6 +51,7 @@ template <int D>
 std::size_t System<D>::bytes() const {
   std::size_t sum = constraints ? constraints->bytes() : 0;
   for (const auto& term : terms) sum += term->bytes();
+  for (const auto& field : carried) sum += field->bytes();
   return sum;
 }
 
@@ -92,6 +93,7 @@ Report System<D>::add_up(const Motion& motion, Forces force) {
     if (report.failure) report.failure->term = term->name();
     all += std::move(report);
   }
+  for (auto& field : carried) field->add_reaction(motion, force);
   return all;
 }
 

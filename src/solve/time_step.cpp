@@ -101,10 +101,29 @@ void StableStepEstimator<D>::force_change(const State& state, Real du, Real dv,
       at(v_, A) = viscous_counts_ ? at(state.v, A) + dv * at(mode_, A) : Lanes::zero();
     }
   });
-  system_.add_up({state.time, u_, v_, state.fields}, {result, trial_});
+  std::span<const Unknown> fields = state.fields;
+  if (!system_.carried.empty()) {
+    carry_trial(state);
+    fields = trial_;
+  }
+  system_.add_up({state.time, u_, v_, fields}, {result, trial_});
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(result, A) = at(base_, A) - at(result, A);
   });
+}
+
+/// The material takes its fields along to the trial places: with a field that stays behind, limits
+/// come out several times too long.
+template <int D>
+void StableStepEstimator<D>::carry_trial(const State& state) {
+  for (const auto& carried : system_.carried) {
+    NodalVectors& x = at(trial_, carried->number()).x;
+    const auto own = carried->part(std::span(x)),
+               now = carried->part(std::span(at(state.fields, carried->number()).x));
+    std::copy(now.begin(), now.end(), own.begin());
+    carried->carry(carried->part(std::span(state.u)).data(), carried->part(std::span(u_)).data(),
+                   own);
+  }
 }
 
 template <int D>
@@ -159,8 +178,13 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
     });
     if (system_.constraints) system_.constraints->project(mode_);
   }
+  if (!system_.carried.empty())
+    for (std::size_t k = 0; k < trial_.size(); ++k) trial_[k].x = state.fields[k].x;
   for (std::size_t k = 0; k < field_modes_.size(); ++k)
-    best.of_fields = std::min(best.of_fields, field_limit(state, k));
+    if (at(state.fields, k).spec.evolution == Evolution::carried)
+      set_stages(state, k);
+    else
+      best.of_fields = std::min(best.of_fields, field_limit(state, k));
   best.dt = std::min(best.dt, best.of_fields);
   if (!(best.dt > 0) || !std::isfinite(best.dt)) {
     // Names the place if a cell is folded.
@@ -185,25 +209,55 @@ StepError StableStepEstimator<D>::failure(std::string cause, const State& state)
   return StepError(system_.located({stiffest, std::move(cause)}, state.motion()));
 }
 
-/// 2 / the largest rate of c x' = f, or 2 / the largest frequency of c x'' = f.
+/// A carried field relaxes in as many stages as its own limit asks for: it does not limit the step.
+template <int D>
+void StableStepEstimator<D>::set_stages(const State& state, std::size_t number) {
+  const auto forces = [&](Unknown& field) {
+    for (const auto& carried : system_.carried) {
+      if (carried->number() != number) continue;
+      carried->held_force(carried->part(std::span(field.x)).data(),
+                          carried->part(std::span(field.f)));
+    }
+  };
+  for (const auto& carried : system_.carried)
+    if (carried->number() == number) carried->hold_places(carried->part(std::span(state.u)).data());
+  forces(trial_[number]);
+  base_fields_[number] = trial_[number].f;
+  const Real limit = field_limit(state, number, forces);
+  for (const auto& carried : system_.carried)
+    if (carried->number() == number) carried->set_limit(limit);
+}
+
 template <int D>
 Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number) {
+  return field_limit(state, number, [&](Unknown&) {
+    system_.add_up({state.time, state.u, state.v, trial_}, {elastic_, trial_});
+  });
+}
+
+/// 2 / the largest rate of c x' = f, or 2 / the largest frequency of c x'' = f; `forces` of a
+/// trial.
+template <int D>
+Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number,
+                                         const std::function<void(Unknown&)>& forces) {
   NodalVectors& mode = field_modes_[number];
   const Unknown& field = state.fields[number];
   Unknown& trial = trial_[number];
-  const Real length = std::sqrt(dot(mode, mode));
-  for (NodalVector& w : mode) w /= length;
   FallingLimit falling;
   for (int iteration = 0; iteration < most_iterations && !falling.found(); ++iteration) {
+    const Real length = std::sqrt(dot(mode, mode));
+    for (NodalVector& w : mode) w /= length;
     const Real h = 1e-6 * field.spec.scale / largest_of(mode);
     for (Index A = 0; A < system_.size(); ++A) at(trial.x, A) = at(field.x, A) + h * at(mode, A);
-    system_.add_up({state.time, state.u, state.v, trial_}, {elastic_, trial_});
+    forces(trial);
     Real restoring = 0, weight = 0;
     for (Index A = 0; A < system_.size(); ++A) {
       const Lanes change = at(base_fields_[number], A) - at(trial.f, A);
       restoring += sum(at(mode, A) * change) / h;
       weight += at(field.capacity, A) * sum(at(mode, A) * at(mode, A));
-      at(mode, A) = change / (h * at(field.capacity, A));
+      // Particles of bodies without the field have no capacity, and no forces.
+      const Real c = at(field.capacity, A);
+      at(mode, A) = c > 0 ? change / (h * c) : Lanes::zero();
     }
     const Real k = std::abs(restoring) / weight;
     if (!(k > 0)) break;  // nothing brings it back: no limit

@@ -23,6 +23,13 @@ std::string moving(int D) {
                 : "initial_velocity = [\"0.1*y\", \"-0.2*x + 0.05\"]\n";
 }
 
+std::string nematic_drop(int D) {
+  return example_heading(D) + example_ball(D, "drop") + moving(D) +
+         "[body.material]\ntype = \"nematic\"\n" + laws().at("nematic").example +
+         (D == 3 ? "initial_director = [\"0.6 + 0.2*y\", \"-0.1*x*z\", \"-0.8\"]\n"
+                 : "initial_director = [\"0.6 + 0.2*y\", \"0.8 - 0.1*x\"]\n");
+}
+
 /// More than one example is worth a test, or more is claimed than of any load.
 std::vector<Case> variants(int D) {
   const Claims all{true, true}, none;
@@ -89,13 +96,18 @@ std::vector<Case> all_cases() {
       cases.push_back(
           {"load " + name, scene_with_load(D, name, std::string(load.example)), {true, false}});
   for (const auto& [name, law] : surface_laws())
-    if (!law.example.empty())
-      cases.push_back(
-          {"surface law " + name,
-           scene_with_load(
-               D, "surface",
-               fmt::format("body = \"drop\"\n[surface.law]\ntype = \"{}\"\n{}", name, law.example)),
-           name == "boussinesq_scriven" ? none : all});
+    if (!law.example.empty()) {
+      const std::string surface =
+          fmt::format("body = \"drop\"\n[surface.law]\ntype = \"{}\"\n{}", name, law.example);
+      if (name != "anchoring")
+        cases.push_back({"surface law " + name, scene_with_load(D, "surface", surface),
+                         name == "boussinesq_scriven" ? none : all});
+      else  // needs a director, and the reaction to its forces for the balance of torque
+        cases.push_back({"surface law " + name,
+                         nematic_drop(D) + "[[surface]]\n" + surface,
+                         {true, false},
+                         true});
+    }
   // legacy_switch needs a plane and a tension: a variant above.
   const auto generic = [](const std::string& name, const auto& by) {
     return !by.example.empty() && name != "legacy_switch";
@@ -121,14 +133,18 @@ std::vector<Case> all_cases() {
              {true, false}});
   for (const auto& [name, law] : laws()) {
     std::string material = "[body.material]\ntype = \"" + name + "\"\n" + law.example;
-    for (const KeyText& key : law.keys)
+    for (const KeyText& key : law.keys()) {
       if (key.key == "reference_director")
         material +=
             D == 3 ? "reference_director = [0.6, 0, -0.8]\n" : "reference_director = [0.6, 0.8]\n";
-    cases.push_back({"material " + name,
-                     example_heading(D) + example_ball(D, "ball") + moving(D) + material,
-                     {true, true},
-                     true});
+    }
+    if (name != "nematic")
+      cases.push_back({"material " + name,
+                       example_heading(D) + example_ball(D, "ball") + moving(D) + material,
+                       {true, true},
+                       true});
+    else
+      cases.push_back({"material " + name, nematic_drop(D), {true, false}, true});
   }
   // The files that examples name, of tetrahedra and of triangles.
   const Grid<D> grid = test::brick<D>(std::vector<Real>(D, 3), 0.2).grid;

@@ -91,17 +91,19 @@ inline Report report_of(ForceTerm& term, const NodalVectors& u, const NodalVecto
 inline Report report_of(ForceTerm& term, const NodalVectors& u) {
   return report_of(term, u, zeros(u));
 }
-inline NodalVectors force_of(ForceTerm& term, const NodalVectors& u, const NodalVectors& v) {
+inline NodalVectors force_of(ForceTerm& term, const NodalVectors& u, const NodalVectors& v,
+                             std::span<const Unknown> fields = {}) {
   NodalVectors force = zeros(u);
-  term.add_force({0, u, v}, force);
+  term.add_force({0, u, v, fields}, force);
   return force;
 }
 inline NodalVectors force_of(ForceTerm& term, const NodalVectors& u) {
   return force_of(term, u, zeros(u));
 }
-inline Real energy_of(const ForceTerm& term, const NodalVectors& u) {
+inline Real energy_of(const ForceTerm& term, const NodalVectors& u,
+                      std::span<const Unknown> fields = {}) {
   const NodalVectors v = zeros(u);
-  return term.stored_energy({0, u, v}).value();
+  return term.stored_energy({0, u, v, fields}).value();
 }
 
 /// Net force and torque about the origin, relative to the sums of the norms of their parts.

@@ -87,14 +87,15 @@ void expect_gradients() {
   for_all<D>([](const Case& c, Scene<D>& scene) {
     const NodalVectors u = test::random_field<D>(scene.system.size(), 0.01, 5),
                        way = test::random_field<D>(scene.system.size(), 1, 6);
+    const std::vector<Unknown>& fields = scene.initial.fields;
     for (const auto& term : own_terms(c, scene)) {
-      if (!c.claims.gradient || !term->stored_energy({0, u, test::zeros(u)})) continue;
+      if (!c.claims.gradient || !term->stored_energy({0, u, test::zeros(u), fields})) continue;
       SCOPED_TRACE(term->name());
       constexpr Real h = 1e-5;
-      const Real slope = (test::energy_of(*term, test::sum_of(u, h, way)) -
-                          test::energy_of(*term, test::sum_of(u, -h, way))) /
+      const Real slope = (test::energy_of(*term, test::sum_of(u, h, way), fields) -
+                          test::energy_of(*term, test::sum_of(u, -h, way), fields)) /
                          (2 * h);
-      const NodalVectors force = test::force_of(*term, u);
+      const NodalVectors force = test::force_of(*term, u, test::zeros(u), fields);
       EXPECT_GT(test::norm(force), 0);
       EXPECT_NEAR(test::dot(force, way), -slope, 2e-7 * test::norm(force) * test::norm(way));
     }
@@ -112,13 +113,16 @@ void expect_tangents() {
     const Index n = scene.system.size();
     const NodalVectors u = test::random_field<D>(n, 0.01, 5), v = test::random_field<D>(n, 0.1, 6),
                        du = test::random_field<D>(n, 0.1, 7), dv = test::random_field<D>(n, 0.1, 8);
+    const std::vector<Unknown>& fields = scene.initial.fields;
+    std::vector<Unknown> unchanged = fields;
+    for (Unknown& field : unchanged) field.x = test::zeros(field.x);
     for (const auto& term : own_terms(c, scene)) {
       SCOPED_TRACE(term->name());
       NodalVectors tangent = test::zeros(u);
-      term->add_tangent({0, u, v}, {0, du, dv}, tangent);
+      term->add_tangent({0, u, v, fields}, {0, du, dv, unchanged}, tangent);
       constexpr Real h = 1e-4;
       const auto force = [&](Real s) {
-        return test::force_of(*term, test::sum_of(u, s, du), test::sum_of(v, s, dv));
+        return test::force_of(*term, test::sum_of(u, s, du), test::sum_of(v, s, dv), fields);
       };
       const NodalVectors ahead = force(h);
       const NodalVectors change = test::sum_of(ahead, -1, force(-h));
@@ -180,7 +184,7 @@ void expect_balance() {
     if (!c.claims.balanced) return;
     const NodalVectors u = test::random_field<D>(scene.system.size(), 0.01, 7);
     for (const auto& term : own_terms(c, scene)) {
-      const NodalVectors force = test::force_of(*term, u);
+      const NodalVectors force = test::force_of(*term, u, test::zeros(u), scene.initial.fields);
       Eigen::Vector3d net = Eigen::Vector3d::Zero(), torque = net;
       Real size = 0, moment = 0;
       for (const Body<D>& body : scene.system.bodies)

@@ -7,6 +7,7 @@
 #include "meniscus/physics/cell_average.hpp"
 #include "meniscus/physics/fluid_points.hpp"
 #include "meniscus/physics/internal_force.hpp"
+#include "meniscus/physics/nematic.hpp"
 #include "meniscus/physics/reference_director.hpp"
 #include "meniscus/physics/referred_fluid.hpp"
 
@@ -43,6 +44,7 @@ class Material {
     std::optional<std::string> warning;  ///< for the log, of what is doubtful
     std::vector<Real> viscosity;  ///< shear viscosity of a fluid, per particle; empty: a solid
     Real bulk_modulus;            ///< the least of the body
+    std::unique_ptr<NematicBody<D>> nematic = {};  ///< null: no director
   };
   /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
   /// InputError (a formula leaves its range somewhere in the body).

@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/core/key_table.hpp"
 #include "meniscus/core/registry.hpp"
+#include "meniscus/physics/carried_field.hpp"
 #include "meniscus/physics/surface_force.hpp"
 #include "meniscus/physics/surface_viscosity.hpp"
 
@@ -36,6 +37,14 @@ class VariedTension {
   };
   virtual ~VariedTension() = default;
   virtual Least least(const Motion& motion) const = 0;
+};
+
+/// A term whose energy depends on the director of its body, too.
+class AnchoredTerm {
+ public:
+  virtual ~AnchoredTerm() = default;
+  /// Before anything else; becomes one of the energies of `director`.
+  virtual void anchor(CarriedField& director) = 0;
 };
 
 struct SurfaceLawEntry {

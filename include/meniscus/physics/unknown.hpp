@@ -11,8 +11,9 @@ namespace meniscus {
 
 /// How the values x of a field follow from the forces f = -dE/dx on them.
 enum class Evolution {
-  inertial,     ///< c x'' = f
-  relaxational  ///< c x' = f
+  inertial,      ///< c x'' = f
+  relaxational,  ///< c x' = f
+  carried        ///< c x' = f beside what the material does to it, by a CarriedField
 };
 
 struct FieldSpec {

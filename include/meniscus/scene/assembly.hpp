@@ -57,6 +57,14 @@ class Assembly {
   void check(StateCheck check) { scene_.checks.push_back(std::move(check)); }
   /// Shear viscosity of each particle of a fluid; empty for a solid.
   const std::vector<Real>& viscosity(const std::string& body) const;
+  /// The director of a nematic; null for other bodies.
+  CarriedField* director(const std::string& body) const {
+    const auto found = scene_.directors.find(body);
+    return found == scene_.directors.end() ? nullptr : found->second;
+  }
+  void set_director(const std::string& body, CarriedField& director) {
+    scene_.directors[body] = &director;
+  }
   /// The least bulk modulus of a body at its reference state.
   Real bulk_modulus(const std::string& body) const;
   /// Stiffness of a body against a small simple shear, x over y, at its reference state, in the

@@ -73,8 +73,9 @@ template <int D>
 struct Scene : RunSettings {
   System<D> system;
   State initial;
-  std::vector<std::vector<Real>> viscosity;  ///< [body][particle]; empty: a solid
-  std::vector<Real> bulk_modulus;            ///< [body], the least of each
+  std::vector<std::vector<Real>> viscosity;        ///< [body][particle]; empty: a solid
+  std::vector<Real> bulk_modulus;                  ///< [body], the least of each
+  std::map<std::string, CarriedField*> directors;  ///< [body], of nematics
   std::vector<Drop<D>> drops;
   std::vector<StateCheck> checks;
   /// Measures by full name, e.g. "drop.aspect".

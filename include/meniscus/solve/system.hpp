@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/physics/carried_field.hpp"
 #include "meniscus/solve/constraints.hpp"
 #include "meniscus/solve/state.hpp"
 
@@ -18,7 +19,8 @@ struct System {
   std::vector<std::unique_ptr<ForceTerm>> terms;
   std::vector<Real> mass;       ///< of all particles, bodies one after the other
   std::vector<Unknown> fields;  ///< unknowns beside the displacement, as a run begins with them
-  std::unique_ptr<Constraints> constraints;  ///< null: no place is prescribed
+  std::vector<std::unique_ptr<CarriedField>> carried;  ///< those of them that bodies carry
+  std::unique_ptr<Constraints> constraints;            ///< null: no place is prescribed
 
   Index size() const { return static_cast<Index>(mass.size()); }
   /// An unknown field that begins at zero; returns its number in Motion and Forces. One that is
@@ -35,6 +37,14 @@ struct System {
   }
   void react(State& state, Real dt) {
     if (constraints) constraints->react(state, dt);
+  }
+  /// Of the carried fields, in a step of dt: before the drift, and where it has led.
+  void depart(const State& state) {
+    for (auto& field : carried) field->depart(state.u);
+  }
+  void arrive(State& state, Real dt) {
+    for (auto& field : carried)
+      state.books.dissipated += field->arrive(state.u, dt, at(state.fields, field->number()).x);
   }
   /// From when on nothing but the motion changes forces and prescribed places.
   Real steady_after() const;

@@ -40,7 +40,11 @@ class StableStepEstimator {
  private:
   /// result = - (f(u + du mode, v + dv mode) - f(u, v)).
   void force_change(const State& state, Real du, Real dv, NodalVectors& result);
+  void carry_trial(const State& state);
   Real field_limit(const State& state, std::size_t number);
+  Real field_limit(const State& state, std::size_t number,
+                   const std::function<void(Unknown&)>& forces);
+  void set_stages(const State& state, std::size_t number);
 
   System<D>& system_;
   bool viscous_counts_;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The director of a nematic: how a body carries it, what its forces do to the body in return, and
+// what is shown of it (cells note 5.2).
+#pragma once
+#include "meniscus/body/body.hpp"
+#include "meniscus/physics/carried_field.hpp"
+#include "meniscus/physics/nematic.hpp"
+
+namespace meniscus {
+
+/// With F_A the mean deformation gradient of nodal cell A, l = F_A' F_A^-1 = d + w, the field is
+/// carried by h' = T h, T = w + lambda d - nu2 tr(d) I, and its forces -S do the power -S . T h:
+/// the reaction is the stress Y = lambda/2 (h S + S h) - 1/2 (h S - S h) - nu2 (S . h) I in the
+/// cell,
+///   f_B = - sum_A Y_A F_A^-T dF_A/du_B.
+template <int D>
+class Director final : public CarriedField {
+ public:
+  Director(const Body<D>& body, std::size_t number, const NematicBody<D>& nematic);
+
+  void carry(const NodalVector* from, const NodalVector* to,
+             std::span<NodalVector> x) const override;
+  void add_reaction(const Motion& motion, Forces force) override;
+  std::size_t bytes() const override;
+
+  std::vector<FieldSource> fields();
+  std::vector<MeasureSource> measures();
+
+ private:
+  Eigen::Vector3d value(const Motion& motion, Index A) const;
+  template <class F>
+  Real mean(F&& of_particle) const;
+  Real order(const Motion& motion) const;
+  void couples(const Motion& motion, std::span<Real> values);
+
+  const Body<D>& body_;
+  NematicNumbers numbers_;
+  PointRows<D> means_;  // dF_A/du_B: a row per nodal cell
+  ForceWindows windows_;
+  std::vector<Real> volume_;              // of the particles
+  std::vector<Eigen::Vector3d> initial_;  // directors
+};
+
+}  // namespace meniscus

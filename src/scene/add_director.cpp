@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The director of a nematic body becomes a field of the scene.
+#include "add_director.hpp"
+
+#include "meniscus/physics/director.hpp"
+#include "meniscus/physics/frank_energy.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace meniscus {
+
+template <int D>
+void add_director(const Body<D>& body, NematicBody<D> nematic, Scene<D>& scene,
+                  Assembly<D>& assembly) {
+  System<D>& system = scene.system;
+  std::vector<Real> capacity(system.mass.size(), 0.0);
+  for (Index A = 0; A < body.size(); ++A)
+    at(capacity, body.first + A) = nematic.numbers.rotational_viscosity * at(nematic.volume, A);
+  const std::size_t number =
+      system.add_field({"director", D, dimension::none, Evolution::carried, 1}, capacity);
+  NodalVectors& x = system.fields[number].x;
+  for (Index A = 0; A < body.size(); ++A) set_vector<D>(x, body.first + A, at(nematic.director, A));
+
+  auto director = std::make_unique<Director<D>>(body, number, nematic);
+  for (FieldSource& field : director->fields()) assembly.field(body.name, std::move(field));
+  for (MeasureSource& measure : director->measures())
+    assembly.measure(body.name, std::move(measure));
+  assembly.note(fmt::format("body '{}': a director with the core length {:.4g} {}", body.name,
+                            nematic.numbers.core_length,
+                            assembly.units().symbol(dimension::length)));
+  assembly.keep_reference(body.name, "a director is not carried to another reference");
+  auto frank =
+      std::make_unique<FrankEnergy<D>>(body, number, nematic.numbers, std::move(nematic.rule));
+  director->add(*frank);
+  assembly.add(std::move(frank), body.name);
+  assembly.set_director(body.name, *director);
+  system.carried.push_back(std::move(director));
+}
+
+template void add_director(const Body<2>&, NematicBody<2>, Scene<2>&, Assembly<2>&);
+template void add_director(const Body<3>&, NematicBody<3>, Scene<3>&, Assembly<3>&);
+
+}  // namespace meniscus
