@@ -147,6 +147,7 @@ void run(StudyRun& study) {
   study::hard_equilibria(cases);
   study::hard_drops(cases);
   study::hard_surfaces(cases);
+  study::hard_nematics(cases);
   study::hard_wetting(cases);
   study::hard_contact(cases);
   if (study.checks().empty()) throw InputError("cases: no case has this in its name");

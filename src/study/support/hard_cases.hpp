@@ -69,6 +69,9 @@ void hard_drops(HardCases& cases);
 /// Cases of surface laws (cells note).
 void hard_surfaces(HardCases& cases);
 
+/// Cases of nematic drops (cells note 5).
+void hard_nematics(HardCases& cases);
+
 /// Cases of drops on walls (wetting note).
 void hard_wetting(HardCases& cases);
 
