@@ -10,6 +10,15 @@ std::string example_liquid() {
   return "material = { type = \"newtonian\", density = 1, bulk_modulus = 20, viscosity = 0.3 }\n";
 }
 
+std::string example_nematic(int D) {
+  return std::string(
+             "[body.material]\ntype = \"nematic\"\ndensity = 1\nbulk_modulus = 20\nviscosity = "
+             "0.3\nfrank_constant = 0.2\ncore_length = 0.6\nrotational_viscosity = "
+             "0.5\ninitial_director = ") +
+         (D == 3 ? "[\"0.6 + 0.2*y\", \"-0.1*x*z\", \"-0.8\"]\n"
+                 : "[\"0.6 + 0.2*y\", \"0.8 - 0.1*x\"]\n");
+}
+
 std::string example_solid() {
   return "material = { type = \"neo_hookean\", density = 1, mu = 3, lambda = 10 }\n";
 }

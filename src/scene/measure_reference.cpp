@@ -78,6 +78,11 @@ std::vector<MeasureTable> measure_tables() {
   const std::string heading = example_heading(dimensions);
   section("of every body", {heading + example_ball(dimensions, "other") + example_solid()});
   section("of a fluid", {heading + one_drop(dimensions)});
+  const std::string nematic =
+      heading + example_ball(dimensions, "drop") + example_nematic(dimensions);
+  section("of a nematic",
+          {nematic, nematic + "[[surface]]\nbody = \"drop\"\nlaw = { type = \"anchoring\", "
+                              "strength = 1 }\n"});
   section("of a shell", {heading + one_shell()});
   const auto of_load = [&](const std::string& name, const std::string& example) {
     std::vector<std::string> scenes{scene_with_load(dimensions, name, example)};

@@ -24,10 +24,7 @@ std::string moving(int D) {
 }
 
 std::string nematic_drop(int D) {
-  return example_heading(D) + example_ball(D, "drop") + moving(D) +
-         "[body.material]\ntype = \"nematic\"\n" + laws().at("nematic").example +
-         (D == 3 ? "initial_director = [\"0.6 + 0.2*y\", \"-0.1*x*z\", \"-0.8\"]\n"
-                 : "initial_director = [\"0.6 + 0.2*y\", \"0.8 - 0.1*x\"]\n");
+  return example_heading(D) + example_ball(D, "drop") + moving(D) + example_nematic(D);
 }
 
 /// More than one example is worth a test, or more is claimed than of any load.

@@ -55,7 +55,7 @@ void expect_equal() {
     pair.expect_equal_energy(homogeneous);
     pair.expect_equal_force(homogeneous);
     // F varies in each cell, J = 1 does not (a fluid has no energy then).
-    if (entry.first != "newtonian")
+    if (!laws().at(entry.first).viscous)
       pair.expect_equal_energy(test::field_on<D>(*pair.body, [](const Vec<D>& X) {
         return Vec<D>(0.15 * X[1] * X[1] * Vec<D>::Unit(0));
       }));

@@ -18,6 +18,8 @@ std::string example_ball(int D, const std::string& name);
 std::string example_solid();
 /// The material of 'drop'.
 std::string example_liquid();
+/// A nematic, as a table of its own after the other lines of a body.
+std::string example_nematic(int D);
 
 /// The lines of a scene before its bodies; `time` are more of [time].
 std::string example_heading(int D, const std::string& time = "");
