@@ -118,8 +118,8 @@ template <int D>
 void StableStepEstimator<D>::carry_trial(const State& state) {
   for (const auto& carried : system_.carried) {
     NodalVectors& x = at(trial_, carried->number()).x;
-    const auto own = carried->part(std::span(x)),
-               now = carried->part(std::span(at(state.fields, carried->number()).x));
+    const auto own = carried->part(std::span(x));
+    const auto now = carried->part(std::span(at(state.fields, carried->number()).x));
     std::copy(now.begin(), now.end(), own.begin());
     carried->carry(carried->part(std::span(state.u)).data(), carried->part(std::span(u_)).data(),
                    own);
