@@ -120,7 +120,7 @@ const bool registered = register_entry(
                "cost against size: set-up, step and memory per particle, one thread and two",
                "cells per edge of a cube",
                {9, 20, 31, 49, 62, 79},
-               {9, 14},
+               {9, 20},
                run,
                "particles"});
 
