@@ -52,16 +52,25 @@ def asked(scene):
     return texts
 
 
-def rows_of_run(folder):
-    """The scene of a run, and rows of the table. Raises ValueError if it is not that scene as it is."""
-    log = Log(folder / "run.log")
-    call = next(iter(log.calls[-1:]), "")
-    if "--set" in call:
-        raise ValueError(f"{folder} is a run of a scene that was changed by --set")
-    named = re.search(r"(\w+)\.toml", call)
+def call_of(log):
+    return next(iter(log.calls[-1:]), "")
+
+
+def scene_of(log, folder):
+    """File of the scene of a run. Raises ValueError if it is none of inputs/."""
+    named = re.search(r"(\w+)\.toml", call_of(log))
     scene = ROOT / "inputs" / f"{named.group(1) if named else folder.name}.toml"
     if not scene.is_file():
         raise ValueError(f"{folder} is no run of a scene of inputs/")
+    return scene
+
+
+def rows_of_run(folder):
+    """The scene of a run, and rows of the table. Raises ValueError if it is not that scene as it is."""
+    log = Log(folder / "run.log")
+    if "--set" in call_of(log):
+        raise ValueError(f"{folder} is a run of a scene that was changed by --set")
+    scene = scene_of(log, folder)
     if not log.expected:
         raise ValueError(f"{folder} has not been compared with what {scene.name} expects")
     wanted, rows = asked(scene), []

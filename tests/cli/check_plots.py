@@ -275,6 +275,21 @@ displacement = {zeros}, "-0.4*t"]
                 for before, after in zip(frames, frames[1:]):
                     self.assertGreater(np.abs(after - before).max(), 50)
 
+    def test_gallery(self):
+        """The last frame, known by the scene whatever the directory is called."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            scene = ROOT / "inputs/spinning_ball.toml"
+            subprocess.run([PROGRAM, "run", "-q", scene, "--output", folder / "run", "--until", "1e-9"], check=False)
+            call = ["/usr/bin/python3", "-B", ROOT / "tools/gallery.py", "--pictures", folder]
+            done = subprocess.run([*call, folder / "run"], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with Image.open(folder / "spinning_ball.png") as picture:
+                self.assertGreater(len(picture.getcolors()), 10)
+            done = subprocess.run([*call, folder], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("gallery.py: ", done.stderr)
+
     def test_movie_formats(self):
         self.assertEqual(movies.file_format("gif"), "gif")
         if movies.animation.writers.is_available("ffmpeg"):

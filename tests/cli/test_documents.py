@@ -43,6 +43,10 @@ class Documents(ProgramTest):
         self.assertEqual(sorted(lines), SCENES)
         self.assertEqual(sorted(results_table.gallery(text_of(GALLERY))), SCENES)
 
+    def test_every_scene_has_a_picture(self):
+        pictures = re.findall(r"!\[(\w+)\]\(pictures/gallery/(\w+)\.png\)", text_of(GALLERY))
+        self.assertEqual(sorted(pictures), [(scene, scene) for scene in SCENES])
+
     def test_results_are_of_what_scenes_expect(self):
         rows = results_table.rows_of_table(text_of(GALLERY))
         self.assertGreater(len(rows), 250)
