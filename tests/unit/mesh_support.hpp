@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry_of_lines.hpp"
+
 namespace meniscus::test {
 
 /// Corners in the order of VTK.
@@ -104,13 +106,7 @@ inline void write_example(const std::string& name, const std::string& text) {
 /// The body of such a file.
 template <int D>
 Geometry<D> geometry_of_file(const std::string& file, const std::string& more = "") {
-  const SceneInput scene =
-      SceneInput::from_text("[body]\nshape = 'mesh'\nfile = '" + file + "'\n" + more);
-  const Block block = *scene.root().table("body");
-  Geometry<D> geometry = read_geometry<D>(block);
-  block.done();
-  scene.check();
-  return geometry;
+  return geometry_of_lines<D>("shape = 'mesh'\nfile = '" + file + "'\n" + more);
 }
 
 /// Both kinds of cells.

@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry_of_lines.hpp"
+
 namespace meniscus::test_placement {
 namespace {
 
@@ -60,21 +62,10 @@ TEST(FormulaDerivatives, KnowTimeAndConstants) {
   EXPECT_EQ(Expression("x^2").jet({0, 0, 0}).hessian(0, 0), 2);
 }
 
-/// The body of lines of a scene; fails if there is a problem.
-template <int D>
-Geometry<D> body(const std::string& lines) {
-  const SceneInput scene = SceneInput::from_text("[body]\n" + lines);
-  const Block block = *scene.root().table("body");
-  Geometry<D> geometry = read_geometry<D>(block);
-  block.done();
-  scene.check();
-  return geometry;
-}
-
 template <int D>
 std::string problem(const std::string& lines) {
   try {
-    body<D>(lines);
+    test::geometry_of_lines<D>(lines);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -108,32 +99,37 @@ void expect_same_surface(const Geometry<D>& a, const Geometry<D>& b) {
 TEST(Placement, AStretchedBallIsAnEllipsoid) {
   const std::string cells = "core = 4\nlayers = 2\n";
   expect_same_surface<3>(
-      body<3>("shape = 'ball'\nradius = 1\nmap = ['x', '1.5*y + 0.2', '0.7*z']\n" + cells),
-      body<3>("shape = 'ellipsoid'\nsemi_axes = [1, 1.5, 0.7]\ncentre = [0, 0.2, 0]\n" + cells));
+      test::geometry_of_lines<3>(
+          "shape = 'ball'\nradius = 1\nmap = ['x', '1.5*y + 0.2', '0.7*z']\n" + cells),
+      test::geometry_of_lines<3>(
+          "shape = 'ellipsoid'\nsemi_axes = [1, 1.5, 0.7]\ncentre = [0, 0.2, 0]\n" + cells));
   expect_same_surface<2>(
-      body<2>("shape = 'disk'\nradius = 1\ncore = 4\nrings = 2\nmap = ['2*x', 'y']"),
-      body<2>("shape = 'ellipse'\nsemi_axes = [2, 1]\ncore = 4\nrings = 2"));
+      test::geometry_of_lines<2>(
+          "shape = 'disk'\nradius = 1\ncore = 4\nrings = 2\nmap = ['2*x', 'y']"),
+      test::geometry_of_lines<2>("shape = 'ellipse'\nsemi_axes = [2, 1]\ncore = 4\nrings = 2"));
 }
 
 TEST(Placement, IsTurnedAboutItsMiddleAndMoved) {
   const std::string box =
       "shape = 'box'\nsize = [1, 2, 3]\ncells = [1, 2, 3]\ncentre = [5, 0, 0]\n";
   const Geometry<3> turned =
-      body<3>(box + "rotate = 90\nrotate_axis = [1, 0, 0]\nmove = [0, 0, 7]");
+      test::geometry_of_lines<3>(box + "rotate = 90\nrotate_axis = [1, 0, 0]\nmove = [0, 0, 7]");
   const Box<3> around = box_around<3>(turned.grid.X);
   EXPECT_LT((around.low - Vec<3>(4.5, -1.5, 6)).norm(), 1e-14);
   EXPECT_LT((around.high - Vec<3>(5.5, 1.5, 8)).norm(), 1e-14);
   expect_same_surface<2>(
-      body<2>("shape = 'rectangle'\nsize = [2, 1]\ncells = [2, 1]\nrotate = '90 deg'"),
-      body<2>("shape = 'rectangle'\nsize = [2, 1]\ncells = [2, 1]\nmap = ['-y', 'x']"));
+      test::geometry_of_lines<2>(
+          "shape = 'rectangle'\nsize = [2, 1]\ncells = [2, 1]\nrotate = '90 deg'"),
+      test::geometry_of_lines<2>(
+          "shape = 'rectangle'\nsize = [2, 1]\ncells = [2, 1]\nmap = ['-y', 'x']"));
 }
 
 TEST(Placement, WallsKeepTheirNormal) {
   const std::string shell =
       "shape = 'sphere_shell'\nradius = 2\nthickness = 0.4\nspacing = 0.6\nlayers = 3\n";
-  const Geometry<3> plain = body<3>(shell),
-                    moved = body<3>(shell + "rotate = 30\nmove = [9, 0, 0]"),
-                    bent = body<3>(shell + "map = ['x + 0.1*y^2', 'y', '2*z']");
+  const Geometry<3> plain = test::geometry_of_lines<3>(shell),
+                    moved = test::geometry_of_lines<3>(shell + "rotate = 30\nmove = [9, 0, 0]"),
+                    bent = test::geometry_of_lines<3>(shell + "map = ['x + 0.1*y^2', 'y', '2*z']");
   const Vec<3> X = Vec<3>(1, 1.2, 0.8).normalized() * 2;
   const Mat<3> turn =
       Eigen::AngleAxis<Real>(std::numbers::pi / 6, Vec<3>::UnitZ()).toRotationMatrix();

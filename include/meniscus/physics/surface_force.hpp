@@ -8,18 +8,10 @@
 namespace meniscus {
 
 template <int D, SurfaceLaw L>
-class SurfaceForce final : public ForceTerm {
+class SurfaceForce final : public SurfaceTerm<D, L> {
  public:
-  /// `points` Gauss points per direction of every facet.
-  SurfaceForce(const Body<D>& body, const L& law, int points)
-      : body_(body),
-        law_(law),
-        surface_(body, points),
-        windows_(surface_.points.windows(body.size())) {}
+  using SurfaceTerm<D, L>::SurfaceTerm;
 
-  std::string name() const override {
-    return std::string(L::type_name) + " of the surface of '" + body_.name + "'";
-  }
   std::string_view energy_kind() const override { return "surface"; }
 
   Report add_force(const Motion& motion, Forces force) override {
@@ -51,18 +43,11 @@ class SurfaceForce final : public ForceTerm {
     });
   }
 
-  std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
-
-  std::size_t bytes() const override { return surface_.bytes() + windows_.bytes(); }
-  Offset pairs() const override { return surface_.points.pairs(); }
-
  private:
   const Lanes* displacements(const Motion& motion) const { return motion.u.data() + body_.first; }
 
-  const Body<D>& body_;
-  L law_;
-  SurfaceRule<D> surface_;
-  ForceWindows windows_;
+  using SurfaceTerm<D, L>::body_, SurfaceTerm<D, L>::law_, SurfaceTerm<D, L>::surface_,
+      SurfaceTerm<D, L>::windows_;
 };
 
 }  // namespace meniscus

@@ -71,4 +71,29 @@ struct SurfaceRule {
   }
 };
 
+/// What terms of a surface law on the whole surface of a body have in common.
+template <int D, class L>
+class SurfaceTerm : public ForceTerm {
+ public:
+  /// `points` Gauss points per direction of every facet.
+  SurfaceTerm(const Body<D>& body, const L& law, int points)
+      : body_(body),
+        law_(law),
+        surface_(body, points),
+        windows_(surface_.points.windows(body.size())) {}
+
+  std::string name() const override {
+    return std::string(L::type_name) + " of the surface of '" + body_.name + "'";
+  }
+  std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
+  std::size_t bytes() const override { return surface_.bytes() + windows_.bytes(); }
+  Offset pairs() const override { return surface_.points.pairs(); }
+
+ protected:
+  const Body<D>& body_;
+  L law_;
+  SurfaceRule<D> surface_;
+  ForceWindows windows_;
+};
+
 }  // namespace meniscus

@@ -7,18 +7,10 @@
 namespace meniscus {
 
 template <int D, ViscousSurfaceLaw L>
-class SurfaceViscosity final : public ForceTerm {
+class SurfaceViscosity final : public SurfaceTerm<D, L> {
  public:
-  /// `points` Gauss points per direction of every facet.
-  SurfaceViscosity(const Body<D>& body, const L& law, int points)
-      : body_(body),
-        law_(law),
-        surface_(body, points),
-        windows_(surface_.points.windows(body.size())) {}
+  using SurfaceTerm<D, L>::SurfaceTerm;
 
-  std::string name() const override {
-    return std::string(L::type_name) + " of the surface of '" + body_.name + "'";
-  }
   bool viscous() const override { return true; }
 
   Report add_force(const Motion& motion, Forces force) override {
@@ -43,15 +35,9 @@ class SurfaceViscosity final : public ForceTerm {
   /// All of the force is linear in the velocity.
   void add_viscous(const Motion& motion, Forces force) override { add_force(motion, force); }
 
-  std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
-  std::size_t bytes() const override { return surface_.bytes() + windows_.bytes(); }
-  Offset pairs() const override { return surface_.points.pairs(); }
-
  private:
-  const Body<D>& body_;
-  L law_;
-  SurfaceRule<D> surface_;
-  ForceWindows windows_;
+  using SurfaceTerm<D, L>::body_, SurfaceTerm<D, L>::law_, SurfaceTerm<D, L>::surface_,
+      SurfaceTerm<D, L>::windows_;
 };
 
 }  // namespace meniscus
