@@ -125,6 +125,9 @@ class Model final : public ContactModel<D> {
   }
 
   void check(const Block& block, bool) const override {
+    if (block.has("up"))
+      block.problem("up",
+                    "is for laws of the gap, such as smooth_young; allowed is to leave it out");
     if (scaled_ && scaled_->angle.has_value() == scaled_->work.has_value())
       block.problem("adhesion", scaled_->angle
                                     ? "is given beside contact_angle; allowed is one of them"

@@ -21,6 +21,7 @@ namespace {
 struct Keys {
   std::string name, form, density, interaction;
   std::vector<std::string> bodies;
+  std::vector<Real> up;
   Real skin = 0, friction = 0;
   int points = 0;
   static Rows<Keys> rows();
@@ -74,6 +75,12 @@ Rows<Keys> Keys::rows() {
                "reach of the list beyond the cut-off / sigma0 (a law of the gap: / quarter of its "
                "range)",
                0.4),
+      reals_row("up", &Keys::up, 0, dimension::none, range::any,
+                "of two bodies with a law of the gap: the first is a drop that rests on the "
+                "second, ground below it, and this points from the ground to the drop. Gaps are "
+                "those along it and the drop has all of the energy, as on a rigid partner; "
+                "without it both surfaces have a half",
+                std::vector<Real>{}),
       real_row("friction", &Keys::friction, {-2, -1, 1}, range::non_negative,
                "with a rigid partner: traction along it per relative speed where the surfaces "
                "touch, fading with the energy of the interaction",
@@ -162,6 +169,8 @@ struct Contact final : Load<D>, Keys {
   void report(const ForceTerm& term, Assembly<D>& assembly) const;
   void measure_wetting(Assembly<D>& assembly) const;
   void measure_soft_wetting(Assembly<D>& assembly) const;
+  bool soft_wetting(const Assembly<D>& assembly) const;
+  std::string folding(const Assembly<D>& assembly) const;
 };
 
 template <int D>
@@ -178,6 +187,12 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
   model->check(block, partner.has_value());
   if (friction > 0 && !partner)
     block.problem("friction", "is for rigid partners; allowed between two bodies is 0");
+  if (!up.empty() && partner)
+    block.problem("up", "is for two bodies; a [contact.partner] has a direction of its own");
+  if (!up.empty() && up.size() != D)
+    block.problem("up", fmt::format("has {} numbers; expected is a vector of {}", up.size(), D));
+  else if (!up.empty() && !(Vec<D>::Map(up.data()).norm() > 0))
+    block.problem("up", "has no direction; allowed is any vector of a finite length > 0");
   if (form != "volume") return;
   if (block.has("density") && density == "constant")
     block.problem("density",
@@ -246,6 +261,9 @@ ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
   choice.points = points_chosen(assembly);
   choice.skin = skin;
   choice.friction = friction;
+  choice.up = up;
+  if (const std::string why = soft_wetting(assembly) ? folding(assembly) : ""; !why.empty())
+    choice.fold = ": " + why;
   choice.wets = assembly.surface_energy(bodies[0]).has_value();
   return choice;
 }
@@ -390,31 +408,68 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
     assembly.measure(name, std::move(source));
 }
 
+/// Whether the first is a drop, and the second is not.
+template <int D>
+bool Contact<D>::soft_wetting(const Assembly<D>& assembly) const {
+  return !partner && assembly.surface_energy(bodies[0]) && !assembly.viscosity(bodies[0]).empty() &&
+         assembly.viscosity(bodies[1]).empty();
+}
+
+/// Why the surface of soft ground may fold: a traction of the adhesion W over the range l pulls it
+/// nearer by about W/E, and at a part of l it jumps into contact (wetting note 10). Empty where
+/// that is not to be expected.
+template <int D>
+std::string Contact<D>::folding(const Assembly<D>& assembly) const {
+  constexpr Real largest = 1.0 / 3, peak_of_chi = 1.875;
+  const PlaneContact flat = this->flat(assembly);
+  const Real W = model->greatest_adhesion(surfaces(assembly), assembly.end_time()),
+             range = peak_of_chi * flat.adhesion / flat.peak_traction;
+  const Real mu = assembly.shear_modulus(bodies[1]), K = assembly.bulk_modulus(bodies[1]),
+             E = 9 * K * mu / (3 * K + mu);
+  const Real number = W / (E * range);
+  if (number <= largest || assembly.surface_energy(bodies[1]).value_or(0) > W / 2) return {};
+  const auto unit = [&](Dimension d) { return assembly.units().symbol(d); };
+  return fmt::format(
+      "adhesion with actin / (Young's modulus x range) is {:.3g} of '{}', {:.4g} {} at most, "
+      "{:.4g} "
+      "{} and {:.4g} {}: beyond 1/3 its surface jumps into contact and folds; expected is a "
+      "modulus "
+      "of at least {:.4g} {}, a range of at least {:.4g} {}, less adhesion, or a "
+      "[[surface_tension]] "
+      "of it of more than {:.4g} {}",
+      number, bodies[1], W, unit(dimension::tension), E, unit(dimension::pressure), range,
+      unit(dimension::length), W / (largest * range), unit(dimension::pressure), W / (largest * E),
+      unit(dimension::length), W / 2, unit(dimension::tension));
+}
+
 /// What a drop does on a soft body.
 template <int D>
 void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
-  if (!assembly.surface_energy(bodies[0]) || assembly.viscosity(bodies[0]).empty() ||
-      !assembly.viscosity(bodies[1]).empty())
-    return;
+  if (!soft_wetting(assembly)) return;
   const PlaneContact flat = this->flat(assembly);
-  const auto wetted_area = [energy = assembly.measure_named(name + ".energy"), W = flat.adhesion](
-                               const Motion& motion) { return -energy(motion) / W; };
-  assembly.measure(name, {"wetted_area", D == 3 ? dimension::area : dimension::length,
-                          "area in contact: energy of the interaction / adhesion", wetted_area});
-  for (MeasureSource& source : front_measures<D>(wetted_area))
+  // Where adhesion varies the contact has it.
+  if (!assembly.has_measure(name + ".wetted_area"))
+    assembly.measure(name, {"wetted_area", D == 3 ? dimension::area : dimension::length,
+                            "area in contact: energy of the interaction / adhesion",
+                            [energy = assembly.measure_named(name + ".energy"), W = flat.adhesion](
+                                const Motion& motion) { return -energy(motion) / W; }});
+  for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area")))
     assembly.measure(name, std::move(source));
   for (MeasureSource& source :
        ridge_measures(assembly.body(bodies[0]), assembly.body(bodies[1]), flat.peak_gap))
     assembly.measure(name, std::move(source));
+  if (const std::string why = folding(assembly); !why.empty())
+    assembly.warn(fmt::format("contact '{}': {}", name, why));
   // Half of the energy of the contact is that of either surface.
   const Real tension = assembly.surface_energy(bodies[1]).value_or(0);
-  if (tension < flat.adhesion / 2)
+  const Real half = model->greatest_adhesion(surfaces(assembly), assembly.end_time()) / 2;
+  if (up.empty() && tension < half)
     assembly.warn(fmt::format(
         "contact '{}': half of the adhesion, {:.4g} {}, is taken from the surface of '{}', whose "
         "tension is {:.4g}: "
         "its surface crumples where its elasticity does not prevent it; expected is a "
-        "[[surface_tension]] of more than that",
-        name, flat.adhesion / 2, assembly.units().symbol(dimension::tension), bodies[1], tension));
+        "[[surface_tension]] of more than that, or the direction `up` of a ground",
+        name, half, assembly.units().symbol(dimension::tension), bodies[1], tension));
 }
 
 const bool registered = register_load<Contact>(

@@ -57,8 +57,7 @@ class Nematic final : public Material<D> {
                                                   const Integration& integration) const override {
     auto nematic = std::make_unique<NematicBody<D>>();
     nematic->numbers = numbers_;
-    if (!(numbers_.core_length > 0))
-      nematic->numbers.core_length = 2 * mean_spacing(body.geometry.grid);
+    if (!(numbers_.core_length > 0)) nematic->numbers.core_length = 2 * first_spacing(body);
     nematic->rule = build_cell_rule(body).rule;
     nematic->volume = volumes(body);
     for (Index A = 0; A < body.size(); ++A) nematic->director.push_back(director(body.origin(A)));
@@ -77,10 +76,22 @@ class Nematic final : public Material<D> {
     const PointRows<D>& rows = body.at_particles;
     for (Index P = 0; P < body.size(); ++P)
       for (Offset e = at(rows.start, P); e < at(rows.start, P + 1); ++e)
-        at(volume, at(rows.particle, e)) += body.cells.volume(P) * at(rows.value, e);
+        at(volume, at(rows.particle, e)) += first_volume(body, P) * at(rows.value, e);
     for (Index A = 0; A < body.size(); ++A)
-      at(volume, A) = std::max(at(volume, A), floor * body.cells.volume(A));
+      at(volume, A) = std::max(at(volume, A), floor * first_volume(body, A));
     return volume;
+  }
+  /// Of a nodal cell, and the mean spacing, in the reference of the scene.
+  static Real first_volume(const Body<D>& body, Index A) {
+    return body.cells.volume(A) / body.volume_ratio(A);
+  }
+  static Real first_spacing(const Body<D>& body) {
+    Real now = 0, first = 0;
+    for (Index A = 0; A < body.size(); ++A) {
+      now += body.cells.volume(A);
+      first += first_volume(body, A);
+    }
+    return mean_spacing(body.geometry.grid) * std::pow(first / now, 1.0 / D);
   }
   Vec<D> director(const Vec<D>& X) const {
     Vec<D> h;

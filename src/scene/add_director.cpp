@@ -30,7 +30,6 @@ void add_director(const Body<D>& body, NematicBody<D> nematic, Scene<D>& scene,
   assembly.note(fmt::format("body '{}': a director with the core length {:.4g} {}", body.name,
                             nematic.numbers.core_length,
                             assembly.units().symbol(dimension::length)));
-  assembly.keep_reference(body.name, "a director is not carried to another reference");
   auto frank =
       std::make_unique<FrankEnergy<D>>(body, number, nematic.numbers, std::move(nematic.rule));
   director->add(*frank);

@@ -180,6 +180,8 @@ class AnchoringMaterial final : public SurfaceMaterial {
   std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
     return std::make_unique<Anchoring<3>>(body, keys_.strength, keys_.sense == "polar", points);
   }
+  /// Its energy is per present area.
+  bool keeps_reference() const override { return false; }
 
  private:
   AnchoringKeys keys_;

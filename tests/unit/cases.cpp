@@ -76,6 +76,15 @@ std::vector<Case> variants(int D) {
           (D == 3 ? "centre = [0, 0.2, -2]\ndisplacement = [\"0.1*t\", 0, 0]\n"
                   : "centre = [0.2, -2]\ndisplacement = [\"0.1*t\", 0]\n"),
       {});
+  add("contact", "actin between bodies",
+      "bodies = [\"drop\", \"other\"]\nadhesion = 0.3\nactin = \"0.1*sin(40*t)\"\n"
+      "offset = 0.2\nrange = 0.3\nskin = 10\n",
+      all);
+  add("contact", "actin on ground",
+      std::string("bodies = [\"drop\", \"other\"]\nadhesion = 0.3\nactin = \"0.1*sin(40*t)\"\n"
+                  "offset = 0.2\nrange = 0.3\nskin = 10\nup = ") +
+          (D == 3 ? "[-1, 0.1, 0]\n" : "[-1, 0.1]\n"),
+      {true, false});
   add("contact", "legacy_switch", legacy_contact(D), {});
   add("surface", "tension by place",
       "body = \"drop\"\n[surface.law]\ntype = \"varying_tension\"\nof = \"place\"\n"

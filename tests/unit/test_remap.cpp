@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "cases.hpp"
+#include "nematic_scenes.hpp"
 
 namespace meniscus {
 namespace {
@@ -242,14 +244,12 @@ TEST(Remap, ThatFoldsIsRefusedAndTheOldEpochGoesOn) {
 }
 
 /// From a state of each of three epochs on, and back to them.
-TEST(Remap, GoesOnWithTheSameBitsFromAStateOfAnyEpoch) {
-  const std::string text =
-      drop<2>(6, bend(2), shear_and_stretch(2), "[[remap]]\nbody = \"drop\"\nat = [0.04, 0.1]\n");
+void expect_same_bits(const std::string& text, Real end) {
   Epochs<2> epochs = begun<2>(text);
   std::vector<Snapshot> states;
   std::vector<std::int64_t> of_epoch;
   int remaps = 0;
-  while (epochs.simulation().state().time < 0.2) {
+  while (epochs.simulation().state().time < end) {
     remaps += epochs.advance().new_epoch;
     states.push_back(epochs.simulation().snapshot());
     of_epoch.push_back(epochs.simulation().state().epoch);
@@ -266,6 +266,83 @@ TEST(Remap, GoesOnWithTheSameBitsFromAStateOfAnyEpoch) {
     epochs.restore(states[k]);
     EXPECT_EQ(epochs.simulation().snapshot().hash(), states[k].hash());
   }
+}
+
+TEST(Remap, GoesOnWithTheSameBitsFromAStateOfAnyEpoch) {
+  expect_same_bits(
+      drop<2>(6, bend(2), shear_and_stretch(2), "[[remap]]\nbody = \"drop\"\nat = [0.04, 0.1]\n"),
+      0.2);
+}
+
+/// A nematic drop with polar anchoring, its director at rest nowhere, in motion.
+std::string nematic(int n, const std::string& displacement, const std::string& more = "") {
+  test::NematicDrop drop;
+  drop.tension = false;
+  drop.anchoring = "strength = 0.8\nsense = \"polar\"\n";
+  drop.director = "\"0.9 + 0.2*y\", \"0.4*sin(2*x)\"";
+  drop.more = fmt::format("initial_displacement = [{}]\ninitial_velocity = [{}]\n", displacement,
+                          shear_and_stretch(2));
+  return drop.scene(2, n, n / 2, "end = 1e3") + "[[surface_tension]]\nbody = \"b\"\ngamma = 1\n" +
+         more;
+}
+
+/// Relative errors of a remap of a bent nematic drop: of its director at material points, and of
+/// the energies of the director.
+struct DirectorErrors {
+  Real value, energy;
+};
+DirectorErrors director_errors(int n, const std::string& displacement, Real shift) {
+  Epochs<2> epochs = begun<2>(nematic(n, displacement));
+  const Body<2>& old = epochs.scene().system.bodies.front();
+  const State before = epochs.simulation().state();
+  const auto stored = [](const Ledger& ledger) {
+    return ledger.stored.at("director") + ledger.stored.at("anchoring");
+  };
+  const Real energy = stored(ledger_of(epochs));
+  std::vector<Vec<2>> x = nodes_of(epochs);
+  const std::vector<Index> boundary = boundary_nodes(old.geometry.grid);
+  for (Index A = 0; A < old.size(); ++A)
+    if (!std::binary_search(boundary.begin(), boundary.end(), A))
+      at(x, A)[0] += shift * mean_spacing(old.geometry.grid) * std::cos(3 * at(x, A)[1]);
+  const NodalVectors expected =
+      values_at(build_point_rows<2>(old.particles, pre_images<2>(old, before.u.data(), x),
+                                    {.value = true}, "b"),
+                before.fields.front().x.data());
+  epochs.new_epoch({{"b", x}});
+  const NodalVectors h = values_at(epochs.scene().system.bodies.front().at_particles,
+                                   epochs.simulation().state().fields.front().x.data());
+  return {largest_change(h, expected) / largest(expected),
+          std::abs(stored(ledger_of(epochs)) / energy - 1)};
+}
+
+TEST(Remap, CarriesTheDirector) {
+  const DirectorErrors same = director_errors(6, no_displacement(2), 0);
+  EXPECT_LT(same.value, 1e-13);
+  EXPECT_LT(same.energy, 1e-12);
+  const DirectorErrors coarse = director_errors(8, bend(2), 0.3),
+                       fine = director_errors(16, bend(2), 0.3);
+  EXPECT_GT(order("director", 2, coarse.value, fine.value), 2.5);
+  EXPECT_GT(order("energy of the director", 2, coarse.energy, fine.energy), 2);
+}
+
+/// The size of cores and the resistance of the director are those of the first reference.
+TEST(Remap, LeavesTheNumbersOfANematic) {
+  std::string text = nematic(6, "'0.1*x', '0.1*y'");
+  text.replace(text.find("core_length = 0.2"), 17, "core_length = 0.0");
+  Epochs<2> epochs = begun<2>(text);
+  const auto resistance = [&] {
+    const std::vector<Real>& c = epochs.simulation().state().fields.front().capacity;
+    return std::accumulate(c.begin(), c.end(), 0.0);
+  };
+  const Real before = resistance();
+  const Real energy = ledger_of(epochs).stored.at("director");
+  epochs.new_epoch({{"b", nodes_of(epochs)}});
+  EXPECT_NEAR(resistance() / before, 1, 1e-3);
+  EXPECT_NEAR(ledger_of(epochs).stored.at("director") / energy, 1, 1e-3);
+}
+
+TEST(Remap, ANematicGoesOnWithTheSameBits) {
+  expect_same_bits(nematic(6, bend(2), "[[remap]]\nbody = \"b\"\nat = [0.02, 0.04]\n"), 0.06);
 }
 
 TEST(Remap, IsOnlyForDropsOfFluid) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -90,20 +91,124 @@ TEST(WettingLaws, ForcesAreTheGradientOfTheEnergy) {
     expect_gradient<2>(varied_in_plane, partner);
 }
 
+/// Two drops and a contact 'wall' between them, with these lines.
+template <int D>
+Scene<D> between_drops(const std::string& lines) {
+  return test::scene_of<D>(
+      "dimension = " + std::to_string(D) + "\n[time]\nend = 1\n" + test::two_drops(D) +
+      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[contact]]\nname = \"wall\"\nbodies = "
+      "[\"drop\", \"other\"]\nskin = 10\n" +
+      lines);
+}
+
+const std::string growing = "adhesion = \"0.8 + 0.3*sin(2*t)\"\nactin = \"t > 0.3 ? 0.5 : 0\"\n";
+
 TEST(WettingLaws, ForcesBetweenBodiesOnPatchesAreTheGradientToo) {
-  Scene<3> scene = test::scene_of<3>(
-      "dimension = 3\n[time]\nend = 1\n" + test::two_drops(3) +
-      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[contact]]\nbodies = [\"drop\", "
-      "\"other\"]\nskin = 10\nadhesion = 1\n" +
-      young);
-  ForceTerm& term = contact_of(scene);
-  for (const unsigned seed : {1u, 2u}) {
-    const NodalVectors u = test::random_field<3>(scene.system.size(), 0.02, seed),
-                       way = test::random_field<3>(scene.system.size(), 1, seed + 10);
-    EXPECT_LT(test::gradient_error(term, u, way, 1e-4), 1e-7);
-    const NodalVectors force = test::force_of(term, u);
-    EXPECT_LT(net<3>(force).norm(), 1e-12 * test::norm(force));
+  for (const std::string& lines :
+       {"adhesion = 1\n" + young, growing + young,
+        growing + "interaction = \"smooth_young\"\noffset = 0.16\nrange = 0.25\n"}) {
+    Scene<3> scene = between_drops<3>(lines);
+    ForceTerm& term = contact_of(scene);
+    for (const unsigned seed : {1u, 2u}) {
+      const NodalVectors u = test::random_field<3>(scene.system.size(), 0.02, seed),
+                         way = test::random_field<3>(scene.system.size(), 1, seed + 10);
+      EXPECT_LT(test::gradient_error(term, u, way, 1e-4), 1e-7);
+      const NodalVectors force = test::force_of(term, u);
+      EXPECT_LT(net<3>(force).norm(), 1e-12 * test::norm(force));
+    }
   }
+}
+
+/// A half ball above a layer, with these lines of the contact 'wall' between them.
+template <int D>
+Scene<D> on_ground(const std::string& lines) {
+  const bool space = D == 3;
+  return test::scene_of<D>(
+      "dimension = " + std::to_string(D) +
+      "\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"" +
+      (space ? "half_sphere\"\nradius = 1\ncore = 4\nlayers = 2\ncentre = [0.1, 0, 0.1]\n"
+             : "half_disk\"\nradius = 1\ncore = 6\nrings = 3\ncentre = [0.1, 0.1]\n") +
+      "material = { type = \"newtonian\", density = 1, bulk_modulus = 100, viscosity = 1 }\n"
+      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[body]]\nname = \"layer\"\n" +
+      (space ? "shape = \"cylinder\"\nradius = 1.5\nheight = 0.6\ncore = 4\nrings = 2\nlayers = 3\n"
+               "centre = [0, 0, -0.3]\n"
+             : "shape = \"rectangle\"\nsize = [3, 0.6]\ncorner = [-1.5, -0.6]\nspacing = 0.21\n") +
+      "material = { type = \"neo_hookean\", density = 1, mu = 1, lambda = 1 }\n"
+      "[[contact]]\nname = \"wall\"\nbodies = [\"drop\", \"layer\"]\nskin = 10\n" +
+      lines);
+}
+
+/// A drop on ground: forces are balanced; facets of the ground are below points whatever they do.
+template <int D>
+void expect_gradient_on_ground() {
+  const std::string up = D == 3 ? "up = [0.1, 0, 1]\n" : "up = [0.1, 1]\n";
+  for (const std::string& lines :
+       {"adhesion = 0.7\n" + young, growing + young, growing + "offset = 0.16\nrange = 0.25\n"}) {
+    Scene<D> scene = on_ground<D>(up + lines);
+    ForceTerm& term = contact_of(scene);
+    for (const unsigned seed : {1u, 2u}) {
+      const NodalVectors u = test::random_field<D>(scene.system.size(), 0.03, seed),
+                         way = test::random_field<D>(scene.system.size(), 1, seed + 10);
+      EXPECT_LT(test::gradient_error(term, u, way, 1e-6), 1e-6);
+      const NodalVectors force = test::force_of(term, u);
+      EXPECT_GT(test::norm(force), 0.1);
+      EXPECT_LT(net<D>(force).norm(), 1e-12 * test::norm(force));
+    }
+  }
+}
+
+TEST(SoftWetting, ForcesOnGroundAreTheGradientOfTheEnergy) {
+  expect_gradient_on_ground<2>();
+  expect_gradient_on_ground<3>();
+}
+
+/// Flat ground at rest does to a drop what a rigid half space does.
+template <int D>
+void expect_ground_like_a_plane() {
+  const bool space = D == 3;
+  const std::string law =
+      "adhesion = 0.7\nactin = \"0.2 + t\"\noffset = 0.11\nrange = 0.25\n"
+      "points = 3\n";
+  const Scene<D> scene = on_ground<D>(
+      law + "up = " + (space ? "[0, 0, 1]\n" : "[0, 1]\n") +
+      "[[contact]]\nname = \"plane\"\nbodies = [\"drop\"]\n" + law +
+      "[contact.partner]\ntype = \"half_space\"\n" +
+      (space ? "point = [0, 0, 0]\nnormal = [0, 0, 1]\n" : "point = [0, 0]\nnormal = [0, 1]\n"));
+  const auto& terms = scene.system.terms;
+  ForceTerm &soft = *terms[terms.size() - 2], &rigid = *terms.back();
+  const Body<D>& drop = scene.system.bodies.front();
+  NodalVectors u = test::random_field<D>(scene.system.size(), 0.02, 3);
+  for (Index A = drop.size(); A < scene.system.size(); ++A) at(u, A) = Lanes::zero();
+  EXPECT_LT(test::energy_of(rigid, u), -0.1);
+  EXPECT_NEAR(test::energy_of(soft, u), test::energy_of(rigid, u), 1e-12);
+  const NodalVectors f = test::force_of(soft, u), expected = test::force_of(rigid, u);
+  for (Index A = 0; A < drop.size(); ++A)
+    for (int i = 0; i < D; ++i) EXPECT_NEAR(at(f, A)[i], at(expected, A)[i], 1e-11);
+  const Motion motion{0, u, test::zeros(u)};
+  const Real area = measure(scene, "wall.wetted_area", motion);  // the other counts the core, too
+  EXPECT_NEAR(measure(scene, "plane.wetted_area", motion), area, 0.02 * area);
+}
+
+TEST(SoftWetting, FlatGroundIsLikeARigidPlane) {
+  expect_ground_like_a_plane<2>();
+  expect_ground_like_a_plane<3>();
+}
+
+/// Ground that no longer is below itself stops the run.
+TEST(SoftWetting, GroundThatFoldsOverIsAFailure) {
+  const Scene<2> scene = on_ground<2>("up = [0, 1]\nadhesion = 0.7\n" + young);
+  const Body<2>& layer = scene.system.bodies.back();
+  NodalVectors u(scene.system.mass.size(), Lanes::zero()), force = u;
+  const auto fold = [&](Real by) {
+    for (Index A = 0; A < layer.size(); ++A)
+      at(u, layer.first + A).set(0, by * std::sin(8 * layer.particles.X()[A][0]));
+    return scene.system.terms.back()->add_force({0, u, test::zeros(u)}, force).failure;
+  };
+  EXPECT_FALSE(fold(0.05));
+  const auto failure = fold(0.3);
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->cause.find("the surface of 'layer' folds over"), 0u) << failure->cause;
+  EXPECT_GE(failure->particle, layer.first);
 }
 
 /// With all particles held, the supply from outside against the change of the energy.
@@ -111,8 +216,7 @@ struct Supply {
   Real booked = 0, change = 0;
 };
 template <int D>
-Supply supply(const std::string& lines, const std::string& partner, Real step) {
-  const Scene<D> scene = on_wall<D>(lines, partner, "end = 1");
+Supply supply(const Scene<D>& scene, Real step) {
   ForceTerm& term = *scene.system.terms.back();
   const NodalVectors u = test::random_field<D>(scene.system.size(), 0.03, 4), v = test::zeros(u);
   NodalVectors force = v;
@@ -129,6 +233,11 @@ Supply supply(const std::string& lines, const std::string& partner, Real step) {
   }
   supply.change = energy(t) - energy(0);
   return supply;
+}
+
+template <int D>
+Supply supply(const std::string& lines, const std::string& partner, Real step) {
+  return supply(on_wall<D>(lines, partner, "end = 1"), step);
 }
 
 TEST(WettingLaws, WhatChangesWithTimeIsExternalWork) {
@@ -151,6 +260,33 @@ TEST(WettingLaws, WorkOfAdhesionThatJumpsIsBooked) {
     EXPECT_GT(std::abs(all.change), 0.1);
     EXPECT_NEAR(all.booked, all.change, 1e-12);
   }
+}
+
+/// Between two bodies, too, and in the core.
+TEST(WettingLaws, WorkOfActinBetweenBodiesIsBooked) {
+  for (const std::string offset : {"0.05", "0.16"})
+    for (const Real step : {0.02, 0.037}) {
+      const Supply all = supply(between_drops<2>(growing +
+                                                 "interaction = \"smooth_young\"\nrange = "
+                                                 "0.25\noffset = " +
+                                                 offset + "\n"),
+                                step);
+      EXPECT_GT(std::abs(all.change), 0.01);
+      EXPECT_NEAR(all.booked, all.change, 1e-12);
+    }
+}
+
+/// The wetted area between two bodies does not change with the adhesion, the energy does.
+TEST(WettingLaws, WettedAreaBetweenBodiesIsThatOfUnitAdhesion) {
+  const Scene<2> scene = between_drops<2>(growing + young),
+                 unit = between_drops<2>("adhesion = \"1 + 0*t\"\n" + young);
+  const NodalVectors u = test::random_field<2>(scene.system.size(), 0.03, 4), v = test::zeros(u);
+  const Real area = measure(scene, "wall.wetted_area", {0, u, v});
+  EXPECT_GT(area, 0.01);
+  EXPECT_EQ(measure(scene, "wall.wetted_area", {0.5, u, v}), area);
+  EXPECT_NEAR(measure(unit, "wall.energy", {0, u, v}), -area,
+              1e-3 * area);  // the core is beside it
+  EXPECT_NEAR(measure(scene, "wall.energy", {0, u, v}), -0.8 * area, 1e-3 * area);
 }
 
 /// The work of the contact when a drop is widened far away, lowered, narrowed on the wall, raised.
@@ -422,7 +558,7 @@ TEST(WettingLaws, WhatCannotBeIsRefused) {
   const std::string pair = "dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
                            "[[contact]]\nbodies = [\"drop\", \"other\"]\n";
   EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = \"1 + x\"\n"), InputError,
-                    "between two bodies adhesion cannot be a formula");
+                    "between two bodies adhesion cannot depend on the place");
   EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = 1\nfriction = 2\n"), InputError,
                     "friction: is for rigid partners");
 }
@@ -456,12 +592,33 @@ TEST(SoftWetting, MeasuresTheRidgeAndItsAngles) {
   EXPECT_GT(measure(scene, "line.wetted_area", motion), 0);
 }
 
-/// The contact takes half of the adhesion from the surface of the ground.
+/// The contact takes half of the adhesion from the surface of the ground, which has to hold it.
 TEST(SoftWetting, WarnsWhereTheGroundHasTooLittleTension) {
   const Scene<2> scene = over_ridge("");
-  ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_NE(scene.warnings[0].find("the surface of 'layer', whose tension is 0"),
+  ASSERT_EQ(scene.warnings.size(), 2u);
+  EXPECT_NE(scene.warnings[0].find("is 4 of 'layer', 1 N/m at most, 2.5 Pa and 0.1 m"),
+            std::string::npos)
+      << scene.warnings[0];
+  EXPECT_NE(scene.warnings[1].find("the surface of 'layer', whose tension is 0"),
             std::string::npos);
+}
+
+/// The rule takes the adhesion of the whole run; with a third of the modulus times the range the
+/// ground holds it.
+TEST(SoftWetting, WarnsWhereTheGroundWouldFold) {
+  const auto warned = [](const std::string& adhesion) {
+    const Scene<2> scene = on_ground<2>("up = [0, 1]\noffset = 0.05\nrange = 0.25\n" + adhesion);
+    return std::any_of(scene.warnings.begin(), scene.warnings.end(), [](const std::string& words) {
+      return words.find(
+                 "contact 'wall': adhesion with actin / (Young's modulus x range) is 0.334 of "
+                 "'layer', 0.209 N/m at most, 2.5 Pa and 0.25 m") == 0;
+    });
+  };
+  // E = 2.5
+  EXPECT_FALSE(warned("adhesion = 0.208\n"));
+  EXPECT_FALSE(warned("adhesion = 0.1\nactin = \"t > 0.5 ? 0.108 : 0\"\n"));
+  EXPECT_TRUE(warned("adhesion = 0.209\n"));
+  EXPECT_TRUE(warned("adhesion = 0.1\nactin = \"t > 0.5 ? 0.109 : 0\"\n"));
 }
 
 }  // namespace

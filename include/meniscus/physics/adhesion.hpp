@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adhesion of a rigid partner that varies over it and with time.
+// Adhesion that varies: over a rigid partner and with time, between two bodies with time.
 #pragma once
 #include "meniscus/core/expression.hpp"
 
@@ -32,6 +32,7 @@ class AdhesionPattern {
   /// Central differences of fourth order.
   Eigen::Vector3d gradient(const Eigen::Vector3d& x, Real time) const;
   bool depends_on_time() const { return depends_on_time_; }
+  bool depends_on_place() const { return depends_on_[0] || depends_on_[1] || depends_on_[2]; }
 
  private:
   AdhesionFormulas formulas_;

@@ -34,7 +34,11 @@ struct ContactChoice {
   int points = 2;     ///< Gauss points per direction of a facet, or of a cell
   Real skin = 0.4;    ///< of the list, / sigma0 (of a law of the gap: / quarter of its range)
   Real friction = 0;  ///< with a rigid partner: traction / speed along it where they touch
-  bool wets = false;  ///< the body has a surface tension: measures of wetting are of interest
+  /// Of a law of the gap between two bodies: from the second to the first, if the second is ground
+  /// on which the first rests; empty: both are treated alike.
+  std::vector<Real> up = {};
+  std::string fold = {};  ///< what it means if the ground folds over, for messages
+  bool wets = false;      ///< the body has a surface tension: measures of wetting are of interest
 };
 
 /// Points of the surface of a body, the first (0) or second (1) of a contact, with `beta` per area.
@@ -60,7 +64,9 @@ std::unique_ptr<ForceTerm> contact_pair(const ContactBody<D>& first, const Conta
                                         const ContactLaw& law, const ContactChoice& choice);
 
 /// Contact of two bodies by a law of the gap between their surfaces, brought to zero over the last
-/// quarter of its range (CGCM note 11). Throws InputError for another form than `energy`.
+/// quarter of its range (CGCM note 11). Throws InputError for another form than `energy`. With a
+/// pattern, of the time alone, what a change of W supplies is external work. On ground the energy
+/// is that of the points of the first alone, as above a rigid partner, of the gap along `up`.
 template <int D>
 std::unique_ptr<ForceTerm> gap_pair(const Body<D>& first, const Body<D>& second,
                                     std::shared_ptr<const Interaction> law,

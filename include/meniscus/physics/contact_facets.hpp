@@ -38,6 +38,16 @@ class ContactFacets {
   /// Among these facets; of equally near ones the first.
   Foot foot(const Places& places, const Vec<D>& x, std::span<const Index> facets) const;
 
+  /// The point of the surface straight below x, against `up`, on one of these facets if it faces
+  /// up: `distance` is the gap along `up`, negative where x is below the surface, and `normal` its
+  /// gradient, the normal of the facet n / (n.up). Of several the one with the least |gap|.
+  Foot below(const Places& places, const Vec<D>& x, const Vec<D>& up,
+             std::span<const Index> facets) const;
+  /// Facets of the reference that face up, by less than 60 degrees from it.
+  std::vector<Index> facing(const Vec<D>& up) const;
+  /// The first of these facets that does not face up at all; -1: all do.
+  Index turned_over(const Places& places, const Vec<D>& up, std::span<const Index> facets) const;
+
   const std::array<Index, D>& corners_of(Index facet) const { return at(simplices_, facet); }
   /// force_A += sum over the corners of N_A `pull`, which is [corner].
   void add_force(const std::vector<Vec<D>>& pull, std::span<NodalVector> force);
@@ -47,13 +57,17 @@ class ContactFacets {
   const Body<D>& body() const { return body_; }
   std::size_t bytes() const;
   Offset pairs() const { return rows_.entries(); }
+  /// The particle nearest to a facet, counted over all bodies.
+  Index particle_at(Index facet) const { return body_.first + at(particle_, corners_of(facet)[0]); }
 
  private:
+  std::array<Vec<D>, D> corners(const std::vector<Vec<D>>& x, Index facet) const;
   void sample(Places& places) const;
 
   const Body<D>& body_;
   std::vector<std::array<Index, D>> simplices_;  // corners
   std::vector<Vec<D>> X_;                        // [corner]
+  std::vector<Index> particle_;                  // [corner]
   PointRows<D> rows_;
   ForceWindows windows_;
 };

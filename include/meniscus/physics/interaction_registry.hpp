@@ -51,6 +51,10 @@ class ContactModel {
                                                   const ContactSurfaces& surfaces) const = 0;
   /// What it means for flat surfaces.
   virtual PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const = 0;
+  /// The largest adhesion between two bodies until `end`, if it changes with time.
+  virtual Real greatest_adhesion(const ContactSurfaces& surfaces, [[maybe_unused]] Real end) const {
+    return flat(false, surfaces).adhesion;
+  }
   /// The pressure of flat surfaces at the least gap: what presses harder comes through.
   virtual Real greatest_pressure(bool rigid, const ContactSurfaces& surfaces) const = 0;
   /// The lengths that it chose, in words; empty: flat() says it all.

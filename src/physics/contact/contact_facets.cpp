@@ -43,6 +43,31 @@ std::array<Real, 3> nearest_on(const Vec<3>& x, const std::array<Vec<3>, 3>& cor
   return best;
 }
 
+/// Outward, of the length of the facet (3D: twice its area).
+Vec<2> normal_of(const std::array<Vec<2>, 2>& corner) {
+  const Vec<2> edge = corner[1] - corner[0];
+  return {edge[1], -edge[0]};
+}
+Vec<3> normal_of(const std::array<Vec<3>, 3>& corner) {
+  return (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+}
+
+/// Shares of the corners in the point of the plane of a facet on the line through x along `up`, n
+/// the normal of the facet.
+std::array<Real, 2> shares_below(const Vec<2>& x, const Vec<2>& up, const Vec<2>& n,
+                                 const std::array<Vec<2>, 2>& corner) {
+  const Vec<2> across(-up[1], up[0]);
+  const Real t = across.dot(x - corner[0]) / n.dot(up);
+  return {1 - t, t};
+}
+std::array<Real, 3> shares_below(const Vec<3>& x, const Vec<3>& up, const Vec<3>& n,
+                                 const std::array<Vec<3>, 3>& corner) {
+  const auto share = [&](std::size_t k) {
+    return up.dot((corner[(k + 1) % 3] - x).cross(corner[(k + 2) % 3] - x)) / n.dot(up);
+  };
+  return {share(0), share(1), share(2)};
+}
+
 }  // namespace
 
 template <int D>
@@ -52,6 +77,7 @@ ContactFacets<D>::ContactFacets(const Body<D>& body)
   for (const Index A : boundary_nodes(body.geometry.grid)) {
     at(number, A) = static_cast<Index>(X_.size());
     X_.push_back(at(body.particles.X(), A));
+    particle_.push_back(A);
   }
   for (auto& simplex : simplices_)
     for (Index& A : simplex) A = at(number, A);
@@ -109,8 +135,7 @@ typename ContactFacets<D>::Foot ContactFacets<D>::foot(const Places& places, con
     }
     const Real beyond = best.distance + at(places.radius, facet);
     if (square > beyond * beyond * (1 + round_off)) continue;
-    std::array<Vec<D>, D> corner;
-    for (std::size_t k = 0; k < D; ++k) corner[k] = at(places.corner, corners_of(facet)[k]);
+    const std::array<Vec<D>, D> corner = corners(places.corner, facet);
     const std::array<Real, D> share = nearest_on(x, corner);
     Vec<D> way = x;
     for (std::size_t k = 0; k < D; ++k) way -= share[k] * corner[k];
@@ -118,6 +143,51 @@ typename ContactFacets<D>::Foot ContactFacets<D>::foot(const Places& places, con
     if (distance < best.distance) best = {facet, distance, way / distance, share};
   }
   return best;
+}
+
+template <int D>
+std::array<Vec<D>, D> ContactFacets<D>::corners(const std::vector<Vec<D>>& x, Index facet) const {
+  std::array<Vec<D>, D> corner;
+  for (std::size_t k = 0; k < D; ++k) corner[k] = at(x, corners_of(facet)[k]);
+  return corner;
+}
+
+template <int D>
+typename ContactFacets<D>::Foot ContactFacets<D>::below(const Places& places, const Vec<D>& x,
+                                                        const Vec<D>& up,
+                                                        std::span<const Index> facets) const {
+  // Points above an edge are above one of its facets at least.
+  constexpr Real round_off = 1e-9;
+  Foot best;
+  best.normal.setZero();
+  for (const Index facet : facets) {
+    const std::array<Vec<D>, D> corner = corners(places.corner, facet);
+    const Vec<D> n = normal_of(corner);
+    if (!(n.dot(up) > 0)) continue;
+    const std::array<Real, D> share = shares_below(x, up, n, corner);
+    if (*std::min_element(share.begin(), share.end()) < -round_off) continue;
+    const Real gap = n.dot(x - corner[0]) / n.dot(up);
+    if (best.facet < 0 || std::abs(gap) < std::abs(best.distance))
+      best = {facet, gap, n / n.dot(up), share};
+  }
+  return best;
+}
+
+template <int D>
+std::vector<Index> ContactFacets<D>::facing(const Vec<D>& up) const {
+  std::vector<Index> found;
+  for (Index facet = 0; facet < static_cast<Index>(simplices_.size()); ++facet)
+    if (const Vec<D> n = normal_of(corners(X_, facet)); n.dot(up) > n.norm() / 2)
+      found.push_back(facet);
+  return found;
+}
+
+template <int D>
+Index ContactFacets<D>::turned_over(const Places& places, const Vec<D>& up,
+                                    std::span<const Index> facets) const {
+  for (const Index facet : facets)
+    if (!(normal_of(corners(places.corner, facet)).dot(up) > 0)) return facet;
+  return -1;
 }
 
 template <int D>
@@ -143,7 +213,7 @@ Real ContactFacets<D>::longest_edge() const {
 
 template <int D>
 std::size_t ContactFacets<D>::bytes() const {
-  return rows_.bytes() + windows_.bytes() + X_.size() * sizeof(Vec<D>) +
+  return rows_.bytes() + windows_.bytes() + X_.size() * (sizeof(Vec<D>) + sizeof(Index)) +
          simplices_.size() * sizeof(simplices_[0]);
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Laws of the gap between a body and rigid partners.
 #include "meniscus/core/error.hpp"
+#include "meniscus/physics/adhesion.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
+
+#include <algorithm>
 
 namespace meniscus {
 namespace {
@@ -58,10 +61,10 @@ class GapContact final : public ContactModel<D> {
                                      const ContactChoice& choice,
                                      const ContactSurfaces& surfaces) const override {
     const auto law = law_(surfaces);
-    if (law->pattern())
+    if (law->pattern() && law->pattern()->depends_on_place())
       throw InputError(surfaces.place +
-                       ": between two bodies adhesion cannot be a formula; allowed are numbers, or "
-                       "a [contact.partner]");
+                       ": between two bodies adhesion cannot depend on the place; allowed are "
+                       "numbers and formulas of the time t, or a [contact.partner]");
     return gap_pair<D>(first, second, law, choice);
   }
   std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
@@ -74,6 +77,16 @@ class GapContact final : public ContactModel<D> {
   }
   PlaneContact flat(bool, const ContactSurfaces& surfaces) const override {
     return law_(surfaces)->flat();
+  }
+  /// Looked for at a thousand times.
+  Real greatest_adhesion(const ContactSurfaces& surfaces, Real end) const override {
+    constexpr int times = 1000;
+    const auto law = law_(surfaces);
+    Real greatest = law->flat().adhesion;
+    if (const AdhesionPattern* W = law->pattern())
+      for (int k = 0; k <= times; ++k)
+        greatest = std::max(greatest, (*W)(Eigen::Vector3d::Zero(), k * end / times));
+    return greatest;
   }
   Real greatest_pressure(bool, const ContactSurfaces& surfaces) const override {
     const auto law = law_(surfaces);

@@ -2,11 +2,12 @@
 // What a rigid partner does to wetted points besides the interaction of uniform strength: adhesion
 // that varies over it and with time, and friction.
 #pragma once
-#include "meniscus/physics/adhesion.hpp"
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/partner_registry.hpp"
 
 #include <algorithm>
+
+#include "adhesion_work.hpp"
 
 namespace meniscus {
 
@@ -21,14 +22,12 @@ struct WallPoints {
 
 /// Of all points.
 struct WallSums {
-  Real supplied = 0;  ///< work of adhesion that changes with time, since the middle of the step
-  Real ahead = 0;     ///< the same until the middle of the next step
-  Real heat = 0;      ///< power of friction
-  Real adhesion = 0;  ///< the largest
+  AdhesionSupply supply;  ///< of adhesion that changes with time
+  Real heat = 0;          ///< power of friction
+  Real adhesion = 0;      ///< the largest
 
   friend WallSums operator+(const WallSums& a, const WallSums& b) {
-    return {a.supplied + b.supplied, a.ahead + b.ahead, a.heat + b.heat,
-            std::max(a.adhesion, b.adhesion)};
+    return {a.supply + b.supply, a.heat + b.heat, std::max(a.adhesion, b.adhesion)};
   }
 };
 
@@ -68,26 +67,14 @@ class WallEffects {
     return heat;
   }
 
-  /// The work of adhesion that changes, since the last step that stands. With the energies e of
-  /// unit adhesion at the times t_n of steps and a time m_n half a step after each,
-  ///   sum of e_n (W(t_n) - W(m_n-1)), this step, and e_n-1 (W(m_n-1) - W(t_n-1)), kept since the
-  /// last one: all changes of W add up, also jumps, whatever the steps are.
-  Real work(const WallSums& sums) const { return kept_ + sums.supplied; }
+  /// The work of adhesion that changes, since the last step that stands.
+  Real work(const WallSums& sums) const { return work_.since_step(sums.supply); }
   /// A run begins.
-  void begin(Real time) {
-    if (!middle_) middle_ = committed_ = time;
-  }
+  void begin(Real time) { work_.begin(time); }
   /// The step to `time`, with these sums, stands.
-  void commit(Real time, const WallSums& sums) {
-    middle_ = middle_after(time);
-    committed_ = time;
-    kept_ = sums.ahead;
-  }
+  void commit(Real time, const WallSums& sums) { work_.commit(time, sums.supply); }
   void archive(const Archive& a) {
-    if (!pattern_ || !pattern_->depends_on_time()) return;
-    a("committed", committed_, dimension::time);
-    a("middle", middle_, dimension::time);
-    a("kept_work", kept_, of_sum(dimension::energy, D));
+    if (pattern_ && pattern_->depends_on_time()) work_.archive(a, D);
   }
 
  private:
@@ -117,14 +104,9 @@ class WallEffects {
     }
     WallSums sums;
     sums.adhesion = W;
-    if (pattern_->depends_on_time()) {
-      sums.supplied = e * (W - (*pattern_)(x, middle_.value_or(time)));
-      sums.ahead = e * ((*pattern_)(x, middle_after(time)) - W);
-    }
+    if (pattern_->depends_on_time()) sums.supply = work_.supply(*pattern_, x, W, e, time);
     return sums;
   }
-  /// Half a step, as long as that to `time`, after it.
-  Real middle_after(Real time) const { return time + (time - committed_.value_or(time)) / 2; }
 
   /// The traction - friction chi v_t on the area that faces the partner; its heat.
   Real rub(WallPoints<D>& points, int lane) const {
@@ -147,9 +129,7 @@ class WallEffects {
   std::shared_ptr<const PartnerShape<D>> surface_;
   Real friction_;
   PlaneContact flat_;
-  std::optional<Real> committed_;  // time of the last step that stands
-  std::optional<Real> middle_;     // half a step after that
-  Real kept_ = 0;                  // work between both
+  AdhesionWork work_;
 };
 
 }  // namespace meniscus
