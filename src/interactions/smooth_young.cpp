@@ -35,10 +35,9 @@ struct SmoothYoung final : Interaction {
         optional_expression_row(
             "contact_angle", &SmoothYoung::angle, dimension::degrees, {1, 179}, "by adhesion",
             "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension of the body; "
-            "like adhesion and actin a number or a formula of the time t, with a rigid partner "
-            "also "
-            "of the place x, y, z on the partner (a partner that is moved takes it along), smooth "
-            "over a hundredth of the range"),
+            "like adhesion and actin a number or a formula of the time t, with a rigid partner or "
+            "on ground (`up`) also of the place x, y, z on it, which moves and deforms with it, "
+            "smooth over a hundredth of the range"),
         optional_expression_row("adhesion", &SmoothYoung::work, dimension::tension,
                                 range::non_negative, "by contact_angle",
                                 "energy per area that contact releases"),

@@ -219,6 +219,8 @@ void Contact<D>::build(Assembly<D>& assembly) const {
   if (density == "referential" || form == "volume")
     for (const std::string& body : bodies)
       assembly.keep_reference(body, "its [[contact]] has beta per volume of the reference");
+  if (!partner && model->placed(surfaces(assembly)))
+    assembly.keep_reference(bodies[1], "the adhesion of its [[contact]] is a formula of it");
   assembly.add(std::move(term), name);
   if (partner) {
     assembly.draw({name, partner->shape, partner_motion()});

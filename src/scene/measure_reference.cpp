@@ -62,8 +62,8 @@ std::vector<std::string> contact_scenes() {
     for (const auto& [name, partner] : partners<dimensions>())
       scenes.push_back(scene_with_load(
           dimensions, "contact",
-          fmt::format("bodies = [\"drop\"]\n{}[contact.partner]\ntype = \"{}\"\n{}{}", law, name,
-                      partner.example, tension)));
+          fmt::format("bodies = [\"drop\"]\nfriction = 1\n{}[contact.partner]\ntype = \"{}\"\n{}{}",
+                      law, name, partner.example, tension)));
   }
   return scenes;
 }

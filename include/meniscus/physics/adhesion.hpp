@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adhesion that varies: over a rigid partner and with time, between two bodies with time.
+// Adhesion that varies with time, and over a rigid partner or ground.
 #pragma once
 #include "meniscus/core/expression.hpp"
 
@@ -19,7 +19,8 @@ struct AdhesionFormulas {
 };
 
 /// W(x, t) = adhesion, or gamma (1 + cos angle), + actin: of the place x on the partner, in the
-/// frame in which it was made. A partner that is moved takes its pattern along. Formulas are to be
+/// frame in which it was made, or in the reference of ground. What is moved or deformed takes its
+/// pattern along. Formulas are to be
 /// smooth over a hundredth of the range: the gradient is a difference over it.
 class AdhesionPattern {
  public:

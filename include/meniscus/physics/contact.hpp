@@ -65,8 +65,9 @@ std::unique_ptr<ForceTerm> contact_pair(const ContactBody<D>& first, const Conta
 
 /// Contact of two bodies by a law of the gap between their surfaces, brought to zero over the last
 /// quarter of its range (CGCM note 11). Throws InputError for another form than `energy`. With a
-/// pattern, of the time alone, what a change of W supplies is external work. On ground the energy
-/// is that of the points of the first alone, as above a rigid partner, of the gap along `up`.
+/// pattern, what a change of W with time supplies is external work. On ground the energy is that of
+/// the points of the first alone, as above a rigid partner, of the gap along `up`, and the pattern
+/// may be one of the place in the reference of the ground.
 template <int D>
 std::unique_ptr<ForceTerm> gap_pair(const Body<D>& first, const Body<D>& second,
                                     std::shared_ptr<const Interaction> law,

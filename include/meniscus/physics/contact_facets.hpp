@@ -43,6 +43,13 @@ class ContactFacets {
   /// gradient, the normal of the facet n / (n.up). Of several the one with the least |gap|.
   Foot below(const Places& places, const Vec<D>& x, const Vec<D>& up,
              std::span<const Index> facets) const;
+  /// Where a foot is in the reference.
+  Vec<D> reference_place(const Foot& foot) const;
+  /// The gradient in space of a function that has `gradient` in the reference, is carried along by
+  /// the facet of the foot and is the same all the way along `up`: with a foot that is below x it
+  /// changes by this . (dx - sum_k share_k dx_k) as the place x and the corners x_k move.
+  Vec<D> carried(const Places& places, const Foot& foot, const Vec<D>& gradient,
+                 const Vec<D>& up) const;
   /// Facets of the reference that face up, by less than 60 degrees from it.
   std::vector<Index> facing(const Vec<D>& up) const;
   /// The first of these facets that does not face up at all; -1: all do.

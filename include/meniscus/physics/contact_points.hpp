@@ -84,6 +84,11 @@ class ContactPoints {
 
   /// All points in the reference state.
   ContactPlaces<D> at_rest() const;
+  Vec<D> reference_place(Index point) const {
+    Vec<D> X;
+    for (int i = 0; i < D; ++i) X[i] = at(X_, point / Lanes::width * D + i)[point % Lanes::width];
+    return X;
+  }
   /// Moves all points along with the body.
   void move(const Motion& motion, ContactPlaces<D>& places) const;
   /// Moves the points of these clusters.

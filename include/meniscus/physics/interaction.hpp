@@ -49,8 +49,8 @@ class Interaction {
   /// Whether there is nothing at all beyond range().
   virtual bool ends() const { return false; }
   virtual PlaneContact flat() const = 0;
-  /// The adhesion W(x, t) of a rigid partner, or W(t) between two bodies, by which at() has to be
-  /// multiplied; null: at() has it. flat() has that of one place.
+  /// The adhesion W(x, t) of a rigid partner or ground, or W(t) between two bodies, by which at()
+  /// has to be multiplied; null: at() has it. flat() has that of one place.
   virtual const AdhesionPattern* pattern() const { return nullptr; }
   /// Its lengths and formulas in words, for the log; empty: flat() says it all.
   virtual std::string described(const UnitSystem&) const { return {}; }

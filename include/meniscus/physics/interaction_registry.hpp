@@ -49,6 +49,8 @@ class ContactModel {
   virtual std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
                                                   const ContactChoice& choice,
                                                   const ContactSurfaces& surfaces) const = 0;
+  /// Whether its adhesion is a formula of the place.
+  virtual bool placed(const ContactSurfaces&) const { return false; }
   /// What it means for flat surfaces.
   virtual PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const = 0;
   /// The largest adhesion between two bodies until `end`, if it changes with time.

@@ -5,6 +5,7 @@
 #include "meniscus/approx/row_sums.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace meniscus {
@@ -171,6 +172,31 @@ typename ContactFacets<D>::Foot ContactFacets<D>::below(const Places& places, co
       best = {facet, gap, n / n.dot(up), share};
   }
   return best;
+}
+
+template <int D>
+Vec<D> ContactFacets<D>::reference_place(const Foot& foot) const {
+  const std::array<Vec<D>, D> corner = corners(X_, foot.facet);
+  Vec<D> X = Vec<D>::Zero();
+  for (std::size_t k = 0; k < D; ++k) X += foot.share[k] * corner[k];
+  return X;
+}
+
+/// The vector whose products with the edges of the facet are those of `gradient` with the edges in
+/// the reference, and that has none with `up`.
+template <int D>
+Vec<D> ContactFacets<D>::carried(const Places& places, const Foot& foot, const Vec<D>& gradient,
+                                 const Vec<D>& up) const {
+  const std::array<Vec<D>, D> x = corners(places.corner, foot.facet), X = corners(X_, foot.facet);
+  Mat<D> rows;
+  Vec<D> products;
+  for (int j = 1; j < D; ++j) {
+    rows.row(j - 1) = (at(x, j) - x[0]).transpose();
+    products[j - 1] = gradient.dot(at(X, j) - X[0]);
+  }
+  rows.row(D - 1) = up.transpose();
+  products[D - 1] = 0;
+  return rows.inverse() * products;
 }
 
 template <int D>

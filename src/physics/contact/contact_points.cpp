@@ -83,11 +83,7 @@ void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vec
 template <int D>
 void ContactPoints<D>::build_rows(RowContent content) {
   std::vector<Vec<D>> places;
-  for (Index q = 0; q < size(); ++q) {
-    Vec<D> x;
-    for (int i = 0; i < D; ++i) x[i] = at(X_, q / Lanes::width * D + i)[q % Lanes::width];
-    places.push_back(x);
-  }
+  for (Index q = 0; q < size(); ++q) places.push_back(reference_place(q));
   rule_.rows = build_point_rows<D>(body_->particles, places, content, body_->name);
   windows_ = rule_.windows(body_->size());
   take_inertia();

@@ -61,10 +61,11 @@ class GapContact final : public ContactModel<D> {
                                      const ContactChoice& choice,
                                      const ContactSurfaces& surfaces) const override {
     const auto law = law_(surfaces);
-    if (law->pattern() && law->pattern()->depends_on_place())
+    if (law->pattern() && law->pattern()->depends_on_place() && choice.up.empty())
       throw InputError(surfaces.place +
-                       ": between two bodies adhesion cannot depend on the place; allowed are "
-                       "numbers and formulas of the time t, or a [contact.partner]");
+                       ": between two bodies adhesion may depend on the place where the second is "
+                       "ground; allowed are the direction `up`, numbers and formulas of the time "
+                       "t, or a [contact.partner]");
     return gap_pair<D>(first, second, law, choice);
   }
   std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
@@ -75,17 +76,21 @@ class GapContact final : public ContactModel<D> {
                              plan.shape};
     return rigid_contact<D>({body, 1}, std::move(partner), law, choice);
   }
+  bool placed(const ContactSurfaces& surfaces) const override {
+    const auto law = law_(surfaces);
+    return law->pattern() && law->pattern()->depends_on_place();
+  }
   PlaneContact flat(bool, const ContactSurfaces& surfaces) const override {
     return law_(surfaces)->flat();
   }
-  /// Looked for at a thousand times.
+  /// Looked for at a thousand times; below the body.
   Real greatest_adhesion(const ContactSurfaces& surfaces, Real end) const override {
     constexpr int times = 1000;
     const auto law = law_(surfaces);
     Real greatest = law->flat().adhesion;
     if (const AdhesionPattern* W = law->pattern())
       for (int k = 0; k <= times; ++k)
-        greatest = std::max(greatest, (*W)(Eigen::Vector3d::Zero(), k * end / times));
+        greatest = std::max(greatest, (*W)(surfaces.centre, k * end / times));
     return greatest;
   }
   Real greatest_pressure(bool, const ContactSurfaces& surfaces) const override {

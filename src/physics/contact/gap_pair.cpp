@@ -24,7 +24,9 @@ namespace {
 ///
 /// Above a ground, E = sum over the points of the first -up.V e(g), V their area vectors and g the
 /// gap along `up`, of the law as it is: what a drop gains on a wall (wetting note 10). The ground
-/// is pulled along its normal, and what it gains counts no area of its own.
+/// is pulled along its normal, and what it gains counts no area of its own. There the adhesion may
+/// be W(X, t), X the place in the reference of the ground below a point: E has W e(g), and what
+/// slides over the ground is pulled to more of it.
 template <int D>
 class GapPair final : public ForceTerm {
  public:
@@ -43,6 +45,7 @@ class GapPair final : public ForceTerm {
         now_first_(first_, pattern_),
         now_second_(second_, pattern_) {
     if (up_) ground_ = first_.facets.facing(*up_);
+    if (placed()) require_adhesion();
   }
 
   std::string name() const override { return "contact '" + name_ + "'"; }
@@ -67,7 +70,7 @@ class GapPair final : public ForceTerm {
     return sum_of(motion, &Evaluation::energy);
   }
   Real steady_after() const override {
-    return pattern_ ? std::numeric_limits<Real>::infinity() : 0;
+    return pattern_ && pattern_->depends_on_time() ? unbounded : 0;
   }
   /// The last force was that of this motion.
   void commit(const Motion& motion) override {
@@ -142,26 +145,29 @@ class GapPair final : public ForceTerm {
     std::vector<typename ContactFacets<D>::Foot> foot;  // [point]
     std::vector<Real> stored;                           // [point] energy
     std::vector<Real> unit;    // [point] the same of unit adhesion, without core; where it varies
+    std::vector<Real> W;       // [point] adhesion, where it varies from place to place
+    AdhesionSupply supply;     // then
     std::vector<Vec<D>> pull;  // [corner] force
     std::vector<Index> near;   // clusters within the range: the list has more, as it was built
     Real gap = unbounded;
     Index nearest = 0;  // point
 
-    Evaluation(const Side& side, bool varies)
+    Evaluation(const Side& side, const AdhesionPattern* pattern)
         : places(side.points.at_rest()),
           others(side.facets.at_rest()),
           T(places.x.size(), Lanes::zero()),
           S(T) {
       foot.resize(static_cast<std::size_t>(places.size));
       stored.resize(foot.size());
-      if (varies) unit.resize(foot.size());
+      if (pattern) unit.resize(foot.size());
+      if (pattern && pattern->depends_on_place()) W.resize(foot.size());
       pull.resize(others.corner.size());
       near.reserve(static_cast<std::size_t>(side.points.clusters()));
     }
     std::size_t bytes() const {
       return places.bytes() + (others.samples.size() + T.size() + S.size()) * sizeof(Lanes) +
              others.radius.size() * sizeof(Real) + foot.size() * (sizeof(foot[0]) + sizeof(Real)) +
-             unit.size() * sizeof(Real) + 2 * pull.size() * sizeof(Vec<D>) +
+             (unit.size() + W.size()) * sizeof(Real) + 2 * pull.size() * sizeof(Vec<D>) +
              near.capacity() * sizeof(Index);
     }
     Real energy() const {
@@ -203,11 +209,19 @@ class GapPair final : public ForceTerm {
     if (gap < rest_) return {plane.energy - (W - 1), plane.pressure, plane.stiffness};
     return {W * plane.energy, W * plane.pressure, W * plane.stiffness};
   }
+  bool placed() const { return pattern_ && pattern_->depends_on_place(); }
+  void require_adhesion() const;
+  /// Where it is the same everywhere.
   Real adhesion(Real time) const {
-    return pattern_ ? (*pattern_)(Eigen::Vector3d::Zero(), time) : 1;
+    return pattern_ && !placed() ? (*pattern_)(Eigen::Vector3d::Zero(), time) : 1;
+  }
+  /// The largest by the last force, at this time.
+  Real largest_adhesion(Real time) const {
+    return placed() ? *std::max_element(now_first_.W.begin(), now_first_.W.end()) : adhesion(time);
   }
   /// By the last force, at this time.
   AdhesionSupply supply(Real time) const {
+    if (placed()) return now_first_.supply;
     return work_.supply(*pattern_, Eigen::Vector3d::Zero(), adhesion(time),
                         now_first_.unit_energy() + (!up_ ? now_second_.unit_energy() : 0), time);
   }
@@ -250,15 +264,31 @@ class GapPair final : public ForceTerm {
   Evaluation now_first_, now_second_;  // work space of a force
 };
 
+/// Before a run, that W can be taken all over the ground.
+template <int D>
+void GapPair<D>::require_adhesion() const try {
+  for (const Index facet : ground_)
+    for (std::size_t k = 0; k < D; ++k) {
+      typename ContactFacets<D>::Foot corner;
+      corner.facet = facet;
+      corner.share.fill(0);
+      corner.share[k] = 1;
+      (*pattern_)(spatial<D>(first_.facets.reference_place(corner)), 0);
+    }
+} catch (const SolveError& error) {
+  throw InputError(error.what());
+}
+
 template <int D>
 void GapPair<D>::evaluate(const Side& side, const ContactList<D>& list, const Motion& motion,
                           Evaluation& result) const {
   const auto& active = list.of_first().active;
-  const Real adhesion = this->adhesion(motion.time);
+  const Real even = adhesion(motion.time);
   side.points.update_weights(active, motion, result.places);
   std::fill(result.foot.begin(), result.foot.end(), typename ContactFacets<D>::Foot());
   std::fill(result.stored.begin(), result.stored.end(), 0.0);
   std::fill(result.unit.begin(), result.unit.end(), 0.0);
+  std::fill(result.W.begin(), result.W.end(), 0.0);
   parallel_for(
       static_cast<Index>(active.size()),
       [&](Index k) {
@@ -272,12 +302,21 @@ void GapPair<D>::evaluate(const Side& side, const ContactList<D>& list, const Mo
               up_ ? side.facets.below(result.others, place, *up_, list.of_first().of(c))
                   : side.facets.foot(result.others, place, list.of_first().of(c));
           if (!(foot.distance < range_)) continue;
-          const Energy e = energy_at(foot.distance, adhesion);
+          Real W = even;
+          Vec<D> slope = Vec<D>::Zero();  // of W
+          if (placed()) {
+            const Eigen::Vector3d X = spatial<D>(side.facets.reference_place(foot));
+            W = at(result.W, q) = (*pattern_)(X, motion.time);
+            const Vec<D> in_reference = pattern_->gradient(X, motion.time).template head<D>();
+            slope = side.facets.carried(result.others, foot, in_reference, *up_);
+          }
+          const Energy e = energy_at(foot.distance, W);
           Vec<D> V;
           for (int i = 0; i < D; ++i) V[i] = result.places.weight_of(c)[i][lane];
           const Real norm = V.norm(), area = up_ ? -up_->dot(V) : 0.5 * norm;
           for (int i = 0; i < D; ++i) {
-            at(result.T, c * D + i).set(lane, area * e.slope * foot.normal[i]);
+            at(result.T, c * D + i)
+                .set(lane, area * e.slope * foot.normal[i] + area * e.unit * slope[i]);
             at(result.S, c * D + i)
                 .set(lane, up_ ? -e.value * (*up_)[i] : 0.5 * e.value / norm * V[i]);
           }
@@ -290,6 +329,7 @@ void GapPair<D>::evaluate(const Side& side, const ContactList<D>& list, const Mo
   // One after the other: many points push the same corner.
   std::fill(result.pull.begin(), result.pull.end(), Vec<D>::Zero());
   result.gap = unbounded;
+  result.supply = {};
   result.near.clear();
   for (const Index c : active)
     for (int lane = 0; lane < side.points.points_in(c); ++lane) {
@@ -305,6 +345,10 @@ void GapPair<D>::evaluate(const Side& side, const ContactList<D>& list, const Mo
       for (int i = 0; i < D; ++i) T[i] = at(result.T, c * D + i)[lane];
       for (std::size_t k = 0; k < D; ++k)
         at(result.pull, side.facets.corners_of(foot.facet)[k]) += foot.share[k] * T;
+      if (placed() && pattern_->depends_on_time())
+        result.supply =
+            result.supply + work_.supply(*pattern_, spatial<D>(side.facets.reference_place(foot)),
+                                         at(result.W, q), at(result.unit, q), motion.time);
     }
 }
 
@@ -332,7 +376,7 @@ Report GapPair<D>::report(const Motion& motion) const {
   const Real speed = closing_speed<D>(first_.points, now_first_.near, &second_.points,
                                       now_second_.near, Vec<D>::Zero(), motion);
   // The stiffness of the core does not vary.
-  const Real strength = pattern_ && gap >= rest_ ? adhesion(motion.time) : 1;
+  const Real strength = pattern_ && gap >= rest_ ? largest_adhesion(motion.time) : 1;
   const Real inverse_inertia = 1 / first_.points.inertia() + 1 / second_.points.inertia();
   report.demand = contact_demand({*law_, strength * inverse_inertia, 0, D}, gap, speed);
   return report;

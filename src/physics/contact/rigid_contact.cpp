@@ -42,8 +42,10 @@ class RigidContact final : public ForceTerm {
     std::iota(all_.begin(), all_.end(), Index{0});
     near_.reserve(all_.size());
     if (partner_.motion.moves()) steady_after_ = end_of_motion();
-    if (const auto* pattern = effects_.pattern(); pattern && pattern->depends_on_time())
-      steady_after_ = std::numeric_limits<Real>::infinity();
+    if (const auto* pattern = effects_.pattern()) {
+      require_adhesion(*pattern);
+      if (pattern->depends_on_time()) steady_after_ = std::numeric_limits<Real>::infinity();
+    }
   }
 
   std::string name() const override { return "contact '" + name_ + "'"; }
@@ -123,6 +125,7 @@ class RigidContact final : public ForceTerm {
     Real gap() const { return distance(nearest_point()); }
   };
 
+  void require_adhesion(const AdhesionPattern& W) const;
   Real end_of_motion() const;
   std::span<const Index> in_reach(const Motion& motion);
   void evaluate(const Motion& motion, std::span<const Index> clusters, Evaluation& result) const;
@@ -150,6 +153,7 @@ class RigidContact final : public ForceTerm {
     evaluate(motion, all_, uniform);
     return std::max(0.0, -energy_of(uniform) / effects_.adhesion());
   }
+  Vec<D> mean_slip(const Motion& motion) const;
   Vec<D> velocity(const Motion& motion) const {
     return partner_.motion.velocity(motion.time, partner_.velocity_step);
   }
@@ -185,6 +189,18 @@ class RigidContact final : public ForceTerm {
   ReachList<D> list_;
   std::vector<Index> near_;  // clusters within the range at the last force
 };
+
+/// Before a run, that W can be taken wherever on the partner the body may touch it first.
+template <int D>
+void RigidContact<D>::require_adhesion(const AdhesionPattern& W) const try {
+  for (Index q = 0; q < points_.size(); ++q) {
+    const Vec<D> X = points_.reference_place(q);
+    const auto foot = partner_.surface->foot(X);
+    W(spatial<D>(X - foot.distance * foot.normal), 0);
+  }
+} catch (const SolveError& error) {
+  throw InputError(error.what());
+}
 
 /// From when on the partner stays where it is, to 1e-4 of the run; infinite if it never does.
 template <int D>
@@ -309,6 +325,23 @@ WallPoints<D> RigidContact<D>::wall_points(Index cluster, const Motion& motion, 
   return points;
 }
 
+/// Of the velocity along the partner, over the area that rubs; zero without any.
+template <int D>
+Vec<D> RigidContact<D>::mean_slip(const Motion& motion) const {
+  Evaluation result(points_);
+  evaluate(motion, all_, result);
+  points_.prepare_velocities(all_, motion, result.places);
+  const Vec<D> shift = partner_.motion.displacement(motion.time), velocity = this->velocity(motion);
+  Real area = 0;
+  Vec<D> sum = Vec<D>::Zero();
+  for (const Index c : all_) {
+    const auto [part, slip] = effects_.slip(wall_points(c, motion, shift, velocity, result));
+    area += part;
+    sum += slip;
+  }
+  return area > 0 ? Vec<D>(sum / area) : sum;
+}
+
 /// Friction by this velocity at the places of the last force, whose T are not needed any more.
 template <int D>
 void RigidContact<D>::add_viscous(const Motion& motion, Forces force) {
@@ -407,6 +440,11 @@ std::vector<MeasureSource> RigidContact<D>::measures() const {
                    "area in full contact that has the energy of the interaction (2D: length)",
                    [this](const Motion& motion) { return wetted_area(motion); }});
   }
+  if (effects_.rubs())
+    for (int i = 0; i < D; ++i)
+      all.push_back({std::string("slip_") + "xyz"[i], dimension::velocity,
+                     "mean velocity along the partner and relative to it, over the area that rubs",
+                     [this, i](const Motion& motion) { return mean_slip(motion)[i]; }});
   if (partner_.motion.moves())
     for (int i = 0; i < D; ++i)
       all.push_back({std::string("displacement_") + "xyz"[i], dimension::length,

@@ -6,6 +6,7 @@
 #include "meniscus/physics/partner_registry.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "adhesion_work.hpp"
 
@@ -67,6 +68,18 @@ class WallEffects {
     return heat;
   }
 
+  /// The area chi that rubs, and the sum of the velocity along the partner over it.
+  std::pair<Real, Vec<D>> slip(const WallPoints<D>& points) const {
+    std::pair<Real, Vec<D>> sum{0, Vec<D>::Zero()};
+    for (int lane = 0; lane < Lanes::width; ++lane) {
+      if (!(points.distance[lane] < interaction_.range())) continue;
+      const Slipping slip = slipping(points, lane);
+      sum.first += slip.chi * slip.faced;
+      sum.second += slip.chi * slip.faced * slip.velocity;
+    }
+    return sum;
+  }
+
   /// The work of adhesion that changes, since the last step that stands.
   Real work(const WallSums& sums) const { return work_.since_step(sums.supply); }
   /// A run begins.
@@ -108,14 +121,23 @@ class WallEffects {
     return sums;
   }
 
+  /// Of a point: chi, the area that faces the partner, the velocity along it.
+  struct Slipping {
+    Real chi, faced;
+    Vec<D> velocity;
+  };
+  Slipping slipping(const WallPoints<D>& points, int lane) const {
+    const Vec<D> n = surface_->foot(at(points.x, lane)).normal;
+    return {wetted(points.distance[lane]), std::max(0.0, -n.dot(at(points.V, lane))),
+            at(points.v, lane) - n.dot(at(points.v, lane)) * n};
+  }
+
   /// The traction - friction chi v_t on the area that faces the partner; its heat.
   Real rub(WallPoints<D>& points, int lane) const {
-    const Vec<D> n = surface_->foot(at(points.x, lane)).normal;
-    const Real faced = std::max(0.0, -n.dot(at(points.V, lane)));
-    const Vec<D> slip = at(points.v, lane) - n.dot(at(points.v, lane)) * n;
-    const Real drag = friction_ * wetted(points.distance[lane]) * faced;
-    for (int i = 0; i < D; ++i) points.T[i].set(lane, points.T[i][lane] + drag * slip[i]);
-    return drag * slip.squaredNorm();
+    const Slipping slip = slipping(points, lane);
+    const Real drag = friction_ * slip.chi * slip.faced;
+    for (int i = 0; i < D; ++i) points.T[i].set(lane, points.T[i][lane] + drag * slip.velocity[i]);
+    return drag * slip.velocity.squaredNorm();
   }
 
   /// chi: 1 where the surface rests, falls smoothly to 0 with the energy of the interaction.
