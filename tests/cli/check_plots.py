@@ -12,6 +12,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 import numpy as np
@@ -20,6 +21,7 @@ from PIL import Image
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tools/plotting"))
+import directors  # noqa: E402
 import drop_theory  # noqa: E402
 import movies  # noqa: E402
 import partners  # noqa: E402
@@ -140,6 +142,23 @@ class Pictures(unittest.TestCase):
         }  # fmt: skip
         self.assertEqual(set(pictures), names)
         self.assertGreater(min(pictures.values()), 10000)  # an empty picture has less
+
+    def test_directors(self):
+        """In the plane of x and z: of a length one along x, of half of it out of the picture, none."""
+        values = {
+            "director": np.array([[1, 0, 0], [0, -0.5, 0], [0, 0, 0.25]]),
+            "position": np.array([[0, 0, 0], [1, 0, 2], [3, 0, 3]]),
+        }
+        run = types.SimpleNamespace(
+            fields=["director"],
+            field=lambda frame, name, body: values[name],
+            points=lambda frame, body: values["position"],
+        )
+        rods = directors.rods(run, 0, types.SimpleNamespace(spacing=0.5), np.ones(3, bool), [0, 2])
+        expected = [[[-0.2, 0], [0.2, 0]], [[1, 2], [1, 2]], [[3, 2.95], [3, 3.05]]]
+        np.testing.assert_allclose(rods, expected, atol=1e-15)
+        run.fields = []
+        self.assertEqual(len(directors.rods(run, 0, None, None, None)), 0)
 
     def test_shell(self):
         shape = "shape = 'disk_shell'\nradius = 1\nheight = 1\nthickness = 0.3\nspacing = 0.3"

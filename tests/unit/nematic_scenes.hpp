@@ -126,7 +126,8 @@ Radial radial(const nlohmann::json& row, int core, int layers) {
 }
 
 /// The torsion of the radial director in a free drop, of a row of "torsion": greatest errors of the
-/// velocity at the surface and of the twist of the director at half the radius, from t = 0.1 on.
+/// velocity at the surface and of the twist of the director at half the radius, from t = 0.1 on;
+/// where there should be no velocity at all, it is in parts of the twist.
 struct Torsion {
   Real velocity = 0, twist = 0, angular_momentum = 0, balance = 0;
 };
@@ -188,7 +189,9 @@ Torsion torsion(const nlohmann::json& row, int core, int layers) {
       const Real t = row.at("t")[k], share = (t - time) / (state.time - time);
       if (t < 0.1) continue;
       const auto relative = [&](Real before, Real after, const char* name) {
-        return std::abs((before + share * (after - before)) / row.at(name)[k].get<Real>() - 1);
+        const Real exact = row.at(name)[k], found = before + share * (after - before);
+        return exact == 0 ? std::abs(found) / row.at("eta_half")[k].get<Real>()
+                          : std::abs(found / exact - 1);
       };
       errors.velocity = std::max(errors.velocity, relative(velocity, new_velocity, "V_surface"));
       errors.twist = std::max(errors.twist, relative(twist, new_twist, "eta_half"));

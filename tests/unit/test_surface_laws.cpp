@@ -159,6 +159,52 @@ TEST(SurfaceLaws, TensionCompressesABoxByItsMeanStress) {
              exact = -2 * tension / 3 * (4 / 0.5) / (lambda + 2.0 / 3 * mu);
   EXPECT_NEAR(exact, -2.4615e-4, 1e-8);
   EXPECT_NEAR(change, exact, 1e-3 * std::abs(exact));
+  // Of a plate of the edges a, a, t the mean stress along it is -gamma (2/t + 2/a), by its virial.
+  const Body<3>& body = scene.system.bodies.front();
+  const State& state = simulation.state();
+  const NodalVectors stress = test::force_of(*scene.system.terms.front(), state.u);
+  Real virial = 0;
+  for (Index A = 0; A < body.size(); ++A)
+    virial -= at(stress, A)[0] * (at(body.particles.X(), A)[0] + at(state.u, A)[0]);
+  const Real along = -tension * (2 / 0.5 + 2);
+  EXPECT_NEAR(virial / measured("b.volume"), along, 1e-3 * std::abs(along));
+}
+
+/// A cylinder with an elastic skin that is stretched along its axis: of two that differ in length
+/// the difference of the energies is that of a section, without the faces at the ends. The section
+/// is free to contract: strain across over that along it, and force over the strain and the area of
+/// the section.
+TEST(SurfaceLaws, ASectionOfAStretchedCylinderIsStifferByItsSkin) {
+  constexpr Real mu = 1, lambda = 1.5, skin_mu = 0.3, skin_lambda = 0.4, h = 1e-4;
+  const auto energy = [&](Real height, Real across, Real along) {
+    const Scene<3> scene = test::scene_of<3>(
+        fmt::format("dimension = 3\n[time]\nend = 1\n[[body]]\nname = \"b\"\nshape = "
+                    "\"cylinder\"\nradius = 1\nheight = {}\ncore = 6\nrings = 3\nlayers = "
+                    "4\nmaterial = {{ type = \"neo_hookean\", density = 1, mu = 1, lambda = 1.5 "
+                    "}}\n",
+                    height) +
+        law_of("gurtin_murdoch", "lambda = 0.4\nmu = 0.3\n"));
+    const NodalVectors u =
+        test::field_on<3>(scene.system.bodies.front(), [&](const Vec<3>& X) -> Vec<3> {
+          return {across * X[0], across * X[1], along * X[2]};
+        });
+    Real sum = 0;
+    for (const auto& term : scene.system.terms) sum += test::energy_of(*term, u);
+    return sum;
+  };
+  const auto section = [&](Real across, Real along) {
+    return energy(2, across, along) - energy(1, across, along);
+  };
+  const auto second = [&](Real across, Real along) {
+    return (section(h * across, h * along) + section(-h * across, -h * along)) / (h * h);
+  };
+  const Real rr = second(1, 0), zz = second(0, 1), rz = (second(1, 1) - rr - zz) / 2;
+  const Real ratio = -(lambda + skin_lambda) / (2 * (lambda + mu) + skin_lambda + 2 * skin_mu),
+             stiffness = lambda + 2 * mu + 2 * (skin_lambda + 2 * skin_mu) +
+                         2 * (lambda + skin_lambda) * ratio;
+  EXPECT_NEAR(stiffness, 4.2966667, 1e-7);
+  EXPECT_NEAR(-rz / rr, ratio, 1e-4 * std::abs(ratio));
+  EXPECT_NEAR((zz - rz * rz / rr) / std::numbers::pi, stiffness, 1e-4 * stiffness);
 }
 
 TEST(SurfaceLaws, TensionsDriveTheExactFlowInADisk) {

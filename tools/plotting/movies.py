@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib import animation
 from matplotlib.collections import PolyCollection
 
+import directors
 import partners
 import style
 import surfaces
@@ -97,6 +98,7 @@ def in_the_plane(run, frames, field):
                     edgecolors=(0, 0, 0, 0.12), linewidths=0.3,
                 )  # fmt: skip
             )
+            directors.draw(axis, directors.rods(run, frame, body, np.ones(len(x), bool), [0, 1]))
             axis.add_collection(plt.matplotlib.collections.LineCollection(x[body.surface], colors="0.2", lw=0.9))
         partners.draw(axis, run, 1, frame)
         axis.set_xlim(low[0], high[0])

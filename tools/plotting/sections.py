@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cross-sections through time: the particles near a plane and the outline, coloured by a field."""
+"""Cross-sections through time: the particles near a plane and the outline, coloured by a field,
+with the directors of nematics."""
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
 
+import directors
 import partners
 import style
 
@@ -53,6 +55,7 @@ class Cut:
         self.x = x[near][:, plane.axes]
         self.values = values[near]
         self.size = 0.85 * body.volume[near] ** (1 / body.dimension)
+        self.rods = directors.rods(run, frame, body, near, plane.axes)
         self.outline = outline(body, x, plane)
 
 
@@ -107,6 +110,7 @@ def picture(run, plane, frames, cuts, name):
             )  # fmt: skip
             dots.set_array(cut.values * factor)
             axis.add_collection(dots)
+            directors.draw(axis, cut.rods, length_factor)
             axis.add_collection(LineCollection(cut.outline * length_factor, colors="0.2", lw=0.9))
         partners.draw(axis, run, length_factor, frame)
         axis.set_title(style.time_text(run.times[frame], time_unit, time_factor), fontsize=10)
