@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of drops on walls: angles near both ends, complete wetting, ranges and supports that
-// hardly resolve the line, impact, lift-off, two drops that meet, a tip that is torn out of a film.
+// hardly resolve the line, impact, lift-off, two drops that meet, a tip that is torn out of a film,
+// ground too soft for its adhesion.
 #include <fmt/core.h>
 
 #include "support/hard_cases.hpp"
@@ -122,6 +123,31 @@ void neck(HardCases& cases, bool full) {
                 outcome.measure("tip.wetted_area") / (4 * 3.14159), {0, full ? 0.01 : 0.5});
 }
 
+/// A plane drop on a layer of Young's modulus E: (adhesion + actin) / (E x range) = 6.7/E.
+std::string drop_on_ground(Real modulus) {
+  return fmt::format(
+      "dimension = 2\n[time]\nend = 2\nviscosity = \"implicit\"\n[[body]]\nname = "
+      "\"drop\"\nshape = \"disk\"\nradius = 1\ncore = 8\nrings = 4\ncentre = [0, 1.06]\nmaterial = "
+      "{{ type = \"newtonian\", density = 1, bulk_modulus = 150, viscosity = 0.524 }}\n"
+      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[body]]\nname = \"layer\"\nshape = "
+      "\"rectangle\"\nsize = [4, 0.95]\nspacing = 0.079\ncorner = [-2, -0.95]\nmaterial = {{ type "
+      "= "
+      "\"mooney_rivlin\", density = 1, youngs_modulus = {}, poissons_ratio = 0.45, c2 = 0 }}\n"
+      "[[solid_viscosity]]\nbody = \"layer\"\nshear = 0.3\n[[held]]\nbody = \"layer\"\nwhere = \"y "
+      "< "
+      "-0.949\"\n[[contact]]\nname = \"ground\"\nbodies = [\"drop\", \"layer\"]\nup = [0, "
+      "1]\nadhesion = 0.475\nactin = \"t > 0.5 ? 0.865 : 0\"\noffset = 0.04\nrange = 0.2\npoints = "
+      "3\n",
+      modulus);
+}
+
+/// At and beyond what soft ground holds.
+void soft_ground(HardCases& cases) {
+  cases.stays_stable("drop on ground that is just stiff enough", drop_on_ground(20.2), 1e-3);
+  cases.stops("drop on ground that is far too soft", drop_on_ground(1.5),
+              "the surface of 'layer' folds over: adhesion with actin / (Young's modulus x range)");
+}
+
 }  // namespace
 
 void hard_wetting(HardCases& cases) {
@@ -130,6 +156,7 @@ void hard_wetting(HardCases& cases) {
   lengths_too_short(cases, full);
   motions(cases, full);
   neck(cases, full);
+  soft_ground(cases);
 }
 
 }  // namespace meniscus::study

@@ -411,5 +411,38 @@ TEST(Nematic, RefusesWhatCannotBe) {
   }
 }
 
+/// The director of a hedgehog in an axisymmetric flow stays in planes through the axis, so that its
+/// couple h x s is about it.
+TEST(Nematic, CouplesOfAnAxisymmetricFlowAreAzimuthal) {
+  NematicDrop drop;
+  drop.lambda = -2;
+  drop.anchoring = "strength = 2\nsense = \"polar\"\n";
+  const std::string f =
+      "(1.13664 - 0.15483*(x^2+y^2+z^2) + 0.08937*(x^2+y^2+z^2)^2)/sqrt(x^2+y^2+z^2"
+      " + 0.2)";
+  drop.director = "\"x*" + f + "\", \"y*" + f + "\", \"z*" + f + "\"";
+  drop.more = "initial_velocity = [\"0.3*x\", \"0.3*y\", \"-0.6*z\"]\n";
+  Scene<3> scene = test::scene_of<3>(drop.scene(3, 6, 3, "end = 1"));
+  Simulation<3> simulation(scene);
+  simulation.begin();
+  while (simulation.state().time < 0.05) simulation.advance();
+  const Body<3>& body = scene.system.bodies.front();
+  std::vector<Real> m(3 * static_cast<std::size_t>(body.size()));
+  for (const BodyField& field : scene.fields)
+    if (field.source.name == "director_couple")
+      field.source.compute(simulation.state().motion(), m);
+  const auto& x = body.particles.X();  // a flow about the axis leaves them in their planes
+  Real azimuthal = 0, rest = 0;
+  for (Index A = 0; A < body.size(); ++A) {
+    const Vec<3> couple(at(m, 3 * A), at(m, 3 * A + 1), at(m, 3 * A + 2)),
+        around = Vec<3>(-at(x, A)[1], at(x, A)[0], 0);
+    const Real along = around.norm() > 1e-9 ? couple.dot(around) / around.norm() : 0;
+    azimuthal += body.cells.volume(A) * along * along;
+    rest += body.cells.volume(A) * (couple.squaredNorm() - along * along);
+  }
+  EXPECT_GT(azimuthal, 1e-4);
+  EXPECT_LT(std::sqrt(rest / azimuthal), 0.05);
+}
+
 }  // namespace
 }  // namespace meniscus::test_nematic

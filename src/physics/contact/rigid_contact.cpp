@@ -151,7 +151,20 @@ class RigidContact final : public ForceTerm {
   Real wetted_area(const Motion& motion) const {
     Evaluation uniform(points_);
     evaluate(motion, all_, uniform);
-    return std::max(0.0, -energy_of(uniform) / effects_.adhesion());
+    const Real energy = effects_.pattern() ? unit_energy(uniform, motion.time) : energy_of(uniform);
+    return std::max(0.0, -energy / effects_.adhesion());
+  }
+  Real unit_energy(const Evaluation& uniform, Real time) const {
+    const Vec<D> shift = partner_.motion.displacement(time);
+    return parallel_sum(uniform.places.size, 0.0, [&](Index q) {
+      const Index c = q / Lanes::width;
+      Vec<D> V, S;
+      for (int i = 0; i < D; ++i) {
+        V[i] = uniform.places.weight_of(c)[i][q % Lanes::width];
+        S[i] = at(uniform.S, c * D + i)[q % Lanes::width];
+      }
+      return effects_.unit_energy(uniform.places.place(q) - shift, uniform.distance(q), V, S);
+    });
   }
   Vec<D> mean_slip(const Motion& motion) const;
   Vec<D> velocity(const Motion& motion) const {

@@ -50,6 +50,12 @@ class WallEffects {
   /// By which the interaction is multiplied for the energy of an area in full contact.
   Real adhesion() const { return pattern_ ? 1 : flat_.adhesion; }
 
+  /// The energy of unit adhesion of a point at x with the area vector V and the field S, without
+  /// the core, whose strength is not in proportion to it.
+  Real unit_energy(const Vec<D>& x, Real distance, const Vec<D>& V, const Vec<D>& S) const {
+    return distance < flat_.equilibrium_gap ? surface_->foot(x).normal.dot(V) : S.dot(V);
+  }
+
   /// Adds to the forces of points; at `time`.
   WallSums add(WallPoints<D>& points, Real time) const {
     WallSums sums;
