@@ -429,268 +429,261 @@ TEST(SoftWetting, AGradedLayerAndItsMirrorImageDriveMirroredDrops) {
   const Real right = way("+"), left = way("-");
   EXPECT_GT(right, 1e-3);
   EXPECT_NEAR(left, -right, 1e-8 * right);
+}
 
-  /// The core is as strong as the tension of the drop: it does not count for the area, in any unit.
-  TEST(WettingLaws, TheWettedAreaOfVaryingAdhesionIsThatOfTheFilm) {
-    const auto area = [](const char* tension) {
-      std::string text = on_wall_text<2>(varied_in_core_of_plane);
-      text.replace(text.find("gamma = 1"), 9, std::string("gamma = ") + tension);
-      const Scene<2> scene = test::scene_of<2>(text);
-      const NodalVectors u = test::random_field<2>(scene.system.size(), 0.02, 6),
-                         v = test::zeros(u);
-      return measure(scene, "wall.wetted_area", {0, u, v});
-    };
-    EXPECT_GT(area("1"), 0.5);
-    EXPECT_NEAR(area("20"), area("1"), 1e-12);
-  }
+/// The core is as strong as the tension of the drop: it does not count for the area, in any unit.
+TEST(WettingLaws, TheWettedAreaOfVaryingAdhesionIsThatOfTheFilm) {
+  const auto area = [](const char* tension) {
+    std::string text = on_wall_text<2>(varied_in_core_of_plane);
+    text.replace(text.find("gamma = 1"), 9, std::string("gamma = ") + tension);
+    const Scene<2> scene = test::scene_of<2>(text);
+    const NodalVectors u = test::random_field<2>(scene.system.size(), 0.02, 6), v = test::zeros(u);
+    return measure(scene, "wall.wetted_area", {0, u, v});
+  };
+  EXPECT_GT(area("1"), 0.5);
+  EXPECT_NEAR(area("20"), area("1"), 1e-12);
+}
 
-  /// A drop that slides as a whole: force, reaction, heat, and the power of a wall that is moved.
-  TEST(WettingLaws, FrictionBrakesByTheWettedArea) {
-    for (const Real wall : {0.0, 0.2}) {
-      const Scene<3> scene = on_wall<3>(
-          young + "contact_angle = 60\nfriction = 3\n",
-          "type = \"half_space\"\npoint = [0, 0, -1.1]\nnormal = [0, 0, 1]\ndisplacement = [\"" +
-              std::to_string(wall) + "*t\", 0, 0]\n");
-      ForceTerm& term = *scene.system.terms.back();
-      EXPECT_TRUE(term.viscous());
-      const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
-      const NodalVectors v = test::field_on<3>(scene.system.bodies.front(),
-                                               [](const Vec<3>&) { return Vec<3>(0.5, 0, 0.1); });
-      const Motion motion{0, u, v};
-      NodalVectors force = u;
-      const Report report = term.add_force(motion, force);
-      const Vec<3> braked =
-          net<3>(force) -
-          net<3>(test::force_of(term, u,
-                                test::field_on<3>(scene.system.bodies.front(), [&](const Vec<3>&) {
-                                  return Vec<3>(wall, 0, 0);
-                                })));
-      const Real area = measure(scene, "wall.wetted_area", motion), slip = 0.5 - wall;
-      EXPECT_GT(area, 0.1);
-      EXPECT_NEAR(braked[0], -3 * area * slip, 0.02 * std::abs(braked[0]));
-      EXPECT_LT(std::abs(braked[1]) + std::abs(braked[2]), 1e-10);
-      EXPECT_NEAR(report.heat, -braked[0] * slip, 1e-10 * report.heat);
-      EXPECT_NEAR(report.external_power, net<3>(force)[0] * wall, 1e-9);
-      EXPECT_NEAR(measure(scene, "wall.slip_x", motion), slip, 1e-12);
-      EXPECT_NEAR(measure(scene, "wall.slip_z", motion), 0, 1e-12);
-    }
-  }
-
-  TEST(WettingLaws, TheLineMovesAsTheBaseGrows) {
-    const Scene<3> scene = on_wall<3>(young + "contact_angle = 60\n");
-    const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
-    const NodalVectors v = test::field_on<3>(scene.system.bodies.front(), [](const Vec<3>& X) {
-      return Vec<3>(0.3 * X[0], 0.3 * X[1], 0.1);
-    });
-    constexpr Real h = 1e-3;
-    const auto radius = [&](Real by) {
-      return measure(scene, "wall.base_radius", {0, test::sum_of(u, by, v), v});
-    };
-    const Real speed = (radius(h) - radius(-h)) / (2 * h);
-    EXPECT_GT(std::abs(speed), 0.05);
-    EXPECT_NEAR(measure(scene, "wall.line_speed", {0, u, v}), speed, 1e-4 * std::abs(speed));
-    EXPECT_EQ(measure(scene, "wall.line_speed", {0, u, u}), 0);
-  }
-
-  /// Next to no traction: the tensions alone.
-  const std::string switched =
-      "interaction = \"legacy_switch\"\ncontact_angle = 60\nadhesion = 1e-12\nsigma0 = 0.3\n"
-      "switch_gap = 0.6\n";
-  template <int D>
-  Scene<D> switching(const std::string& lines = switched, const std::string& form = "triangles") {
-    std::string text = on_wall_text<D>(lines);
-    text.replace(text.find("gamma = 1\n"), 10, "gamma = 1\nform = \"" + form + "\"\n");
-    return test::scene_of<D>(text);
-  }
-
-  template <int D>
-  void expect_switched_tensions() {
-    const Scene<D> scene = switching<D>();
+/// A drop that slides as a whole: force, reaction, heat, and the power of a wall that is moved.
+TEST(WettingLaws, FrictionBrakesByTheWettedArea) {
+  for (const Real wall : {0.0, 0.2}) {
+    const Scene<3> scene = on_wall<3>(
+        young + "contact_angle = 60\nfriction = 3\n",
+        "type = \"half_space\"\npoint = [0, 0, -1.1]\nnormal = [0, 0, 1]\ndisplacement = [\"" +
+            std::to_string(wall) + "*t\", 0, 0]\n");
     ForceTerm& term = *scene.system.terms.back();
-    const NodalVectors u = test::random_field<D>(scene.system.size(), 0.003, 1),
-                       way = test::random_field<D>(scene.system.size(), 1, 2), v = test::zeros(u);
-    EXPECT_GT(measure(scene, "wall.wet_triangles", {0, u, v}), 1);
-    EXPECT_LT(test::gradient_error(term, u, way, 1e-6), 1e-7);
-  }
-
-  TEST(WettingLaws, SwitchedTensionsAreTheGradientWhileNothingSwitches) {
-    expect_switched_tensions<2>();
-    expect_switched_tensions<3>();
-  }
-
-  /// A drop lowered onto the wall at once: W = gamma (1 + cos theta) times the area that becomes
-  /// wet is lost, and comes back when it is raised.
-  TEST(WettingLaws, EnergyOfSwitchesIsCounted) {
-    const Scene<3> scene = switching<3>();
-    ForceTerm& term = *scene.system.terms.back();
-    const NodalVectors at_rest = test::zeros(NodalVectors(scene.system.mass.size()));
-    const auto lowered = [&](Real by) {
-      return test::field_on<3>(scene.system.bodies.front(),
-                               [&](const Vec<3>&) { return Vec<3>(0, 0, -by); });
-    };
-    const auto count = [&](const char* name) {
-      return measure(scene, name, {0, at_rest, at_rest});
-    };
-    const auto energy = [&](Real by) { return test::energy_of(term, lowered(by)); };
-    const auto stands = [&](Real by) {
-      const NodalVectors u = lowered(by);
-      term.commit({0, u, at_rest});
-    };
-    stands(-1);
-    EXPECT_EQ(count("wall.switches"), 0);
-    EXPECT_FALSE(term.warning({0, at_rest, at_rest}));
-    stands(0);
-    const Real wet = count("wall.wet_triangles");
-    EXPECT_EQ(count("wall.switches"), wet);
-    EXPECT_NEAR(count("wall.switch_loss"), -energy(0), 1e-9);
-    EXPECT_GT(count("wall.switch_loss"), 0.1);
-    EXPECT_NE(term.warning({0, at_rest, at_rest})->find("switched"), std::string::npos);
-    stands(-1);
-    EXPECT_EQ(count("wall.switches"), 2 * wet);
-    EXPECT_NEAR(count("wall.switch_loss"), 0, 1e-9);
-  }
-
-  TEST(WettingLaws, SwitchedTensionsGoWithTheirTriangles) {
-    EXPECT_THROW_WITH(switching<3>(switched, "balanced"), InputError,
-                      "'drop' has none (its form is balanced); allowed is a [[surface_tension]] of "
-                      "it with form = \"triangles\"");
-    EXPECT_THROW_WITH(switching<3>(switched + "form = \"energy\"\n"), InputError,
-                      "form: with legacy_switch the angle comes from the tensions");
-    EXPECT_THROW_WITH(on_wall<3>(switched, moving_ball), InputError, "legacy_switch is for planes");
-    EXPECT_THROW_WITH(test::scene_of<2>("dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
-                                        "[[contact]]\nbodies = [\"drop\", \"other\"]\n" + switched),
-                      InputError, "legacy_switch is for a body and a half space");
-  }
-
-  /// What an absent interaction and an absent form stand for.
-  TEST(WettingLaws, TheCompleteInputNamesTheLawThatActs) {
-    const auto contact = [](const std::string& lines, const std::string& key) {
-      std::string text = on_wall_text<2>(lines);
-      if (lines == switched)
-        text.replace(text.find("gamma = 1\n"), 10, "gamma = 1\nform = \"triangles\"\n");
-      const SceneInput input = SceneInput::from_text(text);
-      scene_dimension(input);
-      build_scene<2>(input);
-      const std::string complete = input.complete(), start = "\n" + key + " = \"";
-      const std::size_t table = complete.find("[[contact]]"),
-                        begin = complete.find(start, table) + start.size();
-      return complete.substr(begin, complete.find('"', begin) - begin);
-    };
-    EXPECT_EQ(contact("contact_angle = 60\n", "interaction"), "smooth_young");
-    EXPECT_EQ(contact("adhesion = 1\nsigma0 = 0.3\n", "interaction"), "scaled_lennard_jones");
-    EXPECT_EQ(contact("epsilon = 1\nsigma0 = 0.3\nbeta = 1\n", "interaction"), "lennard_jones");
-    EXPECT_EQ(contact("contact_angle = 60\n", "form"), "energy");
-    EXPECT_EQ(contact(switched, "form"), "dissertation");
-  }
-
-  /// Few points do no harm where the field of the partner is smooth.
-  TEST(WettingLaws, UnresolvedGapsAreOfPartnersWithCorners) {
-    const std::string few =
-        "interaction = \"scaled_lennard_jones\"\nadhesion = 1\nsigma0 = 0.15\npoints = 1\n";
-    const auto warns = [&](const std::string& partner) {
-      const Scene<2> scene = on_wall<2>(few, partner);
-      const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
-      return scene.system.terms.back()->warning({0, u, u}).has_value();
-    };
-    EXPECT_FALSE(warns({}));
-    EXPECT_FALSE(warns("type = \"ball\"\nradius = 0.7\ncentre = [0, -1.8]\n"));
-    EXPECT_TRUE(warns("type = \"frame\"\nlow = [-1.1, -1.1]\nhigh = [1.1, 1.1]\n"));
-  }
-
-  TEST(WettingLaws, FormulasAreCheckedWhereTheyAreUsed) {
-    Scene<2> scene = on_wall<2>(young + "adhesion = \"1 + log(1 - t)\"\n");
+    EXPECT_TRUE(term.viscous());
     const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+    const NodalVectors v = test::field_on<3>(scene.system.bodies.front(),
+                                             [](const Vec<3>&) { return Vec<3>(0.5, 0, 0.1); });
+    const Motion motion{0, u, v};
     NodalVectors force = u;
-    const auto at_time = [&](Real t) { scene.system.terms.back()->add_force({t, u, u}, force); };
-    EXPECT_THROW_WITH(at_time(2), SolveError, "adhesion: formula '1 + log(1 - t)' is not a number");
-    EXPECT_THROW_WITH(at_time(0.9), SolveError, "adhesion is -1.3");
-    Scene<2> angle = on_wall<2>(young + "contact_angle = \"90 + 100*t\"\n");
-    EXPECT_THROW_WITH(angle.system.terms.back()->add_force({0.95, u, u}, force), SolveError,
-                      "contact_angle is 185");
+    const Report report = term.add_force(motion, force);
+    const Vec<3> braked =
+        net<3>(force) -
+        net<3>(test::force_of(term, u,
+                              test::field_on<3>(scene.system.bodies.front(), [&](const Vec<3>&) {
+                                return Vec<3>(wall, 0, 0);
+                              })));
+    const Real area = measure(scene, "wall.wetted_area", motion), slip = 0.5 - wall;
+    EXPECT_GT(area, 0.1);
+    EXPECT_NEAR(braked[0], -3 * area * slip, 0.02 * std::abs(braked[0]));
+    EXPECT_LT(std::abs(braked[1]) + std::abs(braked[2]), 1e-10);
+    EXPECT_NEAR(report.heat, -braked[0] * slip, 1e-10 * report.heat);
+    EXPECT_NEAR(report.external_power, net<3>(force)[0] * wall, 1e-9);
+    EXPECT_NEAR(measure(scene, "wall.slip_x", motion), slip, 1e-12);
+    EXPECT_NEAR(measure(scene, "wall.slip_z", motion), 0, 1e-12);
   }
+}
 
-  TEST(WettingLaws, WhatCannotBeIsRefused) {
-    EXPECT_THROW_WITH(on_wall<2>(young + "adhesion = \"1 + x\"\nform = \"pressure\"\n"), InputError,
-                      "use form = \"energy\", or numbers");
-    EXPECT_THROW_WITH(on_wall<2>(young + "adhesion = 0.5\nactin = -0.6\n"), InputError,
-                      "adhesion with actin is -0.1 at");
-    EXPECT_THROW_WITH(on_wall<2>("interaction = \"scaled_lennard_jones\"\nsigma0 = 0.2\n"),
-                      InputError, "one of them is needed");
-    const std::string pair = "dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
-                             "[[contact]]\nbodies = [\"drop\", \"other\"]\n";
-    EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = \"1 + x\"\n"), InputError,
-                      "between two bodies adhesion may depend on the place where the second is "
-                      "ground");
-    EXPECT_THROW_WITH(on_wall<2>(young + "adhesion = \"0.9 + x\"\n"), InputError,
-                      "adhesion: formula '0.9 + x': adhesion is -0.");
-    EXPECT_THROW_WITH(on_ground<2>(young + "up = [0, 1]\nadhesion = \"1.4 + x\"\n"), InputError,
-                      "adhesion: formula '1.4 + x': adhesion is -0.1");
-    EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = 1\nfriction = 2\n"), InputError,
-                      "friction: is for rigid partners");
-  }
+TEST(WettingLaws, TheLineMovesAsTheBaseGrows) {
+  const Scene<3> scene = on_wall<3>(young + "contact_angle = 60\n");
+  const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+  const NodalVectors v = test::field_on<3>(scene.system.bodies.front(), [](const Vec<3>& X) {
+    return Vec<3>(0.3 * X[0], 0.3 * X[1], 0.1);
+  });
+  constexpr Real h = 1e-3;
+  const auto radius = [&](Real by) {
+    return measure(scene, "wall.base_radius", {0, test::sum_of(u, by, v), v});
+  };
+  const Real speed = (radius(h) - radius(-h)) / (2 * h);
+  EXPECT_GT(std::abs(speed), 0.05);
+  EXPECT_NEAR(measure(scene, "wall.line_speed", {0, u, v}), speed, 1e-4 * std::abs(speed));
+  EXPECT_EQ(measure(scene, "wall.line_speed", {0, u, u}), 0);
+}
 
-  /// A drop over a layer that has been bent to a ridge of slope 0.3 below its rim.
-  Scene<2> over_ridge(const std::string& tension) {
-    return test::scene_of<2>(
-        "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"half_disk\"\nradius "
-        "= "
-        "1\ncore = 8\nrings = 4\ncentre = [0, 0.2]\nmaterial = { type = \"newtonian\", density = "
-        "1, "
-        "bulk_modulus = 100, viscosity = 1 }\n[[body]]\nname = \"layer\"\nshape = "
-        "\"rectangle\"\nsize = "
-        "[4, 0.5]\ncorner = [-2, -0.5]\nspacing = 0.025\ninitial_displacement = [\"0\", "
-        "\"0.15 - 0.3*abs(abs(x) - 1)\"]\nmaterial = { type = \"neo_hookean\", density = 1, mu = "
-        "1, "
-        "lambda = 1 }\n[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n" +
-        tension +
-        "[[contact]]\nname = \"line\"\nbodies = [\"drop\", \"layer\"]\nadhesion = 1\noffset = "
-        "0.03\nrange = 0.1\npoints = 3\n");
-  }
+/// Next to no traction: the tensions alone.
+const std::string switched =
+    "interaction = \"legacy_switch\"\ncontact_angle = 60\nadhesion = 1e-12\nsigma0 = 0.3\n"
+    "switch_gap = 0.6\n";
+template <int D>
+Scene<D> switching(const std::string& lines = switched, const std::string& form = "triangles") {
+  std::string text = on_wall_text<D>(lines);
+  text.replace(text.find("gamma = 1\n"), 10, "gamma = 1\nform = \"" + form + "\"\n");
+  return test::scene_of<D>(text);
+}
 
-  TEST(SoftWetting, MeasuresTheRidgeAndItsAngles) {
-    Scene<2> scene = over_ridge("[[surface_tension]]\nbody = \"layer\"\ngamma = 1\n");
-    EXPECT_TRUE(scene.warnings.empty());
-    const Motion motion = scene.initial.motion();
-    EXPECT_NEAR(measure(scene, "line.ridge_height", motion), 0.15, 0.015);  // rounded off
-    EXPECT_NEAR(measure(scene, "line.ridge_radius", motion), 1, 0.02);
-    const Real tilt = std::atan(0.3) * 180 / std::numbers::pi;
-    EXPECT_NEAR(measure(scene, "line.solid_angle", motion), 180 - 2 * tilt, 0.5);
-    // The rim of the half disk is vertical 0.05 above the ridge.
-    const Real lean = std::asin(0.05) * 180 / std::numbers::pi;
-    EXPECT_NEAR(measure(scene, "line.liquid_angle", motion), 90 + tilt + lean, 1.5);
-    EXPECT_GT(measure(scene, "line.wetted_area", motion), 0);
-  }
+template <int D>
+void expect_switched_tensions() {
+  const Scene<D> scene = switching<D>();
+  ForceTerm& term = *scene.system.terms.back();
+  const NodalVectors u = test::random_field<D>(scene.system.size(), 0.003, 1),
+                     way = test::random_field<D>(scene.system.size(), 1, 2), v = test::zeros(u);
+  EXPECT_GT(measure(scene, "wall.wet_triangles", {0, u, v}), 1);
+  EXPECT_LT(test::gradient_error(term, u, way, 1e-6), 1e-7);
+}
 
-  /// The contact takes half of the adhesion from the surface of the ground, which has to hold it.
-  TEST(SoftWetting, WarnsWhereTheGroundHasTooLittleTension) {
-    const Scene<2> scene = over_ridge("");
-    ASSERT_EQ(scene.warnings.size(), 2u);
-    EXPECT_NE(scene.warnings[0].find("is 4 of 'layer', 1 N/m at most, 2.5 Pa and 0.1 m"),
-              std::string::npos)
-        << scene.warnings[0];
-    EXPECT_NE(scene.warnings[1].find("the surface of 'layer', whose tension is 0"),
-              std::string::npos);
-  }
+TEST(WettingLaws, SwitchedTensionsAreTheGradientWhileNothingSwitches) {
+  expect_switched_tensions<2>();
+  expect_switched_tensions<3>();
+}
 
-  /// The rule takes the adhesion of the whole run; with a third of the modulus times the range the
-  /// ground holds it.
-  TEST(SoftWetting, WarnsWhereTheGroundWouldFold) {
-    const auto warned = [](const std::string& adhesion) {
-      const Scene<2> scene = on_ground<2>("up = [0, 1]\noffset = 0.05\nrange = 0.25\n" + adhesion);
-      return std::any_of(scene.warnings.begin(), scene.warnings.end(),
-                         [](const std::string& words) {
-                           return words.find(
-                                      "contact 'wall': adhesion with actin / (Young's modulus x "
-                                      "range) is 0.334 of "
-                                      "'layer', 0.209 N/m at most, 2.5 Pa and 0.25 m") == 0;
-                         });
-    };
-    // E = 2.5
-    EXPECT_FALSE(warned("adhesion = 0.208\n"));
-    EXPECT_FALSE(warned("adhesion = 0.1\nactin = \"t > 0.5 ? 0.108 : 0\"\n"));
-    EXPECT_TRUE(warned("adhesion = 0.209\n"));
-    EXPECT_TRUE(warned("adhesion = 0.1\nactin = \"t > 0.5 ? 0.109 : 0\"\n"));
-  }
+/// A drop lowered onto the wall at once: W = gamma (1 + cos theta) times the area that becomes wet
+/// is lost, and comes back when it is raised.
+TEST(WettingLaws, EnergyOfSwitchesIsCounted) {
+  const Scene<3> scene = switching<3>();
+  ForceTerm& term = *scene.system.terms.back();
+  const NodalVectors at_rest = test::zeros(NodalVectors(scene.system.mass.size()));
+  const auto lowered = [&](Real by) {
+    return test::field_on<3>(scene.system.bodies.front(),
+                             [&](const Vec<3>&) { return Vec<3>(0, 0, -by); });
+  };
+  const auto count = [&](const char* name) { return measure(scene, name, {0, at_rest, at_rest}); };
+  const auto energy = [&](Real by) { return test::energy_of(term, lowered(by)); };
+  const auto stands = [&](Real by) {
+    const NodalVectors u = lowered(by);
+    term.commit({0, u, at_rest});
+  };
+  stands(-1);
+  EXPECT_EQ(count("wall.switches"), 0);
+  EXPECT_FALSE(term.warning({0, at_rest, at_rest}));
+  stands(0);
+  const Real wet = count("wall.wet_triangles");
+  EXPECT_EQ(count("wall.switches"), wet);
+  EXPECT_NEAR(count("wall.switch_loss"), -energy(0), 1e-9);
+  EXPECT_GT(count("wall.switch_loss"), 0.1);
+  EXPECT_NE(term.warning({0, at_rest, at_rest})->find("switched"), std::string::npos);
+  stands(-1);
+  EXPECT_EQ(count("wall.switches"), 2 * wet);
+  EXPECT_NEAR(count("wall.switch_loss"), 0, 1e-9);
+}
+
+TEST(WettingLaws, SwitchedTensionsGoWithTheirTriangles) {
+  EXPECT_THROW_WITH(switching<3>(switched, "balanced"), InputError,
+                    "'drop' has none (its form is balanced); allowed is a [[surface_tension]] of "
+                    "it with form = \"triangles\"");
+  EXPECT_THROW_WITH(switching<3>(switched + "form = \"energy\"\n"), InputError,
+                    "form: with legacy_switch the angle comes from the tensions");
+  EXPECT_THROW_WITH(on_wall<3>(switched, moving_ball), InputError, "legacy_switch is for planes");
+  EXPECT_THROW_WITH(test::scene_of<2>("dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
+                                      "[[contact]]\nbodies = [\"drop\", \"other\"]\n" + switched),
+                    InputError, "legacy_switch is for a body and a half space");
+}
+
+/// What an absent interaction and an absent form stand for.
+TEST(WettingLaws, TheCompleteInputNamesTheLawThatActs) {
+  const auto contact = [](const std::string& lines, const std::string& key) {
+    std::string text = on_wall_text<2>(lines);
+    if (lines == switched)
+      text.replace(text.find("gamma = 1\n"), 10, "gamma = 1\nform = \"triangles\"\n");
+    const SceneInput input = SceneInput::from_text(text);
+    scene_dimension(input);
+    build_scene<2>(input);
+    const std::string complete = input.complete(), start = "\n" + key + " = \"";
+    const std::size_t table = complete.find("[[contact]]"),
+                      begin = complete.find(start, table) + start.size();
+    return complete.substr(begin, complete.find('"', begin) - begin);
+  };
+  EXPECT_EQ(contact("contact_angle = 60\n", "interaction"), "smooth_young");
+  EXPECT_EQ(contact("adhesion = 1\nsigma0 = 0.3\n", "interaction"), "scaled_lennard_jones");
+  EXPECT_EQ(contact("epsilon = 1\nsigma0 = 0.3\nbeta = 1\n", "interaction"), "lennard_jones");
+  EXPECT_EQ(contact("contact_angle = 60\n", "form"), "energy");
+  EXPECT_EQ(contact(switched, "form"), "dissertation");
+}
+
+/// Few points do no harm where the field of the partner is smooth.
+TEST(WettingLaws, UnresolvedGapsAreOfPartnersWithCorners) {
+  const std::string few =
+      "interaction = \"scaled_lennard_jones\"\nadhesion = 1\nsigma0 = 0.15\npoints = 1\n";
+  const auto warns = [&](const std::string& partner) {
+    const Scene<2> scene = on_wall<2>(few, partner);
+    const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+    return scene.system.terms.back()->warning({0, u, u}).has_value();
+  };
+  EXPECT_FALSE(warns({}));
+  EXPECT_FALSE(warns("type = \"ball\"\nradius = 0.7\ncentre = [0, -1.8]\n"));
+  EXPECT_TRUE(warns("type = \"frame\"\nlow = [-1.1, -1.1]\nhigh = [1.1, 1.1]\n"));
+}
+
+TEST(WettingLaws, FormulasAreCheckedWhereTheyAreUsed) {
+  Scene<2> scene = on_wall<2>(young + "adhesion = \"1 + log(1 - t)\"\n");
+  const NodalVectors u = test::zeros(NodalVectors(scene.system.mass.size()));
+  NodalVectors force = u;
+  const auto at_time = [&](Real t) { scene.system.terms.back()->add_force({t, u, u}, force); };
+  EXPECT_THROW_WITH(at_time(2), SolveError, "adhesion: formula '1 + log(1 - t)' is not a number");
+  EXPECT_THROW_WITH(at_time(0.9), SolveError, "adhesion is -1.3");
+  Scene<2> angle = on_wall<2>(young + "contact_angle = \"90 + 100*t\"\n");
+  EXPECT_THROW_WITH(angle.system.terms.back()->add_force({0.95, u, u}, force), SolveError,
+                    "contact_angle is 185");
+}
+
+TEST(WettingLaws, WhatCannotBeIsRefused) {
+  EXPECT_THROW_WITH(on_wall<2>(young + "adhesion = \"1 + x\"\nform = \"pressure\"\n"), InputError,
+                    "use form = \"energy\", or numbers");
+  EXPECT_THROW_WITH(on_wall<2>(young + "adhesion = 0.5\nactin = -0.6\n"), InputError,
+                    "adhesion with actin is -0.1 at");
+  EXPECT_THROW_WITH(on_wall<2>("interaction = \"scaled_lennard_jones\"\nsigma0 = 0.2\n"),
+                    InputError, "one of them is needed");
+  const std::string pair = "dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
+                           "[[contact]]\nbodies = [\"drop\", \"other\"]\n";
+  EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = \"1 + x\"\n"), InputError,
+                    "between two bodies adhesion may depend on the place where the second is "
+                    "ground");
+  EXPECT_THROW_WITH(on_wall<2>(young + "adhesion = \"0.9 + x\"\n"), InputError,
+                    "adhesion: formula '0.9 + x': adhesion is -0.");
+  EXPECT_THROW_WITH(on_ground<2>(young + "up = [0, 1]\nadhesion = \"1.4 + x\"\n"), InputError,
+                    "adhesion: formula '1.4 + x': adhesion is -0.1");
+  EXPECT_THROW_WITH(test::scene_of<2>(pair + "adhesion = 1\nfriction = 2\n"), InputError,
+                    "friction: is for rigid partners");
+}
+
+/// A drop over a layer that has been bent to a ridge of slope 0.3 below its rim.
+Scene<2> over_ridge(const std::string& tension) {
+  return test::scene_of<2>(
+      "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"half_disk\"\nradius = "
+      "1\ncore = 8\nrings = 4\ncentre = [0, 0.2]\nmaterial = { type = \"newtonian\", density = 1, "
+      "bulk_modulus = 100, viscosity = 1 }\n[[body]]\nname = \"layer\"\nshape = "
+      "\"rectangle\"\nsize = "
+      "[4, 0.5]\ncorner = [-2, -0.5]\nspacing = 0.025\ninitial_displacement = [\"0\", "
+      "\"0.15 - 0.3*abs(abs(x) - 1)\"]\nmaterial = { type = \"neo_hookean\", density = 1, mu = 1, "
+      "lambda = 1 }\n[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n" +
+      tension +
+      "[[contact]]\nname = \"line\"\nbodies = [\"drop\", \"layer\"]\nadhesion = 1\noffset = "
+      "0.03\nrange = 0.1\npoints = 3\n");
+}
+
+TEST(SoftWetting, MeasuresTheRidgeAndItsAngles) {
+  Scene<2> scene = over_ridge("[[surface_tension]]\nbody = \"layer\"\ngamma = 1\n");
+  EXPECT_TRUE(scene.warnings.empty());
+  const Motion motion = scene.initial.motion();
+  EXPECT_NEAR(measure(scene, "line.ridge_height", motion), 0.15, 0.015);  // rounded off
+  EXPECT_NEAR(measure(scene, "line.ridge_radius", motion), 1, 0.02);
+  const Real tilt = std::atan(0.3) * 180 / std::numbers::pi;
+  EXPECT_NEAR(measure(scene, "line.solid_angle", motion), 180 - 2 * tilt, 0.5);
+  // The rim of the half disk is vertical 0.05 above the ridge.
+  const Real lean = std::asin(0.05) * 180 / std::numbers::pi;
+  EXPECT_NEAR(measure(scene, "line.liquid_angle", motion), 90 + tilt + lean, 1.5);
+  EXPECT_GT(measure(scene, "line.wetted_area", motion), 0);
+}
+
+/// The contact takes half of the adhesion from the surface of the ground, which has to hold it.
+TEST(SoftWetting, WarnsWhereTheGroundHasTooLittleTension) {
+  const Scene<2> scene = over_ridge("");
+  ASSERT_EQ(scene.warnings.size(), 2u);
+  EXPECT_NE(scene.warnings[0].find("is 4 of 'layer', 1 N/m at most, 2.5 Pa and 0.1 m"),
+            std::string::npos)
+      << scene.warnings[0];
+  EXPECT_NE(scene.warnings[1].find("the surface of 'layer', whose tension is 0"),
+            std::string::npos);
+}
+
+/// The rule takes the adhesion of the whole run; with a third of the modulus times the range the
+/// ground holds it.
+TEST(SoftWetting, WarnsWhereTheGroundWouldFold) {
+  const auto warned = [](const std::string& adhesion) {
+    const Scene<2> scene = on_ground<2>("up = [0, 1]\noffset = 0.05\nrange = 0.25\n" + adhesion);
+    return std::any_of(scene.warnings.begin(), scene.warnings.end(), [](const std::string& words) {
+      return words.find(
+                 "contact 'wall': adhesion with actin / (Young's modulus x range) is 0.334 of "
+                 "'layer', 0.209 N/m at most, 2.5 Pa and 0.25 m") == 0;
+    });
+  };
+  // E = 2.5
+  EXPECT_FALSE(warned("adhesion = 0.208\n"));
+  EXPECT_FALSE(warned("adhesion = 0.1\nactin = \"t > 0.5 ? 0.108 : 0\"\n"));
+  EXPECT_TRUE(warned("adhesion = 0.209\n"));
+  EXPECT_TRUE(warned("adhesion = 0.1\nactin = \"t > 0.5 ? 0.109 : 0\"\n"));
+}
 
 }  // namespace
 }  // namespace meniscus::test_wetting_laws
