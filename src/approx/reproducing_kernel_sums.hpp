@@ -217,6 +217,7 @@ void ReproducingKernel<D, Degree>::evaluate_order(const std::array<Vec<D>, 4>& p
   constexpr auto pairs = static_cast<std::size_t>(hessian_count(D));
   Real H = 0;
   for (const auto& candidate : candidates) H = std::max(H, candidate.support);
+  scale_of_places_ = H;
   with_window(window_,
               [&](auto w) { evaluate_windows<decltype(w)>(points, candidates, order, H); });
   sum_moments();
@@ -264,6 +265,18 @@ void ReproducingKernel<D, Degree>::evaluate_order(const std::array<Vec<D>, 4>& p
         });
       }
     }
+  }
+}
+
+template <int D, int Degree>
+void ReproducingKernel<D, Degree>::evaluate_functionals(std::span<const BasisVector> b) {
+  solved_.clear();
+  for (const BasisVector& right : b) solved_.push_back(solve(right));
+  functional_.resize(value_.size() * b.size());
+  for (std::size_t k = 0; k < value_.size(); ++k) {
+    const BasisVector P = monomials_at<D, Degree>(kernel_[k].s);
+    for (std::size_t j = 0; j < b.size(); ++j)
+      functional_[k * b.size() + j] = dot(P, solved_[j]) * kernel_[k].phi;
   }
 }
 

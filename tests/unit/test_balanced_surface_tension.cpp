@@ -256,7 +256,9 @@ TEST(DropMeasures, OfAStretchedBallThatTurns) {
   const NodalVectors moving =
       test::field_on<3>(*body, [](const Vec<3>&) { return Vec<3>(0, 3, 0); });
   EXPECT_NEAR(measure(measures, "kinetic_at_places", u, moving), 4.5 * mass, 1e-3 * mass);
-  EXPECT_LT(measure(measures, "ca", u, moving), 1e-7);
+  // The root of what rounding leaves of the square of 3.
+  EXPECT_LT(measure(measures, "ca", u, moving),
+            0.5 / 0.25 * 3 * std::sqrt(16 * std::numeric_limits<Real>::epsilon()));
   const NodalVectors spinning =
       test::field_on<3>(*body, [](const Vec<3>& X) { return Vec<3>(-X[1], X[0], 0); });
   EXPECT_NEAR(measure(measures, "ca", u, spinning), 0.5 / 0.25 * std::sqrt(0.4), 2e-2);

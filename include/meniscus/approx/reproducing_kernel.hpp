@@ -35,6 +35,7 @@ template <int D, int Degree = 2>
 class ReproducingKernel {
  public:
   static constexpr int basis_size = monomial_count(D, Degree);
+  using BasisVector = std::array<Lanes, static_cast<std::size_t>(basis_size)>;
 
   explicit ReproducingKernel(Window window) : window_(window) {}
   void use(Window window) { window_ = window; }
@@ -57,8 +58,17 @@ class ReproducingKernel {
   /// monitor of RKPM note 2.4 (>= 3e-2 good; < 1e-3, or not a number, unusable).
   Lanes quality() const { return quality_; }
 
+  /// H of the last evaluation.
+  Real scale() const { return scale_of_places_; }
+  /// At the points of the last evaluation, for each b the functions f_A = Phi_A P_A.(M^-1 b): those
+  /// of the shape functions with sum f_A p((x_A - x)/H) = b, of which b = e_0 gives N_A.
+  void evaluate_functionals(std::span<const BasisVector> b);
+  /// f_A of candidate k for b[j].
+  Lanes functional(std::size_t k, std::size_t j) const {
+    return functional_[k * solved_.size() + j];
+  }
+
  private:
-  using BasisVector = std::array<Lanes, static_cast<std::size_t>(basis_size)>;
   /// With s = (x_A - x) / H: H Phi,i = -a s_i, H^2 Phi,ij = a delta_ij + b s_i s_j.
   struct Kernel {
     std::array<Lanes, D> s;
@@ -81,7 +91,9 @@ class ReproducingKernel {
 
   Window window_;
   std::vector<Kernel> kernel_;  // [candidate], one more if their number is odd
-  std::vector<Lanes> value_, gradient_, hessian_;
+  std::vector<Lanes> value_, gradient_, hessian_, functional_;
+  std::vector<BasisVector> solved_;  // M^-1 b
+  Real scale_of_places_ = 0;
   std::array<Lanes, static_cast<std::size_t>(basis_size* basis_size)> factor_;
   BasisVector scale_, inverse_pivot_;
   Lanes quality_ = Lanes::zero();

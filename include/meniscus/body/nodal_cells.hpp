@@ -3,6 +3,7 @@
 // body, and the smoothed gradients of the Q-SCNI integration are averages over them (RKPM
 // note 5.3).
 #pragma once
+#include "meniscus/approx/particle_set.hpp"
 #include "meniscus/body/grid.hpp"
 
 #include <cstdint>
@@ -33,6 +34,42 @@ struct CellQuadrature {
   std::vector<BodyFacet> body_facets;
 };
 
+/// Few points for the integrals of smooth functions over one nodal cell and over the facets between
+/// it and other nodal cells: three per direction, in equal parallelepipeds Gauss points. What sums
+/// over them miss of the integrals of polynomials goes with them (RKPM note 5.6). Reused from node
+/// to node.
+template <int D>
+struct CellSamples {
+  /// Integral minus sum, for the monomials of X - centre up to `degree`.
+  template <int degree>
+  using Missing = std::array<Real, static_cast<std::size_t>(monomial_count(D, degree))>;
+
+  std::vector<Vec<D>> volume_X;
+  std::vector<Real> volume_w;
+  Missing<2> volume_missing;  ///< centre: the centroid
+  bool volume_exact = true;   ///< nothing but rounding is missing
+
+  struct SharedFacet {
+    Index neighbor;                     ///< the other nodal cell
+    std::size_t begin, end;             ///< its points
+    Vec<D> centre;                      ///< their mean
+    std::array<Missing<3>, D> missing;  ///< [K] with n_K dA
+    bool exact;
+  };
+  std::vector<SharedFacet> facets;  ///< by ascending neighbor
+  std::vector<Vec<D>> facet_X;
+  std::vector<Vec<D>> facet_dA;  ///< outward normal times weight
+
+  void clear() {
+    volume_X.clear();
+    volume_w.clear();
+    volume_exact = true;
+    facets.clear();
+    facet_X.clear();
+    facet_dA.clear();
+  }
+};
+
 /// Volumes, centroids, covariances and quadratures of the nodal cells of a grid, by node.
 template <int D>
 class NodalCells {
@@ -49,10 +86,39 @@ class NodalCells {
 
   /// Fills q for one node. Safe to call at the same time from several threads, each with its own q.
   void quadrature(Index node, CellQuadrature<D>& q) const;
+  /// Only the points on the boundary of the body.
+  void boundary_points(Index node, CellQuadrature<D>& q) const;
+  /// Fills the samples of one node, with the facets towards nodes of higher number, likewise.
+  void sample(Index node, const ParticleSet<D>& particles, CellSamples<D>& samples) const;
+  /// Only those of the facet between a node and a neighbor of higher number.
+  void sample_facet(Index node, Index neighbor, const ParticleSet<D>& particles,
+                    CellSamples<D>& samples) const;
+  /// Nodes of lower number whose nodal cells share a facet with this one, ascending.
+  void lower_neighbors(Index node, std::vector<Index>& neighbors) const;
 
  private:
+  /// A facet within one grid cell, seen from the node: end of direction k of its octant.
+  struct FacetPart {
+    Index neighbor, cell;
+    int corner, k;
+  };
+  std::vector<FacetPart> facet_parts(Index node) const;
+  /// Whether the points are those of the nodal cell or of each of its parts.
+  enum class Sharing : std::uint8_t { whole, parts };
+  /// Of an octant, as in SampleTable.
+  unsigned kind(Index cell, int corner, Sharing sharing) const;
+  /// Whether an octant is long beside the supports in some direction.
+  bool is_long(Index node, Index cell, int corner, const ParticleSet<D>& particles) const;
+  void sample_volume(Index node, const ParticleSet<D>& particles, CellSamples<D>& samples) const;
+  void sample_facet(Index node, std::span<const FacetPart> parts, const ParticleSet<D>& particles,
+                    CellSamples<D>& samples) const;
+  /// Fill the samples and return how much is missing, relative to what there is.
+  Real missing_of_volume(Index node, Sharing sharing, CellSamples<D>& samples) const;
+  Real missing_of_facet(std::span<const FacetPart> parts, Sharing sharing,
+                        CellSamples<D>& samples) const;
   void volume_points(Index node, CellQuadrature<D>& q) const;
   void facet_points(Index node, CellQuadrature<D>& q) const;
+  void append_boundary(Index node, CellQuadrature<D>& q) const;
   void integrate(Index node, CellQuadrature<D>& q);
 
   const Grid<D>* grid_;

@@ -41,18 +41,17 @@ class LoadSum {
  public:
   LoadSum(const Body<D>& body, NodalVectors& load) : body_(body), load_(load) {}
 
-  void add(const Vec<D>& X, const Vec<D>& force) {
+  /// `w` is summed beside the force, in the fourth lane.
+  void add(const Vec<D>& X, const Vec<D>& force, Real w) {
     points_.push_back(X);
-    force_.push_back(force);
+    force_.push_back(Lanes::zero());
+    for (int i = 0; i < D; ++i) force_.back().set(i, force[i]);
+    force_.back().set(3, w);
     if (points_.size() >= 8192) flush();
   }
   void flush() {
     const auto rows = build_point_rows<D>(body_.particles, points_, {.value = true}, body_.name);
-    for (Index q = 0; q < rows.size(); ++q) {
-      Lanes f = Lanes::zero();
-      for (int i = 0; i < D; ++i) f.set(i, at(force_, q)[i]);
-      scatter_value(rows, q, f, load_.data());
-    }
+    for (Index q = 0; q < rows.size(); ++q) scatter_value(rows, q, at(force_, q), load_.data());
     points_.clear();
     force_.clear();
   }
@@ -60,7 +59,8 @@ class LoadSum {
  private:
   const Body<D>& body_;
   NodalVectors& load_;
-  std::vector<Vec<D>> points_, force_;
+  std::vector<Vec<D>> points_;
+  AlignedVector<Lanes> force_;
 };
 
 template <int D>
@@ -177,11 +177,22 @@ ElasticCase<D> elastic_case(std::unique_ptr<Body<D>> body, SmoothMap<D> exact, M
   for (Index L = 0; L < c.body->size(); ++L) {
     c.body->cells.quadrature(L, q);
     for (std::size_t p = 0; p < q.volume_X.size(); ++p)
-      sum.add(q.volume_X[p], -q.volume_w[p] * Stress<D>(c.exact(q.volume_X[p]), moduli).divergence);
+      sum.add(q.volume_X[p], -q.volume_w[p] * Stress<D>(c.exact(q.volume_X[p]), moduli).divergence,
+              q.volume_w[p]);
     for (std::size_t p = q.body_facets_begin; p < q.facet_X.size(); ++p)
-      sum.add(q.facet_X[p], Stress<D>(c.exact(q.facet_X[p]), moduli).sigma * q.facet_dA[p]);
+      sum.add(q.facet_X[p], Stress<D>(c.exact(q.facet_X[p]), moduli).sigma * q.facet_dA[p], 0);
   }
   sum.flush();
+  // The rule has fewer points: a uniform body force takes its integrals of shape functions, as the
+  // masses of a body do.
+  const std::vector<Real> integral = build_cell_rule(*c.body).shape_integral;
+  for (Index A = 0; A < c.body->size(); ++A) {
+    const Vec<D> force = -Stress<D>(c.exact(at(c.body->particles.X(), A)), moduli).divergence;
+    Lanes& load = at(c.load, A);
+    const Real difference = at(integral, A) - load[3];
+    for (int i = 0; i < D; ++i) load.set(i, load[i] + difference * force[i]);
+    load.set(3, 0);
+  }
   return c;
 }
 

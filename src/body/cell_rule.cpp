@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Building the rule of nodal cells with linear moments: integrals of shape functions over cells and
+// over their facets, each of which is computed once for the two cells that share it (RKPM
+// note 5.6).
+#include "meniscus/body/body.hpp"
+#include "meniscus/core/dense.hpp"
+#include "meniscus/core/error.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+/// sum_k += sum_q weight_q N_k(x_q) for all candidates k. Points come in fours that are close
+/// together; candidates that reach none of the four are left out.
+template <int D, class Weight, class Sum>
+void add_integrals(const Body<D>& body, std::span<const Vec<D>> points,
+                   std::span<const Weight> weight, std::span<const Candidate<D>> candidates,
+                   std::vector<Sum>& integral) {
+  thread_local ReproducingKernel<D> kernel(body.particles.window());  // keeps its buffers
+  thread_local std::vector<Candidate<D>> near;
+  thread_local std::vector<std::size_t> number;
+  kernel.use(body.particles.window());
+  for (std::size_t q = 0; q < points.size(); q += 4) {
+    std::array<Vec<D>, 4> batch;  // the last point fills up, with weight zero
+    std::array<Weight, 4> batch_weight{};
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      batch[lane] = points[std::min(q + lane, points.size() - 1)];
+      if (q + lane < points.size()) batch_weight[lane] = weight[q + lane];
+    }
+    const auto places = body.particles.kernel_places(batch);
+    select_near<D>(places, candidates, near, number);
+    kernel.evaluate(places, near, Derivatives::none);
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      body.particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane],
+                                     body.name);
+    for (std::size_t k = 0; k < near.size(); ++k)
+      integral[number[k]].add(kernel.value(k), batch_weight);
+  }
+}
+
+/// Integral of N over the cell.
+struct VolumeIntegral {
+  Real value = 0;
+  void add(Lanes N, const std::array<Real, 4>& w) {
+    value += sum(N * Lanes(w[0], w[1], w[2], w[3]));
+  }
+};
+
+/// Integrals of N n_K (1, X - Xf) over facets, which is also the weight at a point: lane 0 the
+/// moment of order 0, lanes 1 + Q those of order 1.
+template <int D>
+struct Flux {
+  std::array<Lanes, D> moment{};
+  Flux() = default;
+  Flux(const Vec<D>& n_dA, const Vec<D>& arm) {
+    const Lanes one_and_X = with_one(arm);
+    for (int K = 0; K < D; ++K) at(moment, K) = n_dA[K] * one_and_X;
+  }
+  bool is_zero() const {
+    Lanes size = Lanes::zero();
+    for (const Lanes& m : moment) size += max(m, -m);
+    return sum(size) == 0;
+  }
+  void add(Lanes N, const std::array<Flux, 4>& weight) {
+    for (int lane = 0; lane < 4; ++lane)
+      for (int K = 0; K < D; ++K) at(moment, K) += N[lane] * at(at(weight, lane).moment, K);
+  }
+  /// Adds `sign` times another one, whose arms begin at Xf + `arm`.
+  void add_moved(const Flux& other, const Vec<D>& arm, Real sign) {
+    Lanes from_centre = with_one(arm);
+    from_centre.set(0, 0);
+    for (int K = 0; K < D; ++K) {
+      const Lanes& m = at(other.moment, K);
+      at(moment, K) += sign * (m + m[0] * from_centre);
+    }
+  }
+
+ private:
+  static Lanes with_one(const Vec<D>& arm) {
+    Lanes lanes = Lanes::zero();
+    lanes.set(0, 1);
+    for (int Q = 0; Q < D; ++Q) lanes.set(1 + Q, arm[Q]);
+    return lanes;
+  }
+};
+
+/// Integrals over the facet between two nodal cells, seen from the one of lower number.
+template <int D>
+struct SharedFlux {
+  Index neighbor;
+  Vec<D> centre;  ///< where the arms begin
+  std::vector<Index> particle;
+  std::vector<Flux<D>> flux;
+};
+
+/// What one nodal cell gets and gives away: the integrals over its volume, over its facets on the
+/// body's boundary, and over the facets that it shares with nodal cells of greater number.
+template <int D>
+struct CellIntegrals {
+  std::vector<Candidate<D>> candidates;
+  std::vector<VolumeIntegral> volume;  // [candidate]
+  std::vector<Flux<D>> boundary;       // [candidate], arms from the centroid; empty: no such facets
+  std::vector<SharedFlux<D>> shared;
+};
+
+/// Functions of a batch: moments 0 and 1 of n_K.
+template <int D>
+constexpr std::size_t functional_count = D*(1 + D);
+
+/// Adds what the samples miss of the integrals of polynomials, by functions that reproduce it: to
+/// the volume and to facets, four at a time (RKPM note 5.6).
+template <int D>
+class MissingMoments {
+ public:
+  MissingMoments(const Body<D>& body, Index cell, const CellSamples<D>& samples)
+      : body_(body), cell_(cell), samples_(samples) {
+    if (!samples.volume_exact) parts_.push_back(-1);
+    for (std::size_t f = 0; f < samples.facets.size(); ++f)
+      if (!samples.facets[f].exact) parts_.push_back(static_cast<int>(f));
+  }
+
+  void add(std::span<const Candidate<D>> candidates, std::vector<VolumeIntegral>& volume,
+           std::vector<std::vector<Flux<D>>>& facets) {
+    for (std::size_t first = 0; first < parts_.size(); first += 4)
+      add_four(std::span(parts_).subspan(first, std::min<std::size_t>(4, parts_.size() - first)),
+               candidates, volume, facets);
+  }
+
+ private:
+  using Kernel = ReproducingKernel<D>;
+  static constexpr int volume_part = -1;
+
+  const Vec<D>& centre(int part) const {
+    return part == volume_part ? body_.cells.centroid(cell_) : at(samples_.facets, part).centre;
+  }
+
+  void add_four(std::span<const int> parts, std::span<const Candidate<D>> candidates,
+                std::vector<VolumeIntegral>& volume, std::vector<std::vector<Flux<D>>>& facets) {
+    thread_local Kernel kernel(body_.particles.window());
+    thread_local std::vector<Candidate<D>> near;
+    thread_local std::vector<std::size_t> number;
+    kernel.use(body_.particles.window());
+    std::array<Vec<D>, 4> centres;
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      centres[lane] = centre(parts[std::min(lane, parts.size() - 1)]);
+    const auto places = body_.particles.kernel_places(centres);
+    select_near<D>(places, candidates, near, number);
+    kernel.evaluate(places, near, Derivatives::none);
+    std::array<typename Kernel::BasisVector, functional_count<D>> right;
+    for (auto& b : right) b.fill(Lanes::zero());
+    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+      body_.particles.require_quality(kernel.quality()[static_cast<int>(lane)], centres[lane],
+                                      body_.name);
+      fill(parts[lane], kernel.scale(), static_cast<int>(lane), right);
+    }
+    kernel.evaluate_functionals(right);
+    for (std::size_t lane = 0; lane < parts.size(); ++lane)
+      for (std::size_t k = 0; k < near.size(); ++k) {
+        const auto amount = [&](std::size_t j) {
+          return kernel.functional(k, j)[static_cast<int>(lane)];
+        };
+        if (parts[lane] == volume_part) {
+          volume[number[k]].value += amount(0);
+          continue;
+        }
+        Flux<D>& flux = at(facets, parts[lane])[number[k]];
+        for (std::size_t K = 0; K < D; ++K) {
+          Lanes more = Lanes::zero();
+          for (std::size_t o = 0; o <= D; ++o)
+            more.set(static_cast<int>(o), amount(K * (D + 1) + o));
+          flux.moment[K] += more;
+        }
+      }
+  }
+
+  /// Right-hand sides of one lane.
+  void fill(int part, Real H, int lane,
+            std::array<typename Kernel::BasisVector, functional_count<D>>& right) const {
+    if (part == volume_part) {
+      set(samples_.volume_missing, H, lane, right[0]);
+      return;
+    }
+    static constexpr auto multiple = monomial_multiples<D, 2>();
+    for (std::size_t K = 0; K < D; ++K) {
+      const auto& missing = at(samples_.facets, part).missing[K];
+      typename CellSamples<D>::template Missing<2> moment;
+      std::copy_n(missing.begin(), moment.size(), moment.begin());
+      set(moment, H, lane, right[K * (D + 1)]);
+      for (std::size_t Q = 0; Q < D; ++Q) {
+        for (std::size_t m = 0; m < moment.size(); ++m) moment[m] = at(missing, multiple[m][Q]);
+        set(moment, H, lane, right[K * (D + 1) + 1 + Q]);
+      }
+    }
+  }
+
+  /// Moments of X - centre as those of its kernel place over H.
+  void set(const typename CellSamples<D>::template Missing<2>& moment, Real H, int lane,
+           typename Kernel::BasisVector& b) const {
+    Mat<D> T = body_.particles.pressed() ? *body_.particles.pressed() : Mat<D>::Identity();
+    T /= H;
+    Vec<D> first;
+    Mat<D> second;
+    for (int i = 0; i < D; ++i) {
+      first[i] = at(moment, 1 + i);
+      for (int j = 0; j < D; ++j) second(i, j) = at(moment, 1 + D + hessian_index(D, i, j));
+    }
+    first = T * first;
+    second = T * second * T.transpose();
+    b[0].set(lane, moment[0]);
+    for (int i = 0; i < D; ++i) {
+      at(b, 1 + i).set(lane, first[i]);
+      for (int j = i; j < D; ++j) at(b, 1 + D + hessian_index(D, i, j)).set(lane, second(i, j));
+    }
+  }
+
+  const Body<D>& body_;
+  Index cell_;
+  const CellSamples<D>& samples_;
+  std::vector<int> parts_;  // facets, or the volume
+};
+
+/// Fluxes through the facets with these points.
+template <int D>
+void integrate_fluxes(const Body<D>& body, std::span<const Vec<D>> X, std::span<const Vec<D>> dA,
+                      const Vec<D>& centre, std::span<const Candidate<D>> candidates,
+                      std::vector<Flux<D>>& flux) {
+  thread_local std::vector<Flux<D>> weight;
+  weight.clear();
+  for (std::size_t q = 0; q < X.size(); ++q) weight.emplace_back(dA[q], X[q] - centre);
+  flux.assign(candidates.size(), {});
+  add_integrals<D, Flux<D>>(body, X, weight, candidates, flux);
+}
+
+/// Integrals over the samples of a cell, its volume and facets.
+template <int D>
+void integrate_samples(const Body<D>& body, Index cell, const CellSamples<D>& samples,
+                       std::span<const Candidate<D>> candidates,
+                       std::vector<VolumeIntegral>& volume, std::vector<SharedFlux<D>>& shared) {
+  volume.assign(candidates.size(), {});
+  add_integrals<D, Real>(body, samples.volume_X, samples.volume_w, candidates, volume);
+  thread_local std::vector<std::vector<Flux<D>>> facets;
+  facets.resize(samples.facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto& facet = samples.facets[f];
+    const std::size_t count = facet.end - facet.begin;
+    integrate_fluxes<D>(body, std::span(samples.facet_X).subspan(facet.begin, count),
+                        std::span(samples.facet_dA).subspan(facet.begin, count), facet.centre,
+                        candidates, facets[f]);
+  }
+  MissingMoments<D>(body, cell, samples).add(candidates, volume, facets);
+
+  shared.resize(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    SharedFlux<D>& packed = shared[f];
+    packed.neighbor = samples.facets[f].neighbor;
+    packed.centre = samples.facets[f].centre;
+    packed.particle.clear();
+    packed.flux.clear();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (facets[f][k].is_zero()) continue;
+      packed.particle.push_back(candidates[k].particle);
+      packed.flux.push_back(facets[f][k]);
+    }
+  }
+}
+
+template <int D>
+Real reach(std::span<const Vec<D>> points, const Vec<D>& centre) {
+  Real radius = 0;
+  for (const Vec<D>& x : points) radius = std::max(radius, (x - centre).norm());
+  return radius * (1 + 1e-12);
+}
+
+template <int D>
+void integrate_cell(const Body<D>& body, Index cell, CellIntegrals<D>& own) {
+  thread_local CellSamples<D> samples;
+  thread_local CellQuadrature<D> boundary;
+  body.cells.sample(cell, body.particles, samples);
+  body.cells.boundary_points(cell, boundary);
+  const Vec<D>& centroid = body.cells.centroid(cell);
+  body.particles.candidates(
+      centroid,
+      std::max({reach<D>(samples.volume_X, centroid), reach<D>(samples.facet_X, centroid),
+                reach<D>(boundary.facet_X, centroid)}),
+      own.candidates);
+  integrate_samples<D>(body, cell, samples, own.candidates, own.volume, own.shared);
+  own.boundary.clear();
+  if (!boundary.facet_X.empty())
+    integrate_fluxes<D>(body, boundary.facet_X, boundary.facet_dA, centroid, own.candidates,
+                        own.boundary);
+}
+
+/// The integrals that `lower` shares with `higher`, alone.
+template <int D>
+const SharedFlux<D>& integrate_facet(const Body<D>& body, Index lower, Index higher) {
+  thread_local CellSamples<D> samples;
+  thread_local std::vector<Candidate<D>> candidates;
+  thread_local std::vector<VolumeIntegral> none;
+  thread_local std::vector<SharedFlux<D>> shared;
+  body.cells.sample_facet(lower, higher, body.particles, samples);
+  const Vec<D>& centre = samples.facets.front().centre;
+  body.particles.candidates(centre, reach<D>(samples.facet_X, centre), candidates);
+  integrate_samples<D>(body, lower, samples, candidates, none, shared);
+  return shared.front();
+}
+
+/// One row of the cell rule, before it is packed; entries by ascending particle.
+template <int D>
+struct CellRow {
+  struct Entry {
+    Index particle;
+    Real integral = 0;
+    Flux<D> flux;
+  };
+  std::vector<Entry> entries;
+  std::vector<std::array<Lanes, D>> gradient;  // [entry][K]: (a_K, B_K.)
+};
+
+/// Flux integrals of one nodal cell: a_K = (1/V) oint N n_K,
+/// B_KM = [oint N n_K (X - Xb)_Q - delta_KQ int N] (V S)^-1_QM. `block`: integrals of the cells
+/// from `first` on; what is shared with lower ones is computed anew.
+template <int D>
+void assemble_row(const Body<D>& body, Index cell, std::span<const CellIntegrals<D>> block,
+                  Index first, CellRow<D>& row) {
+  const CellIntegrals<D>& own = at(block, cell - first);
+  thread_local std::vector<Index> slot;  // [particle] its entry; -1: none yet
+  thread_local std::vector<Index> lower;
+  slot.resize(std::max(slot.size(), body.particles.X().size()), -1);
+  row.entries.clear();
+  const auto entry = [&](Index particle) -> typename CellRow<D>::Entry& {
+    Index& s = at(slot, particle);
+    if (s < 0) {
+      s = static_cast<Index>(row.entries.size());
+      row.entries.push_back({particle, 0, {}});
+    }
+    return at(row.entries, s);
+  };
+  for (std::size_t k = 0; k < own.candidates.size(); ++k) {
+    const bool on_boundary = !own.boundary.empty() && !own.boundary[k].is_zero();
+    if (own.volume[k].value == 0 && !on_boundary) continue;
+    auto& e = entry(own.candidates[k].particle);
+    e.integral = own.volume[k].value;
+    if (on_boundary) e.flux = own.boundary[k];
+  }
+  const Vec<D>& centroid = body.cells.centroid(cell);
+  const auto add = [&](const SharedFlux<D>& facet, Real sign) {
+    for (std::size_t k = 0; k < facet.particle.size(); ++k)
+      entry(facet.particle[k]).flux.add_moved(facet.flux[k], facet.centre - centroid, sign);
+  };
+  body.cells.lower_neighbors(cell, lower);
+  for (const Index neighbor : lower) {
+    if (neighbor < first) {
+      add(integrate_facet(body, neighbor, cell), -1);
+      continue;
+    }
+    for (const SharedFlux<D>& facet : at(block, neighbor - first).shared)
+      if (facet.neighbor == cell) add(facet, -1);
+  }
+  for (const SharedFlux<D>& facet : own.shared) add(facet, 1);
+  for (const auto& e : row.entries) at(slot, e.particle) = -1;
+  std::sort(row.entries.begin(), row.entries.end(),
+            [](const auto& a, const auto& b) { return a.particle < b.particle; });
+
+  const Real V = body.cells.volume(cell);
+  const Mat<D> inverse_VS = inverse<D>(V * body.cells.covariance(cell));
+  row.gradient.resize(row.entries.size());
+  for (std::size_t k = 0; k < row.entries.size(); ++k) {
+    const auto& [particle, integral, flux] = row.entries[k];
+    Mat<D> moment;
+    for (int K = 0; K < D; ++K)
+      for (int Q = 0; Q < D; ++Q) moment(K, Q) = at(flux.moment, K)[1 + Q];
+    const Mat<D> B = (moment - integral * Mat<D>::Identity()) * inverse_VS;
+    for (int K = 0; K < D; ++K) {
+      Lanes& g = at(row.gradient[k], K);
+      g = Lanes::zero();
+      g.set(0, at(flux.moment, K)[0] / V);
+      for (int M = 0; M < D; ++M) g.set(1 + M, B(K, M));
+    }
+  }
+}
+
+/// For more entries than all rows have, by the particles that reach boxes like some of the cells:
+/// what is not filled takes no memory, but growing would take twice as much for a moment.
+template <int D>
+void reserve_entries(const Body<D>& body, CellRule<D>& rule) {
+  constexpr Index samples = 256;
+  const Index n = body.size(), step = (n + samples - 1) / samples;
+  std::vector<Candidate<D>> candidates;
+  std::size_t entries = 0;
+  for (Index cell = step / 2; cell < n; cell += step) {
+    const Real half_diagonal = std::sqrt(3 * body.cells.covariance(cell).trace());
+    body.particles.candidates(body.cells.centroid(cell), half_diagonal, candidates);
+    entries += candidates.size() * static_cast<std::size_t>(step);
+  }
+  rule.particle.reserve(entries);
+  rule.coefficient.reserve(entries * D);
+}
+
+/// Vertices of the regular simplex with sum t = 0 and mean t t^T = I / D.
+template <int D>
+std::array<Vec<D>, D + 1> simplex() {
+  if constexpr (D == 3) {
+    const Real t = 1 / std::sqrt(3.0);
+    return {Vec<3>(t, t, t), Vec<3>(t, -t, -t), Vec<3>(-t, t, -t), Vec<3>(-t, -t, t)};
+  } else {
+    const Real s = std::sqrt(0.75);
+    return {Vec<2>(1, 0), Vec<2>(-0.5, s), Vec<2>(-0.5, -s)};
+  }
+}
+
+/// xi_q = sqrt(D) S^(1/2) t_q, a lane per q.
+template <int D>
+std::array<Lanes, D> stress_points(const Mat<D>& S) {
+  const Mat<D> root = square_root<D>(S);
+  const auto t = simplex<D>();
+  std::array<Lanes, D> xi;
+  xi.fill(Lanes::zero());
+  for (int q = 0; q <= D; ++q)
+    for (int M = 0; M < D; ++M)
+      at(xi, M).set(q, std::sqrt(Real(D)) * (root.row(M) * at(t, q)).value());
+  return xi;
+}
+
+}  // namespace
+
+template <int D>
+CellOperator<D> build_cell_rule(const Body<D>& body) {
+  const Index n = body.size();
+  CellOperator<D> op;
+  CellRule<D>& rule = op.rule;
+  op.shape_integral.assign(static_cast<std::size_t>(n), 0.0);
+  reserve_entries(body, rule);
+  constexpr Index block = 512;  // what a row is made of takes six times its memory
+  std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, n)));
+  std::vector<CellRow<D>> rows(integrals.size());
+  for (Index begin = 0; begin < n; begin += block) {
+    const Index count = std::min(block, n - begin);
+    parallel_for(
+        count, [&](Index k) { integrate_cell(body, begin + k, at(integrals, k)); }, 4);
+    parallel_for(
+        count, [&](Index k) { assemble_row<D>(body, begin + k, integrals, begin, at(rows, k)); },
+        4);
+    for (Index k = 0; k < count; ++k) {
+      const CellRow<D>& row = at(rows, k);
+      for (std::size_t e = 0; e < row.entries.size(); ++e) {
+        rule.particle.push_back(row.entries[e].particle);
+        for (const Lanes& g : row.gradient[e]) rule.coefficient.push_back(g);
+        at(op.shape_integral, row.entries[e].particle) += row.entries[e].integral;
+      }
+      rule.start.push_back(static_cast<Offset>(rule.particle.size()));
+      rule.volume.push_back(body.cells.volume(begin + k));
+      for (const Lanes& xi : stress_points<D>(body.cells.covariance(begin + k)))
+        rule.point.push_back(xi);
+    }
+  }
+  return op;
+}
+
+template CellOperator<2> build_cell_rule(const Body<2>&);
+template CellOperator<3> build_cell_rule(const Body<3>&);
+
+}  // namespace meniscus

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Samples of nodal cells and of the facets between them, and what they miss.
+#include "meniscus/body/nodal_cells.hpp"
+#include "meniscus/core/unroll.hpp"
+
+#include <algorithm>
+
+#include "octant_tables.hpp"
+
+namespace meniscus {
+namespace {
+
+/// What is missing counts where it is more than rounding leaves.
+constexpr Real rounding = 1e-12;
+/// Parts that share points miss more where they are unequal: then each has its own.
+constexpr Real most_missing = 0.01;
+
+/// sum += w f(arm) for all monomials f.
+template <int D, int degree, class Sum>
+void add_monomials(Real w, const Vec<D>& arm, Sum& sum) {
+  constexpr Monomials<D, degree> table;
+  std::array<Real, std::tuple_size_v<Sum>> f;
+  f[0] = w;
+  sum[0] += w;
+  unroll<f.size() - 1>([&](auto k) {
+    constexpr auto factor = static_cast<std::size_t>(table.factor[k + 1]);
+    f[k + 1] = f[factor] * arm[table.variable[k + 1]];
+    sum[k + 1] += f[k + 1];
+  });
+}
+
+/// The largest of them beside size * length^(degree of the monomial).
+template <int D, int degree, class Missing>
+Real largest(const Missing& missing, Real size, Real length) {
+  Real scale = size, most = 0;
+  std::size_t m = 0;
+  for (int d = 0; d <= degree; ++d, scale *= length)
+    for (; m < static_cast<std::size_t>(monomial_count(D, d)); ++m)
+      most = std::max(most, std::abs(missing[m]) / scale);
+  return most;
+}
+
+template <int D>
+Index node_of(const typename Grid<D>::Cell& cell, int corner, int k) {
+  return is_simplex<D>(cell) ? at(cell, at(simplex_corners<D>(),
+                                           at(directions_at<D>(simplex_corner<D>(corner)), k)))
+                             : at(cell, corner ^ (1 << k));
+}
+
+/// Numbers of points, the same for one that several parts of a nodal cell have.
+template <int D>
+class SharedPlaces {
+ public:
+  /// `next`: that of a new one.
+  std::size_t number(const typename Grid<D>::Cell& cell, int corner,
+                     const typename SampleTable<D>::Places& places, std::size_t next) {
+    if (std::find(places.begin(), places.end(), 0) == places.end()) return next;
+    Key key{};  // which particles it lies towards, and how far: the same from each part
+    for (int k = 0; k < D; ++k)
+      if (at(places, k) != 0)
+        at(key, k) = 1 + at(places, k) + SampleTable<D>::distances * node_of<D>(cell, corner, k);
+    std::sort(key.begin(), key.end());
+    for (const auto& [other, number] : seen_)
+      if (other == key) return number;
+    seen_.push_back({key, next});
+    return next;
+  }
+
+ private:
+  using Key = std::array<Index, D>;
+  std::vector<std::pair<Key, std::size_t>> seen_;
+};
+
+}  // namespace
+
+template <int D>
+unsigned NodalCells<D>::kind(Index cell, int corner, Sharing sharing) const {
+  if (sharing == Sharing::parts) return SampleTable<D>::apart;
+  const bool simplex = is_simplex<D>(at(grid_->cells, cell));
+  unsigned bits = 0;
+  for (int k = 0; k < D; ++k) {
+    const int side = simplex ? side_opposite<D>(at(directions_at<D>(simplex_corner<D>(corner)), k))
+                             : 2 * k + ((corner >> k) & 1);
+    bits |= static_cast<unsigned>((at(boundary_sides_, cell) >> side) & 1) << k;
+  }
+  return bits;
+}
+
+template <int D>
+auto NodalCells<D>::facet_parts(Index node) const -> std::vector<FacetPart> {
+  std::vector<FacetPart> parts;
+  for (const auto& [cell, corner] : octants_.of(node))
+    for (int k = 0; k < D; ++k)
+      parts.push_back({node_of<D>(at(grid_->cells, cell), corner, k), cell, corner, k});
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const FacetPart& a, const FacetPart& b) { return a.neighbor < b.neighbor; });
+  return parts;
+}
+
+template <int D>
+void NodalCells<D>::lower_neighbors(Index node, std::vector<Index>& neighbors) const {
+  neighbors.clear();
+  for (const auto& [cell, corner] : octants_.of(node))
+    for (int k = 0; k < D; ++k) {
+      const Index neighbor = node_of<D>(at(grid_->cells, cell), corner, k);
+      if (neighbor < node) neighbors.push_back(neighbor);
+    }
+  std::sort(neighbors.begin(), neighbors.end());
+  neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
+}
+
+template <int D>
+bool NodalCells<D>::is_long(Index node, Index cell, int corner,
+                            const ParticleSet<D>& particles) const {
+  constexpr Real longest = 0.25;  // half an edge, of the support
+  for (int k = 0; k < D; ++k) {
+    const Index neighbor = node_of<D>(at(grid_->cells, cell), corner, k);
+    const Vec<D> edge =
+        particles.kernel_place(at(grid_->X, neighbor)) - particles.kernel_place(at(grid_->X, node));
+    const Real support = std::min(at(particles.support(), node), at(particles.support(), neighbor));
+    if (0.5 * edge.norm() > longest * support) return true;
+  }
+  return false;
+}
+
+template <int D>
+void NodalCells<D>::sample_volume(Index node, const ParticleSet<D>& particles,
+                                  CellSamples<D>& samples) const {
+  const auto octants = octants_.of(node);
+  if (std::any_of(octants.begin(), octants.end(),
+                  [&](const auto& o) { return is_long(node, o.cell, o.corner, particles); }) ||
+      missing_of_volume(node, Sharing::whole, samples) > most_missing)
+    missing_of_volume(node, Sharing::parts, samples);
+}
+
+template <int D>
+Real NodalCells<D>::missing_of_volume(Index node, Sharing sharing, CellSamples<D>& samples) const {
+  samples.volume_X.clear();
+  samples.volume_w.clear();
+  SharedPlaces<D> seen;
+  for (const auto& [cell, corner] : octants_.of(node)) {
+    const CellMap<D> map(*grid_, cell);
+    const int own = map.simplex() ? simplex_corner<D>(corner) : corner;
+    for (const auto& p :
+         SampleTable<D>::of(map.simplex()).volume(own, kind(cell, corner, sharing))) {
+      const CellPoint<D, D> point = map(p.at);
+      const Real w = p.at.w * determinant<D>(point.J);
+      const std::size_t q =
+          seen.number(at(grid_->cells, cell), corner, p.places, samples.volume_X.size());
+      if (q < samples.volume_X.size()) {
+        samples.volume_w[q] += w;
+        continue;
+      }
+      samples.volume_X.push_back(point.X);
+      samples.volume_w.push_back(w);
+    }
+  }
+  const Real V = at(volume_, node);
+  auto& missing = samples.volume_missing;
+  missing.fill(0);
+  Real radius = 0;
+  for (std::size_t q = 0; q < samples.volume_X.size(); ++q) {
+    const Vec<D> arm = samples.volume_X[q] - at(centroid_, node);
+    add_monomials<D, 2>(-samples.volume_w[q], arm, missing);
+    radius = std::max(radius, arm.norm());
+  }
+  missing[0] += V;
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j)
+      at(missing, 1 + D + hessian_index(D, i, j)) += V * at(covariance_, node)(i, j);
+  const Real most = largest<D, 2>(missing, V, radius);
+  samples.volume_exact = most <= rounding;
+  return most;
+}
+
+template <int D>
+void NodalCells<D>::sample_facet(Index node, std::span<const FacetPart> parts,
+                                 const ParticleSet<D>& particles, CellSamples<D>& samples) const {
+  auto& facet = samples.facets.emplace_back();
+  facet.neighbor = parts.front().neighbor;
+  facet.begin = samples.facet_X.size();
+  if (std::any_of(parts.begin(), parts.end(),
+                  [&](const FacetPart& p) { return is_long(node, p.cell, p.corner, particles); }) ||
+      missing_of_facet(parts, Sharing::whole, samples) > most_missing)
+    missing_of_facet(parts, Sharing::parts, samples);
+}
+
+template <int D>
+Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing sharing,
+                                     CellSamples<D>& samples) const {
+  auto& facet = samples.facets.back();
+  samples.facet_X.resize(facet.begin);
+  samples.facet_dA.resize(facet.begin);
+  facet.centre.setZero();
+  SharedPlaces<D> seen;
+  for (const FacetPart& part : parts) {
+    const CellMap<D> map(*grid_, part.cell);
+    const int own = map.simplex() ? simplex_corner<D>(part.corner) : part.corner;
+    const auto& table =
+        SampleTable<D>::of(map.simplex()).facet(own, part.k, kind(part.cell, part.corner, sharing));
+    for (const auto& p : table.points) {
+      const CellPoint<D, D> point = map(p.at);
+      const Vec<D> dA = table.sign * p.at.w * facet_normal<D>(point.J, part.k);
+      const std::size_t q =
+          facet.begin + seen.number(at(grid_->cells, part.cell), part.corner, p.places,
+                                    samples.facet_X.size() - facet.begin);
+      if (q < samples.facet_X.size()) {
+        samples.facet_dA[q] += dA;
+        continue;
+      }
+      samples.facet_X.push_back(point.X);
+      samples.facet_dA.push_back(dA);
+      facet.centre += point.X;
+    }
+  }
+  facet.end = samples.facet_X.size();
+  facet.centre /= static_cast<Real>(facet.end - facet.begin);
+
+  for (auto& of_K : facet.missing) of_K.fill(0);
+  const auto add = [&](const Vec<D>& X, const Vec<D>& dA) {
+    for (int K = 0; K < D; ++K) add_monomials<D, 3>(dA[K], X - facet.centre, at(facet.missing, K));
+  };
+  Real area = 0, radius = 0;
+  for (std::size_t q = facet.begin; q < facet.end; ++q) {
+    add(samples.facet_X[q], -samples.facet_dA[q]);
+    area += samples.facet_dA[q].norm();
+    radius = std::max(radius, (samples.facet_X[q] - facet.centre).norm());
+  }
+  for (const FacetPart& part : parts) {
+    const CellMap<D> map(*grid_, part.cell);
+    const auto integrate = [&](const std::vector<TabulatedPoint<D>>& points, int k, Real sign) {
+      for (const auto& p : points) {
+        const CellPoint<D, D> point = map(p);
+        add(point.X, sign * p.w * facet_normal<D>(point.J, k));
+      }
+    };
+    if (const auto* simplex = map.simplex()) {
+      const int i = simplex_corner<D>(part.corner), j = at(directions_at<D>(i), part.k);
+      const auto& side = simplex->between(i, j);
+      integrate(side.points, side.k, i < j ? 1 : -1);
+    } else {
+      integrate(map.table().inner(part.corner, part.k), part.k, -corner_sign(part.corner, part.k));
+    }
+  }
+  Real most = 0;
+  for (const auto& of_K : facet.missing) most = std::max(most, largest<D, 3>(of_K, area, radius));
+  facet.exact = most <= rounding;
+  return most;
+}
+
+template <int D>
+void NodalCells<D>::sample(Index node, const ParticleSet<D>& particles,
+                           CellSamples<D>& samples) const {
+  samples.clear();
+  sample_volume(node, particles, samples);
+  const std::vector<FacetPart> parts = facet_parts(node);
+  for (auto begin = parts.begin(); begin != parts.end();) {
+    const auto end = std::find_if(
+        begin, parts.end(), [&](const FacetPart& p) { return p.neighbor != begin->neighbor; });
+    if (begin->neighbor > node) sample_facet(node, std::span(begin, end), particles, samples);
+    begin = end;
+  }
+}
+
+template <int D>
+void NodalCells<D>::sample_facet(Index node, Index neighbor, const ParticleSet<D>& particles,
+                                 CellSamples<D>& samples) const {
+  samples.clear();
+  std::vector<FacetPart> parts = facet_parts(node);
+  std::erase_if(parts, [&](const FacetPart& p) { return p.neighbor != neighbor; });
+  sample_facet(node, parts, particles, samples);
+}
+
+template void NodalCells<2>::sample(Index, const ParticleSet<2>&, CellSamples<2>&) const;
+template void NodalCells<3>::sample(Index, const ParticleSet<3>&, CellSamples<3>&) const;
+template void NodalCells<2>::sample_facet(Index, Index, const ParticleSet<2>&,
+                                          CellSamples<2>&) const;
+template void NodalCells<3>::sample_facet(Index, Index, const ParticleSet<3>&,
+                                          CellSamples<3>&) const;
+template void NodalCells<2>::lower_neighbors(Index, std::vector<Index>&) const;
+template void NodalCells<3>::lower_neighbors(Index, std::vector<Index>&) const;
+
+}  // namespace meniscus
