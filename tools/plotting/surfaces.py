@@ -35,10 +35,13 @@ class Coloring:
 
     def __init__(self, run, name, frames):
         self.run, self.name = run, name
-        on_surface = [
-            run.sizes(k, name, body)[np.unique(body.surface)] for k in frames for body in run.epochs[k]
+        inside_too = run.dimension == 2
+        seen = [
+            run.sizes(k, name, body)[... if inside_too else np.unique(body.surface)]
+            for k in frames
+            for body in run.epochs[k]
         ]
-        values = np.concatenate(on_surface)
+        values = np.concatenate(seen)
         self.factor, self.unit = style.scale(run.unit_of(name), values)
         self.norm = plt.Normalize(*(np.percentile(values, (0.5, 99.5)) * self.factor))
 
