@@ -40,11 +40,17 @@ Real largest(const Missing& missing, Real size, Real length) {
   return most;
 }
 
+/// The corner of the cell that direction k of an octant leads to.
+template <int D>
+int corner_along(const typename Grid<D>::Cell& cell, int corner, int k) {
+  return is_simplex<D>(cell)
+             ? at(simplex_corners<D>(), at(directions_at<D>(simplex_corner<D>(corner)), k))
+             : corner ^ (1 << k);
+}
+
 template <int D>
 Index node_of(const typename Grid<D>::Cell& cell, int corner, int k) {
-  return is_simplex<D>(cell) ? at(cell, at(simplex_corners<D>(),
-                                           at(directions_at<D>(simplex_corner<D>(corner)), k)))
-                             : at(cell, corner ^ (1 << k));
+  return at(cell, corner_along<D>(cell, corner, k));
 }
 
 /// Numbers of points, the same for one that several parts of a nodal cell have.
@@ -179,8 +185,13 @@ void NodalCells<D>::sample_facet(Index node, std::span<const FacetPart> parts,
   auto& facet = samples.facets.emplace_back();
   facet.neighbor = parts.front().neighbor;
   facet.begin = samples.facet_X.size();
-  if (std::any_of(parts.begin(), parts.end(),
-                  [&](const FacetPart& p) { return is_long(node, p.cell, p.corner, particles); }) ||
+  // Seen from either side, so that a body and its mirror image have the same points.
+  const auto is_long_part = [&](const FacetPart& p) {
+    const int beyond = corner_along<D>(at(grid_->cells, p.cell), p.corner, p.k);
+    return is_long(node, p.cell, p.corner, particles) ||
+           is_long(p.neighbor, p.cell, beyond, particles);
+  };
+  if (std::any_of(parts.begin(), parts.end(), is_long_part) ||
       missing_of_facet(parts, Sharing::whole, samples) > most_missing)
     missing_of_facet(parts, Sharing::parts, samples);
 }
