@@ -431,7 +431,7 @@ CellOperator<D> build_cell_rule(const Body<D>& body) {
   CellRule<D>& rule = op.rule;
   op.shape_integral.assign(static_cast<std::size_t>(n), 0.0);
   reserve_entries(body, rule);
-  constexpr Index block = 512;  // what a row is made of takes six times its memory
+  constexpr Index block = 512;  // what rows are made of takes several times their memory
   std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, n)));
   std::vector<CellRow<D>> rows(integrals.size());
   for (Index begin = 0; begin < n; begin += block) {

@@ -433,12 +433,9 @@ std::string Contact<D>::folding(const Assembly<D>& assembly) const {
   const auto unit = [&](Dimension d) { return assembly.units().symbol(d); };
   return fmt::format(
       "adhesion with actin / (Young's modulus x range) is {:.3g} of '{}', {:.4g} {} at most, "
-      "{:.4g} "
-      "{} and {:.4g} {}: beyond 1/3 its surface jumps into contact and folds; expected is a "
-      "modulus "
-      "of at least {:.4g} {}, a range of at least {:.4g} {}, less adhesion, or a "
-      "[[surface_tension]] "
-      "of it of more than {:.4g} {}",
+      "{:.4g} {} and {:.4g} {}: beyond 1/3 its surface jumps into contact and folds; expected "
+      "is a modulus of at least {:.4g} {}, a range of at least {:.4g} {}, less adhesion, or a "
+      "[[surface_tension]] of it of more than {:.4g} {}",
       number, bodies[1], W, unit(dimension::tension), E, unit(dimension::pressure), range,
       unit(dimension::length), W / (largest * range), unit(dimension::pressure), W / (largest * E),
       unit(dimension::length), W / 2, unit(dimension::tension));

@@ -20,8 +20,8 @@ struct AdhesionFormulas {
 
 /// W(x, t) = adhesion, or gamma (1 + cos angle), + actin: of the place x on the partner, in the
 /// frame in which it was made, or in the reference of ground. What is moved or deformed takes its
-/// pattern along. Formulas are to be
-/// smooth over a hundredth of the range: the gradient is a difference over it.
+/// pattern along. Formulas are to be smooth over a hundredth of the range: the gradient is a
+/// difference over it.
 class AdhesionPattern {
  public:
   /// gamma: of the liquid, where an angle is given. range: of the interaction.
