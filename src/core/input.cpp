@@ -32,9 +32,16 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 
 const Entry* Block::Node::find(std::string_view key) const {
   if (const Entry* entry = table == nullptr ? nullptr : table->find(key)) return entry;
-  for (const Entry& entry : supplied)
-    if (entry.key == key) return &entry;
+  for (const Supplied& one : supplied)
+    if (one.entry.key == key) return &one.entry;
   return nullptr;
+}
+
+std::string Block::Node::called(std::string_view key) const {
+  for (const Supplied& one : supplied)
+    if (one.entry.key == key && find(key) == &one.entry)
+      return fmt::format("{}: {}, which follows from it", joined(path, one.source), key);
+  return joined(path, key);
 }
 
 const Entry* Block::Node::ask(std::string_view key) {
@@ -63,7 +70,7 @@ void Block::Node::echo(std::string_view key, std::string value, const std::strin
   const auto same = std::find_if(echoes.begin(), echoes.end(),
                                  [&](const Echo& earlier) { return earlier.key == key; });
   const bool is_supplied = std::any_of(supplied.begin(), supplied.end(),
-                                       [&](const Entry& entry) { return entry.key == key; });
+                                       [&](const Supplied& one) { return one.entry.key == key; });
   if (same != echoes.end() || is_supplied) return;
   const char* separator = !unit.empty() && fallback ? ", " : "";
   echoes.push_back(
@@ -96,7 +103,7 @@ T Block::Node::read(std::string_view key, const std::string& allowed, const std:
     echo(key, input_values::toml(*fallback), unit, true);
     return *fallback;
   }
-  const std::optional<T> value = attempt(entry->value, joined(path, key), convert);
+  const std::optional<T> value = attempt(entry->value, called(key), convert);
   if (!value) return fallback.value_or(harmless);
   echo(key, input_values::toml(*value), unit, false);
   return *value;
@@ -142,7 +149,7 @@ std::string Block::place(std::string_view key) const {
   const Entry* entry = node_->find(key);
   const std::string where =
       node_->document->place_text(entry == nullptr ? node_->place : entry->value.place);
-  const std::string full_path = key.empty() ? path() : joined(path(), key);
+  const std::string full_path = key.empty() ? path() : node_->called(key);
   return full_path.empty() ? where : where + ": " + full_path;
 }
 
@@ -247,7 +254,7 @@ void Block::supply(std::string_view key, const std::string& formula,
   // A formula of numbers alone is a number, also for keys that take no formula.
   Value value{formula, place};
   if (names_in(formula).empty()) value.data = Expression(formula)({0, 0, 0});
-  node_->supplied.push_back({std::string(key), place, std::move(value)});
+  node_->supplied.push_back({{std::string(key), place, std::move(value)}, std::string(source)});
 }
 
 // ---- tables

@@ -41,6 +41,11 @@ struct Block::Node {
   struct Echo {
     std::string key, value, comment;
   };
+  /// As if in the table, but not echoed: it follows from what stands under `source`.
+  struct Supplied {
+    scene_tree::Entry entry;
+    std::string source;
+  };
   struct Child {
     std::string key;
     bool in_array;
@@ -56,7 +61,7 @@ struct Block::Node {
   std::vector<std::string> known;  ///< keys that were asked for, for messages
   std::vector<std::string> was_read;
   std::vector<Echo> echoes;
-  std::deque<scene_tree::Entry> supplied;  ///< as if in the table, but not echoed
+  std::deque<Supplied> supplied;
   std::vector<Child> children;
 
   /// The entry `key` if it is in the table or supplied.
@@ -65,6 +70,8 @@ struct Block::Node {
   const scene_tree::Entry* ask(std::string_view key);
   /// The same, to be read now.
   const scene_tree::Entry* take(std::string_view key);
+  /// The full path of `key`, for messages; of a supplied one that of what it follows from, too.
+  std::string called(std::string_view key) const;
   void note(const scene_tree::Place& where, const std::string& full_path, const std::string& what);
   void note_missing(std::string_view key, const std::string& allowed);
   void echo(std::string_view key, std::string value, const std::string& unit, bool fallback);

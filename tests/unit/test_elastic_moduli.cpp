@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "input_scene.hpp"
+#include "surface_scenes.hpp"
 
 namespace meniscus::test_elastic_moduli {
 namespace {
@@ -70,7 +71,7 @@ TEST(ElasticModuli, MayBeFormulasOfPlaceAndOfConstants) {
   root.done();
   input.check();
   EXPECT_DOUBLE_EQ(mu({5, 0.2, 0}), 3e6 / (2 * 1.3));
-  EXPECT_EQ(mu.place(), "s.toml:1:18: mu");
+  EXPECT_EQ(mu.place(), "s.toml:1:18: youngs_modulus: mu, which follows from it");
 }
 
 TEST(ElasticModuli, CompleteInputReadsBackTheSame) {
@@ -87,6 +88,22 @@ TEST(ElasticModuli, CompleteInputReadsBackTheSame) {
   EXPECT_EQ(complete.find("mu"), std::string::npos) << complete;
   EXPECT_NE(complete.find("youngs_modulus = "), std::string::npos) << complete;
   EXPECT_EQ(p_wave(SceneInput::from_text(complete)), M);
+}
+
+/// Where a number that follows from a graded modulus leaves its range, the modulus is named.
+TEST(ElasticModuli, AGradedModulusIsNamedWhereItIsBad) {
+  std::string said;
+  try {
+    test::scene_of<2>(
+        "dimension = 2\n[time]\nend = 1\n" + test::ball_of(2, 4, 2) +
+        "[body.material]\ntype = \"neo_hookean\"\ndensity = 1\nyoungs_modulus = \"1 + 2*x\"\n"
+        "poissons_ratio = 0.3\n");
+  } catch (const InputError& error) {
+    said = error.what();
+  }
+  EXPECT_NE(said.find("material.youngs_modulus: mu, which follows from it: at x = -"),
+            std::string::npos)
+      << said;
 }
 
 TEST(ElasticModuli, Messages) {
@@ -112,8 +129,8 @@ TEST(ElasticModuli, Messages) {
             "s.toml:3:18: poissons_ratio: 0.5 is out of range; allowed is > -1 and < 0.5");
   EXPECT_EQ(complaint("neo_hookean", "youngs_modulus = '1 N'\npoissons_ratio = 0.3").substr(0, 60),
             "s.toml:2:18: youngs_modulus: neither a quantity ('1 N' is a ");
-  EXPECT_EQ(complaint("mooney_rivlin", both + "c2 = 1e6").substr(0, 33),
-            "s.toml:2:18: c1: -807692.30769230");
+  EXPECT_EQ(complaint("mooney_rivlin", both + "c2 = 1e6").substr(0, 72),
+            "s.toml:2:18: youngs_modulus: c1, which follows from it: -807692.30769230");
   EXPECT_NE(complaint("newtonian", both).find("neo_hookean, st_venant_kirchhoff and mooney_rivlin"),
             std::string::npos);
 }
