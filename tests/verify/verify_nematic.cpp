@@ -52,6 +52,7 @@ TEST(Nematic, TorsionOfAFreeDrop) {
       EXPECT_LT(fine.twist, 0.03);
     }
     EXPECT_LT(fine.angular_momentum, 1e-14);
+    EXPECT_LT(std::abs(fine.balance), 1e-4);
   }
 }
 
