@@ -447,5 +447,29 @@ TEST(Nematic, CouplesOfAnAxisymmetricFlowAreAzimuthal) {
   EXPECT_LT(std::sqrt(rest / azimuthal), 0.05);
 }
 
+/// h x s is there while the flow turns the director away from its rest, and ends with it.
+TEST(Nematic, CouplesEndWithTheFlow) {
+  NematicDrop drop;
+  drop.lambda = -2;
+  drop.anchoring = "strength = 2\nsense = \"polar\"\n";
+  drop.director = "\"x/sqrt(x^2 + y^2 + 0.08)\", \"y/sqrt(x^2 + y^2 + 0.08)\"";
+  drop.more = "initial_velocity = [\"0.3*x\", \"-0.3*y\"]\n";
+  Scene<2> scene = test::scene_of<2>(drop.scene(2, 6, 3, "end = 8"));
+  scene.initial.fields = test::relaxed_director(scene).fields;
+  Simulation<2> simulation(scene);
+  simulation.begin();
+  const auto couple = [&] {
+    return test::measured(scene, simulation.state(), "b.director_couple");
+  };
+  EXPECT_LT(couple(), 2e-3);
+  Real greatest = 0;
+  while (!simulation.finished()) {
+    simulation.advance();
+    if (simulation.state().step % 10 == 0) greatest = std::max(greatest, couple());
+  }
+  EXPECT_GT(greatest, 0.05);
+  EXPECT_LT(couple(), 1e-2 * greatest);
+}
+
 }  // namespace
 }  // namespace meniscus::test_nematic
