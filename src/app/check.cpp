@@ -10,6 +10,7 @@
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/scene/simulation.hpp"
+#include "meniscus/solve/elastic_inertia.hpp"
 #include "meniscus/solve/expected_effort.hpp"
 
 #include <fmt/core.h>
@@ -105,14 +106,18 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     say("the scene is in order\n");
     return;
   }
-  const StableStep& stable = simulation.controller().stable();
+  const bool thin = simulation.stepper().chooses_step();
+  const StableStep stable = thin ? StableStepEstimator<D>(scene.system).estimate(simulation.state())
+                                 : simulation.controller().stable();
   const Real stable_at_start = stable.dt;
-  const Real dt = scene.time.step.value_or(scene.time.safety * stable.dt);
+  const Real dt = thin ? ElasticStep<D>(scene.system, scene.time.safety)
+                             .at_state(ElasticInertia<D>(scene.system), simulation.state())
+                       : scene.time.step.value_or(scene.time.safety * stable.dt);
   say("stable step {:.6g} {} (", stable.dt, unit(dimension::time));
   if (stable.viscosity > 0)
     say("stiffness alone {:.3g}, viscosity alone {:.3g}; ", 2 / stable.stiffness,
         2 / stable.viscosity);
-  say("used: {:.6g})\n", dt);
+  say("used{}: {:.6g})\n", thin ? " with the inertia of thin bodies in relaxation" : "", dt);
   constexpr Real worth_it = 2;
   if (const Real ratio = 2 / (stable.stiffness * stable.dt);
       stable.viscosity > 0 && scene.time.solver == "dynamics" &&
@@ -122,7 +127,8 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
         "ones, for a few iterations per step\n",
         ratio);
 
-  if (scene.time.solver == "relax") say_expected_effort(scene, simulation.state(), stable.dt);
+  if (scene.time.solver == "relax")
+    say_expected_effort(scene, simulation.state(), thin ? dt / 0.9 : stable.dt);
   const auto begin = std::chrono::steady_clock::now();
   constexpr int trial_steps = 10;
   set_up(input, [&] {

@@ -33,7 +33,8 @@ StepperChoice stepper_choice(const Scene<D>& scene, bool implicit_viscosity) {
                        {},
                        implicit_viscosity,
                        scene.time.step,
-                       scene.time.solver_place};
+                       scene.time.solver_place,
+                       scene.time.safety};
   if (choice.implicit_viscosity && !scene.system.viscous())
     throw InputError(scene.time.viscosity_place +
                      ": implicit viscosity is for scenes with a viscous fluid, this has none; "
@@ -91,8 +92,7 @@ void Simulation<D>::begin() {
   choose_viscosity();
   if (stepper_->implicit())  // without motion
     std::fill(state_.v.begin(), state_.v.end(), Lanes::zero());
-  else
-    controller_->begin(state_);
+  if (!stepper_->chooses_step()) controller_->begin(state_);
   audit_.begin(take_ledger(scene_.system, state_));
   stepper_->begin(state_);
 }
@@ -109,7 +109,7 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
   start(scene_.system, state_);
   state_.books.remapped += take_ledger(scene_.system, state_).balance() -
                            take_ledger(before.scene_.system, before.state_).balance();
-  if (!stepper_->implicit()) controller_->begin(state_);
+  if (!stepper_->chooses_step()) controller_->begin(state_);
   audit_ = before.audit_;
   stepper_->begin(state_);
 }
@@ -152,8 +152,8 @@ template <int D>
 void Simulation<D>::advance() {
   or_give_up([&] {
     const Real longest = stepper_->longest_step(state_);
-    last_step_ = stepper_->implicit() ? std::min(longest, scene_.time.end - state_.time)
-                                      : controller_->next(state_, scene_.time.end, longest);
+    last_step_ = stepper_->chooses_step() ? std::min(longest, scene_.time.end - state_.time)
+                                          : controller_->next(state_, scene_.time.end, longest);
     if (keeps_state_before_)
       step(last_step_);
     else
@@ -242,8 +242,8 @@ void Simulation<D>::archive(const Archive& a) {
   a("last_step", last_step_, dimension::time);
   require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
   archive_viscosity(a);
-  if (!stepper_->implicit()) {
-    if (a.is_reading() && !a.has("step_control"))  // the run took implicit steps
+  if (!stepper_->chooses_step()) {
+    if (a.is_reading() && !a.has("step_control"))  // the run's stepper chose its steps
       controller_->begin(state_);
     else
       controller_->archive(a.in("step_control"));

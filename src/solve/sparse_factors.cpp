@@ -30,6 +30,7 @@ std::vector<Index> by_minimum_degree(const Sparse& A) {
 struct SparseCholesky::Factors {
   Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> of_scaled;
   Eigen::VectorXd scale, permuted;
+  NodalVectors permuted_vectors;
   std::vector<Index> row_at;  ///< row of the matrix that the factors have at a place
 };
 
@@ -80,6 +81,26 @@ void SparseCholesky::solve(std::vector<Real>& b) const {
   of.matrixU().solveInPlace(x);
   for (Index k = 0; k < static_cast<Index>(x.size()); ++k)
     at(b, at(row_at, k)) = x[k] * factors_->scale[at(row_at, k)];
+}
+
+void SparseCholesky::solve(std::span<NodalVector> b) const {
+  NodalVectors& x = factors_->permuted_vectors;
+  const std::vector<Index>& row_at = factors_->row_at;
+  const Sparse& L = factors_->of_scaled.matrixL().nestedExpression();  // without its diagonal
+  const auto& diagonal = factors_->of_scaled.vectorD();
+  const auto n = static_cast<Index>(L.cols());
+  x.resize(static_cast<std::size_t>(n));
+  for (Index k = 0; k < n; ++k) at(x, k) = factors_->scale[at(row_at, k)] * at(b, at(row_at, k));
+  for (Index k = 0; k < n; ++k) {
+    const Lanes known = at(x, k);
+    for (Sparse::InnerIterator e(L, k); e; ++e) at(x, e.row()) -= e.value() * known;
+  }
+  for (Index k = n - 1; k >= 0; --k) {
+    Lanes sum = at(x, k) / diagonal[k];
+    for (Sparse::InnerIterator e(L, k); e; ++e) sum -= e.value() * at(x, e.row());
+    at(x, k) = sum;
+  }
+  for (Index k = 0; k < n; ++k) at(b, at(row_at, k)) = factors_->scale[at(row_at, k)] * at(x, k);
 }
 
 std::size_t SparseCholesky::bytes() const {

@@ -261,6 +261,16 @@ class Block(EveryWay, Restart):
         self.assertGreater(len(set(self.history("whole")["dt"][1:-2])), 2)
 
 
+class RelaxingPlate(EveryWay, Restart):
+    """Thin, so that it moves by another inertia."""
+    SCENE = RELAXING_SHEET.replace("dimension = 2", "dimension = 3").replace("rectangle", "box").replace(
+        "[1, 2]", "[1, 2, 0.08]").replace("[5, 10]", "[3, 6, 2]").replace(
+        '["0.1*y^2", "0.05*y"]', '[0, 0, "0.1*y^2"]').replace(
+        "check_every = 40", "force_tolerance = 0.05\nshape_tolerance = 1e-3")
+    TIME, LATER = "0.2", "0.35"
+    test_longer = None  # its end is not that of the scene
+
+
 class RelaxingSheet(EveryWay, Restart):
     SCENE, TIME, LATER = RELAXING_SHEET, "0.2", "0.35"
     test_longer = None  # its end is not that of the scene

@@ -78,6 +78,14 @@ void expect_order_of(const Grid<D>& grid) {
   for (const SparseCholesky* factors : {&cut, &least}) {
     std::vector<Real> solved = b;
     factors->solve(solved);
+    NodalVectors all_components(b.size());
+    for (Index a = 0; a < n; ++a) at(all_components, a) = Lanes(at(b, a), -2 * at(b, a), 0, 0);
+    factors->solve(std::span(all_components));
+    for (Index a = 0; a < n; ++a) {
+      EXPECT_NEAR(at(all_components, a)[0], at(solved, a), 1e-12 * n);
+      EXPECT_NEAR(at(all_components, a)[1], -2 * at(solved, a), 1e-12 * n);
+      EXPECT_EQ(at(all_components, a)[2], 0);
+    }
     for (Index a = 0; a < n; ++a) EXPECT_NEAR(at(solved, a), at(x, a), 1e-9);
   }
 

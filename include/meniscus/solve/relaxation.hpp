@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dynamic relaxation: explicit dynamics with the damping that its motion asks for.
 #pragma once
+#include "meniscus/solve/elastic_inertia.hpp"
 #include "meniscus/solve/rest.hpp"
 #include "meniscus/solve/stepper.hpp"
 
@@ -10,7 +11,9 @@ namespace meniscus {
 /// differences velocities shrink by exp(-2 zeta omega dt), zeta = 0.6, where omega^2 = - du.df /
 /// du.M du is the Rayleigh quotient of the stiffness for the motion of that step. Fast vibrations
 /// are braked hard, then omega falls to the slowest mode that moves. Forces are those of dynamics,
-/// and so is the stable step. Loads with ramps run over the same time.
+/// and so is the stable step, but for thin elastic bodies, whose motion is that of another inertia
+/// with longer steps (ElasticInertia): they begin without motion, and what their kinetic energy is
+/// more than that of their masses counts as dissipated. Loads with ramps run over the same time.
 ///
 /// After the last ramp the bodies are observed over windows of an eighth of a period (a sixteenth
 /// at least) of the slowest mode that moves: they are at rest when both measures below are small at
@@ -32,9 +35,13 @@ class Relaxation final : public Stepper<D> {
 
   /// `fluid`: which bodies are fluids; none if it is empty.
   Relaxation(System<D>& system, const Tolerances& tolerances, const std::vector<bool>& fluid = {});
+  /// With ElasticInertia, and steps of `safety` times the longest stable one.
+  void relieve(Real safety);
 
   /// Begins to observe.
   void begin(const State& state) override;
+  bool chooses_step() const override { return inertia_ != nullptr; }
+  Real longest_step(const State& state) override;
   void step(State& state, Real dt) override;
   /// Whether the bodies are at rest.
   bool arrived() const override { return settled_windows_ >= 2; }
@@ -42,6 +49,7 @@ class Relaxation final : public Stepper<D> {
   bool blocked() const override { return pulled_windows_ >= 10; }
   std::vector<Residual> residuals(const State& state) const override;
   std::string obstacle(const State& state) const override { return net_forces(system_, state); }
+  std::string effort() const override;
   void archive(const Archive& a, const State& state) override;
 
   /// Of the present state; of fluids FluidRest::force_of_power().
@@ -52,6 +60,12 @@ class Relaxation final : public Stepper<D> {
   Real steady_after() const;
 
  private:
+  /// advance() with the elastic inertia.
+  void glide(State& state, Real dt);
+  /// What follows from a state and the momentum that goes with it.
+  void take_up(const State& state);
+  /// Kinetic, with the inertia that there is.
+  Real energy_of_motion(const State& state) const;
   /// Damps the velocities, books what that takes from the kinetic energy as dissipated, and judges
   /// the state at the end of a window.
   void damp(State& state, Real dt);
@@ -64,9 +78,10 @@ class Relaxation final : public Stepper<D> {
   };
   /// Since displacements u and forces f.
   Change change_since(const NodalVectors& u, const NodalVectors& f, const State& state) const;
-  /// For changes du(A), df(A) of the particles to the present state.
+  /// For changes du(A), df(A) of the particles to the present state, with M du = `impulse` where
+  /// the inertia is elastic.
   template <class U, class F>
-  Change change_of(U&& du_of, F&& df_of, const State& state) const;
+  Change change_of(U&& du_of, F&& df_of, const NodalVectors& impulse, const State& state) const;
   /// Sets shape_change_.
   Change judged_window(const State& state);
   /// Of places, relative to the extent of the body, by du_.
@@ -76,10 +91,16 @@ class Relaxation final : public Stepper<D> {
   System<D>& system_;
   Tolerances tolerances_;
   FluidRest<D> fluids_;
-  NodalVectors last_u_, last_force_;      ///< before the step
-  NodalVectors window_u_, window_force_;  ///< at the beginning of the window
-  NodalVectors du_, df_;                  ///< of the window, free drift removed
-  std::vector<Real> extents_;             ///< of the bodies
+  NodalVectors last_u_, last_force_;            ///< before the step
+  NodalVectors window_u_, window_force_;        ///< at the beginning of the window
+  NodalVectors du_, df_;                        ///< of the window, free drift removed
+  std::vector<Real> extents_;                   ///< of the bodies
+  std::unique_ptr<ElasticInertia<D>> inertia_;  ///< null: that of the masses
+  std::optional<ElasticStep<D>> elastic_step_;
+  NodalVectors momentum_, acceleration_;   ///< of the elastic inertia
+  NodalVectors impulse_, window_impulse_;  ///< M du of the last step, and since the window began
+  Real beyond_ = 0;                        ///< kinetic energy beyond that of the masses
+  bool starts_ = true;                     ///< with the next step, at rest
   Real window_begin_ = 0, window_length_ = 0;
   Real shape_change_ = 1;
   std::int64_t settled_windows_ = 0, pulled_windows_ = 0;  ///< in a row

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sparse factors of matrices: Eigen's, which take seconds to compile, in one file.
 #pragma once
-#include "meniscus/core/types.hpp"
+#include "meniscus/core/aligned.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace meniscus {
@@ -30,6 +31,8 @@ class SparseCholesky {
   Pivot smallest_pivot() const;
   /// b becomes the solution x of A x = b.
   void solve(std::vector<Real>& b) const;
+  /// The same for all components of n vectors at once.
+  void solve(std::span<NodalVector> b) const;
   std::size_t bytes() const;
 
  private:

@@ -33,6 +33,8 @@ class Stepper {
   /// Whether no step is too long to be stable: longest_step() is then the step itself, and nobody
   /// looks for the stable one.
   virtual bool implicit() const { return false; }
+  /// Whether longest_step() is the step itself, for this reason or since it finds a stable one.
+  virtual bool chooses_step() const { return implicit(); }
   /// From state.time to state.time + dt. Throws as advance().
   virtual void step(State& state, Real dt) = 0;
   /// The same, but throws a StepError `of_step` where a shorter step is called for. The state is
@@ -71,6 +73,7 @@ struct StepperChoice {
   bool implicit_viscosity = false;                ///< of Dynamics
   std::optional<Real> step = {};                  ///< given in the scene
   std::string place = {};                         ///< of the choice, to begin a message with
+  Real safety = 0.9;                              ///< steps / the longest stable one
 
   /// That given, or a twentieth of the run.
   Real load_step() const { return step.value_or(end / 20); }
