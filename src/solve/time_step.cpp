@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Power iteration for the critical mode of central differences.
+// The limit of central differences by trial changes of the state.
 #include "meniscus/solve/time_step.hpp"
 
 #include "meniscus/core/error.hpp"
@@ -31,12 +31,6 @@ struct FallingLimit {
   }
   bool found() const { return settled >= 4; }
 };
-
-Real largest_of(const NodalVectors& mode) {
-  Real largest = 0;
-  for (const NodalVector& w : mode) largest = std::max(largest, std::sqrt(sum(w * w)));
-  return largest;
-}
 
 /// A start with all wave lengths in it, the same on every machine.
 NodalVectors rough_mode(Index n, int components) {
@@ -72,6 +66,7 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
     : system_(system),
       viscous_counts_(viscous),
       spacing_(unbounded),
+      critical_(system.mass),
       mode_(rough_mode(system.size(), D)) {
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A)
@@ -89,16 +84,32 @@ void StableStepEstimator<D>::archive(const Archive& a) {
                         system_.fields[k].spec.components);
 }
 
+/// K w by a change of the places, small against the spacing, so that the difference is a
+/// derivative.
 template <int D>
-void StableStepEstimator<D>::force_change(const State& state, Real du, Real dv,
-                                          NodalVectors& result) {
-  u_.resize(mode_.size());
-  v_.resize(mode_.size());
-  result.resize(mode_.size());
+void StableStepEstimator<D>::find_stiff_forces(const State& state, TrialMode& trial) {
+  const Real du = 1e-6 * spacing_ / largest(trial.w);
+  force_change(state, trial.w, du, 0, trial.Kw);
+}
+
+/// C w by a velocity that displaces as much in the time 1 / `rate` of the mode (any, if that is 0).
+template <int D>
+void StableStepEstimator<D>::find_viscous_forces(const State& state, Real rate, TrialMode& trial) {
+  const Real dv = 1e-6 * spacing_ / largest(trial.w) * (rate > 0 ? rate : 1);
+  force_change(state, trial.w, 0, dv, trial.Cw);
+}
+
+/// result = - (f(u + du w, v + dv w) - f(u, v)) / (du + dv), where one of both is 0.
+template <int D>
+void StableStepEstimator<D>::force_change(const State& state, const NodalVectors& w, Real du,
+                                          Real dv, NodalVectors& result) {
+  u_.resize(w.size());
+  v_.resize(w.size());
+  result.resize(w.size());
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
-      at(u_, A) = at(state.u, A) + du * at(mode_, A);
-      at(v_, A) = viscous_counts_ ? at(state.v, A) + dv * at(mode_, A) : Lanes::zero();
+      at(u_, A) = at(state.u, A) + du * at(w, A);
+      at(v_, A) = viscous_counts_ ? at(state.v, A) + dv * at(w, A) : Lanes::zero();
     }
   });
   std::span<const Unknown> fields = state.fields;
@@ -108,7 +119,8 @@ void StableStepEstimator<D>::force_change(const State& state, Real du, Real dv,
   }
   system_.add_up({state.time, u_, v_, fields}, {result, trial_});
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
-    for (Index A = begin; A < end; ++A) at(result, A) = at(base_, A) - at(result, A);
+    for (Index A = begin; A < end; ++A)
+      at(result, A) = (1 / (du + dv)) * (at(base_, A) - at(result, A));
   });
 }
 
@@ -126,6 +138,38 @@ void StableStepEstimator<D>::carry_trial(const State& state) {
   }
 }
 
+/// From the mode found last; without other fields.
+template <int D>
+StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
+  const bool viscous = viscous_counts_ && system_.viscous();
+  critical_.begin(mode_);
+  StableStep best{0, 0, 0, 1};
+  FallingLimit falling;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    TrialMode& trial = critical_.trial;
+    const Real size = largest(trial.w);
+    if (!(size > 0) || !std::isfinite(size)) break;
+    find_stiff_forces(state, trial);
+    if (viscous)
+      find_viscous_forces(state, std::sqrt(std::abs(critical_.rates(trial).stiffness)), trial);
+    best.evaluations += viscous ? 2 : 1;
+    critical_.include_trial(falling.dt);
+
+    const ModeRates found = critical_.rates(critical_.mode);
+    const Real k = std::abs(found.stiffness), c = std::max(0.0, found.viscosity);
+    const Real limit = 4 / (c + std::sqrt(c * c + 4 * k));
+    if (!std::isfinite(limit)) break;
+    falling.add(limit);
+    best = {limit / falling.scale, falling.scale * std::sqrt(k), falling.scale * c,
+            best.evaluations};
+    if (falling.found()) break;
+    critical_.propose_trial(limit);
+    if (system_.constraints) system_.constraints->project(critical_.trial.w);
+  }
+  if (!critical_.mode.w.empty()) mode_ = critical_.mode.w;
+  return best;
+}
+
 template <int D>
 StableStep StableStepEstimator<D>::estimate(const State& state) {
   // Every iteration lengthens the mode a little: in a long run it would overflow.
@@ -134,50 +178,14 @@ StableStep StableStepEstimator<D>::estimate(const State& state) {
   if (system_.constraints) system_.constraints->project(mode_);
 
   base_.resize(mode_.size());
+  trial_force_.resize(mode_.size());
   trial_ = state.fields;
   v_ = state.v;
   if (!viscous_counts_) std::fill(v_.begin(), v_.end(), Lanes::zero());
   system_.add_up({state.time, state.u, v_, state.fields}, {base_, trial_});
   base_fields_.resize(trial_.size());
   for (std::size_t k = 0; k < trial_.size(); ++k) base_fields_[k] = trial_[k].f;
-  const bool viscous = viscous_counts_ && system_.viscous();
-  StableStep best{0, 0, 0, 1};
-  FallingLimit falling;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const Real largest = largest_of(mode_);
-    const Real mass_norm = parallel_sum(system_.size(), 0.0, [&](Index A) {
-      return at(system_.mass, A) * sum(at(mode_, A) * at(mode_, A));
-    });
-    if (!(largest > 0) || !std::isfinite(mass_norm)) break;
-
-    // Small against the spacing, so that the difference is a derivative; the velocity is such that
-    // it displaces as much in one acoustic time.
-    const Real du = 1e-6 * spacing_ / largest;
-    force_change(state, du, 0, elastic_);
-    const Real k = std::abs(dot(mode_, elastic_)) / (du * mass_norm);
-    Real c = 0, dv = 0;
-    if (viscous) {
-      dv = du * std::sqrt(k);
-      force_change(state, 0, dv, viscous_);
-      c = std::max(0.0, dot(mode_, viscous_) / (dv * mass_norm));
-    }
-    best.evaluations += viscous ? 2 : 1;
-    const Real limit = 4 / (c + std::sqrt(c * c + 4 * k));
-    falling.add(limit);
-    const Real dt = falling.dt, scale = falling.scale;
-    best = {dt / scale, scale * std::sqrt(k), scale * c, best.evaluations};
-    if (falling.found()) break;
-
-    // mode <- M^-1 (dt^2/4 K + dt/2 C) mode
-    for_chunks(system_.size(), [&](Index, Index begin, Index end) {
-      for (Index A = begin; A < end; ++A) {
-        Lanes next = (dt * dt / (4 * du)) * at(elastic_, A);
-        if (viscous) next += (dt / (2 * dv)) * at(viscous_, A);
-        at(mode_, A) = next / at(system_.mass, A);
-      }
-    });
-    if (system_.constraints) system_.constraints->project(mode_);
-  }
+  StableStep best = limit_of_motion(state);
   if (!system_.carried.empty())
     for (std::size_t k = 0; k < trial_.size(); ++k) trial_[k].x = state.fields[k].x;
   for (std::size_t k = 0; k < field_modes_.size(); ++k)
@@ -231,7 +239,7 @@ void StableStepEstimator<D>::set_stages(const State& state, std::size_t number) 
 template <int D>
 Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number) {
   return field_limit(state, number, [&](Unknown&) {
-    system_.add_up({state.time, state.u, state.v, trial_}, {elastic_, trial_});
+    system_.add_up({state.time, state.u, state.v, trial_}, {trial_force_, trial_});
   });
 }
 
@@ -247,7 +255,7 @@ Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number,
   for (int iteration = 0; iteration < most_iterations && !falling.found(); ++iteration) {
     const Real length = std::sqrt(dot(mode, mode));
     for (NodalVector& w : mode) w /= length;
-    const Real h = 1e-6 * field.spec.scale / largest_of(mode);
+    const Real h = 1e-6 * field.spec.scale / largest(mode);
     for (Index A = 0; A < system_.size(); ++A) at(trial.x, A) = at(field.x, A) + h * at(mode, A);
     forces(trial);
     Real restoring = 0, weight = 0;

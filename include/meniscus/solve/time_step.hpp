@@ -2,6 +2,7 @@
 // The largest stable step of central differences, from the discretised operator itself.
 #pragma once
 #include "meniscus/core/error.hpp"
+#include "meniscus/solve/critical_mode.hpp"
 #include "meniscus/solve/system.hpp"
 
 namespace meniscus {
@@ -20,8 +21,9 @@ struct StableStep {
   void archive(const Archive& a);
 };
 
-/// Finds the critical mode of each unknown by power iteration on differences of the force, starting
-/// with the mode found before: a new estimate of a slowly changing body takes a few evaluations.
+/// Finds the critical mode of the motion by conjugate gradients, and those of other unknowns by
+/// power iteration, on differences of the force, starting with the mode found before: a new
+/// estimate of a slowly changing body takes a few evaluations.
 template <int D>
 class StableStepEstimator {
  public:
@@ -38,8 +40,11 @@ class StableStepEstimator {
   void archive(const Archive& a);
 
  private:
-  /// result = - (f(u + du mode, v + dv mode) - f(u, v)).
-  void force_change(const State& state, Real du, Real dv, NodalVectors& result);
+  StableStep limit_of_motion(const State& state);
+  void find_stiff_forces(const State& state, TrialMode& trial);
+  void find_viscous_forces(const State& state, Real rate, TrialMode& trial);
+  void force_change(const State& state, const NodalVectors& w, Real du, Real dv,
+                    NodalVectors& result);
   void carry_trial(const State& state);
   Real field_limit(const State& state, std::size_t number);
   Real field_limit(const State& state, std::size_t number,
@@ -49,7 +54,8 @@ class StableStepEstimator {
   System<D>& system_;
   bool viscous_counts_;
   Real spacing_;  ///< smallest particle distance: scale of the trial displacements
-  NodalVectors mode_, u_, v_, base_, elastic_, viscous_;
+  CriticalMode critical_;
+  NodalVectors mode_, u_, v_, base_, trial_force_;
   // Of the unknown fields.
   std::vector<NodalVectors> field_modes_, base_fields_;
   std::vector<Unknown> trial_;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mode that is the first to become unstable, from the forces that trial changes cause.
+#pragma once
+#include "meniscus/core/aligned.hpp"
+
+#include <vector>
+
+namespace meniscus {
+
+/// A change of the places, or of the velocities, and the forces against it: K w, and C w where
+/// there is viscosity.
+struct TrialMode {
+  NodalVectors w, Kw, Cw;
+};
+
+/// k = w.Kw / w.Mw and c = w.Cw / w.Mw of a mode.
+struct ModeRates {
+  Real stiffness = 0, viscosity = 0;
+};
+
+/// Conjugate gradients for the greatest eigenvalue of A = dt^2/4 K + dt/2 C against the masses
+/// (Knyazev, SIAM J. Sci. Comput. 23 (2001) 517, for one mode): of the mode found so far, of what
+/// is left of its equation and of the way it has come the best combination is the next. Each takes
+/// the forces of one trial.
+class CriticalMode {
+ public:
+  /// `mass` has to last.
+  explicit CriticalMode(const std::vector<Real>& mass) : mass_(mass) {}
+
+  /// The first trial, of a new search. Memory is kept from search to search.
+  void begin(const NodalVectors& start);
+
+  TrialMode mode;   ///< found so far; empty before the first trial
+  TrialMode trial;  ///< to be tried next: its forces are to be filled in by the caller
+
+  ModeRates rates(const TrialMode& of) const;
+  /// trial.w = M^-1 A w - lambda w of the mode.
+  void propose_trial(Real dt);
+  /// The best combination becomes the mode, the first trial as it is.
+  void include_trial(Real dt);
+
+ private:
+  /// A w of particle A.
+  Lanes force(const TrialMode& of, Real dt, Index A) const;
+
+  const std::vector<Real>& mass_;
+  TrialMode way_;  // none in the beginning
+};
+
+}  // namespace meniscus
