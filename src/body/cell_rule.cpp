@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "rounded_rows.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -383,7 +385,7 @@ void assemble_row(const Body<D>& body, Index cell, std::span<const CellIntegrals
 /// For more entries than all rows have, by the particles that reach boxes like some of the cells:
 /// what is not filled takes no memory, but growing would take twice as much for a moment.
 template <int D>
-void reserve_entries(const Body<D>& body, CellRule<D>& rule) {
+void reserve_entries(const Body<D>& body, RowPrecision precision, CellRule<D>& rule) {
   constexpr Index samples = 256;
   const Index n = body.size(), step = (n + samples - 1) / samples;
   std::vector<Candidate<D>> candidates;
@@ -394,7 +396,10 @@ void reserve_entries(const Body<D>& body, CellRule<D>& rule) {
     entries += candidates.size() * static_cast<std::size_t>(step);
   }
   rule.particle.reserve(entries);
-  rule.coefficient.reserve(entries * D);
+  if (precision == RowPrecision::full)
+    rule.coefficient.reserve(entries * D);
+  else
+    rule.rounded.reserve(entries * D);
 }
 
 /// Vertices of the regular simplex with sum t = 0 and mean t t^T = I / D.
@@ -422,15 +427,39 @@ std::array<Lanes, D> stress_points(const Mat<D>& S) {
   return xi;
 }
 
+/// Appends a row to the rule, in the asked precision.
+template <int D>
+void pack(const Body<D>& body, CellRow<D>& row, RowPrecision precision, CellRule<D>& rule) {
+  thread_local std::vector<Index> particle;
+  particle.clear();
+  for (const auto& entry : row.entries) particle.push_back(entry.particle);
+  const std::size_t exact =
+      precision == RowPrecision::full
+          ? particle.size()
+          : make_up_for_rounding<D>(body.particles.X(),
+                                    body.cells.centroid(static_cast<Index>(rule.volume.size())),
+                                    particle, row.gradient);
+  rule.particle.insert(rule.particle.end(), particle.begin(), particle.end());
+  for (std::size_t e = 0; e < particle.size(); ++e)
+    for (const Lanes& g : row.gradient[e]) {
+      if (e < exact)
+        rule.coefficient.push_back(g);
+      else
+        rule.rounded.push_back(SingleLanes::rounded(g));
+    }
+  rule.start.push_back(static_cast<Offset>(rule.particle.size()));
+  rule.double_start.push_back(rule.double_start.back() + static_cast<Offset>(exact));
+}
+
 }  // namespace
 
 template <int D>
-CellOperator<D> build_cell_rule(const Body<D>& body) {
+CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision) {
   const Index n = body.size();
   CellOperator<D> op;
   CellRule<D>& rule = op.rule;
   op.shape_integral.assign(static_cast<std::size_t>(n), 0.0);
-  reserve_entries(body, rule);
+  reserve_entries(body, precision, rule);
   constexpr Index block = 512;  // what rows are made of takes several times their memory
   std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, n)));
   std::vector<CellRow<D>> rows(integrals.size());
@@ -442,13 +471,9 @@ CellOperator<D> build_cell_rule(const Body<D>& body) {
         count, [&](Index k) { assemble_row<D>(body, begin + k, integrals, begin, at(rows, k)); },
         4);
     for (Index k = 0; k < count; ++k) {
-      const CellRow<D>& row = at(rows, k);
-      for (std::size_t e = 0; e < row.entries.size(); ++e) {
-        rule.particle.push_back(row.entries[e].particle);
-        for (const Lanes& g : row.gradient[e]) rule.coefficient.push_back(g);
-        at(op.shape_integral, row.entries[e].particle) += row.entries[e].integral;
-      }
-      rule.start.push_back(static_cast<Offset>(rule.particle.size()));
+      CellRow<D>& row = at(rows, k);
+      for (const auto& entry : row.entries) at(op.shape_integral, entry.particle) += entry.integral;
+      pack(body, row, precision, rule);
       rule.volume.push_back(body.cells.volume(begin + k));
       for (const Lanes& xi : stress_points<D>(body.cells.covariance(begin + k)))
         rule.point.push_back(xi);
@@ -457,7 +482,7 @@ CellOperator<D> build_cell_rule(const Body<D>& body) {
   return op;
 }
 
-template CellOperator<2> build_cell_rule(const Body<2>&);
-template CellOperator<3> build_cell_rule(const Body<3>&);
+template CellOperator<2> build_cell_rule(const Body<2>&, RowPrecision);
+template CellOperator<3> build_cell_rule(const Body<3>&, RowPrecision);
 
 }  // namespace meniscus

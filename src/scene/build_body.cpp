@@ -144,7 +144,8 @@ std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned,
   body.reference = std::move(reference);
   auto built = planned.material->build(
       body, {settings.integration, settings.gauss_points, settings.volumetric,
-             planned.enclosed && planned.material->fluid()});
+             planned.enclosed && planned.material->fluid(),
+             settings.precision == "single" ? RowPrecision::rounded : RowPrecision::full});
   if (body.reference) keep_mass(body);
   system.mass.insert(system.mass.end(), body.mass.begin(), body.mass.end());
   report(body, built, settings, assembly);

@@ -84,6 +84,11 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
                     fmt::format("'cell_average' averages over nodal cells, which integration = "
                                 "\"{}\" does not have; allowed are automatic, full",
                                 settings.integration));
+    if (settings.precision == "single" && settings.integration != "q_scni")
+      block.problem("precision",
+                    fmt::format("'single' is how integration = \"q_scni\" may store its gradients; "
+                                "with \"{}\" allowed is double",
+                                settings.integration));
     require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
     require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
     Geometry<D> geometry = read_geometry<D>(block);

@@ -34,14 +34,17 @@ void add_squares(const std::array<Tensor<Lanes>, D>& S, const std::array<Lanes, 
 
 /// Nodal cells with linear moments, "q_scni" (RKPM note 5.3): in cell L the gradient of a field is
 /// sum_A f_A (a_A + B_A xi), evaluated at D + 1 points xi_q of equal weight that reproduce volume,
-/// centroid and covariance of the cell. A group is a cell.
+/// centroid and covariance of the cell. A group is a cell. Rows may have coefficients in single
+/// precision, behind those in double that make up for their rounding (performance note 2).
 template <int D>
 struct CellRule {
-  std::vector<Offset> start{0};      ///< [cell + 1]
-  std::vector<Index> particle;       ///< [entry]
-  AlignedVector<Lanes> coefficient;  ///< [entry][K]: (a_AK, B_AK0, B_AK1, B_AK2)
-  AlignedVector<Lanes> point;        ///< [cell][M]: xi_qM, a lane per stress point q
-  std::vector<Real> volume;          ///< [cell]
+  std::vector<Offset> start{0};         ///< [cell + 1]
+  std::vector<Offset> double_start{0};  ///< [cell + 1]: entries in double of the cells before
+  std::vector<Index> particle;          ///< [entry]; of a row, those in double first
+  AlignedVector<Lanes> coefficient;     ///< [entry in double][K]: (a_AK, B_AK0, B_AK1, B_AK2)
+  AlignedVector<SingleLanes> rounded;   ///< [entry in single precision][K]: likewise
+  AlignedVector<Lanes> point;           ///< [cell][M]: xi_qM, a lane per stress point q
+  std::vector<Real> volume;             ///< [cell]
 
   Index groups() const { return static_cast<Index>(volume.size()); }
   Index points_per_group() const { return D + 1; }
@@ -57,16 +60,12 @@ struct CellRule {
     Lanes moment[D][D];
     for (auto& row : moment)
       for (auto& m : row) m = Lanes::zero();
-    const Lanes* g = coefficient.data() + at(start, cell) * D;
-    const Index* A = particle.data() + at(start, cell);
-    const Index* const end = particle.data() + at(start, cell + 1);
-    const char* ahead = prefetch_begin(cell);
-    for (; A != end; ++A, g += D, ahead += cache_line) {
-      prefetch_second_level(ahead);
-      const Real* f = detail::components(field[*A]);
-      for (int i = 0; i < D; ++i)
-        for (int K = 0; K < D; ++K) moment[i][K] += f[i] * g[K];
-    }
+    for_entries(
+        cell, Half::first, [&](Index A, const Lanes* g) __attribute__((always_inline)) {
+          const Real* f = detail::components(field[A]);
+          for (int i = 0; i < D; ++i)
+            for (int K = 0; K < D; ++K) moment[i][K] += f[i] * g[K];
+        });
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     H = Tensor<Lanes>::zero();
     for (int i = 0; i < D; ++i)
@@ -80,6 +79,45 @@ struct CellRule {
   /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM).
   [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P,
                                       NodalVector* force) const {
+    if (rounded.empty())
+      scatter_by_number(cell, P, force);
+    else
+      scatter_by_vector(cell, P, force);
+  }
+
+  /// sum_A,i += sum_q S_i,KL(q) g_AK(q) g_AL(q), g the gradients of shape functions: the diagonal
+  /// of what gather, P_iK = S_i,KL H_iL and scatter do to a field.
+  void add_diagonal(Index cell, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
+    const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
+    for_entries(cell, Half::first, [&](Index A, const Lanes* coefficients) {
+      std::array<Lanes, D> g;
+      for (int K = 0; K < D; ++K) {
+        const Real* moment = detail::components(coefficients[K]);
+        at(g, K) = Lanes(moment[0]);
+        for (int M = 0; M < D; ++M) at(g, K) += moment[M + 1] * xi[M];
+      }
+      add_squares<D>(S, g, sum[A]);
+    });
+  }
+
+  ForceWindows windows(Index particles) const { return {start, particle, particles}; }
+  Offset pairs() const { return start.back(); }
+  std::size_t bytes() const {
+    return (start.size() + double_start.size()) * sizeof(Offset) + particle.size() * sizeof(Index) +
+           (coefficient.size() + point.size()) * sizeof(Lanes) +
+           rounded.size() * sizeof(SingleLanes) + volume.size() * sizeof(Real);
+  }
+
+ private:
+  // The time loop is bound by memory: coefficients are read once from memory and again from cache.
+  // Fetching those of the next cell, half of them by each reading, lets memory and arithmetic
+  // overlap.
+  enum class Half : std::uint8_t { first, second };
+  static constexpr std::ptrdiff_t bytes_ahead = 64, rounded_bytes_ahead = 32;  // per entry
+
+  /// Coefficient by coefficient, which memory hands out to all lanes at no cost.
+  [[gnu::always_inline]] void scatter_by_number(Index cell, const Tensor<Lanes>& P,
+                                                NodalVector* force) const {
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     Lanes moment[D][D + 1];  // [K][0] = sum P_.K, [K][1 + M] = sum P_.K xi_M; a lane per i
     for (int K = 0; K < D; ++K) {
@@ -90,50 +128,61 @@ struct CellRule {
         moment[K][1 + M] = (Pq[0] * x[0] + Pq[1] * x[1]) + (Pq[2] * x[2] + Pq[3] * x[3]);
       }
     }
-    const Lanes* g = coefficient.data() + at(start, cell) * D;
-    const Index* A = particle.data() + at(start, cell);
-    const Index* const end = particle.data() + at(start, cell + 1);
-    const char* ahead = prefetch_begin(cell) + (end - A) * cache_line;
-    for (; A != end; ++A, g += D, ahead += cache_line) {
-      prefetch_second_level(ahead);
-      Lanes sum[D + 1];  // a chain per moment hides the latency
-      sum[0] = force[*A] + moment[0][0] * detail::components(g[0])[0];
-      for (int m = 1; m <= D; ++m) sum[m] = moment[0][m] * detail::components(g[0])[m];
-      for (int K = 1; K < D; ++K)
-        for (int m = 0; m <= D; ++m) sum[m] += moment[K][m] * detail::components(g[K])[m];
-      sum[1] += sum[D];
-      force[*A] = D == 3 ? (sum[0] + sum[1]) + sum[2] : sum[0] + sum[1];
-    }
+    for_entries(
+        cell, Half::second, [&](Index A, const Lanes* g) __attribute__((always_inline)) {
+          Lanes sum[D + 1];  // a chain per moment hides the latency
+          sum[0] = force[A] + moment[0][0] * detail::components(g[0])[0];
+          for (int m = 1; m <= D; ++m) sum[m] = moment[0][m] * detail::components(g[0])[m];
+          for (int K = 1; K < D; ++K)
+            for (int m = 0; m <= D; ++m) sum[m] += moment[K][m] * detail::components(g[K])[m];
+          sum[1] += sum[D];
+          force[A] = D == 3 ? (sum[0] + sum[1]) + sum[2] : sum[0] + sum[1];
+        });
   }
 
-  /// sum_A,i += sum_q S_i,KL(q) g_AK(q) g_AL(q), g the gradients of shape functions: the diagonal
-  /// of what gather, P_iK = S_i,KL H_iL and scatter do to a field.
-  void add_diagonal(Index cell, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
+  /// By vectors of coefficients as they are widened, whose lanes are added up at the end.
+  [[gnu::always_inline]] void scatter_by_vector(Index cell, const Tensor<Lanes>& P,
+                                                NodalVector* force) const {
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
-    for (Offset e = at(start, cell); e < at(start, cell + 1); ++e) {
-      std::array<Lanes, D> g;
-      for (int K = 0; K < D; ++K) {
-        const Real* moment = detail::components(at(coefficient, e * D + K));
-        at(g, K) = Lanes(moment[0]);
-        for (int M = 0; M < D; ++M) at(g, K) += moment[M + 1] * xi[M];
-      }
-      add_squares<D>(S, g, sum[at(particle, e)]);
+    Lanes moment[D][D];  // (sum P_iK, sum P_iK xi_0, ...) over the points
+    for (int i = 0; i < D; ++i)
+      for (int K = 0; K < D; ++K)
+        moment[i][K] = sums(P(i, K), P(i, K) * xi[0], P(i, K) * xi[1],
+                            D == 3 ? P(i, K) * xi[D - 1] : Lanes::zero());
+    for_entries(
+        cell, Half::second, [&](Index A, const Lanes* g) __attribute__((always_inline)) {
+          Lanes f[D];
+          for (int i = 0; i < D; ++i) {
+            f[i] = moment[i][0] * g[0];
+            for (int K = 1; K < D; ++K) f[i] += moment[i][K] * g[K];
+          }
+          force[A] += sums(f[0], f[1], D == 3 ? f[D - 1] : Lanes::zero(), Lanes::zero());
+        });
+  }
+
+  /// work(particle, coefficients[K]) for the entries of a row.
+  template <class F>
+  [[gnu::always_inline]] void for_entries(Index cell, Half half, F&& work) const {
+    const Offset exact = at(double_start, cell), exact_end = at(double_start, cell + 1);
+    const Index* A = particle.data() + at(start, cell);
+    const Index* end = A + (exact_end - exact);
+    const Lanes* g = coefficient.data() + exact * D;
+    const char* ahead = reinterpret_cast<const char*>(coefficient.data() + exact_end * D) +
+                        (half == Half::second ? (end - A) * bytes_ahead : 0);
+    for (; A != end; ++A, g += D, ahead += bytes_ahead) {
+      prefetch_second_level(ahead);
+      work(*A, g);
     }
-  }
-
-  ForceWindows windows(Index particles) const { return {start, particle, particles}; }
-  Offset pairs() const { return start.back(); }
-  std::size_t bytes() const {
-    return start.size() * sizeof(Offset) + particle.size() * sizeof(Index) +
-           (coefficient.size() + point.size()) * sizeof(Lanes) + volume.size() * sizeof(Real);
-  }
-
- private:
-  // The time loop is bound by memory: coefficients are read once from memory and again from cache.
-  // Fetching those of the next cell a line per pair lets memory and arithmetic overlap.
-  static constexpr std::ptrdiff_t cache_line = 64;
-  const char* prefetch_begin(Index cell) const {
-    return reinterpret_cast<const char*>(coefficient.data() + at(start, cell + 1) * D);
+    end = particle.data() + at(start, cell + 1);
+    const SingleLanes* r = rounded.data() + (at(start, cell) - exact) * D;
+    ahead = reinterpret_cast<const char*>(rounded.data() + (at(start, cell + 1) - exact_end) * D) +
+            (half == Half::second ? (end - A) * rounded_bytes_ahead : 0);
+    for (; A != end; ++A, r += D, ahead += rounded_bytes_ahead) {
+      prefetch_second_level(ahead);
+      Lanes wide[D];
+      for (int K = 0; K < D; ++K) wide[K] = r[K].widened();
+      work(*A, wide);
+    }
   }
 };
 

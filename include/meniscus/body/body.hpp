@@ -55,6 +55,10 @@ struct Body {
         at_particles(build_point_rows<D>(particles, particles.X(), {.value = true}, name)) {}
 };
 
+/// How the coefficients of a cell rule are stored: in double, or in single precision but for a few
+/// of each row that keep all sums over quadratic polynomials (performance note 2).
+enum class RowPrecision : std::uint8_t { full, rounded };
+
 /// q_scni: smoothed gradients with linear moments over nodal cells (RKPM note 5.3). Also returns
 /// the integrals of the shape functions over the body, for row-sum masses.
 template <int D>
@@ -65,7 +69,7 @@ struct CellOperator {
 
 /// Throws SolveError where shape functions cannot be determined.
 template <int D>
-CellOperator<D> build_cell_rule(const Body<D>& body);
+CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision = RowPrecision::full);
 
 /// `points_per_direction` Gauss points in every cell of the grid.
 template <int D>

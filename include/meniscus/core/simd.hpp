@@ -67,6 +67,16 @@ struct Lanes {
   friend Lanes operator/(Real a, Lanes b) { return a / b.v; }
 };
 
+/// Four numbers as they are stored in single precision.
+struct SingleLanes {
+  using Native = float __attribute__((vector_size(16)));
+
+  Native v;
+
+  static SingleLanes rounded(Lanes x) { return {__builtin_convertvector(x.v, Native)}; }
+  Lanes widened() const { return __builtin_convertvector(v, Lanes::Native); }
+};
+
 /// The first three lanes as a vector in space.
 inline Eigen::Vector3d spatial(const Lanes& x) {
   return {x[0], x[1], x[2]};
@@ -123,6 +133,15 @@ inline std::array<Lanes, 4> by_lane(Lanes a, Lanes b, Lanes c) {
   return {
       __builtin_shufflevector(ab0, c0, 0, 1, 4, 5), __builtin_shufflevector(ab1, c1, 0, 1, 4, 5),
       __builtin_shufflevector(ab0, c0, 2, 3, 6, 7), __builtin_shufflevector(ab1, c1, 2, 3, 6, 7)};
+}
+
+/// The sums of the lanes of a, b, c and d.
+inline Lanes sums(Lanes a, Lanes b, Lanes c, Lanes d) {
+  const Lanes::Native ab =
+      __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6) + __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
+  const Lanes::Native cd =
+      __builtin_shufflevector(c.v, d.v, 0, 4, 2, 6) + __builtin_shufflevector(c.v, d.v, 1, 5, 3, 7);
+  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 
 }  // namespace meniscus

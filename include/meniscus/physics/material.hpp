@@ -29,6 +29,7 @@ struct Integration {
   /// The pressure of a fluid works on the volume that the surface encloses: its discrete surface
   /// tension is balanced. Then "automatic" is cell_average with "q_scni".
   bool enclosed = false;
+  RowPrecision precision = RowPrecision::full;  ///< of the rows of "q_scni"
 };
 
 /// A material read from a scene, ready to be applied to a body.
@@ -64,7 +65,7 @@ class MaterialOf final : public Material<D> {
   [[gnu::cold]] typename Material<D>::Built build(Body<D>& body,
                                                   const Integration& integration) const override {
     if (integration.rule == "q_scni") {
-      CellOperator<D> op = build_cell_rule(body);
+      CellOperator<D> op = build_cell_rule(body, integration.precision);
       std::vector<Vec<D>> places;
       for (Index A = 0; A < body.size(); ++A) places.push_back(body.cell_origin(A));
       return integrated(body, std::move(op.rule), laws_at(places, body.geometry), op.shape_integral,

@@ -31,11 +31,15 @@ struct OutputSettings {
   bool restartable = false;
   Real checkpoint_minutes = 0;
   static Rows<OutputSettings> rows();
+
+  /// Whether a record, a frame is due after a step from `before` to `now` of a run to `end`.
+  bool record_due(Real before, Real now, Real end) const;
+  bool frame_due(Real before, Real now, Real end) const;
 };
 
 /// The keys of [[body]] besides those of its shape, and the tables in it.
 struct BodySettings {
-  std::string name, integration, volumetric, window;
+  std::string name, integration, volumetric, precision, window;
   int gauss_points = 3;
   Real support_factor = 0;    ///< x distance to the rank-th neighbour
   int support_rank = 0;       ///< 0: 20 in 3D, 8 in 2D
