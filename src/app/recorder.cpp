@@ -9,7 +9,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace meniscus {
 namespace {
@@ -110,12 +109,6 @@ std::vector<HistoryWriter> line_writers(const Scene<D>& scene, const RunDirector
   return writers;
 }
 
-/// Whether a multiple of `every` lies in (before, now].
-bool due(Real before, Real now, Real every) {
-  const auto count = [every](Real t) { return std::floor(t / every + 1e-9); };
-  return count(now) > count(before);
-}
-
 }  // namespace
 
 template <int D>
@@ -149,12 +142,11 @@ std::optional<Ledger> Recorder<D>::record(Real before) {
   const Real now = simulation_->state().time, end = simulation_->scene().time.end;
   const bool last = simulation_->finished();
   std::optional<Ledger> ledger;
-  if (last || due(before, now, output.history_every > 0 ? output.history_every : end / 200)) {
+  if (last || output.record_due(before, now, end)) {
     ledger = simulation_->audit_now();
     write_row(*ledger);
   }
-  if (last_frame_ != simulation_->state().step &&
-      (last || due(before, now, output.frames_every > 0 ? output.frames_every : end / 50))) {
+  if (last_frame_ != simulation_->state().step && (last || output.frame_due(before, now, end))) {
     write_frame(output.restartable);
     write_lines();
   }

@@ -3,6 +3,7 @@
 #include "meniscus/scene/simulation.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/measure/drop_measures.hpp"
 #include "meniscus/solve/central_difference.hpp"
 #include "meniscus/solve/viscosity_choice.hpp"
@@ -10,6 +11,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace meniscus {
@@ -42,6 +44,23 @@ StepperChoice stepper_choice(const Scene<D>& scene, bool implicit_viscosity) {
   for (const std::vector<Real>& viscosity : scene.viscosity)
     choice.fluid.push_back(!viscosity.empty());
   return choice;
+}
+
+/// copy = state, what is large by all threads.
+void keep(State& state, State& copy) {
+  constexpr std::array large{&State::u, &State::v, &State::force};
+  std::array<NodalVectors, large.size()> of_state, of_copy;
+  for (std::size_t k = 0; k < large.size(); ++k) {
+    at(of_state, k) = std::move(state.*at(large, k));
+    at(of_copy, k) = std::move(copy.*at(large, k));
+  }
+  copy = state;
+  copy.energies.reserve(state.energies.capacity());
+  for (std::size_t k = 0; k < large.size(); ++k) {
+    state.*at(large, k) = std::move(at(of_state, k));
+    copy.*at(large, k) = std::move(at(of_copy, k));
+    meniscus::copy(state.*at(large, k), copy.*at(large, k));
+  }
 }
 
 }  // namespace
@@ -124,7 +143,7 @@ bool Simulation<D>::finished() const {
 template <int D>
 void Simulation<D>::step(Real dt) {
   constexpr int most_halvings = 6;
-  before_ = state_;
+  keep(state_, before_);
   for (int halvings = 0;; ++halvings) {
     last_step_ = dt;
     try {
@@ -154,6 +173,9 @@ void Simulation<D>::advance() {
     const Real longest = stepper_->longest_step(state_);
     last_step_ = stepper_->chooses_step() ? std::min(longest, scene_.time.end - state_.time)
                                           : controller_->next(state_, scene_.time.end, longest);
+    state_.energies_asked =
+        !stepper_->implicit() &&  // whose last forces need not be those of the state it finds
+        scene_.output.record_due(state_.time, state_.time + last_step_, scene_.time.end);
     if (keeps_state_before_)
       step(last_step_);
     else

@@ -30,6 +30,12 @@ Eigen::Matrix<Real, 6, 1> momenta(const System<D>& system, const State& state) {
   return zero;
 }
 
+std::optional<Real> stored_energy(const ForceTerm& term, const State& state) {
+  for (const StoredEnergy& known : state.energies)
+    if (known.term == &term) return known.value;
+  return term.stored_energy(state.motion());
+}
+
 Real relative(Real change, Real scale) {
   return scale > 0 ? change / scale : 0;
 }
@@ -54,7 +60,7 @@ Ledger take_ledger(const System<D>& system, const State& state) {
         return 0.5 * at(field.capacity, A) * sum(at(field.rate, A) * at(field.rate, A));
       });
   for (const auto& term : system.terms)
-    if (const auto energy = term->stored_energy(state.motion()))
+    if (const auto energy = stored_energy(*term, state))
       ledger.stored[std::string(term->energy_kind())] += *energy;
   ledger.dissipated = state.books.dissipated;
   ledger.external_work = state.books.external_work;

@@ -19,6 +19,8 @@ template <int D>
 void start(System<D>& system, State& state) {
   state.force.resize(state.u.size());
   if (system.constraints) system.constraints->make_consistent(state);
+  state.energies_asked = false;
+  state.energies.reserve(system.terms.size());
   const Report report = system.compute_forces(state.motion(), state.forces());
   if (system.constraints) system.constraints->begin(state);
   leapfrog::settle(state, 0);
@@ -29,9 +31,8 @@ void start(System<D>& system, State& state) {
 template <int D>
 void advance(System<D>& system, State& state, Real dt,
              const std::function<void(const State&)>& judge) {
-  kick(system, state, dt / 2);
   system.depart(state);
-  leapfrog::drift(state, dt);
+  leapfrog::kick_and_drift(state, system.mass, dt);
   system.constrain(state, dt);
   system.arrive(state, dt);
   Report report;

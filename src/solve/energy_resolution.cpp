@@ -22,36 +22,32 @@ Real eta(const System<D>& system) {
   return system.carried.empty() ? 5e-3 : 2e-4;
 }
 
-/// Kinetic energy, S = sum f^2/m, and the power sum f.v.
-struct Sums {
-  Real kinetic = 0, S = 0, power = 0;
-  friend Sums operator+(const Sums& a, const Sums& b) {
-    return {a.kinetic + b.kinetic, a.S + b.S, a.power + b.power};
-  }
-};
-
-Sums sums(const NodalVectors& v, const NodalVectors& f, const std::vector<Real>& mass) {
-  return parallel_sum(static_cast<Index>(v.size()), Sums{}, [&](Index A) {
-    const Real m = at(mass, A);
-    return Sums{m / 2 * sum(at(v, A) * at(v, A)), sum(at(f, A) * at(f, A)) / m,
-                sum(at(f, A) * at(v, A))};
-  });
-}
-
-template <int D>
-Sums sums(const System<D>& system, const State& state) {
-  Sums all = sums(state.v, state.force, system.mass);
-  for (const Unknown& field : state.fields)
-    if (field.spec.evolution == Evolution::inertial)
-      all = all + sums(field.rate, field.f, field.capacity);
-  return all;
+/// sum m v^2/2, sum f^2/m, sum f.v
+Eigen::Vector3d products(const NodalVectors& v, const NodalVectors& f,
+                         const std::vector<Real>& mass) {
+  return parallel_sum(
+      static_cast<Index>(v.size()), Eigen::Vector3d(Eigen::Vector3d::Zero()), [&](Index A) {
+        const Real m = at(mass, A);
+        return Eigen::Vector3d(m / 2 * sum(at(v, A) * at(v, A)), sum(at(f, A) * at(f, A)) / m,
+                               sum(at(f, A) * at(v, A)));
+      });
 }
 
 }  // namespace
 
 template <int D>
+typename EnergyResolution<D>::Sums EnergyResolution<D>::sums(const System<D>& system,
+                                                             const State& state) {
+  Eigen::Vector3d all = products(state.v, state.force, system.mass);
+  for (const Unknown& field : state.fields)
+    if (field.spec.evolution == Evolution::inertial)
+      all += products(field.rate, field.f, field.capacity);
+  return {all[0], all[1], all[2], state.time};
+}
+
+template <int D>
 Real EnergyResolution<D>::longest_step(const System<D>& system, const State& state) {
-  const Sums all = sums(system, state);
+  const Sums all = judged_.time == state.time ? judged_ : sums(system, state);
   energy_ =
       std::max(energy_, all.kinetic + state.books.dissipated + std::abs(state.books.external_work));
   if (time_ < 0) {
@@ -66,9 +62,10 @@ Real EnergyResolution<D>::longest_step(const System<D>& system, const State& sta
 }
 
 template <int D>
-void EnergyResolution<D>::judge(const System<D>& system, const State& state, Real dt) const {
+void EnergyResolution<D>::judge(const System<D>& system, const State& state, Real dt) {
   constexpr Real considerably = 2;
-  const Sums all = sums(system, state);
+  judged_ = sums(system, state);
+  const Sums& all = judged_;
   // A load that sets bodies in motion all at once does so in a step of any length.
   const bool set_in_motion = all.kinetic > 4 * energy_;
   const Real disturbance = dt * dt / 8 * std::abs(all.S - S_);
@@ -111,6 +108,7 @@ void EnergyResolution<D>::hold(Real allowed, std::int64_t step) {
 
 template <int D>
 void EnergyResolution<D>::archive(const Archive& a) {
+  if (a.is_reading()) judged_ = {};
   a("S", S_, of_sum({2, -4, 1}, D));
   a("power", power_, of_sum(dimension::power, D));
   a("time", time_, dimension::time);

@@ -23,10 +23,26 @@ inline void drift(NodalVectors& x, const NodalVectors& v, Real dt) {
     for (Index A = begin; A < end; ++A) at(x, A) += dt * at(v, A);
   });
 }
-inline void drift(State& state, Real dt) {
-  drift(state.u, state.v, dt);
+inline void drift_fields(State& state, Real dt) {
   for (Unknown& field : state.fields)
     if (field.spec.evolution != Evolution::carried) drift(field.x, field.rate, dt);
+}
+inline void drift(State& state, Real dt) {
+  drift(state.u, state.v, dt);
+  drift_fields(state, dt);
+  state.time += dt;
+}
+
+/// The first half kick of all that is inertial, and the drift that follows.
+inline void kick_and_drift(State& state, const std::vector<Real>& mass, Real dt) {
+  for_chunks(static_cast<Index>(state.v.size()), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) {
+      at(state.v, A) += (dt / 2 / at(mass, A)) * at(state.force, A);
+      at(state.u, A) += dt * at(state.v, A);
+    }
+  });
+  kick_fields(state, dt / 2);
+  drift_fields(state, dt);
   state.time += dt;
 }
 

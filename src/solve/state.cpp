@@ -64,6 +64,7 @@ void State::archive(const Archive& a, int space_dimension) {
   a("demand/stiffness", demand.stiffness, {0, -2, 0});
   a("demand/longest", demand.longest, dimension::time);
   require_saved(demand.stiffness >= 0 && demand.longest > 0, a, "demand");
+  if (a.is_reading()) energies.clear();
 }
 
 }  // namespace meniscus

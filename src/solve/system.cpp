@@ -3,6 +3,7 @@
 #include "meniscus/solve/system.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/nodal_algebra.hpp"
 
 #include <fmt/core.h>
 
@@ -85,8 +86,8 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
 
 template <int D>
 Report System<D>::add_up(const Motion& motion, Forces force) {
-  std::fill(force.begin(), force.end(), Lanes::zero());
-  for (Unknown& field : force.fields) std::fill(field.f.begin(), field.f.end(), Lanes::zero());
+  clear(force);
+  for (Unknown& field : force.fields) clear(field.f);
   Report all;
   for (auto& term : terms) {
     Report report = term->add_force(motion, force);

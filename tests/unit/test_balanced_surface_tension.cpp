@@ -100,6 +100,16 @@ void expect_exact_gradient(Geometry<D> geometry, const std::string& text) {
       const test::Balance net = test::balance_of<D>(*body, u, test::force_of(*term, u, v));
       EXPECT_LT(net.force, 1e-14);
       EXPECT_LT(net.torque, 1e-14);
+
+      const Motion motion{0, u, v};
+      NodalVectors force = test::zeros(u);
+      std::vector<StoredEnergy> energies;
+      Forces asked(force);
+      asked.energies = &energies;
+      term->add_force(motion, asked);
+      ASSERT_EQ(energies.size(), 1U);
+      const Real energy = term->stored_energy(motion).value();
+      EXPECT_NEAR(energies[0].value, energy, 1e-12 * std::abs(energy));
     }
   }
 }

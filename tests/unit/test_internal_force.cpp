@@ -50,6 +50,29 @@ TEST(InternalForce, IsMinusTheGradientOfItsEnergy) {
   for_all<3>(expect_gradient<3>);
 }
 
+/// Energies that come along with forces are those asked for alone.
+template <int D>
+void expect_reported_energy(Body<D>& body, ForceTerm& term) {
+  const NodalVectors u = test::random_field<D>(body.size(), 0.06, 5), v = test::zeros(u);
+  NodalVectors force = v, without = v;
+  const Motion motion{0.3, u, v};
+  term.add_force(motion, without);
+  std::vector<StoredEnergy> energies;
+  Forces asked(force);
+  asked.energies = &energies;
+  term.add_force(motion, asked);
+  ASSERT_EQ(energies.size(), 1U);
+  EXPECT_EQ(energies[0].term, &term);
+  const Real energy = term.stored_energy(motion).value();
+  EXPECT_NEAR(energies[0].value, energy, 1e-13 * std::abs(energy));
+  EXPECT_EQ(test::norm(test::sum_of(force, -1, without)), 0);
+}
+
+TEST(InternalForce, ReportsItsEnergyWhereItIsAskedFor) {
+  for_all<2>(expect_reported_energy<2>);
+  for_all<3>(expect_reported_energy<3>);
+}
+
 template <int D>
 void expect_balance(Body<D>& body, ForceTerm& term) {
   const NodalVectors u = test::random_field<D>(body.size(), 0.08, 7);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace meniscus {
 
@@ -19,6 +20,21 @@ inline Real dot(const NodalVectors& a, const NodalVectors& b) {
 inline void add(NodalVectors& x, Real a, const NodalVectors& w) {
   for_chunks(static_cast<Index>(x.size()), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(x, A) += a * at(w, A);
+  });
+}
+
+/// a = 0
+inline void clear(std::span<NodalVector> a) {
+  for_chunks(static_cast<Index>(a.size()), [&](Index, Index begin, Index end) {
+    std::fill(a.begin() + begin, a.begin() + end, Lanes::zero());
+  });
+}
+
+/// to = from
+inline void copy(const NodalVectors& from, NodalVectors& to) {
+  to.resize(from.size());
+  for_chunks(static_cast<Index>(to.size()), [&](Index, Index begin, Index end) {
+    std::copy(from.begin() + begin, from.begin() + end, to.begin() + begin);
   });
 }
 

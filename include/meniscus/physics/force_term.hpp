@@ -18,12 +18,20 @@
 
 namespace meniscus {
 
+class ForceTerm;
+
 /// What forces depend on. Displacement and velocity coefficients of the particles of all bodies.
 struct Motion {
   Real time;
   std::span<const NodalVector> u, v;
   std::span<const Unknown> fields = {};  ///< by the numbers of System::add_field
   const Reactions* reactions = nullptr;  ///< of the constraints; for measures only
+};
+
+/// What ForceTerm::stored_energy() of a term would say.
+struct StoredEnergy {
+  const ForceTerm* term;
+  Real value;
 };
 
 /// Forces on the coefficients of the displacement of all particles, and the fields that have forces
@@ -34,6 +42,8 @@ struct Forces : std::span<NodalVector> {
   Forces(NodalVectors& f) : std::span<NodalVector>(f) {}
 
   std::span<Unknown> fields;
+  /// Where terms that have it at hand put their stored energy; none: it is not asked for.
+  std::vector<StoredEnergy>* energies = nullptr;
 };
 
 /// Why a term could not compute a force that makes sense.

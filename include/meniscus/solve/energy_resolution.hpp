@@ -20,15 +20,21 @@ class EnergyResolution {
   Real longest_step(const System<D>& system, const State& state);
   /// Throws StepError `of_step` if the step of dt to `state` disturbed the balance by considerably
   /// more than it may: forces have come that nothing announced.
-  void judge(const System<D>& system, const State& state, Real dt) const;
+  void judge(const System<D>& system, const State& state, Real dt);
 
   void archive(const Archive& a);
 
  private:
+  /// Kinetic energy, S, and the power sum f.v, at a time.
+  struct Sums {
+    Real kinetic = 0, S = 0, power = 0, time = -1;
+  };
+  static Sums sums(const System<D>& system, const State& state);
   void remember(Real S, Real power, Real time);
   Real exchanged(Real S, Real power, Real time) const;
   void hold(Real allowed, std::int64_t step);
 
+  Sums judged_;             ///< of the step judged last
   Real S_ = 0, power_ = 0;  ///< sum f^2/m and sum f.v of the step before
   Real time_ = -1;          ///< of the step before; negative: there is none
   Real energy_ = 0;         ///< most that has been in motion: kinetic, dissipated and external work

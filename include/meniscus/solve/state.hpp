@@ -35,10 +35,18 @@ struct State {
   std::vector<Unknown> fields;  ///< other unknowns
   Reactions reactions;          ///< of constraints, part of `force`; empty without any
   Books books;
-  StepDemand demand;  ///< of all terms on the next step
+  StepDemand demand;                   ///< of all terms on the next step
+  bool energies_asked = false;         ///< at the end of the next step
+  std::vector<StoredEnergy> energies;  ///< that came along with `force`; any may be missing
 
   Motion motion() const { return {time, u, v, fields, &reactions}; }
-  Forces forces() { return {force, fields}; }
+  /// For forces to be computed anew: the energies of those before are void.
+  Forces forces() {
+    energies.clear();
+    Forces all(force, fields);
+    if (energies_asked) all.energies = &energies;
+    return all;
+  }
   /// In 2 or 3 dimensions; the sizes are those of the system already.
   void archive(const Archive& a, int dimension);
 };
