@@ -157,6 +157,14 @@ void Director<D>::couples(const Motion& motion, std::span<Real> values) {
   }
 }
 
+/// P2 of the angle between the director and that of the start; 1 where there is none.
+template <int D>
+Real Director<D>::tilt(const Motion& motion, Index A) const {
+  const Eigen::Vector3d h = value(motion, A), &h0 = at(initial_, A);
+  const Real squares = h.squaredNorm() * h0.squaredNorm(), product = h.dot(h0);
+  return squares > 0 ? (D * product * product / squares - 1) / (D - 1) : 1;
+}
+
 template <int D>
 std::vector<FieldSource> Director<D>::fields() {
   return {{"director", D, dimension::none, "director of a nematic",
@@ -166,20 +174,19 @@ std::vector<FieldSource> Director<D>::fields() {
            }},
           {"director_couple", 3, dimension::pressure,
            "couple h x s per volume that the director exerts while it is not at rest, s = dE/dh",
-           [this](const Motion& motion, std::span<Real> values) { couples(motion, values); }}};
+           [this](const Motion& motion, std::span<Real> values) { couples(motion, values); }},
+          {"director_tilt", 1, dimension::none,
+           "P2 = (3 c^2 - 1)/2 (2D: 2 c^2 - 1), c the cosine between the director and that of the "
+           "start",
+           [this](const Motion& motion, std::span<Real> values) {
+             for (Index A = 0; A < body_.size(); ++A) at(values, A) = tilt(motion, A);
+           }}};
 }
 
 template <int D>
 std::vector<MeasureSource> Director<D>::measures() {
   const auto length = [this](const Motion& motion) {
     return mean([&](Index A) { return value(motion, A).norm(); });
-  };
-  const auto tilt = [this](const Motion& motion) {
-    return mean([&](Index A) {
-      const Eigen::Vector3d h = value(motion, A), &h0 = at(initial_, A);
-      const Real squares = h.squaredNorm() * h0.squaredNorm(), product = h.dot(h0);
-      return squares > 0 ? (D * product * product / squares - 1) / (D - 1) : 1;
-    });
   };
   const auto couple = [this](const Motion& motion) {
     std::vector<Real> m(3 * volume_.size());
@@ -199,7 +206,7 @@ std::vector<MeasureSource> Director<D>::measures() {
       {"director_tilt", dimension::none,
        "mean of P2 = (3 c^2 - 1)/2 (2D: 2 c^2 - 1), c the cosine between the director and that of "
        "the start",
-       tilt},
+       [this](const Motion& motion) { return mean([&](Index A) { return tilt(motion, A); }); }},
       {"director_length", dimension::none, "mean of |h|", length}};
 }
 

@@ -24,7 +24,9 @@ sys.path.insert(0, str(ROOT / "tools/plotting"))
 import directors  # noqa: E402
 import drop_theory  # noqa: E402
 import movies  # noqa: E402
+import nematics  # noqa: E402
 import partners  # noqa: E402
+import sections  # noqa: E402
 import style  # noqa: E402
 
 PROGRAM = sys.argv.pop(1)
@@ -204,6 +206,66 @@ type = "half_space"
             names = {"wall_profile", "wall_front"} | ({"wall_patch"} if dimension == 3 else set())
             self.assertEqual({name for name in pictures if "wall" in name}, names)
             self.assertGreater(min(pictures.values()), 10000)
+
+    def test_sections_contain_the_normals_of_walls(self):
+        """Of a ball across z, on a wall and on ground along its normal; of a wall that stands askew as of none."""
+        corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+        ball = types.SimpleNamespace(X=corners, settings={"shape": "ball"})
+        for contact, axes in (
+            ({}, [0, 1]),
+            ({"partner": {"type": "half_space", "normal": [0, 0, 1]}}, [0, 2]),
+            ({"partner": {"type": "ball", "centre": [0, 0, 0]}}, [0, 1]),
+            ({"up": [0, 1, 0]}, [0, 1]),
+            ({"up": [0, 0, 1]}, [0, 2]),
+            ({"partner": {"type": "half_space", "normal": [1, 1, 1]}}, [0, 1]),
+        ):
+            run = types.SimpleNamespace(bodies=[ball], input={"contact": [contact]})
+            self.assertEqual(sections.Plane(run).axes, axes, contact)
+
+    def test_nematic_drops(self):
+        """Force dipole and tilt; in a section along x and z the eye is at -y."""
+        plane = types.SimpleNamespace(axes=[0, 2])
+        np.testing.assert_array_equal(nematics.out_of_picture(plane), [0, -1, 0])
+        director = 'type = "nematic", frank_constant = 0.2, rotational_viscosity = 0.5'
+        director += ', initial_director = [{direction}]'
+        for dimension, shape, direction in (
+            (2, "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2", "0.6, 0.8"),
+            (3, "shape = 'ellipsoid'\nsemi_axes = [1, 1.2, 1]\ncore = 4\nlayers = 2", "0, 0.6, 0.8"),
+        ):
+            scene = SCENE.replace('type = "newtonian"', director.replace("{direction}", direction))
+            scene = scene.replace('"velocity", "F", "pressure"', '"director", "director_couple", "director_tilt"')
+            scene = scene.replace('"drop.p2"', '"drop.director_couple"')
+            done, pictures = self.draw(dimension, shape, "--frames", "2", scene=scene)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("drop_director", pictures)
+            self.assertGreater(min(pictures.values()), 10000)
+
+    def test_drops_on_ground(self):
+        ground = """
+[[body]]
+name = "layer"
+shape = "rectangle"
+size = [4, 0.8]
+spacing = 0.2
+corner = [-2, -0.8]
+material = { type = "neo_hookean", density = 1, youngs_modulus = 20, poissons_ratio = 0.4 }
+[[held]]
+body = "layer"
+where = "y < -0.79"
+[[contact]]
+name = "line"
+bodies = ["drop", "layer"]
+adhesion = 0.5
+up = [0, 1]
+range = 0.3
+offset = 0.1
+points = 4
+"""
+        shape = "shape = 'disk'\nradius = 1\ncore = 4\nrings = 2\ncentre = [0, 1.1]"
+        done, pictures = self.draw(2, shape, "--frames", "2", tables=ground)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("line_ground", pictures)
+        self.assertGreater(min(pictures.values()), 10000)
 
     def test_report(self):
         """One page, whole in itself: what was expected, doubted and drawn, the input, and who made it."""

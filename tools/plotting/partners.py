@@ -41,6 +41,16 @@ def value_at(formula, t):
         return None
 
 
+def normals(run):
+    """Of half spaces, and the directions up of ground: what sections should contain."""
+    for contact in run.input.get("contact", []):
+        partner = contact.get("partner")
+        if partner and partner["type"] == "half_space":
+            yield np.array(partner["normal"], dtype=float)
+        elif contact.get("up"):
+            yield np.array(contact["up"], dtype=float)
+
+
 def near_walls(run, frame, points):
     """Places of half spaces and balls next to the bodies [wall, i], which pictures should show: those
     no farther than half of the extent of all points."""
@@ -72,21 +82,32 @@ def outlines(run, frame=0):
     return found
 
 
-def draw(axis, run, factor, frame):
-    """Draws all partners of a plane scene; lengths are multiplied by `factor`."""
+def draw(axis, run, factor, frame, axes=(0, 1)):
+    """Draws all partners of a plane scene, in a section along two `axes` of space the half spaces whose
+    normals it contains; lengths are multiplied by `factor`."""
     if run.dimension == 3:
+        for partner, moved in partners(run, frame):
+            if partner["type"] == "half_space":
+                line(axis, partner, moved, factor, list(axes))
         return
     for polygon in outlines(run, frame):
         axis.plot(*(polygon * factor).T, **LOOKS)
     for partner, moved in partners(run, frame):
         if partner["type"] == "half_space":
-            x, y = (np.array(partner["point"]) + moved) * factor
-            normal = partner["normal"]
-            axis.axline((x, y), (x + normal[1], y - normal[0]), **LOOKS)
+            line(axis, partner, moved, factor, [0, 1])
         elif partner["type"] in ("ball", "cavity"):
             angle = np.linspace(0, 2 * np.pi, 200)
             circle = partner["radius"] * np.array([np.cos(angle), np.sin(angle)])
             axis.plot(*(factor * ((np.array(partner["centre"]) + moved)[:, None] + circle)), **LOOKS)
+
+
+def line(axis, partner, moved, factor, axes):
+    """A half space, if its normal lies in the plane of these axes."""
+    normal = np.array(partner["normal"], dtype=float)
+    x, y = ((np.array(partner["point"]) + moved) * factor)[axes]
+    across, up = normal[axes] / np.linalg.norm(normal)
+    if np.hypot(across, up) > 0.999:
+        axis.axline((x, y), (x + up, y - across), **LOOKS)
 
 
 def walls(run, frame, axes_of_view, centre, width):

@@ -13,8 +13,10 @@ import cells
 import comparison
 import contacts
 import drop_decay
+import grounds
 import histories
 import movies
+import nematics
 import probes
 import sections
 import studies
@@ -82,6 +84,8 @@ def pictures_of_run(run, field, frames):
         **sections.draw(run, field, frames or 5),
         **surfaces.draw(run, field, frames or 3),
         **wetting.draw(run, frames or 5),
+        **grounds.draw(run, frames or 5),
+        **nematics.draw(run, frames or 5),
     }
 
 

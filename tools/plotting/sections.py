@@ -23,8 +23,8 @@ def draw(run, name, count):
 
 class Plane:
     """The reference plane of the section: through the centre, across the shortest extent (z if
-    there is a choice), so that it contains the longest axis; for shells across y, so that it
-    contains their axis. In 2D everything is in the plane."""
+    there is a choice), so that it contains the longest axis, but along the normals of walls and of
+    ground; for shells across y, so that it contains their axis. In 2D everything is in the plane."""
 
     def __init__(self, run):
         X = np.concatenate([body.X for body in run.bodies])
@@ -32,8 +32,10 @@ class Plane:
         self.normal = None
         self.axes = [0, 1]
         if X.shape[1] == 3:
+            normals = np.array([*partners.normals(run)]).reshape(-1, 3)
+            across = [k for k in range(3) if np.abs(normals[:, k]).max(initial=0) < 0.1] or [0, 1, 2]
             extent = high - low
-            self.normal = max(k for k in range(3) if extent[k] <= 1.001 * extent.min())
+            self.normal = max(k for k in across if extent[k] <= 1.001 * extent[across].min())
             if all(body.settings["shape"].endswith("_shell") for body in run.bodies):
                 self.normal = 1
             self.place = (low + high)[self.normal] / 2
@@ -52,6 +54,7 @@ class Cut:
             beside = np.abs(body.X[:, plane.normal] - plane.place)
             # Flat cells of a wall are wider than its spacing: at least the nearest particles.
             near = beside < max(0.5 * body.spacing, 1.01 * beside.min())
+        self.near = near
         self.x = x[near][:, plane.axes]
         self.values = values[near]
         self.size = 0.85 * body.volume[near] ** (1 / body.dimension)
@@ -74,6 +77,20 @@ def outline(body, x, plane):
                 ends.append((1 - s) * x[a] + s * x[b])
         segments += [ends[k : k + 2] for k in range(0, len(ends) - 1, 2)]
     return np.array(segments)[:, :, plane.axes] if segments else np.empty((0, 2, 2))
+
+
+def show(axis, cut, values, length_factor, norm, colors="viridis"):
+    """Dots of these values at the particles of a cut, with directors and outline. Returns the dots."""
+    dots = EllipseCollection(
+        cut.size * length_factor, cut.size * length_factor, 0, units="xy",
+        offsets=cut.x * length_factor, transOffset=axis.transData, norm=norm,
+        cmap=colors, linewidths=0,
+    )  # fmt: skip
+    dots.set_array(values)
+    axis.add_collection(dots)
+    directors.draw(axis, cut.rods, length_factor)
+    axis.add_collection(LineCollection(cut.outline * length_factor, colors="0.2", lw=0.9))
+    return dots
 
 
 def picture(run, plane, frames, cuts, name):
@@ -103,16 +120,8 @@ def picture(run, plane, frames, cuts, name):
         axis.set_visible(False)
     for axis, frame, cuts_of_frame in zip(axes.flat, frames, cuts):
         for cut in cuts_of_frame:
-            dots = EllipseCollection(
-                cut.size * length_factor, cut.size * length_factor, 0, units="xy",
-                offsets=cut.x * length_factor, transOffset=axis.transData, norm=norm,
-                cmap="viridis", linewidths=0,
-            )  # fmt: skip
-            dots.set_array(cut.values * factor)
-            axis.add_collection(dots)
-            directors.draw(axis, cut.rods, length_factor)
-            axis.add_collection(LineCollection(cut.outline * length_factor, colors="0.2", lw=0.9))
-        partners.draw(axis, run, length_factor, frame)
+            dots = show(axis, cut, cut.values * factor, length_factor, norm)
+        partners.draw(axis, run, length_factor, frame, plane.axes)
         axis.set_title(style.time_text(run.times[frame], time_unit, time_factor), fontsize=10)
         axis.set_xlim(low[0] * length_factor, high[0] * length_factor)
         axis.set_ylim(low[1] * length_factor, high[1] * length_factor)

@@ -31,6 +31,7 @@ class Director final : public CarriedField {
   template <class F>
   Real mean(F&& of_particle) const;
   Real order(const Motion& motion) const;
+  Real tilt(const Motion& motion, Index A) const;
   void couples(const Motion& motion, std::span<Real> values);
 
   const Body<D>& body_;
