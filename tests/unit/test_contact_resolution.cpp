@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points per facet: as many as the estimate asks for make balls slide on each other, fewer do not.
+// Points per facet: as many as the estimate asks for make balls slide on each other, fewer do not;
+// far from a rigid partner fewer give the same forces.
 #include "meniscus/physics/contact_numbers.hpp"
 #include "meniscus/physics/contact_resolution.hpp"
+#include "meniscus/physics/facet_grades.hpp"
 
 #include <gtest/gtest.h>
 
@@ -94,6 +96,138 @@ TEST(ContactResolution, FollowsGapAndFacet) {
   EXPECT_EQ(hopeless.enough_points(), 8);
   EXPECT_TRUE(hopeless.unfelt(8));
   EXPECT_FALSE(coarse.unfelt(1));
+}
+
+/// The same without a power by which it falls: all points, wherever they are.
+class AllPoints final : public Interaction {
+ public:
+  explicit AllPoints(const ContactLaw& law) : law_(law, 1.2 * 0.7) {}
+  PlaneState at(Real gap) const override { return law_.at(gap); }
+  Real range() const override { return law_.range(); }
+  Real least_gap() const override { return law_.least_gap(); }
+  PlaneContact flat() const override { return law_.flat(); }
+
+ private:
+  LennardJones law_;
+};
+
+template <int D>
+ContactLaw uncut(Real size) {
+  ContactLaw law = test::law<D>(D == 3 ? PairKernel::space : PairKernel::integrated, size);
+  law.cutoff = std::numeric_limits<Real>::infinity();
+  return law;
+}
+
+/// A partner whose surface is `gap` below the lowest point of a ball of radius 1.
+template <int D>
+MovingPartner<D> partner(const std::string& type, const ContactLaw& law, Real gap) {
+  Vec<D> down = Vec<D>::Zero();
+  down[D - 1] = -1;
+  MovingPartner<D> moving;
+  moving.beta = 0.7;
+  if (type == "half space") moving.shape = rigid_half_space<D>(law, 0.7, (1 + gap) * down, -down);
+  if (type == "ball") moving.shape = rigid_ball<D>(law, 0.7, (2 + gap) * down, 1);
+  if constexpr (D == 2)
+    if (type == "frame") moving.shape = rigid_frame(law, 0.7, {-3, -1 - gap}, {4, 5});
+  return moving;
+}
+
+template <int D>
+ContactChoice choice(int points, bool on_patches = false) {
+  ContactChoice choice;
+  choice.name = "pair";
+  choice.points = points;
+  choice.on_patches = {on_patches, false};
+  return choice;
+}
+
+Real largest(const NodalVectors& f) {
+  Real square = 0;
+  for (const Lanes& x : f) square = std::max(square, sum(x * x));
+  return std::sqrt(square);
+}
+
+Real size_of_sum(const NodalVectors& f) {
+  return largest({std::accumulate(f.begin(), f.end(), Lanes::zero())});
+}
+
+/// Forces and energies at gaps from near the core to far away, with fewer points and with all, on a
+/// surface with waves of the length of a facet, which fewer points see differently wherever it is.
+template <int D>
+void expect_same(const std::string& type, Real size, int points, bool on_patches) {
+  SCOPED_TRACE(type + " in " + std::to_string(D) + "D, " + std::to_string(points) + " points");
+  const auto body = test::with_mass<D>(test::round<D>(Vec<D>::Zero()));
+  const ContactLaw law = uncut<D>(size);
+  const NodalVectors u = test::random_field<D>(body->size(), 0.01, 3);
+  Real nodal = 0, net = 0, energy = 0;  // with all points: the largest force, and the least energy
+  Real nodal_error = 0, net_error = 0, energy_error = 0;
+  for (Real gap = 0.5 * size; gap < 8; gap *= 1.17) {
+    const auto few = rigid_contact<D>({*body, 1.2}, partner<D>(type, law, gap), law,
+                                      choice<D>(points, on_patches));
+    const auto all =
+        rigid_contact<D>({*body, 1.2}, partner<D>(type, law, gap), std::make_shared<AllPoints>(law),
+                         choice<D>(points, on_patches));
+    const NodalVectors f = test::force_of(*all, u),
+                       error = test::sum_of(test::force_of(*few, u), -1, f);
+    const Real e = test::energy_of(*all, u);
+    nodal = std::max(nodal, largest(f));
+    nodal_error = std::max(nodal_error, largest(error));
+    net = std::max(net, size_of_sum(f));
+    net_error = std::max(net_error, size_of_sum(error));
+    energy = std::min(energy, e);
+    energy_error = std::max(energy_error, std::abs(test::energy_of(*few, u) - e));
+  }
+  EXPECT_GT(nodal_error, 0);
+  EXPECT_LT(nodal_error, 4e-5 * nodal);
+  EXPECT_LT(net_error, 4e-6 * net);
+  EXPECT_LT(energy_error, -3e-5 * energy);
+}
+
+TEST(FacetGrades, DoNotChangeForces) {
+  expect_same<3>("half space", 0.3, 5, false);
+  expect_same<3>("half space", 0.15, 6, false);
+  expect_same<3>("half space", 0.3, 3, true);
+  expect_same<3>("ball", 0.3, 4, false);
+  expect_same<2>("half space", 0.2, 4, true);
+  expect_same<2>("ball", 0.2, 5, false);
+  expect_same<2>("frame", 0.2, 4, false);
+}
+
+/// What acts between a body and a ball has no torque about the centre of the ball, whatever the
+/// grades of the facets.
+TEST(FacetGrades, KeepForcesBalanced) {
+  const auto body = test::with_mass<3>(test::round<3>(Vec<3>::Zero()));
+  const ContactLaw law = uncut<3>(0.3);
+  const auto term = rigid_contact<3>({*body, 1.2}, partner<3>("ball", law, 0.2), law, choice<3>(5));
+  const NodalVectors u = test::random_field<3>(body->size(), 0.02, 7), f = test::force_of(*term, u);
+  Vec<3> torque = Vec<3>::Zero(), net = torque;
+  Real scale = 0;
+  for (Index A = 0; A < body->size(); ++A) {
+    const Vec<3> x = at(body->particles.X(), A) + vector_at<3>(u, A) - Vec<3>(0, 0, -2.2);
+    const Vec<3> force = vector_at<3>(f, A);
+    torque += Vec<3>(x[1] * force[2] - x[2] * force[1], x[2] * force[0] - x[0] * force[2],
+                     x[0] * force[1] - x[1] * force[0]);
+    net += force;
+    scale += x.norm() * force.norm();
+  }
+  EXPECT_GT(net.norm(), 0);
+  EXPECT_LT(torque.norm(), 1e-13 * scale);
+}
+
+TEST(FacetGrades, AreCoarserFarther) {
+  const LennardJones interaction(uncut<3>(0.1), 1);
+  const FacetGrades grades(5, interaction, 0.2);
+  EXPECT_EQ(grades.points(), (std::vector<int>{5, 3, 2}));
+  EXPECT_EQ(grades.grade(0.05, 0.2), 0);
+  EXPECT_EQ(grades.grade(5, 0.2), 2);
+  EXPECT_EQ(grades.grade(5, 20), 0);
+  int last = 0;
+  for (Real distance = 0.05; distance < 5; distance *= 1.1) {
+    EXPECT_GE(grades.grade(distance, 0.2), last);
+    last = grades.grade(distance, 0.2);
+  }
+  EXPECT_EQ(FacetGrades(2, interaction, 0.2).count(), 1);
+  EXPECT_EQ(FacetGrades(5, AllPoints(uncut<3>(0.1)), 0.2).count(), 1);
 }
 
 }  // namespace

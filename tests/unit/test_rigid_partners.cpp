@@ -179,5 +179,39 @@ TEST(RigidMotion, IsTheFormulaAndItsDerivative) {
   EXPECT_EQ(v[2], 0);
 }
 
+/// Some of the four nearer than the least gap, some inside of the material.
+template <int D>
+void expect_fields_of_points() {
+  for (const Case<D>& c : cases<D>()) {
+    SCOPED_TRACE(c.name);
+    std::mt19937_64 generator(5);
+    std::uniform_real_distribution<Real> place(-2, 2);
+    for (int k = 0; k < 40; ++k) {
+      LanePlace<D> x;
+      for (Lanes& component : x)
+        component = Lanes(place(generator), place(generator), place(generator), place(generator));
+      const LaneField<D> all = c.partner->fields(x, Lanes::width);
+      for (int lane = 0; lane < Lanes::width; ++lane) {
+        Vec<D> point;
+        for (int i = 0; i < D; ++i) point[i] = at(x, i)[lane];
+        const RigidField<D> one = c.partner->field(point);
+        const Real size = 1e-12 * one.grad_S.norm();
+        EXPECT_NEAR(all.distance[lane], c.partner->distance(point), 1e-14);
+        EXPECT_NEAR(all.U[lane], one.U, size);
+        for (int i = 0; i < D; ++i) {
+          EXPECT_NEAR(at(all.S, i)[lane], one.S[i], 1e-12 * one.S.norm());
+          for (int j = 0; j < D; ++j)
+            EXPECT_NEAR(at(at(all.grad_S, i), j)[lane], one.grad_S(i, j), size);
+        }
+      }
+    }
+  }
+}
+
+TEST(RigidPartner, HasTheSameFieldAtFourPointsAtOnce) {
+  expect_fields_of_points<2>();
+  expect_fields_of_points<3>();
+}
+
 }  // namespace
 }  // namespace meniscus::test_rigid_partners

@@ -44,10 +44,11 @@ struct ContactChoice {
 /// Points of the surface of a body, the first (0) or second (1) of a contact, with `beta` per area.
 template <int D>
 ContactPoints<D> surface_contact_points(const Body<D>& body, Real beta, const ContactChoice& choice,
-                                        std::size_t side) {
+                                        std::size_t side,
+                                        Clusters clusters = Clusters::of_neighbours) {
   if (choice.on_patches[side] && choice.density == SiteDensity::constant)
-    return ContactPoints<D>::on_patches(body, beta, choice.points);
-  return ContactPoints<D>::on_surface(body, beta, choice.density, choice.points);
+    return ContactPoints<D>::on_patches(body, beta, choice.points, clusters);
+  return ContactPoints<D>::on_surface(body, beta, choice.density, choice.points, clusters);
 }
 
 /// A body with `beta` particles of the interaction per volume.

@@ -28,6 +28,9 @@ class LennardJones final : public Interaction {
   PlaneState at(Real gap) const override { return plane_state(uncut_, beta_product_, gap); }
   Real range() const override { return 5 * law_.sigma0; }
   Real least_gap() const override { return law_.guard * law_.sigma0; }
+  std::optional<int> far_power() const override {
+    return law_.kernel == PairKernel::planar ? 4 : 3;
+  }
   PlaneContact flat() const override { return plane_contact(law_, beta_product_); }
 
  private:

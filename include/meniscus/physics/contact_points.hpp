@@ -13,6 +13,12 @@ namespace meniscus {
 /// (b/J per current volume) (CGCM note 2).
 enum class SiteDensity { constant, referential };
 
+/// Which points of a surface make a cluster.
+enum class Clusters {
+  of_neighbours,  ///< any four
+  of_facets       ///< points of one facet: every facet has the same number of clusters
+};
+
 /// Places and weights of contact points at a motion.
 template <int D>
 struct ContactPlaces {
@@ -55,14 +61,17 @@ class PatchPoints;
 ///   (referential), outward, D numbers;
 /// - on patches (SurfacePatches) b m dA, outward, D numbers: of the surface of the patches;
 /// - in the volume b dV, one number.
-/// Lanes without a point lie on the last point and have the weight 0.
+/// Lanes without a point lie on the last point of the cluster and have the weight 0.
 template <int D>
 class ContactPoints {
  public:
-  /// `points` Gauss points per direction of every facet of the surface, all sides included.
-  static ContactPoints on_surface(const Body<D>& body, Real beta, SiteDensity density, int points);
+  /// `points` Gauss points per direction of every facet of the surface, all sides included. The
+  /// order of facets in clusters of facets depends on the body alone.
+  static ContactPoints on_surface(const Body<D>& body, Real beta, SiteDensity density, int points,
+                                  Clusters clusters = Clusters::of_neighbours);
   /// `points` Gauss points per direction of every patch; of constant density.
-  static ContactPoints on_patches(const Body<D>& body, Real beta, int points);
+  static ContactPoints on_patches(const Body<D>& body, Real beta, int points,
+                                  Clusters clusters = Clusters::of_neighbours);
   /// `points` Gauss points per direction of every cell.
   static ContactPoints in_volume(const Body<D>& body, Real beta, int points);
 
@@ -71,11 +80,10 @@ class ContactPoints {
   ~ContactPoints();
 
   const Body<D>& body() const { return *body_; }
+  /// Of lanes up to the last point.
   Index size() const { return static_cast<Index>(rule_.point_weight.size()); }
-  Index clusters() const { return (size() + Lanes::width - 1) / Lanes::width; }
-  Index points_in(Index cluster) const {
-    return std::min<Index>(Lanes::width, size() - cluster * Lanes::width);
-  }
+  Index clusters() const { return static_cast<Index>(points_in_.size()); }
+  Index points_in(Index cluster) const { return at(points_in_, cluster); }
   /// Root mean square distance of neighbouring points: (area or volume per point)^(1/dimension).
   Real spacing() const { return spacing_; }
   /// Smallest mass per area (volume) that moves with a point: a stiffness k per area between the
@@ -131,10 +139,13 @@ class ContactPoints {
 
  private:
   ContactPoints(const Body<D>& body, int components);
-  /// The points `order` of X, which carry `measure`.
-  void place_points(const std::vector<Vec<D>>& X, const std::vector<Index>& order,
-                    const std::vector<Real>& measure);
+  /// The points X, which come facet by facet and carry `measure`.
+  void place_points(const std::vector<Vec<D>>& X, const std::vector<Real>& measure,
+                    Clusters clusters);
+  bool has_point(Index lane) const { return lane % Lanes::width < points_in(lane / Lanes::width); }
   void build_rows(RowContent content);
+  template <class F>
+  void take_weights(F&& weight_of);
   void take_inertia();
   /// Calls f(A, value) for the shape functions at a point, or parts of them.
   template <class F>
@@ -165,11 +176,12 @@ class ContactPoints {
   const Body<D>* body_;
   int components_;  // of a weight: D on the surface, 1 in the volume
   SiteDensity density_ = SiteDensity::referential;
-  Real beta_ = 1;      // of patches: weight per area
-  PointRule<D> rule_;  // a group is a cluster
+  Real beta_ = 1;                 // of patches: weight per area
+  std::vector<Index> order_;      // [lane] number among the points as they were made
+  std::vector<Index> points_in_;  // [cluster]
+  PointRule<D> rule_;             // a group is a cluster; lanes without a point have empty rows
   ForceWindows windows_;
   std::unique_ptr<PatchPoints<D>> patches_;   // null: points by shape functions
-  std::vector<Index> on_patch_;               // [point] its number there
   std::vector<std::vector<Index>> of_group_;  // [group of patches] points
   Real spacing_ = 0, inertia_ = 0, gain_ = 0;
   AlignedVector<Lanes> X_, reference_;  // [cluster][i]: places, weights in the reference state

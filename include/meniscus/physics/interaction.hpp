@@ -48,6 +48,9 @@ class Interaction {
   virtual bool hardens() const { return true; }
   /// Whether there is nothing at all beyond range().
   virtual bool ends() const { return false; }
+  /// The k of a pressure that falls as gap^-k beyond the peak of the traction; none: in another
+  /// way.
+  virtual std::optional<int> far_power() const { return std::nullopt; }
   virtual PlaneContact flat() const = 0;
   /// The adhesion W(x, t) of a rigid partner or ground, or W(t) between two bodies, by which at()
   /// has to be multiplied; null: at() has it. flat() has that of one place.

@@ -27,6 +27,16 @@ struct RigidField {
   Mat<D> grad_S;  ///< (i, j): dS_i/dx_j
 };
 
+/// Four points and the fields there, a lane per point.
+template <int D>
+using LanePlace = std::array<Lanes, D>;
+template <int D>
+struct LaneField {
+  Lanes U, distance;
+  std::array<Lanes, D> S;
+  std::array<std::array<Lanes, D>, D> grad_S;  ///< [i][j]
+};
+
 /// A rigid body as a field: what it does to a point outside of it.
 template <int D>
 class RigidPartner {
@@ -41,6 +51,11 @@ class RigidPartner {
 
   /// Distance of x from the surface, negative inside of the material.
   virtual Real distance(const Vec<D>& x) const = 0;
+
+  /// Field and distance of the first `points` of four points, with the distance of the last of them
+  /// for the others.
+  virtual LaneField<D> fields(const LanePlace<D>& x, int points) const;
+  virtual Lanes distances(const LanePlace<D>& x) const;
 };
 
 /// The kernel of a partner in two dimensions is `integrated` or `planar`, in three `space`; the

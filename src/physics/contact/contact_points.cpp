@@ -14,11 +14,11 @@
 namespace meniscus {
 namespace {
 
-/// An order in which four consecutive points are neighbours: halves along the longest edge of the
-/// box around them, cut at multiples of four.
+/// Brings `order` into one in which four consecutive points are neighbours: halves along the
+/// longest edge of the box around them, cut at multiples of `together`.
 template <int D>
-void order_in_clusters(const std::vector<Vec<D>>& X, std::span<Index> order) {
-  if (order.size() <= Lanes::width) return;
+void order_in_space(const std::vector<Vec<D>>& X, std::span<Index> order, std::size_t together) {
+  if (order.size() <= together) return;
   Box<D> box;
   for (const Index q : order) box.include(at(X, q));
   Eigen::Index axis = 0;
@@ -26,19 +26,31 @@ void order_in_clusters(const std::vector<Vec<D>>& X, std::span<Index> order) {
   const auto less = [&](Index a, Index b) {
     return at(X, a)[axis] != at(X, b)[axis] ? at(X, a)[axis] < at(X, b)[axis] : a < b;
   };
-  const std::size_t clusters = (order.size() + Lanes::width - 1) / Lanes::width;
-  const std::size_t half = clusters / 2 * Lanes::width;
+  const std::size_t groups = (order.size() + together - 1) / together;
+  const std::size_t half = groups / 2 * together;
   std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
                    less);
-  order_in_clusters(X, order.first(half));
-  order_in_clusters(X, order.subspan(half));
+  order_in_space(X, order.first(half), together);
+  order_in_space(X, order.subspan(half), together);
 }
 
+std::vector<Index> numbers(std::size_t count) {
+  std::vector<Index> all(count);
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
+/// The facets of a body, neighbours in space one after the other.
 template <int D>
-std::vector<Index> clustered_order(const std::vector<Vec<D>>& X) {
-  std::vector<Index> order(X.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  order_in_clusters<D>(X, order);
+std::vector<Index> facets_in_space(const Grid<D>& grid) {
+  std::vector<Vec<D>> centre;
+  for (const Facet<D>& facet : grid.facets) {
+    Vec<D> sum = Vec<D>::Zero();
+    for (const Index node : facet.nodes) sum += at(grid.X, node);
+    centre.push_back(sum);
+  }
+  std::vector<Index> order = numbers(centre.size());
+  order_in_space<D>(centre, order, 1);
   return order;
 }
 
@@ -55,36 +67,57 @@ template <int D>
 ContactPoints<D>::~ContactPoints() = default;
 
 template <int D>
-void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vector<Index>& order,
-                                    const std::vector<Real>& measure) {
-  std::vector<Vec<D>> places;
-  for (const Index q : order) {
-    places.push_back(at(X, q));
-    rule_.point_weight.push_back(at(measure, q));
+void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vector<Real>& measure,
+                                    Clusters clusters) {
+  const auto append = [&](std::span<const Index> points) {
+    for (std::size_t k = 0; k < points.size(); k += Lanes::width)
+      points_in_.push_back(
+          static_cast<Index>(std::min<std::size_t>(Lanes::width, points.size() - k)));
+    order_.insert(order_.end(), points.begin(), points.end());
+  };
+  std::vector<Index> order = numbers(X.size());
+  if (clusters == Clusters::of_neighbours) {
+    order_in_space<D>(X, order, Lanes::width);
+    append(order);
+  } else {
+    const Grid<D>& grid = body_->geometry.grid;
+    const std::size_t per_facet = X.size() / grid.facets.size();
+    for (const Index facet : facets_in_space(grid)) {
+      const std::span<Index> points(&at(order, facet * static_cast<Index>(per_facet)), per_facet);
+      order_in_space<D>(X, points, Lanes::width);
+      append(points);
+      order_.resize(points_in_.size() * Lanes::width, points.back());
+    }
   }
+  const auto& search = body_->particles.search();
   std::vector<Index> nearest;
-  for (const Vec<D>& x : places) {
-    body_->particles.search().within(
-        x, body_->particles.search().distance_of_nearest(x, 1) * (1 + 1e-12), nearest);
+  for (Index q = 0; q < static_cast<Index>(order_.size()); ++q) {
+    const Vec<D>& x = at(X, at(order_, q));
+    rule_.point_weight.push_back(has_point(q) ? at(measure, at(order_, q)) : 0);
+    search.within(x, search.distance_of_nearest(x, 1) * (1 + 1e-12), nearest);
     rule_.point_owner.push_back(nearest.front());
   }
   const Real total = std::accumulate(measure.begin(), measure.end(), Real{0});
-  spacing_ = std::pow(total / size(), 1.0 / (components_ == 1 ? D : D - 1));
-  X_.assign(offset(clusters(), D), Lanes::zero());
-  for (Index c = 0; c < clusters(); ++c)
+  spacing_ = std::pow(total / static_cast<Real>(X.size()), 1.0 / (components_ == 1 ? D : D - 1));
+  X_.assign(offset(this->clusters(), D), Lanes::zero());
+  for (Index c = 0; c < this->clusters(); ++c)
     for (int lane = 0; lane < Lanes::width; ++lane)
       for (int i = 0; i < D; ++i)
         at(X_, c * D + i)
-            .set(lane, at(places, c * Lanes::width + std::min(lane, points_in(c) - 1))[i]);
-  reference_.assign(offset(clusters(), components_), Lanes::zero());
-  pushed_.assign(static_cast<std::size_t>(clusters()), 0);
+            .set(lane, at(X, at(order_, c * Lanes::width + std::min(lane, points_in(c) - 1)))[i]);
+  reference_.assign(offset(this->clusters(), components_), Lanes::zero());
+  pushed_.assign(points_in_.size(), 0);
 }
 
 template <int D>
 void ContactPoints<D>::build_rows(RowContent content) {
   std::vector<Vec<D>> places;
-  for (Index q = 0; q < size(); ++q) places.push_back(reference_place(q));
+  for (Index q = 0; q < size(); ++q)
+    if (has_point(q)) places.push_back(reference_place(q));
   rule_.rows = build_point_rows<D>(body_->particles, places, content, body_->name);
+  const std::vector<Offset> start = std::exchange(rule_.rows.start, {0});
+  for (Index q = 0, point = 0; q < size(); ++q)
+    rule_.rows.start.push_back(at(start, has_point(q) ? ++point : point));
   windows_ = rule_.windows(body_->size());
   take_inertia();
 }
@@ -92,7 +125,7 @@ void ContactPoints<D>::build_rows(RowContent content) {
 template <int D>
 template <class F>
 void ContactPoints<D>::for_shape_functions(Index point, F&& f) const {
-  if (patches_) return patches_->for_shape_functions(at(on_patch_, point), f);
+  if (patches_) return patches_->for_shape_functions(at(order_, point), f);
   const PointRows<D>& rows = rule_.rows;
   for (Offset e = at(rows.start, point); e < at(rows.start, point + 1); ++e)
     f(at(rows.particle, e), at(rows.value, e));
@@ -125,23 +158,20 @@ void ContactPoints<D>::take_inertia() {
 
 template <int D>
 ContactPoints<D> ContactPoints<D>::on_surface(const Body<D>& body, Real beta, SiteDensity density,
-                                              int points) {
+                                              int points, Clusters clusters) {
   const SurfacePoints<D> surface = surface_points(body.geometry, points);
-  const std::vector<Index> order = clustered_order<D>(surface.X);
   ContactPoints contact(body, D);
   contact.density_ = density;
-  contact.place_points(surface.X, order, surface.area);
+  contact.place_points(surface.X, surface.area, clusters);
   contact.build_rows({.value = true, .gradient = true});
-  for (Index q = 0; q < contact.size(); ++q)
-    for (int i = 0; i < D; ++i)
-      at(contact.reference_, q / Lanes::width * D + i)
-          .set(q % Lanes::width,
-               beta * at(surface.area, at(order, q)) * at(surface.N, at(order, q))[i]);
+  contact.take_weights(
+      [&](Index point) { return Vec<D>(beta * at(surface.area, point) * at(surface.N, point)); });
   return contact;
 }
 
 template <int D>
-ContactPoints<D> ContactPoints<D>::on_patches(const Body<D>& body, Real beta, int points) {
+ContactPoints<D> ContactPoints<D>::on_patches(const Body<D>& body, Real beta, int points,
+                                              Clusters clusters) {
   ContactPoints contact(body, D);
   contact.density_ = SiteDensity::constant;
   contact.beta_ = beta;
@@ -154,30 +184,37 @@ ContactPoints<D> ContactPoints<D>::on_patches(const Body<D>& body, Real beta, in
     V.push_back(patches.area_vector(q, patches.reference_nodes()));
     area.push_back(V.back().norm());
   }
-  contact.on_patch_ = clustered_order<D>(X);
-  contact.place_points(X, contact.on_patch_, area);
+  contact.place_points(X, area, clusters);
   contact.take_inertia();
   contact.of_group_.resize(static_cast<std::size_t>(patches.group_count()));
   for (Index q = 0; q < contact.size(); ++q)
-    at(contact.of_group_, patches.group(at(contact.on_patch_, q))).push_back(q);
-  for (Index q = 0; q < contact.size(); ++q)
-    for (int i = 0; i < D; ++i)
-      at(contact.reference_, q / Lanes::width * D + i)
-          .set(q % Lanes::width, beta * at(V, at(contact.on_patch_, q))[i]);
+    if (contact.has_point(q))
+      at(contact.of_group_, patches.group(at(contact.order_, q))).push_back(q);
+  contact.take_weights([&](Index point) { return Vec<D>(beta * at(V, point)); });
   return contact;
 }
 
 template <int D>
 ContactPoints<D> ContactPoints<D>::in_volume(const Body<D>& body, Real beta, int points) {
   const CellPoints<D> cells = cell_gauss_points(body.geometry.grid, points);
-  const std::vector<Index> order = clustered_order<D>(cells.X);
   ContactPoints contact(body, 1);
-  contact.place_points(cells.X, order, cells.weight);
+  contact.place_points(cells.X, cells.weight, Clusters::of_neighbours);
   contact.build_rows({.value = true});
-  for (Index q = 0; q < contact.size(); ++q)
-    at(contact.reference_, q / Lanes::width)
-        .set(q % Lanes::width, beta * at(cells.weight, at(order, q)));
+  contact.take_weights(
+      [&](Index point) { return Eigen::Matrix<Real, 1, 1>(beta * at(cells.weight, point)); });
   return contact;
+}
+
+/// `weight_of` the points as they were made.
+template <int D>
+template <class F>
+void ContactPoints<D>::take_weights(F&& weight_of) {
+  for (Index q = 0; q < size(); ++q) {
+    if (!has_point(q)) continue;
+    const auto weight = weight_of(at(order_, q));
+    for (int i = 0; i < components_; ++i)
+      at(reference_, q / Lanes::width * components_ + i).set(q % Lanes::width, weight[i]);
+  }
 }
 
 template <int D>
@@ -206,7 +243,7 @@ template <int D>
 void ContactPoints<D>::move_on_patches(Index c, ContactPlaces<D>& places) const {
   for (Index lane = 0; lane < Lanes::width; ++lane) {
     const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
-    const Vec<D> x = patches_->place(at(on_patch_, q), places.nodes);
+    const Vec<D> x = patches_->place(at(order_, q), places.nodes);
     for (int i = 0; i < D; ++i) at(places.x, c * D + i).set(lane, x[i]);
   }
 }
@@ -253,7 +290,7 @@ void ContactPoints<D>::update_weights(Index c, const NodalVector* u,
   if (patches_) {
     for (Index lane = 0; lane < points_in(c); ++lane) {
       const Vec<D> V =
-          beta_ * patches_->area_vector(at(on_patch_, c * Lanes::width + lane), places.nodes);
+          beta_ * patches_->area_vector(at(order_, c * Lanes::width + lane), places.nodes);
       for (int i = 0; i < D; ++i) at(places.weight, c * D + i).set(lane, V[i]);
     }
     return;
@@ -277,7 +314,7 @@ void ContactPoints<D>::want_nodes(std::span<const Index> clusters, ContactPlaces
   std::fill(places.wanted.begin(), places.wanted.end(), std::uint8_t{0});
   for (const Index c : clusters)
     for (Index lane = 0; lane < points_in(c); ++lane)
-      patches_->want(at(on_patch_, c * Lanes::width + lane), places.wanted);
+      patches_->want(at(order_, c * Lanes::width + lane), places.wanted);
 }
 
 template <int D>
@@ -295,7 +332,7 @@ void ContactPoints<D>::velocity(Index cluster, const Motion& motion, const Conta
   if (!patches_) return velocity_nearby(cluster, motion, v);
   for (Index lane = 0; lane < Lanes::width; ++lane) {
     const Index q = cluster * Lanes::width + std::min(lane, points_in(cluster) - 1);
-    const Vec<D> rate = patches_->place(at(on_patch_, q), places.node_v);
+    const Vec<D> rate = patches_->place(at(order_, q), places.node_v);
     for (int i = 0; i < D; ++i) v[i].set(lane, rate[i]);
   }
 }
@@ -305,8 +342,8 @@ void ContactPoints<D>::velocity_nearby(Index cluster, const Motion& motion, Lane
   const NodalVector* field = motion.v.data() + body_->first;
   for (Index lane = 0; lane < Lanes::width; ++lane) {
     const Index q = cluster * Lanes::width + std::min(lane, points_in(cluster) - 1);
-    const Lanes rate = patches_ ? patches_->velocity_nearby(at(on_patch_, q), field)
-                                : value_at(rule_.rows, q, field);
+    const Lanes rate =
+        patches_ ? patches_->velocity_nearby(at(order_, q), field) : value_at(rule_.rows, q, field);
     for (int i = 0; i < D; ++i) v[i].set(lane, rate[i]);
   }
 }
@@ -363,7 +400,7 @@ void ContactPoints<D>::add_force_on_patches(const ContactPlaces<D>& places,
         pull[i] = T[offset(c, D) + static_cast<std::size_t>(i)][lane];
         if (!S.empty()) turn[i] = beta_ * S[offset(c, D) + static_cast<std::size_t>(i)][lane];
       }
-      patches_->add(at(on_patch_, q), pull, turn, places.nodes);
+      patches_->add(at(order_, q), pull, turn, places.nodes);
     }
   });
   patches_->end_force(body_->part(force));
@@ -378,7 +415,7 @@ Offset ContactPoints<D>::pairs() const {
 template <int D>
 std::size_t ContactPoints<D>::bytes() const {
   return rule_.bytes() + windows_.bytes() + (X_.size() + reference_.size()) * sizeof(Lanes) +
-         on_patch_.size() * sizeof(Index) + (patches_ ? patches_->bytes() : 0);
+         (order_.size() + points_in_.size()) * sizeof(Index) + (patches_ ? patches_->bytes() : 0);
 }
 
 template class ContactPoints<2>;

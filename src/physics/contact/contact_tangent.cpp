@@ -73,7 +73,7 @@ ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
           const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
           Vec<D> dx;
           if (patches_) {
-            dx = patches_->place(at(on_patch_, q), all.nodes);
+            dx = patches_->place(at(order_, q), all.nodes);
           } else {
             const Lanes moved = value_at(rule_.rows, q, du);
             for (int i = 0; i < D; ++i) dx[i] = moved[i];
@@ -82,8 +82,8 @@ ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
           if (!patches_ || lane >= points_in(c)) continue;
           // Of second degree in the places of the nodes: central differences are exact.
           const Vec<D> dV = 0.5 * beta_ *
-                            (patches_->area_vector(at(on_patch_, q), ahead) -
-                             patches_->area_vector(at(on_patch_, q), behind));
+                            (patches_->area_vector(at(order_, q), ahead) -
+                             patches_->area_vector(at(order_, q), behind));
           for (int i = 0; i < D; ++i) at(all.weight, c * D + i).set(lane, dV[i]);
         }
         if (patches_ || components_ == 1) return;
@@ -143,9 +143,9 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
         turn[i] = beta_ * S[k][lane];
         turned_by[i] = beta_ * dS[k][lane];
       }
-      patches_->add(at(on_patch_, q), pull, turned_by, places.nodes);
+      patches_->add(at(order_, q), pull, turned_by, places.nodes);
       // What S does through the tangents is linear in them; in the plane there is no other tangent.
-      if (D == 3) patches_->add(at(on_patch_, q), Vec<D>::Zero(), turn, changes.nodes);
+      if (D == 3) patches_->add(at(order_, q), Vec<D>::Zero(), turn, changes.nodes);
     }
   });
   patches_->end_force(body_->part(force));

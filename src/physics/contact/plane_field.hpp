@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Half space and point: a power law of the distance.
 #pragma once
+#include "meniscus/core/simd.hpp"
 #include "meniscus/physics/contact_law.hpp"
 
 namespace meniscus {
@@ -22,14 +23,21 @@ class PlaneField {
 
   /// The k-th derivative of U; k = -1: minus the integral from a to infinity, that is S along the
   /// normal. k = -1, 0, 1 or 2.
-  Real derivative(int k, Real a) const {
-    const Real z = a / sigma0_;
+  template <class T>
+  T derivative(int k, T a) const {
+    const T z = a / sigma0_;
     Real scale = k < 0 ? sigma0_ : 1;
     for (int i = 0; i < k; ++i) scale /= sigma0_;
     return unit_ * scale * (A_ * power(m_, k, z) - B_ * power(n_, k, z));
   }
-  Real S(Real a) const { return derivative(-1, a); }
-  Real U(Real a) const { return derivative(0, a); }
+  template <class T>
+  T S(T a) const {
+    return derivative(-1, a);
+  }
+  template <class T>
+  T U(T a) const {
+    return derivative(0, a);
+  }
   Real dU(Real a) const { return derivative(1, a); }
 
   /// The distance where the k-th derivative is zero.
@@ -39,10 +47,13 @@ class PlaneField {
 
  private:
   /// d^k/dz^k z^-p.
-  static Real power(int p, int k, Real z) {
-    Real factor = k < 0 ? Real(1) / (1 - p) : 1, value = 1;
+  template <class T>
+  static T power(int p, int k, T z) {
+    Real factor = k < 0 ? Real(1) / (1 - p) : 1;
     for (int i = 0; i < k; ++i) factor *= -(p + i);
-    for (int i = 0; i < p + k; ++i) value *= 1 / z;
+    const T by_z = 1.0 / z;
+    T value = 1;
+    for (int i = 0; i < p + k; ++i) value *= by_z;
     return factor * value;
   }
 
@@ -61,13 +72,22 @@ class GuardedPlane {
         U_(exact_.U(core_)),
         dU_(exact_.dU(core_)) {}
 
-  Real U(Real a) const { return a < core_ ? U_ + dU_ * (a - core_) : exact_.U(a); }
-  Real S(Real a) const {
-    const Real d = a - core_;
-    return a < core_ ? S_ + d * (U_ + d * dU_ / 2) : exact_.S(a);
+  template <class T>
+  T U(T a) const {
+    return from_core(a, U_ + dU_ * (a - core_), exact_.U(a));
+  }
+  template <class T>
+  T S(T a) const {
+    const T d = a - core_;
+    return from_core(a, S_ + d * (U_ + d * dU_ / 2.0), exact_.S(a));
   }
 
  private:
+  Real from_core(Real a, Real below, Real above) const { return a < core_ ? below : above; }
+  Lanes from_core(Lanes a, Lanes below, Lanes above) const {
+    return select(a.v < core_, below, above);
+  }
+
   PlaneField exact_;
   Real core_, S_, U_, dU_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clusters of contact points that may feel a rigid partner whose interaction ends at a range.
+// How long the clusters of contact points that may feel a rigid partner, whose interaction ends at
+// a range, stay the same.
 #pragma once
 #include "meniscus/physics/contact_points.hpp"
 
@@ -7,9 +8,9 @@
 
 namespace meniscus {
 
-/// Made of the clusters within twice the range, it holds until a point can have moved by the range:
-/// no point moves farther than ContactPoints::gain() times the largest change of a displacement
-/// coefficient, and the partner by its own displacement.
+/// Those within twice the range do until a point can have moved by the range: no point moves
+/// farther than ContactPoints::gain() times the largest change of a displacement coefficient, and
+/// the partner by its own displacement.
 template <int D>
 class ReachList {
  public:
@@ -20,21 +21,14 @@ class ReachList {
     const Real left = range_ * (1 - 1e-12) - (shift - shift_).norm();
     return left > 0 && points.gain() * largest_change(points, motion) <= left;
   }
-  /// Empty, to be filled with the clusters that are now within distance().
+  /// The clusters within distance() are found at this motion.
   void begin(const ContactPoints<D>& points, const Motion& motion, const Vec<D>& shift) {
     const auto u = points.body().part(motion.u);
     u_.assign(u.begin(), u.end());
     shift_ = shift;
-    clusters_.clear();
-    clusters_.reserve(static_cast<std::size_t>(points.clusters()));
   }
-  void add(Index cluster) { clusters_.push_back(cluster); }
-
   Real distance() const { return 2 * range_; }
-  std::span<const Index> clusters() const { return clusters_; }
-  std::size_t bytes() const {
-    return u_.size() * sizeof(NodalVector) + clusters_.capacity() * sizeof(Index);
-  }
+  std::size_t bytes() const { return u_.size() * sizeof(NodalVector); }
 
  private:
   Real largest_change(const ContactPoints<D>& points, const Motion& motion) const {
@@ -50,7 +44,6 @@ class ReachList {
   Real range_;
   NodalVectors u_;  // when it was made
   Vec<D> shift_ = Vec<D>::Zero();
-  std::vector<Index> clusters_;
 };
 
 }  // namespace meniscus

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of a deformable body with a rigid partner in closed form.
+#include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
+#include "meniscus/physics/facet_grades.hpp"
 
 #include <fmt/core.h>
 
@@ -24,6 +26,22 @@ Eigen::Vector3d cross(const Vec<D>& x, const Vec<D>& y) {
   return meniscus::cross(spatial<D>(x), spatial<D>(y));
 }
 
+/// Edge of a facet by its two Gauss points per direction.
+template <int D>
+Real edge_by_points(const ContactPlaces<D>& places, Index cluster) {
+  Real square = 0;  // of the largest distance
+  for (int a = 0; a < Lanes::width; ++a)
+    for (int b = 0; b < a; ++b) {
+      Real between = 0;
+      for (int i = 0; i < D; ++i) {
+        const Real r = places.x_of(cluster)[i][a] - places.x_of(cluster)[i][b];
+        between += r * r;
+      }
+      square = std::max(square, between);
+    }
+  return std::sqrt(3 * square / (D - 1));
+}
+
 template <int D>
 class RigidContact final : public ForceTerm {
  public:
@@ -35,12 +53,10 @@ class RigidContact final : public ForceTerm {
         wets_(choice.wets),
         partner_(std::move(partner)),
         effects_(*interaction_, partner_, choice.friction),
-        points_(surface_contact_points(body.body, body.beta, choice, 0)),
-        all_(static_cast<std::size_t>(points_.clusters())),
+        grades_(choice.points, *interaction_, smallest_edge(body.body)),
+        points_(points_of(body, choice, grades_)),
         now_(points_),
         list_(interaction_->range()) {
-    std::iota(all_.begin(), all_.end(), Index{0});
-    near_.reserve(all_.size());
     if (partner_.motion.moves()) steady_after_ = end_of_motion();
     if (const auto* pattern = effects_.pattern()) {
       require_adhesion(*pattern);
@@ -53,12 +69,15 @@ class RigidContact final : public ForceTerm {
 
   Report add_force(const Motion& motion, Forces force) override {
     effects_.begin(motion.time);
-    const std::span<const Index> visited = in_reach(motion);
-    evaluate(motion, visited, now_);
-    add_effects(motion, visited, now_);
-    const std::span<const Lanes> S =
-        form_ == ContactForm::energy ? std::span<const Lanes>(now_.S) : std::span<const Lanes>();
-    points_.add_force(now_.places, visited, now_.T, S, force);
+    visit(motion);
+    evaluate(motion, now_);
+    add_effects(motion, now_);
+    for (std::size_t g = 0; g < points_.size(); ++g) {
+      Layer& layer = now_.layers[g];
+      const std::span<const Lanes> S =
+          form_ == ContactForm::energy ? std::span<const Lanes>(layer.S) : std::span<const Lanes>();
+      points_[g].add_force(layer.places, layer.visited, layer.T, S, force);
+    }
     return report(motion);
   }
 
@@ -91,99 +110,135 @@ class RigidContact final : public ForceTerm {
   /// there.
   std::optional<std::string> warning(const Motion& motion) const override {
     if (partner_.surface && partner_.surface->round()) return std::nullopt;
-    return unresolved_gap(name_, evaluated(motion).gap(), points_.spacing(), interaction_->range());
+    return unresolved_gap(name_, gap(motion), finest().spacing(), interaction_->range());
   }
 
   std::vector<MeasureSource> measures() const override;
 
   std::size_t bytes() const override {
-    return points_.bytes() + now_.places.bytes() + (now_.T.size() + now_.S.size()) * sizeof(Lanes) +
-           list_.bytes();
+    std::size_t n = list_.bytes();
+    for (const ContactPoints<D>& points : points_) n += points.bytes();
+    for (const Layer& layer : now_.layers)
+      n += layer.places.bytes() + (layer.T.size() + layer.S.size()) * sizeof(Lanes);
+    return n;
   }
-  Offset pairs() const override { return points_.pairs() + points_.size(); }
+  Offset pairs() const override {
+    Offset n = 0;
+    for (const ContactPoints<D>& points : points_) n += points.pairs() + points.size();
+    return n;
+  }
 
  private:
-  /// Places of the points and their forces, [cluster][i] as in contact_forms.hpp.
-  struct Evaluation {
+  /// Places of the points of a grade and their forces, [cluster][i] as in contact_forms.hpp.
+  struct Layer {
+    std::vector<Index> visited;  // clusters that feel the partner: only they have forces
+    std::vector<Index> near;     // of these, clusters within the range
     ContactPlaces<D> places;
     AlignedVector<Lanes> T, S;
-    AlignedVector<Lanes> distances;  // [cluster] from the surface of the partner
-    WallSums sums;
+    AlignedVector<Lanes> distances;  // [cluster] from the surface of the partner; others: beyond
 
-    explicit Evaluation(const ContactPoints<D>& points) : places(points.at_rest()) {
-      T.assign(static_cast<std::size_t>(points.clusters()) * D, Lanes::zero());
+    explicit Layer(const ContactPoints<D>& points) : places(points.at_rest()) {
+      visited.resize(static_cast<std::size_t>(points.clusters()));
+      std::iota(visited.begin(), visited.end(), Index{0});
+      near.reserve(visited.size());
+      T.assign(visited.size() * D, Lanes::zero());
       S = T;
-      distances.assign(static_cast<std::size_t>(points.clusters()), Lanes::zero());
+      distances.assign(visited.size(), Lanes(unbounded));
     }
     Real distance(Index q) const { return at(distances, q / Lanes::width)[q % Lanes::width]; }
-    Index nearest_point() const {
-      Index nearest = 0;
-      for (Index q = 0; q < places.size; ++q)
-        if (distance(q) < distance(nearest)) nearest = q;
-      return nearest;
+    Real nearest_of(Index cluster) const {
+      const Lanes& d = at(distances, cluster);
+      return std::min(std::min(d[0], d[1]), std::min(d[2], d[3]));
     }
-    Real gap() const { return distance(nearest_point()); }
+  };
+  /// Of all points: those of a facet are of one grade.
+  struct Evaluation {
+    std::vector<Layer> layers;  // by grade
+    WallSums sums;
+
+    explicit Evaluation(const std::vector<ContactPoints<D>>& points)
+        : layers(points.begin(), points.end()) {}
+  };
+  /// A point of a grade.
+  struct Nearest {
+    Real distance = unbounded;
+    std::size_t grade = 0;
+    Index point = 0;
   };
 
+  static Real smallest_edge(const Body<D>& body);
+  static std::vector<ContactPoints<D>> points_of(const ContactBody<D>& body,
+                                                 const ContactChoice& choice,
+                                                 const FacetGrades& grades);
+  const ContactPoints<D>& finest() const { return points_.front(); }
   void require_adhesion(const AdhesionPattern& W) const;
   Real end_of_motion() const;
-  std::span<const Index> in_reach(const Motion& motion);
-  void evaluate(const Motion& motion, std::span<const Index> clusters, Evaluation& result) const;
-  void evaluate(Index cluster, const Vec<D>& shift, Evaluation& result) const;
-  void take_all_distances(const Motion& motion);
-  void add_effects(const Motion& motion, std::span<const Index> clusters, Evaluation& result) const;
-  WallPoints<D> wall_points(Index cluster, const Motion& motion, const Vec<D>& shift,
-                            const Vec<D>& velocity, Evaluation& result) const;
-  /// At any motion; takes memory.
-  Evaluation evaluated(const Motion& motion) const {
+  /// Decides which clusters of which grades feel the partner.
+  void visit(const Motion& motion) {
+    if (interaction_->ends())
+      visit_near(motion);
+    else
+      visit_by_grade(motion, now_);
+  }
+  void visit_near(const Motion& motion);
+  void visit_by_grade(const Motion& motion, Evaluation& result) const;
+  void evaluate(const Motion& motion, Evaluation& result) const;
+  void evaluate(const ContactPoints<D>& points, Index cluster, const Vec<D>& shift,
+                Layer& layer) const;
+  void take_distances(const ContactPoints<D>& points, const Vec<D>& shift, Layer& layer) const;
+  void add_effects(const Motion& motion, Evaluation& result) const;
+  WallPoints<D> wall_points(std::size_t grade, Index cluster, const Motion& motion,
+                            const Vec<D>& shift, const Vec<D>& velocity, Evaluation& result) const;
+  /// At any motion, without effects; takes memory.
+  Evaluation without_effects(const Motion& motion) const {
     Evaluation result(points_);
-    evaluate(motion, all_, result);
-    add_effects(motion, all_, result);
+    visit_by_grade(motion, result);
+    evaluate(motion, result);
     return result;
   }
+  Evaluation evaluated(const Motion& motion) const {
+    Evaluation result = without_effects(motion);
+    add_effects(motion, result);
+    return result;
+  }
+  Nearest nearest_of(const Evaluation& result) const;
+  /// Of all points of the finest grade.
+  Real gap(const Motion& motion) const {
+    Layer layer(finest());
+    finest().move(motion, layer.places);
+    take_distances(finest(), partner_.motion.displacement(motion.time), layer);
+    Real least = unbounded;
+    for (const Index c : layer.visited) least = std::min(least, layer.nearest_of(c));
+    return least;
+  }
   Real energy_of(const Evaluation& result) const {
-    return parallel_sum(points_.clusters(), 0.0, [&](Index c) {
-      Lanes E = Lanes::zero();
-      for (int i = 0; i < D; ++i) E += at(result.S, c * D + i) * result.places.weight_of(c)[i];
-      return sum(E);
-    });
+    Real sum_of_layers = 0;
+    for (const Layer& layer : result.layers)
+      sum_of_layers += parallel_sum(static_cast<Index>(layer.visited.size()), 0.0, [&](Index k) {
+        const Index c = at(layer.visited, k);
+        Lanes E = Lanes::zero();
+        for (int i = 0; i < D; ++i) E += at(layer.S, c * D + i) * layer.places.weight_of(c)[i];
+        return sum(E);
+      });
+    return sum_of_layers;
   }
   Real wetted_area(const Motion& motion) const {
-    Evaluation uniform(points_);
-    evaluate(motion, all_, uniform);
+    const Evaluation uniform = without_effects(motion);
     const Real energy = effects_.pattern() ? unit_energy(uniform, motion.time) : energy_of(uniform);
     return std::max(0.0, -energy / effects_.adhesion());
   }
-  Real unit_energy(const Evaluation& uniform, Real time) const {
-    const Vec<D> shift = partner_.motion.displacement(time);
-    return parallel_sum(uniform.places.size, 0.0, [&](Index q) {
-      const Index c = q / Lanes::width;
-      Vec<D> V, S;
-      for (int i = 0; i < D; ++i) {
-        V[i] = uniform.places.weight_of(c)[i][q % Lanes::width];
-        S[i] = at(uniform.S, c * D + i)[q % Lanes::width];
-      }
-      return effects_.unit_energy(uniform.places.place(q) - shift, uniform.distance(q), V, S);
-    });
-  }
+  Real unit_energy(const Evaluation& uniform, Real time) const;
   Vec<D> mean_slip(const Motion& motion) const;
   Vec<D> velocity(const Motion& motion) const {
     return partner_.motion.velocity(motion.time, partner_.velocity_step);
   }
   Report report(const Motion& motion);
-  /// Whether a point of the cluster is within the range.
-  bool near(const Evaluation& result, Index cluster) const {
-    return nearest_of(result, cluster) < interaction_->range();
-  }
-  static Real nearest_of(const Evaluation& result, Index cluster) {
-    const Lanes& d = at(result.distances, cluster);
-    return std::min(std::min(d[0], d[1]), std::min(d[2], d[3]));
-  }
 
   Vec<D> net_force(const Evaluation& result) const {
     Vec<D> force = Vec<D>::Zero();
-    for (const Index c : all_)
-      for (int i = 0; i < D; ++i) force[i] -= sum(at(result.T, c * D + i));
+    for (const Layer& layer : result.layers)
+      for (const Index c : layer.visited)
+        for (int i = 0; i < D; ++i) force[i] -= sum(at(layer.T, c * D + i));
     return force;
   }
   Eigen::Vector3d net_torque(const Evaluation& result) const;
@@ -194,20 +249,40 @@ class RigidContact final : public ForceTerm {
   bool wets_;
   MovingPartner<D> partner_;
   WallEffects<D> effects_;
-  ContactPoints<D> points_;
-  std::vector<Index> all_;  // clusters
+  FacetGrades grades_;
+  std::vector<ContactPoints<D>> points_;  // by grade
   Real steady_after_ = 0;
   // Work space of a force.
   Evaluation now_;
   ReachList<D> list_;
-  std::vector<Index> near_;  // clusters within the range at the last force
 };
+
+/// Edge of the smallest facet.
+template <int D>
+Real RigidContact<D>::smallest_edge(const Body<D>& body) {
+  const SurfacePoints<D> surface = surface_points(body.geometry, 1);
+  return std::pow(*std::min_element(surface.area.begin(), surface.area.end()), 1.0 / (D - 1));
+}
+
+template <int D>
+std::vector<ContactPoints<D>> RigidContact<D>::points_of(const ContactBody<D>& body,
+                                                         const ContactChoice& choice,
+                                                         const FacetGrades& grades) {
+  std::vector<ContactPoints<D>> all;
+  ContactChoice of_grade = choice;
+  const Clusters clusters = grades.count() > 1 ? Clusters::of_facets : Clusters::of_neighbours;
+  for (const int points : grades.points()) {
+    of_grade.points = points;
+    all.push_back(surface_contact_points(body.body, body.beta, of_grade, 0, clusters));
+  }
+  return all;
+}
 
 /// Before a run, that W can be taken wherever on the partner the body may touch it first.
 template <int D>
 void RigidContact<D>::require_adhesion(const AdhesionPattern& W) const try {
-  for (Index q = 0; q < points_.size(); ++q) {
-    const Vec<D> X = points_.reference_place(q);
+  for (Index q = 0; q < finest().size(); ++q) {
+    const Vec<D> X = finest().reference_place(q);
     const auto foot = partner_.surface->foot(X);
     W(spatial<D>(X - foot.distance * foot.normal), 0);
   }
@@ -228,46 +303,67 @@ Real RigidContact<D>::end_of_motion() const {
   return k == steps_of_run ? std::numeric_limits<Real>::infinity() : k * partner_.velocity_step;
 }
 
-/// Clusters that may feel the partner; all of them, for an interaction without end. Those are kept
-/// in a list for as long as no other point can have come within the range.
+/// Clusters that may feel the partner of an interaction that ends. They are kept in a list for as
+/// long as no other point can have come within the range.
 template <int D>
-std::span<const Index> RigidContact<D>::in_reach(const Motion& motion) {
-  if (!interaction_->ends()) return all_;
+void RigidContact<D>::visit_near(const Motion& motion) {
+  Layer& layer = now_.layers.front();
   const Vec<D> shift = partner_.motion.displacement(motion.time);
-  if (!list_.holds(points_, motion, shift)) {
-    take_all_distances(motion);
-    list_.begin(points_, motion, shift);
-    for (const Index c : all_)
-      if (nearest_of(now_, c) < list_.distance()) list_.add(c);
-    std::fill(now_.T.begin(), now_.T.end(), Lanes::zero());
-    std::fill(now_.S.begin(), now_.S.end(), Lanes::zero());
+  if (list_.holds(finest(), motion, shift)) return;
+  finest().move(motion, layer.places);
+  take_distances(finest(), shift, layer);
+  list_.begin(finest(), motion, shift);
+  layer.visited.clear();
+  for (Index c = 0; c < finest().clusters(); ++c)
+    if (layer.nearest_of(c) < list_.distance()) layer.visited.push_back(c);
+}
+
+/// Each facet has the grade that it needs at the distance of its coarsest points: by the present
+/// motion alone.
+template <int D>
+void RigidContact<D>::visit_by_grade(const Motion& motion, Evaluation& result) const {
+  if (grades_.count() == 1) return;
+  const ContactPoints<D>& coarsest = points_.back();
+  Layer& layer = result.layers.back();
+  coarsest.move(motion, layer.places);
+  take_distances(coarsest, partner_.motion.displacement(motion.time), layer);
+  for (Layer& each : result.layers) {
+    each.visited.clear();
+    if (&each != &layer) std::fill(each.distances.begin(), each.distances.end(), Lanes(unbounded));
   }
-  return list_.clusters();
+  // The coarsest points of a facet are a cluster.
+  for (Index facet = 0; facet < coarsest.clusters(); ++facet) {
+    const int grade = grades_.grade(layer.nearest_of(facet), edge_by_points(layer.places, facet));
+    Layer& chosen = at(result.layers, grade);
+    const Index clusters = at(points_, grade).clusters() / coarsest.clusters();
+    for (Index c = facet * clusters; c < (facet + 1) * clusters; ++c) chosen.visited.push_back(c);
+    if (&chosen != &layer) at(layer.distances, facet) = Lanes(unbounded);
+  }
 }
 
 template <int D>
-void RigidContact<D>::evaluate(const Motion& motion, std::span<const Index> clusters,
-                               Evaluation& result) const {
-  points_.move(clusters, motion, result.places);
-  points_.update_weights(clusters, motion, result.places);
+void RigidContact<D>::evaluate(const Motion& motion, Evaluation& result) const {
   const Vec<D> shift = partner_.motion.displacement(motion.time);
-  parallel_for(
-      static_cast<Index>(clusters.size()),
-      [&](Index k) { evaluate(at(clusters, k), shift, result); }, 16);
+  for (std::size_t g = 0; g < points_.size(); ++g) {
+    const ContactPoints<D>& points = points_[g];
+    Layer& layer = result.layers[g];
+    if (g == 0 || g + 1 < points_.size()) points.move(layer.visited, motion, layer.places);
+    points.update_weights(layer.visited, motion, layer.places);
+    parallel_for(
+        static_cast<Index>(layer.visited.size()),
+        [&](Index k) { evaluate(points, at(layer.visited, k), shift, layer); }, 16);
+  }
 }
 
 template <int D>
-void RigidContact<D>::take_all_distances(const Motion& motion) {
-  points_.move(motion, now_.places);
-  const Vec<D> shift = partner_.motion.displacement(motion.time);
+void RigidContact<D>::take_distances(const ContactPoints<D>& points, const Vec<D>& shift,
+                                     Layer& layer) const {
   parallel_for(
-      points_.clusters(),
+      points.clusters(),
       [&](Index c) {
-        for (int lane = 0; lane < Lanes::width; ++lane) {
-          Vec<D> place;
-          for (int i = 0; i < D; ++i) place[i] = now_.places.x_of(c)[i][lane] - shift[i];
-          at(now_.distances, c).set(lane, partner_.shape->distance(place));
-        }
+        LanePlace<D> place;
+        for (int i = 0; i < D; ++i) at(place, i) = layer.places.x_of(c)[i] - shift[i];
+        at(layer.distances, c) = partner_.shape->distances(place);
       },
       16);
 }
@@ -275,60 +371,92 @@ void RigidContact<D>::take_all_distances(const Motion& motion) {
 /// T and S of the four points of a cluster: T = grad S V, with S forming the energy S.V, or T = U V
 /// for the pressure form. The dissertation's traction Sigma n = -beta1 grad S n is T without S.
 template <int D>
-void RigidContact<D>::evaluate(Index cluster, const Vec<D>& shift, Evaluation& result) const {
-  const Lanes *x = result.places.x_of(cluster), *weight = result.places.weight_of(cluster);
-  for (int lane = 0; lane < Lanes::width; ++lane) {
-    Vec<D> place, V;
-    for (int i = 0; i < D; ++i) {
-      place[i] = x[i][lane] - shift[i];
-      V[i] = weight[i][lane];
-    }
-    const RigidField<D> field = partner_.shape->field(place);
-    const Vec<D> T = form_ == ContactForm::pressure ? Vec<D>(field.U * V) : field.grad_S * V;
-    for (int i = 0; i < D; ++i) {
-      at(result.T, cluster * D + i).set(lane, T[i]);
-      at(result.S, cluster * D + i).set(lane, field.S[i]);
-    }
-    at(result.distances, cluster).set(lane, partner_.shape->distance(place));
+void RigidContact<D>::evaluate(const ContactPoints<D>& points, Index cluster, const Vec<D>& shift,
+                               Layer& layer) const {
+  const Lanes* V = layer.places.weight_of(cluster);
+  LanePlace<D> place;
+  for (int i = 0; i < D; ++i) at(place, i) = layer.places.x_of(cluster)[i] - shift[i];
+  const LaneField<D> field = partner_.shape->fields(place, points.points_in(cluster));
+  for (int i = 0; i < D; ++i) {
+    Lanes T = Lanes::zero();
+    if (form_ == ContactForm::pressure)
+      T = field.U * V[i];
+    else
+      for (int j = 0; j < D; ++j) T += at(at(field.grad_S, i), j) * V[j];
+    at(layer.T, cluster * D + i) = T;
+    at(layer.S, cluster * D + i) = at(field.S, i);
   }
+  at(layer.distances, cluster) = field.distance;
+}
+
+template <int D>
+Real RigidContact<D>::unit_energy(const Evaluation& uniform, Real time) const {
+  const Vec<D> shift = partner_.motion.displacement(time);
+  Real sum_of_layers = 0;
+  for (std::size_t g = 0; g < points_.size(); ++g) {
+    const Layer& layer = uniform.layers[g];
+    sum_of_layers += parallel_sum(static_cast<Index>(layer.visited.size()), 0.0, [&](Index k) {
+      const Index c = at(layer.visited, k);
+      Real energy = 0;
+      for (int lane = 0; lane < points_[g].points_in(c); ++lane) {
+        Vec<D> V, S;
+        for (int i = 0; i < D; ++i) {
+          V[i] = layer.places.weight_of(c)[i][lane];
+          S[i] = at(layer.S, c * D + i)[lane];
+        }
+        const Index q = c * Lanes::width + lane;
+        energy += effects_.unit_energy(layer.places.place(q) - shift, layer.distance(q), V, S);
+      }
+      return energy;
+    });
+  }
+  return sum_of_layers;
 }
 
 /// Adhesion that varies, and friction, have the difference of their forces.
 template <int D>
 void RigidContact<D>::add_tangent(const Motion& motion, const Motion& change, Forces force) {
   if (effects_.any()) return ForceTerm::add_tangent(motion, change, force);
-  const std::span<const Index> visited = in_reach(motion);
-  evaluate(motion, visited, now_);
-  add_tangent_of_partner<D>(points_, *partner_.shape, form_,
-                            {partner_.motion.displacement(motion.time), visited, now_.places,
-                             now_.S, now_.distances, interaction_->least_gap()},
-                            motion, change, force);
+  visit(motion);
+  evaluate(motion, now_);
+  for (std::size_t g = 0; g < points_.size(); ++g) {
+    const Layer& layer = now_.layers[g];
+    add_tangent_of_partner<D>(points_[g], *partner_.shape, form_,
+                              {partner_.motion.displacement(motion.time), layer.visited,
+                               layer.places, layer.S, layer.distances, interaction_->least_gap()},
+                              motion, change, force);
+  }
 }
 
 /// Adhesion that varies, and friction.
 template <int D>
-void RigidContact<D>::add_effects(const Motion& motion, std::span<const Index> visited,
-                                  Evaluation& result) const {
+void RigidContact<D>::add_effects(const Motion& motion, Evaluation& result) const {
   if (!effects_.any()) return;
   const Vec<D> shift = partner_.motion.displacement(motion.time), velocity = this->velocity(motion);
-  points_.prepare_velocities(visited, motion, result.places);
-  result.sums = parallel_sum(points_.clusters(), WallSums(), [&](Index c) {
-    if (!near(result, c)) return WallSums();
-    WallPoints<D> points = wall_points(c, motion, shift, velocity, result);
-    return effects_.add(points, motion.time);
-  });
+  result.sums = {};
+  for (std::size_t g = 0; g < points_.size(); ++g) {
+    Layer& layer = result.layers[g];
+    points_[g].prepare_velocities(layer.visited, motion, layer.places);
+    result.sums = result.sums + parallel_sum(points_[g].clusters(), WallSums(), [&](Index c) {
+                    if (!(layer.nearest_of(c) < interaction_->range())) return WallSums();
+                    WallPoints<D> points = wall_points(g, c, motion, shift, velocity, result);
+                    return effects_.add(points, motion.time);
+                  });
+  }
 }
 
 template <int D>
-WallPoints<D> RigidContact<D>::wall_points(Index cluster, const Motion& motion, const Vec<D>& shift,
-                                           const Vec<D>& velocity, Evaluation& result) const {
-  const Lanes *x = result.places.x_of(cluster), *weight = result.places.weight_of(cluster);
+WallPoints<D> RigidContact<D>::wall_points(std::size_t grade, Index cluster, const Motion& motion,
+                                           const Vec<D>& shift, const Vec<D>& velocity,
+                                           Evaluation& result) const {
+  Layer& layer = result.layers[grade];
+  const Lanes *x = layer.places.x_of(cluster), *weight = layer.places.weight_of(cluster);
   Lanes v[D];
-  points_.velocity(cluster, motion, result.places, v);
+  points_[grade].velocity(cluster, motion, layer.places, v);
   WallPoints<D> points;
-  points.T = &at(result.T, cluster * D);
-  points.S = &at(result.S, cluster * D);
-  points.distance = at(result.distances, cluster);
+  points.T = &at(layer.T, cluster * D);
+  points.S = &at(layer.S, cluster * D);
+  points.distance = at(layer.distances, cluster);
   for (int lane = 0; lane < Lanes::width; ++lane)
     for (int i = 0; i < D; ++i) {
       at(points.x, lane)[i] = x[i][lane] - shift[i];
@@ -341,16 +469,18 @@ WallPoints<D> RigidContact<D>::wall_points(Index cluster, const Motion& motion, 
 /// Of the velocity along the partner, over the area that rubs; zero without any.
 template <int D>
 Vec<D> RigidContact<D>::mean_slip(const Motion& motion) const {
-  Evaluation result(points_);
-  evaluate(motion, all_, result);
-  points_.prepare_velocities(all_, motion, result.places);
+  Evaluation result = without_effects(motion);
   const Vec<D> shift = partner_.motion.displacement(motion.time), velocity = this->velocity(motion);
   Real area = 0;
   Vec<D> sum = Vec<D>::Zero();
-  for (const Index c : all_) {
-    const auto [part, slip] = effects_.slip(wall_points(c, motion, shift, velocity, result));
-    area += part;
-    sum += slip;
+  for (std::size_t g = 0; g < points_.size(); ++g) {
+    Layer& layer = result.layers[g];
+    points_[g].prepare_velocities(layer.visited, motion, layer.places);
+    for (const Index c : layer.visited) {
+      const auto [part, slip] = effects_.slip(wall_points(g, c, motion, shift, velocity, result));
+      area += part;
+      sum += slip;
+    }
   }
   return area > 0 ? Vec<D>(sum / area) : sum;
 }
@@ -359,13 +489,16 @@ Vec<D> RigidContact<D>::mean_slip(const Motion& motion) const {
 template <int D>
 void RigidContact<D>::add_viscous(const Motion& motion, Forces force) {
   const Vec<D> shift = partner_.motion.displacement(motion.time);
-  std::fill(now_.T.begin(), now_.T.end(), Lanes::zero());
-  points_.prepare_velocities(near_, motion, now_.places);
-  parallel_for(static_cast<Index>(near_.size()), [&](Index k) {
-    WallPoints<D> points = wall_points(at(near_, k), motion, shift, Vec<D>::Zero(), now_);
-    effects_.rub(points);
-  });
-  points_.add_force(now_.places, near_, now_.T, {}, force);
+  for (std::size_t g = 0; g < points_.size(); ++g) {
+    Layer& layer = now_.layers[g];
+    std::fill(layer.T.begin(), layer.T.end(), Lanes::zero());
+    points_[g].prepare_velocities(layer.near, motion, layer.places);
+    parallel_for(static_cast<Index>(layer.near.size()), [&](Index k) {
+      WallPoints<D> points = wall_points(g, at(layer.near, k), motion, shift, Vec<D>::Zero(), now_);
+      effects_.rub(points);
+    });
+    points_[g].add_force(layer.places, layer.near, layer.T, {}, force);
+  }
 }
 
 /// Torque about the origin, -sum (x cross T + V cross S): turning the body turns x and V.
@@ -377,13 +510,14 @@ Eigen::Vector3d RigidContact<D>::net_torque(const Evaluation& result) const {
     for (int i = 0; i < D; ++i) x[i] = field[i][lane];
     return x;
   };
-  for (const Index c : all_)
-    for (int lane = 0; lane < points_.points_in(c); ++lane) {
-      torque -= cross<D>(vector(result.places.x_of(c), lane), vector(&at(result.T, c * D), lane));
-      if (form_ == ContactForm::energy)
-        torque -=
-            cross<D>(vector(result.places.weight_of(c), lane), vector(&at(result.S, c * D), lane));
-    }
+  for (const Layer& layer : result.layers)
+    for (const Index c : layer.visited)
+      for (int lane = 0; lane < Lanes::width; ++lane) {
+        torque -= cross<D>(vector(layer.places.x_of(c), lane), vector(&at(layer.T, c * D), lane));
+        if (form_ == ContactForm::energy)
+          torque -=
+              cross<D>(vector(layer.places.weight_of(c), lane), vector(&at(layer.S, c * D), lane));
+      }
   return torque;
 }
 
@@ -398,29 +532,48 @@ Report RigidContact<D>::report(const Motion& motion) {
   }
   report.external_work = effects_.work(now_.sums);
   report.heat = now_.sums.heat;
-  near_.clear();
-  for (const Index c : all_)
-    if (near(now_, c)) near_.push_back(c);
+  bool any_near = false;
+  for (Layer& layer : now_.layers) {
+    layer.near.clear();
+    for (const Index c : layer.visited)
+      if (layer.nearest_of(c) < interaction_->range()) layer.near.push_back(c);
+    any_near = any_near || !layer.near.empty();
+  }
   // Distances of points beyond reach are those of when the list was made.
-  if (near_.empty() && interaction_->ends()) take_all_distances(motion);
-  const Index nearest = now_.nearest_point();
-  const Real gap = now_.distance(nearest);
+  if (!any_near && interaction_->ends()) {
+    finest().move(motion, now_.layers.front().places);
+    take_distances(finest(), partner_.motion.displacement(motion.time), now_.layers.front());
+  }
+  const auto [gap, grade, nearest] = nearest_of(now_);
   if (!(gap < interaction_->range())) {
     report.demand =
-        approach_demand(approach<D>(points_.body(), gap, velocity, motion), interaction_->range());
+        approach_demand(approach<D>(finest().body(), gap, velocity, motion), interaction_->range());
     return report;
   }
   if (gap < interaction_->least_gap())
     report.failure = Failure{
-        points_.particle_at(nearest),
+        points_[grade].particle_at(nearest),
         fmt::format("surfaces overlap: the gap between '{}' and the rigid partner of contact '{}' "
                     "is {:.4g}, least is {:.4g}",
-                    points_.body().name, name_, gap, interaction_->least_gap()),
+                    finest().body().name, name_, gap, interaction_->least_gap()),
         true};
-  const Real speed = closing_speed<D>(points_, near_, nullptr, {}, velocity, motion);
+  Real speed = 0;
+  for (std::size_t g = 0; g < points_.size(); ++g)
+    speed = std::max(
+        speed, closing_speed<D>(points_[g], now_.layers[g].near, nullptr, {}, velocity, motion));
   const Real strength = effects_.varies_at(gap) ? now_.sums.adhesion : 1;
-  report.demand = contact_demand({*interaction_, strength / points_.inertia(), 0, D}, gap, speed);
+  report.demand = contact_demand({*interaction_, strength / finest().inertia(), 0, D}, gap, speed);
   return report;
+}
+
+template <int D>
+typename RigidContact<D>::Nearest RigidContact<D>::nearest_of(const Evaluation& result) const {
+  Nearest nearest;
+  for (std::size_t g = 0; g < points_.size(); ++g)
+    for (Index q = 0; q < result.layers[g].places.size; ++q)
+      if (const Real distance = result.layers[g].distance(q); distance < nearest.distance)
+        nearest = {distance, g, q};
+  return nearest;
 }
 
 template <int D>
@@ -432,9 +585,9 @@ std::vector<MeasureSource> RigidContact<D>::measures() const {
       {"energy", dimension::energy, "energy of the interaction",
        [this](const Motion& motion) { return *stored_energy(motion); }},
       {"gap", dimension::length, "least distance of the points of the body from the partner",
-       looked_at([](const Evaluation& result) { return result.gap(); })},
+       [this](const Motion& motion) { return gap(motion); }},
       {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
-       looked_at([this](const Evaluation& result) { return result.gap() / points_.spacing(); })}};
+       [this](const Motion& motion) { return gap(motion) / finest().spacing(); }}};
   for (int i = 0; i < D; ++i)
     all.push_back(
         {std::string("force_") + "xyz"[i], dimension::force, "force on the body",

@@ -20,6 +20,23 @@ class HalfSpace final : public RigidPartner<D> {
   }
   Real distance(const Vec<D>& x) const override { return normal_.dot(x - point_); }
 
+  LaneField<D> fields(const LanePlace<D>& x, int) const override {
+    LaneField<D> f;
+    f.distance = distances(x);
+    f.U = beta_ * plane_.U(f.distance);
+    const Lanes S = beta_ * plane_.S(f.distance);
+    for (int i = 0; i < D; ++i) {
+      at(f.S, i) = S * normal_[i];
+      for (int j = 0; j < D; ++j) at(at(f.grad_S, i), j) = f.U * normal_[i] * normal_[j];
+    }
+    return f;
+  }
+  Lanes distances(const LanePlace<D>& x) const override {
+    Lanes distance = Lanes::zero();
+    for (int i = 0; i < D; ++i) distance += normal_[i] * (at(x, i) - point_[i]);
+    return distance;
+  }
+
  private:
   GuardedPlane plane_;
   Real beta_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "plane_field.hpp"
 #include "rigid_checks.hpp"
@@ -68,7 +69,48 @@ class Polygons final : public RigidPartner<2> {
     return f.distance < core_ ? continued(f) : exact(x);
   }
 
+  LaneField<2> fields(const LanePlace<2>& x, int points) const override {
+    const Lanes distance = distances(x);
+    if (any(distance.v < core_)) return RigidPartner<2>::fields(x, points);
+    LaneField<2> f{};
+    f.distance = distance;
+    for (const Edge& edge : edges_) {
+      const auto [along, above] = from_edge(edge, x);
+      const LaneSegmentField part = segment_field(law_, -along, edge.length - along, above);
+      for (int i = 0; i < 2; ++i) {
+        const Real normal = beta_ * edge.normal[i];
+        at(f.S, i) += normal * part.u;
+        for (int j = 0; j < 2; ++j)
+          at(at(f.grad_S, i), j) +=
+              normal * (part.psi_r[0] * edge.tangent[j] + part.psi_r[1] * edge.normal[j]);
+      }
+    }
+    f.U = f.grad_S[0][0] + f.grad_S[1][1];
+    return f;
+  }
+
+  /// As foot(): lanes whose nearest point is a corner, one after the other.
+  Lanes distances(const LanePlace<2>& x) const override {
+    Lanes least = unbounded, signed_distance = least, corner = Lanes::zero();
+    for (const Edge& edge : edges_) {
+      const auto [along, above] = from_edge(edge, x);
+      const Lanes s = min(max(along, 0.0), edge.length), beside = along - s;
+      const Lanes square = beside * beside + above * above;
+      const auto nearer = square.v < least.v;
+      least = select(nearer, square, least);
+      signed_distance = select(nearer, above, signed_distance);
+      corner = select(nearer, beside * beside, corner);
+    }
+    return any(corner.v > 0.0) ? RigidPartner<2>::distances(x) : signed_distance;
+  }
+
  private:
+  /// Along the edge from its begin, and along its normal.
+  static std::pair<Lanes, Lanes> from_edge(const Edge& edge, const LanePlace<2>& x) {
+    const Lanes a = x[0] - edge.begin[0], b = x[1] - edge.begin[1];
+    return {edge.tangent[0] * a + edge.tangent[1] * b, edge.normal[0] * a + edge.normal[1] * b};
+  }
+
   /// S = beta sum m INT u dl, grad S = beta sum m (x) INT psi r dl over the edges.
   RigidField<2> exact(const Point& x) const {
     RigidField<2> sum{0, Point::Zero(), Mat<2>::Zero()};
