@@ -153,14 +153,14 @@ void jitter(Grid<D>& grid, Real reach, std::uint64_t seed) {
 }  // namespace
 
 template <int D>
-std::unique_ptr<Body<D>> unit_box(int n, Real jitter_share, std::uint64_t seed) {
+std::unique_ptr<Body<D>> unit_box(int n, Real jitter_share, std::uint64_t seed, Real spacings) {
   Brick<D> shape;
   shape.cells.assign(D, n);
   shape.corner.assign(D, 0);
   Geometry<D> geometry = shape.geometry();
   if (jitter_share > 0) jitter(geometry.grid, jitter_share / n, seed);
   order_spatially(geometry);
-  ParticleSet<D> particles(geometry.grid.X, 2.6 / n, Window::cubic_spline);
+  ParticleSet<D> particles(geometry.grid.X, spacings / n, Window::cubic_spline);
   std::vector<Vec<D>> probes = geometry.grid.X;
   const auto centres = cell_gauss_points(geometry.grid, 1).X;
   probes.insert(probes.end(), centres.begin(), centres.end());
@@ -316,7 +316,7 @@ ElasticErrors errors_of(const ElasticCase<D>& c, NodalVectors u) {
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                         \
-  template std::unique_ptr<Body<D>> unit_box(int, Real, std::uint64_t);                 \
+  template std::unique_ptr<Body<D>> unit_box(int, Real, std::uint64_t, Real);           \
   template ElasticCase<D> elastic_case(std::unique_ptr<Body<D>>, SmoothMap<D>, Moduli); \
   template class LinearBody<D>;                                                         \
   template std::vector<NodalVectors> rigid_modes(const Body<D>&);                       \

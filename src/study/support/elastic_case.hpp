@@ -11,10 +11,10 @@
 
 namespace meniscus::study {
 
-/// The unit square or cube of n cells per edge h with supports 2.6 h. Each coordinate of each node
-/// is moved at random by up to +-`jitter` h, along the boundary too.
+/// The unit square or cube of n cells per edge h with supports of `spacings` h. Each coordinate of
+/// each node is moved at random by up to +-`jitter` h, along the boundary too.
 template <int D>
-std::unique_ptr<Body<D>> unit_box(int n, Real jitter, std::uint64_t seed = 1);
+std::unique_ptr<Body<D>> unit_box(int n, Real jitter, std::uint64_t seed = 1, Real spacings = 2.6);
 
 struct Moduli {
   Real mu = 1, lambda = 1;

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small oscillations of a viscous drop.
+#include "drop_mode_case.hpp"
+
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/dense.hpp"
+#include "meniscus/scene/simulation.hpp"
+#include "meniscus/study/drop_dispersion.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pairs.hpp"
+
+namespace meniscus::study {
+namespace {
+
+// R = rho = gamma = 1: time in units of sqrt(rho R^3 / gamma). K (1 - J) = 2 is the Laplace
+// pressure; the reference is larger by J^(-1/3), so that the drop begins at rest at R = 1.
+std::string scene_text(const DropMode& mode, int core, Real end) {
+  const Real J = 1 - 2 / mode.bulk_modulus, stretch = std::cbrt(J);
+  constexpr Real displacement = 0.02;  // about that much at the pole
+  // In terms of the reference, r^l takes stretch^(l-1).
+  const Real speed = displacement * std::sqrt(Real(mode.l * (mode.l - 1) * (mode.l + 2))) *
+                     std::pow(stretch, mode.l - 1) / mode.l;
+  const std::string velocity =
+      mode.l == 2 ? fmt::format("[\"-{0:.17g}*x\", \"-{0:.17g}*y\", \"2*{0:.17g}*z\"]", speed)
+                  : fmt::format(
+                        "[\"-3*{0:.17g}*x*z\", \"-3*{0:.17g}*y*z\", "
+                        "\"{0:.17g}*(3*z^2 - 1.5*(x^2 + y^2))\"]",
+                        speed);
+  return fmt::format(R"toml(
+dimension = 3
+time = {{ end = {0:.17g} }}
+[[body]]
+name = "drop"
+shape = "ball"
+radius = {1:.17g}
+core = {2}
+layers = {3}
+{9}
+initial_displacement = ["{4:.17g}*x", "{4:.17g}*y", "{4:.17g}*z"]
+initial_velocity = {5}
+[body.material]
+type = "newtonian"
+density = {6:.17g}
+bulk_modulus = {7:.17g}
+equation_of_state = "linear"
+viscosity = {8:.17g}
+[[surface_tension]]
+body = "drop"
+gamma = 1
+)toml",
+                     end, 1 / stretch, core, std::max(1, core / 2), stretch - 1, velocity, J,
+                     mode.bulk_modulus, mode.Oh, mode.body_keys);
+}
+
+/// Amplitude of P_l about z of the places of the surface particles, least squares with P_0 to P_4.
+class Amplitude {
+ public:
+  Amplitude(const Body<3>& body, int l)
+      : body_(body), particles_(boundary_nodes(body.geometry.grid)), l_(l) {}
+
+  Real operator()(const Motion& motion) const {
+    using Vector = Eigen::Matrix<Real, 5, 1>;
+    Eigen::Matrix<Real, 5, 5> normal = Eigen::Matrix<Real, 5, 5>::Zero();
+    Vector right = Vector::Zero();
+    for (const Index A : particles_) {
+      const Lanes u = value_at(body_.at_particles, A, motion.u.data());
+      const Vec<3> x = at(body_.particles.X(), A) + Vec<3>(u[0], u[1], u[2]);
+      const Real r = x.norm(), c = x[2] / r, c2 = c * c;
+      Vector P;
+      P << 1, c, 1.5 * c2 - 0.5, c * (2.5 * c2 - 1.5), (35 * c2 * c2 - 30 * c2 + 3) / 8;
+      normal += P * P.transpose();
+      right += r * P;
+    }
+    return solve_symmetric(normal, right)[l_];
+  }
+
+ private:
+  const Body<3>& body_;
+  std::vector<Index> particles_;
+  int l_;
+};
+
+/// From when to when the amplitude is taken for a pair of damped modes: after the slowest vortical
+/// mode, of rate about 30 nu/R^2, has fallen by e^-4, over three decay times or two periods.
+struct TimeWindow {
+  Real begin, end;
+  static TimeWindow of(const DropMode& mode, Complex s) {
+    const Real begin = 4 / (30 * mode.Oh);
+    Real length = 3 / -s.real();
+    if (s.imag() > 0) length = std::min(length, 4 * std::numbers::pi / s.imag());
+    return {begin, begin + length};
+  }
+};
+
+/// The rate s of equidistant samples of c + a exp(s t) + b exp(s' t), s' = conj(s) or real: linear
+/// prediction from the two samples before, by least squares. The slow one of two real rates.
+Complex fitted_rate(const std::vector<Real>& a, Real interval) {
+  Mat<3> normal = Mat<3>::Zero();
+  Vec<3> right = Vec<3>::Zero();
+  for (std::size_t k = 0; k + 2 < a.size(); ++k) {
+    const Vec<3> before(a[k + 1], a[k], 1);
+    normal += before * before.transpose();
+    right += a[k + 2] * before;
+  }
+  const Vec<3> p = inverse<3>(normal) * right;
+  const Complex z = 0.5 * (p[0] + std::sqrt(Complex(p[0] * p[0] + 4 * p[1])));
+  const Complex s = std::log(z) / interval;
+  return {s.real(), std::abs(s.imag())};
+}
+
+}  // namespace
+
+Measurement measure_drop_mode(const std::string& method, const DropMode& mode, int core) {
+  const Complex exact = drop_mode_rate(mode.l, mode.Oh);
+  const TimeWindow window = TimeWindow::of(mode, exact);
+  constexpr int samples = 24;
+  const Real interval = (window.end - window.begin) / samples;
+
+  const Stopwatch set_up;
+  const SceneInput input = SceneInput::from_text(scene_text(mode, core, window.end + interval));
+  scene_dimension(input);
+  Scene<3> scene = build_scene<3>(input);
+  const Body<3>& body = scene.system.bodies.front();
+  Simulation<3> simulation(scene);
+  simulation.begin();
+
+  Measurement result;
+  result.method = method;
+  result.level = core;
+  result.particles = body.size();
+  result.h = 1 / std::cbrt(Real(body.size()));
+  result.bytes = scene.system.bytes();
+  result.set_up = set_up.seconds();
+
+  const Stopwatch run;
+  const Amplitude amplitude(body, mode.l);
+  std::vector<Real> fitted;
+  Real before = amplitude(simulation.state().motion()), time_before = 0, next = window.begin;
+  while (static_cast<int>(fitted.size()) <= samples) {
+    simulation.advance();
+    const Real time = simulation.state().time, now = amplitude(simulation.state().motion());
+    for (; next <= time && static_cast<int>(fitted.size()) <= samples; next += interval)
+      fitted.push_back(before + (now - before) * (next - time_before) / (time - time_before));
+    before = now;
+    time_before = time;
+  }
+  result.time = run.seconds();
+  const Complex s = fitted_rate(fitted, interval);
+  result.errors = {{"rate", std::abs(s - exact) / std::abs(exact)}};
+  result.values = {{"pairs per particle", pairs_per_particle(scene.system.terms, result.particles)},
+                   {"decay", -s.real()},
+                   {"exact decay", -exact.real()}};
+  if (exact.imag() > 0)
+    result.values.insert(result.values.end(),
+                         {{"frequency", s.imag()}, {"exact frequency", exact.imag()}});
+  return result;
+}
+
+}  // namespace meniscus::study
