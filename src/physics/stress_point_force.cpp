@@ -32,19 +32,22 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
   if (surface_)
     enclosed = surface_->measure(Size::volume, u, du) / surface_->reference(Size::volume) - 1.0;
   PerChunk<Dual<Real>> pull(chunks(), 0.0);
-  accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
-    DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
-    Dual<Lanes> sum_of_pulls(0.0);
-    for (Index g = begin; g < end; ++g) {
-      x.H = gradients(g, u, du);
-      if (viscous) x.F_rate = gradients(g, v, dv);
-      const StressChange stress = laws_->tangent(g, motion.time, x);
-      const Lanes w = rule_.weight(g);
-      rule_.scatter(g, -w * stress.P, f);
-      sum_of_pulls += w * stress.pull_on_enclosed;
-    }
-    at(pull, chunk) = sum(sum_of_pulls);
-  });
+  accumulate(
+      force,
+      [&](int chunk, Index begin, Index end, NodalVector* f) {
+        DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
+        Dual<Lanes> sum_of_pulls(0.0);
+        for (Index g = begin; g < end; ++g) {
+          x.H = gradients(g, u, du);
+          if (viscous) x.F_rate = gradients(g, v, dv);
+          const StressChange stress = laws_->tangent(g, motion.time, x);
+          const Lanes w = rule_.weight(g);
+          rule_.scatter(g, -w * stress.P, f);
+          sum_of_pulls += w * stress.pull_on_enclosed;
+        }
+        at(pull, chunk) = sum(sum_of_pulls);
+      },
+      pull);
   if (!surface_) return;
   Dual<Real> slope(0.0);
   for (const Dual<Real>& p : pull) slope += p;
