@@ -53,7 +53,11 @@ class StarForest final : public Exchange {
   }
   StarForest(const StarForest&) = delete;
   StarForest& operator=(const StarForest&) = delete;
-  ~StarForest() override { PetscSFDestroy(&forest_); }
+  ~StarForest() override {
+    PetscBool too_late = PETSC_FALSE;  // at the end of the program PETSc has gone before
+    PetscFinalized(&too_late);
+    if (!too_late) PetscSFDestroy(&forest_);
+  }
 
   void bring(const void* roots, void* leaves, std::size_t bytes_per_value) override {
     const MPI_Datatype type = type_of(bytes_per_value);

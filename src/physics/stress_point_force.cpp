@@ -2,6 +2,8 @@
 // Tangent, energy, failures, warnings and output of the internal force.
 #include "meniscus/physics/stress_point_force.hpp"
 
+#include "meniscus/core/divided.hpp"
+
 #include <fmt/core.h>
 
 namespace meniscus {
@@ -71,7 +73,7 @@ void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diag
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
+  return divided_sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws.energy_density(g, motion.time, gradients(g, u)));
   });
 }
@@ -86,7 +88,7 @@ std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motio
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  const Real force = parallel_sum(rule_.groups(), 0.0, [&](Index g) {
+  const Real force = divided_sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
   });
   return force / spacing_;
