@@ -11,19 +11,9 @@
 namespace meniscus {
 namespace {
 
-/// The linear moments of a cell vanish over it: what is left are the means.
 template <int D>
-PointRows<D> mean_gradients(const CellRule<D>& rule) {
-  PointRows<D> rows;
-  rows.start = rule.start;
-  rows.particle = rule.particle;
-  for (const Lanes& moments : rule.coefficient) rows.gradient.push_back(moments[0]);
-  return rows;
-}
-
-template <int D>
-Tensor<Real> mean_gradient(const PointRows<D>& means, Index A, const NodalVector* field) {
-  const std::array<Lanes, D> columns = gradient_at(means, A, field);
+Tensor<Real> gradient_of(const PointRows<D>& rows, Index A, const NodalVector* field) {
+  const std::array<Lanes, D> columns = gradient_at(rows, A, field);
   return Tensor<Real>::map([&](int i, int K) { return i < D && K < D ? at(columns, K)[i] : 0.0; });
 }
 
@@ -52,8 +42,9 @@ Director<D>::Director(const Body<D>& body, std::size_t number, const NematicBody
     : CarriedField(number, body.first, resistance(nematic.numbers, nematic.volume)),
       body_(body),
       numbers_(nematic.numbers),
-      means_(mean_gradients(nematic.rule)),
-      windows_(means_.start, means_.particle, body.size()),
+      gradients_(
+          build_point_rows<D>(body.particles, body.particles.X(), {.gradient = true}, body.name)),
+      windows_(gradients_.start, gradients_.particle, body.size()),
       volume_(nematic.volume) {
   for (const Vec<D>& h : nematic.director) initial_.push_back(spatial<D>(h));
 }
@@ -66,7 +57,7 @@ void Director<D>::carry(const NodalVector* from, const NodalVector* to,
   const Real lambda = numbers_.flow_alignment, nu2 = numbers_.dilatation_coupling;
   for_chunks(body_.size(), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
-      const Tensor<Real> H0 = mean_gradient(means_, A, from), H1 = mean_gradient(means_, A, to);
+      const Tensor<Real> H0 = gradient_of(gradients_, A, from), H1 = gradient_of(gradients_, A, to);
       const Tensor<Real> change = (H1 - H0) * inverse_of(deformation_gradient(0.5 * (H0 + H1)));
       const Tensor<Real> half =
           add_diagonal(Tensor<Real>::map([&](int i, int j) {
@@ -90,7 +81,7 @@ void Director<D>::add_reaction(const Motion& motion, Forces force) {
       body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end, NodalVector* f) {
         for (Index A = begin; A < end; ++A) {
           const Eigen::Vector3d h = spatial(at(x, A)), S = -spatial(at(forces_on_x, A));
-          const Tensor<Real> F = deformation_gradient(mean_gradient(means_, A, u));
+          const Tensor<Real> F = deformation_gradient(gradient_of(gradients_, A, u));
           const Tensor<Real> Y =
               add_diagonal(Tensor<Real>::map([&](int i, int j) {
                              return 0.5 * ((lambda - 1) * h[i] * S[j] + (lambda + 1) * S[i] * h[j]);
@@ -99,9 +90,9 @@ void Director<D>::add_reaction(const Motion& motion, Forces force) {
           const Tensor<Real> P = (1 / determinant(F)) * (Y * cofactor(F));
           std::array<Lanes, D> column;
           for (int K = 0; K < D; ++K) at(column, K) = Lanes(P(0, K), P(1, K), P(2, K), 0);
-          for (Offset e = at(means_.start, A); e < at(means_.start, A + 1); ++e)
+          for (Offset e = at(gradients_.start, A); e < at(gradients_.start, A + 1); ++e)
             for (int K = 0; K < D; ++K)
-              f[at(means_.particle, e)] -= at(means_.gradient, e * D + K) * at(column, K);
+              f[at(gradients_.particle, e)] -= at(gradients_.gradient, e * D + K) * at(column, K);
         }
       });
 }
@@ -212,8 +203,8 @@ std::vector<MeasureSource> Director<D>::measures() {
 
 template <int D>
 std::size_t Director<D>::bytes() const {
-  return CarriedField::bytes() + means_.bytes() + windows_.bytes() + volume_.size() * sizeof(Real) +
-         initial_.size() * sizeof(Eigen::Vector3d);
+  return CarriedField::bytes() + gradients_.bytes() + windows_.bytes() +
+         volume_.size() * sizeof(Real) + initial_.size() * sizeof(Eigen::Vector3d);
 }
 
 template class Director<2>;

@@ -101,8 +101,9 @@ template <int D>
 Real StepController<D>::next(const State& state, Real end, Real accurate) {
   if (state.step >= next_check_) reconsider(state);
   respect_demand(state);
-  // What viscosity stops within one of its steps, central differences resolve anyway.
-  const Real least_share = choice_.implicit_viscosity ? 1e-3 : 0.1;
+  // What viscosity stops within one of its steps, central differences resolve anyway; not so the
+  // forces of a field that starts away from its rest, as a director does.
+  const Real least_share = choice_.implicit_viscosity ? 1e-3 : state.fields.empty() ? 0.1 : 0.03;
   const Real dt = choice_.fixed ? step_ : std::min(step_, std::max(accurate, least_share * step_));
   const Real left = end - state.time;
   if (left <= dt * (1 + 1e-9)) return left;

@@ -8,10 +8,9 @@
 
 namespace meniscus {
 
-/// With F_A the mean deformation gradient of nodal cell A, l = F_A' F_A^-1 = d + w, the field is
+/// With F_A the deformation gradient at particle A, l = F_A' F_A^-1 = d + w, the field is
 /// carried by h' = T h, T = w + lambda d - nu2 tr(d) I, and its forces -S do the power -S . T h:
-/// the reaction is the stress Y = lambda/2 (h S + S h) - 1/2 (h S - S h) - nu2 (S . h) I in the
-/// cell,
+/// the reaction is the stress Y = lambda/2 (h S + S h) - 1/2 (h S - S h) - nu2 (S . h) I there,
 ///   f_B = - sum_A Y_A F_A^-T dF_A/du_B.
 template <int D>
 class Director final : public CarriedField {
@@ -36,7 +35,7 @@ class Director final : public CarriedField {
 
   const Body<D>& body_;
   NematicNumbers numbers_;
-  PointRows<D> means_;  // dF_A/du_B: a row per nodal cell
+  PointRows<D> gradients_;  // dF_A/du_B: a row per particle
   ForceWindows windows_;
   std::vector<Real> volume_;              // of the particles
   std::vector<Eigen::Vector3d> initial_;  // directors
