@@ -30,12 +30,13 @@ PUSHED = BLOCK.replace("[time]", "[time]\nstep = 0.008").replace(
     "[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
 BENT_SHEET = RELAXING_SHEET.replace('"relax"', '"newton"')
 
+SMALLER = ("--set", "body.drop.core=4", "--set", "body.drop.layers=2")
 # [name] scene of inputs/ and how much of it
 SCENES = {
-    "two bodies in contact": ("first_two_discs", "--until", "1"),
-    "contact with a plate": ("droplet_spreading", "--until", "4"),
-    "a surface law": ("drop_with_skin", "--until", "0.1"),
-    "a nematic": ("nematic_drop", "--until", "0.05"),
+    "two bodies in contact": ("first_two_discs", "--until", "0.0024"),
+    "contact with a plate": ("droplet_spreading", "--until", "1"),
+    "a surface law": ("drop_with_skin", "--until", "0.05", *SMALLER),
+    "a nematic": ("nematic_drop", "--until", "0.005", *SMALLER),
 }
 
 
