@@ -129,7 +129,9 @@ Rows<BodySettings> BodySettings::rows() {
       optional_row("support_factor", &S::support_factor, dimension::none, support_factors,
                    "1.5 for solids in 3D, else 1.8",
                    "support of a particle / distance to its neighbour of rank support_rank; both "
-                   "are measured after a round body, as an ellipsoid, is pressed back to a ball"),
+                   "are measured after a round body, as an ellipsoid, is pressed back to a ball. "
+                   "1.8 also for solids whose cells are all stretched alike, by more than 1.1 over "
+                   "a cube of the same volume, or whose surface tension has form = \"curvature\""),
       integer_row("support_rank", &S::support_rank, {0, 200},
                   "rank of that neighbour; 0: 20 in 3D, 8 in 2D", 0),
       real_row("support_spacings", &S::support_spacings, dimension::none, {0, 20},
