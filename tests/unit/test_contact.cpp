@@ -169,6 +169,33 @@ TEST(Contact, BitsDoNotDependOnWhenTheListWasBuilt) {
   }
 }
 
+/// What a force asks of the next step is the same whenever the list was built: a restart builds it
+/// anew.
+template <int D>
+void expect_same_demand_after(Real detour, Real gap) {
+  SCOPED_TRACE(std::to_string(D) + "D, gap " + std::to_string(gap));
+  const auto pair = test::round_pair<D>(gap);
+  const NodalVectors u = pair.random(0.01, 1), v = pair.random(1, 2);
+  const auto fresh = test::contact_of<D>(pair, test::law<D>(), ContactForm::energy),
+             used = test::contact_of<D>(pair, test::law<D>(), ContactForm::energy);
+  NodalVectors before = u;
+  for (Index A = 0; A < pair.first->size(); ++A) at(before, A) += Lanes(detour, 0, 0, 0);
+  test::force_of(*used, before);
+  const StepDemand expected = test::report_of(*fresh, u, v).demand,
+                   again = test::report_of(*used, u, v).demand;
+  EXPECT_EQ(again.longest, expected.longest);
+  EXPECT_EQ(again.stiffness, expected.stiffness);
+}
+
+TEST(Contact, DemandsDoNotDependOnWhenTheListWasBuilt) {
+  // Within the skin of 0.2; near, just within reach of 2, and beyond it.
+  for (const Real detour : {-0.12, -0.05, 0.05, 0.12})
+    for (const Real gap : {0.35, 1.95, 2.1}) {
+      expect_same_demand_after<2>(detour, gap);
+      expect_same_demand_after<3>(detour, gap);
+    }
+}
+
 TEST(Contact, OverlapIsAFailureOfTheStep) {
   const auto close = test::round_pair<3>(0.1), far = test::round_pair<3>(0.35);
   for (const auto* pair : {&close, &far}) {

@@ -44,7 +44,10 @@ class PairContact final : public ForceTerm {
         list_(law.reach(), choice.skin * law.sigma0),
         now_{first_.at_rest(), second_.at_rest()},
         first_result_(first_.clusters(), sums_->moment()),
-        second_result_(second_.clusters(), sums_->moment()) {}
+        second_result_(second_.clusters(), sums_->moment()) {
+    first_close_.reserve(static_cast<std::size_t>(first_.clusters()));
+    second_close_.reserve(static_cast<std::size_t>(second_.clusters()));
+  }
 
   std::string name() const override { return "contact '" + name_ + "'"; }
   std::string_view energy_kind() const override { return "contact"; }
@@ -171,8 +174,10 @@ class PairContact final : public ForceTerm {
     return nearest;
   }
 
-  Report report(const Motion& motion) const;
+  Report report(const Motion& motion);
   Failure describe_overlap(Real gap) const;
+  static void find_close(const Rows& rows, const std::vector<Real>& nearest, Real gap,
+                         std::vector<Index>& close);
   Real spacing() const { return std::max(first_.spacing(), second_.spacing()); }
   Vec<D> force_on_first(const Motion& motion) const;
 
@@ -185,24 +190,39 @@ class PairContact final : public ForceTerm {
   // Work space of a force.
   PairPlaces<D> now_;
   PairEvaluation<D> first_result_, second_result_;
+  std::vector<Index> first_close_, second_close_;  // clusters that decide how fast the gap closes
 };
 
-/// What the places and velocities of a force mean for the step.
+/// Clusters with points that are no farther than `close_by` gaps from the other body.
 template <int D>
-Report PairContact<D>::report(const Motion& motion) const {
+void PairContact<D>::find_close(const Rows& rows, const std::vector<Real>& nearest, Real gap,
+                                std::vector<Index>& close) {
+  close.clear();
+  for (std::size_t k = 0; k < nearest.size(); ++k)
+    if (nearest[k] <= close_by * close_by * gap * gap) close.push_back(rows.active[k]);
+}
+
+/// What the places and velocities of a force mean for the step: by the present motion alone, not by
+/// what else the list has.
+template <int D>
+Report PairContact<D>::report(const Motion& motion) {
   Report report;
   const std::vector<Real>& nearest = first_result_.nearest;
-  if (nearest.empty()) {
-    report.demand =
-        approach_demand(approach(first_, now_.first, second_, now_.second, motion), law_.reach());
+  Real gap = unbounded;
+  for (const Real square : nearest) gap = std::min(gap, std::sqrt(square));
+  const Approach any = approach(first_, second_, motion);
+  if (!(gap < law_.reach())) {
+    report.demand = approach_demand(any, law_.reach());
     return report;
   }
-  const Real gap = std::sqrt(*std::min_element(nearest.begin(), nearest.end()));
   if (gap < interaction_.least_gap()) report.failure = describe_overlap(gap);
-  const Real speed = closing_speed<D>(first_, list_.of_first().active, &second_,
-                                      list_.of_second().active, Vec<D>::Zero(), motion);
-  report.demand = contact_demand(
-      {interaction_, 1 / first_.inertia() + 1 / second_.inertia(), spacing(), D}, gap, speed);
+  find_close(list_.of_first(), nearest, gap, first_close_);
+  find_close(list_.of_second(), second_result_.nearest, gap, second_close_);
+  const Real speed =
+      closing_speed<D>(first_, first_close_, &second_, second_close_, Vec<D>::Zero(), motion);
+  report.demand =
+      contact_demand({interaction_, 1 / first_.inertia() + 1 / second_.inertia(), spacing(), D},
+                     gap, speed, any.speed);
   return report;
 }
 
