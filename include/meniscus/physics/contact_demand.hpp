@@ -32,15 +32,22 @@ Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
                   const Motion& motion);
 /// Of a body and a rigid partner with `velocity`, whose distance is known.
 template <int D>
-Approach approach(const Body<D>& body, Real distance, const Vec<D>& velocity, const Motion& motion);
+Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
+                  const Motion& motion);
 
 /// A step brings bodies that do not interact yet at most a quarter of the range into it: at any
 /// speed they interact before they meet.
 StepDemand approach_demand(const Approach& approach, Real range);
 
-/// Points of two bodies that are farther apart than this many gaps do not decide how fast the gap
-/// closes.
-inline constexpr Real close_by = 2;
+/// How fast a gap closes: points within the distance `within` of the partner approach it at
+/// `speed`, all others at `fastest` at most.
+struct ClosingSpeed {
+  Real speed, within = unbounded, fastest = 0;
+};
+/// A `within` for which the others seldom matter.
+inline Real close_by(Real gap) {
+  return 2 * gap;
+}
 
 /// The numbers of a contact that decide its stiffness.
 struct ContactInertia {
@@ -54,10 +61,7 @@ struct ContactInertia {
 /// reach (CGCM notes 3.1 and 8); (1 + 2 (spacing/gap)^(D-1)) K where the points of the other side
 /// are so far apart that the force of single ones shows. The step is at most half the stable one of
 /// that stiffness: so stiff a spring whose stiffness changes by multiples heats up at longer steps.
-/// Where the closing speed is that of points within `close_by` gaps, no others, which approach at
-/// `fastest` at most, come nearer than those in a step.
-StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed,
-                          Real fastest = 0);
+StepDemand contact_demand(const ContactInertia& contact, Real gap, const ClosingSpeed& closing);
 
 /// A sentence if the points are more than half a gap apart where the interaction, of that range, is
 /// strong.

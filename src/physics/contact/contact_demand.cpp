@@ -121,9 +121,10 @@ Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
 }
 
 template <int D>
-Approach approach(const Body<D>& body, Real distance, const Vec<D>& velocity,
+Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
                   const Motion& motion) {
-  return {distance, farthest_between(velocities(body, motion), Box<D>{velocity, velocity})};
+  return {distance, farthest_between(of_points(velocities(points.body(), motion), points),
+                                     Box<D>{velocity, velocity})};
 }
 
 StepDemand approach_demand(const Approach& approach, Real range) {
@@ -135,14 +136,14 @@ StepDemand approach_demand(const Approach& approach, Real range) {
   return demand;
 }
 
-StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed,
-                          Real fastest) {
+StepDemand contact_demand(const ContactInertia& contact, Real gap, const ClosingSpeed& closing) {
   constexpr Real closed_in_a_step = 0.05;
   StepDemand demand;
   if (!(gap > 0)) return demand;
-  if (closing_speed > 0) demand.longest = closed_in_a_step * gap / closing_speed;
-  if (fastest > 0)
-    demand.longest = std::min(demand.longest, (close_by - 1 + closed_in_a_step) * gap / fastest);
+  if (closing.speed > 0) demand.longest = closed_in_a_step * gap / closing.speed;
+  if (closing.fastest > 0)
+    demand.longest =
+        std::min(demand.longest, (closing.within - (1 - closed_in_a_step) * gap) / closing.fastest);
   const Real reached = std::max((1 - closed_in_a_step) * gap, contact.interaction.least_gap());
   const Real K = contact.interaction.at(reached).stiffness;
   const Real single = 1 + 2 * std::pow(contact.spacing / reached, contact.dimension - 1);
@@ -169,7 +170,7 @@ std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, 
                               const ContactPoints<D>*, std::span<const Index>, const Vec<D>&,  \
                               const Motion&);                                                  \
   template Approach approach(const ContactPoints<D>&, const ContactPoints<D>&, const Motion&); \
-  template Approach approach(const Body<D>&, Real, const Vec<D>&, const Motion&);
+  template Approach approach(const ContactPoints<D>&, Real, const Vec<D>&, const Motion&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -378,7 +378,7 @@ Report GapPair<D>::report(const Motion& motion) const {
   // The stiffness of the core does not vary.
   const Real strength = pattern_ && gap >= rest_ ? largest_adhesion(motion.time) : 1;
   const Real inverse_inertia = 1 / first_.points.inertia() + 1 / second_.points.inertia();
-  report.demand = contact_demand({*law_, strength * inverse_inertia, 0, D}, gap, speed);
+  report.demand = contact_demand({*law_, strength * inverse_inertia, 0, D}, gap, {speed});
   return report;
 }
 
