@@ -7,6 +7,7 @@
 #include "meniscus/physics/contact_list.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 #include "meniscus/physics/contact_resolution.hpp"
+#include "meniscus/physics/contact_visits.hpp"
 
 #include <fmt/core.h>
 
@@ -54,7 +55,7 @@ Real overhang(const ContactBody<D>& first, const ContactBody<D>& second,
 }
 
 template <int D>
-class PairContact final : public ForceTerm {
+class PairContact final : public ForceTerm, public ContactVisits {
  public:
   PairContact(const ContactBody<D>& first, const ContactBody<D>& second, const ContactLaw& law,
               const ContactChoice& choice)
@@ -80,6 +81,7 @@ class PairContact final : public ForceTerm {
 
   Report add_force(const Motion& motion, Forces force) override {
     visit(motion);
+    count(point_pairs());
     for (std::size_t g = 0; g < first_.size(); ++g) {
       const FacetRows<D> first = of_first(now_, list_, g), second = of_second(now_, list_, g);
       sums_->evaluate(now_.first[g], first, now_.second[g], first_result_[g]);
@@ -144,10 +146,8 @@ class PairContact final : public ForceTerm {
     return n;
   }
   Offset pairs() const override {
-    Offset n = 0;
-    for (std::size_t g = 0; g < first_.size(); ++g)
-      n += first_[g].pairs() + second_[g].pairs() + pairs_of(of_first(now_, list_, g)) +
-           pairs_of(of_second(now_, list_, g));
+    Offset n = point_pairs();
+    for (std::size_t g = 0; g < first_.size(); ++g) n += first_[g].pairs() + second_[g].pairs();
     return n;
   }
 
@@ -194,7 +194,13 @@ class PairContact final : public ForceTerm {
                          std::size_t grade) const {
     return first_.size() == 1 ? all_of(list.of_second()) : at_motion.facets.of_second(grade);
   }
-  /// Pairs of points.
+  /// Of points, from both sides.
+  Offset point_pairs() const {
+    Offset n = 0;
+    for (std::size_t g = 0; g < first_.size(); ++g)
+      n += pairs_of(of_first(now_, list_, g)) + pairs_of(of_second(now_, list_, g));
+    return n;
+  }
   static Offset pairs_of(const FacetRows<D>& rows) {
     const Offset clusters = rows.clusters_per_facet * rows.clusters_per_facet;
     return static_cast<Offset>(rows.facets->partner.size()) * clusters * Lanes::width *

@@ -6,6 +6,7 @@
 #include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 #include "meniscus/physics/contact_resolution.hpp"
+#include "meniscus/physics/contact_visits.hpp"
 
 #include <fmt/core.h>
 
@@ -27,7 +28,7 @@ Eigen::Vector3d cross(const Vec<D>& x, const Vec<D>& y) {
 }
 
 template <int D>
-class RigidContact final : public ForceTerm {
+class RigidContact final : public ForceTerm, public ContactVisits {
  public:
   RigidContact(const ContactBody<D>& body, MovingPartner<D> partner,
                std::shared_ptr<const Interaction> interaction, const ContactChoice& choice)
@@ -55,6 +56,7 @@ class RigidContact final : public ForceTerm {
   Report add_force(const Motion& motion, Forces force) override {
     effects_.begin(motion.time);
     visit(motion);
+    count(points_visited());
     evaluate(motion, now_);
     add_effects(motion, now_);
     for (std::size_t g = 0; g < points_.size(); ++g) {
@@ -160,6 +162,12 @@ class RigidContact final : public ForceTerm {
       visit_near(motion);
     else
       visit_by_grade(motion, now_);
+  }
+  Offset points_visited() const {
+    Offset n = 0;
+    for (const Layer& layer : now_.layers)
+      n += static_cast<Offset>(layer.visited.size()) * Lanes::width;
+    return n;
   }
   void visit_near(const Motion& motion);
   void visit_by_grade(const Motion& motion, Evaluation& result) const;
