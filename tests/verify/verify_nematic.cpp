@@ -46,7 +46,9 @@ TEST(Nematic, TorsionOfAFreeDrop) {
     EXPECT_LT(fine.velocity, coarse.velocity);
     EXPECT_LT(fine.velocity, 0.03);
     EXPECT_LT(fine.twist_of_greatest, 0.03);
-    if (!ball) EXPECT_LT(fine.twist, 0.03);
+    if (!ball) {
+      EXPECT_LT(fine.twist, 0.03);
+    }
     EXPECT_LT(fine.angular_momentum, 1e-14);
     EXPECT_LT(std::abs(fine.balance), 1e-4);
   }
