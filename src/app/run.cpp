@@ -13,6 +13,7 @@
 #include "meniscus/core/ranks.hpp"
 #include "meniscus/io/run_log.hpp"
 #include "meniscus/measure/drop_measures.hpp"
+#include "meniscus/physics/contact_visits.hpp"
 #include "meniscus/scene/epochs.hpp"
 #include "meniscus/scene/expectations.hpp"
 
@@ -168,6 +169,20 @@ void report_traffic(std::int64_t steps, RunLog& log) {
       static_cast<double>(bytes) / static_cast<double>(divisor)));
 }
 
+/// Pairs that the contacts visited per force, beside those of all other terms.
+template <int D>
+void report_contacts(const System<D>& system, RunLog& log) {
+  Offset others = 0;
+  for (const auto& term : system.terms)
+    if (!dynamic_cast<const ContactVisits*>(term.get())) others += term->pairs();
+  for (const auto& term : system.terms)
+    if (const auto* contact = dynamic_cast<const ContactVisits*>(term.get()))
+      log.info(
+          fmt::format("{}: {:.0f} pairs of contact points visited per force, beside {} pairs of "
+                      "points and particles of the forces that are no contact",
+                      term->name(), contact->pairs_per_force(), others));
+}
+
 /// Says whether the bodies are at rest; false if they should be, but are not.
 template <int D>
 bool report_rest(const Simulation<D>& simulation, RunLog& log) {
@@ -274,6 +289,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
 
   Simulation<D>& simulation = epochs.simulation();
   const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
+  report_contacts(simulation.scene().system, log);
   log.info(summary);
   report_traffic(simulation.state().step - first_step, log);
   if (!request.quiet) say("{}\nresults in {}\n", summary, directory.path().string());

@@ -55,10 +55,13 @@ struct SurfaceTension final : Load<D>, Keys {
                                         body));
   }
 
-  /// The pressure of a fluid then works on the volume that the surface encloses.
+  /// The pressure of a fluid works on the volume that a balanced surface encloses.
   void prepare(BodyPlans<D>& bodies) const override {
-    for (BodyPlan<D>& planned : bodies)
-      planned.enclosed |= form == "balanced" && planned.settings.name == body;
+    for (BodyPlan<D>& planned : bodies) {
+      if (planned.settings.name != body) continue;
+      planned.enclosed |= form == "balanced";
+      planned.curvature |= form == "curvature";
+    }
   }
 
   void build(Assembly<D>& assembly) const override {

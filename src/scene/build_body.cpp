@@ -29,7 +29,7 @@ ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& g
     return {geometry.grid.X, settings.support_spacings * mean_spacing(geometry.grid), window,
             stretch};
   typename ParticleSet<D>::AdaptiveSupport rule;
-  rule.factor = settings.support_factor;
+  rule.factor = settings.support_factor.value();
   if (settings.support_rank > 0) rule.rank = settings.support_rank;
   return {geometry.grid.X, rule, window, stretch};
 }

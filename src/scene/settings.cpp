@@ -26,6 +26,8 @@ bool due(Real before, Real now, Real every) {
   return count(now) > count(before);
 }
 
+constexpr Range support_factors{1, 10};
+
 }  // namespace
 
 Rows<TimeSettings> TimeSettings::rows() {
@@ -124,10 +126,12 @@ Rows<BodySettings> BodySettings::rows() {
           "about 1e-7 of the stress, momentum and angular momentum are kept as in double",
           "double"),
       choice_row("window", &S::window, windows(), "window function of the kernel", "cubic_spline"),
-      real_row("support_factor", &S::support_factor, dimension::none, {1, 10},
-               "support of a particle / distance to its neighbour of rank support_rank; both are "
-               "measured after a round body, as an ellipsoid, is pressed back to a ball",
-               1.8),
+      optional_row("support_factor", &S::support_factor, dimension::none, support_factors,
+                   "1.5 for solids in 3D, else 1.8",
+                   "support of a particle / distance to its neighbour of rank support_rank; both "
+                   "are measured after a round body, as an ellipsoid, is pressed back to a ball. "
+                   "1.8 also for solids whose cells are all stretched alike, by more than 1.1 over "
+                   "a cube of the same volume, or whose surface tension has form = \"curvature\""),
       integer_row("support_rank", &S::support_rank, {0, 200},
                   "rank of that neighbour; 0: 20 in 3D, 8 in 2D", 0),
       real_row("support_spacings", &S::support_spacings, dimension::none, {0, 20},
@@ -138,6 +142,11 @@ Rows<BodySettings> BodySettings::rows() {
       optional_expressions_row("initial_velocity", &S::initial_velocity, 0, dimension::velocity,
                                Variables::place, "a formula of x, y, z for each component"),
   };
+}
+
+void BodySettings::settle_support(const Block& block, Real fallback) {
+  if (!support_factor)
+    support_factor = block.real("support_factor", dimension::none, support_factors, fallback);
 }
 
 Rows<SolidSettings> SolidSettings::rows() {

@@ -36,8 +36,9 @@ std::string box(const std::string& cells, const std::string& keys, Real end,
       end, size, cells, keys);
 }
 
-/// Let go with its corners at once, at the default step. At a stretch of 1.2 the law loses
-/// ellipticity when the bar comes back, after t = 3.6.
+/// Let go with its corners at once, at the default step. From a stretch of 1.2 it folds whatever
+/// the width of supports and the spacing: at first at a corner, or when the bar comes back, where
+/// the law has lost its ellipticity.
 std::string bar(Real stretch, Real end) {
   return fmt::format(
       "dimension = 3\ntime = {{ end = {:.17g} }}\n[[body]]\nname = \"body\"\nshape = \"box\"\n"
@@ -123,7 +124,7 @@ void run(StudyRun& study) {
                 swirl,
             0.5),
         1e-2);
-  for (const auto& [stretch, end] : {std::pair{1.05, full ? 20.0 : 8.0}, {1.2, 3.0}})
+  for (const auto& [stretch, end] : {std::pair{1.05, full ? 20.0 : 8.0}, {1.1, full ? 12.0 : 3.0}})
     cases.stays_stable(fmt::format("bar let go at a stretch of {}", stretch), bar(stretch, end),
                        1e-2);
   step_limit(cases);

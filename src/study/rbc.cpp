@@ -220,8 +220,8 @@ const bool registered = register_entry(
                "a deflated red blood cell against finite elements, and cells that are not "
                "perfect",
                "cells along a quarter of the meridian",
-               {6, 8, 12, 16},
-               {6, 8},
+               {7, 8, 12, 16},
+               {7, 8},
                run});
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Time of the pair functions and of the forms of contact per pair, and of rigid partners per point.
 #include "meniscus/physics/contact_list.hpp"
 #include "meniscus/physics/contact_points.hpp"
+#include "meniscus/physics/contact_visits.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/solve/central_difference.hpp"
@@ -143,6 +144,35 @@ void add_impact_case(const std::string& name, Real gap) {
            });
 }
 
+/// A step of a scene in space whose last term is the contact that is asked about: its time per pair
+/// of points that it visits, and its share.
+void add_contact_step(const std::string& name, const std::string& file,
+                      const std::vector<std::string>& settings) {
+  add_case("step of a scene in contact, 1 thread", name, 1,
+           [file, settings](benchmark::State& state) {
+             const SceneInput input =
+                 SceneInput::from_file(MENISCUS_SOURCE_DIR "/inputs/" + file, settings);
+             scene_dimension(input);
+             Scene<3> scene = build_scene<3>(input);
+             State moving = scene.initial;
+             start(scene.system, moving);
+             NodalVectors sum = moving.force;
+             const auto& terms = scene.system.terms;
+             const Shares shares = shortest_step(
+                 state, terms.size(), [&] { advance(scene.system, moving, 1e-9); },
+                 [&](std::size_t k) { terms[k]->add_force(moving.motion(), sum); });
+             const auto* contact = dynamic_cast<const ContactVisits*>(terms.back().get());
+             const Real share = shares.part.back(), visited = contact->pairs_per_force();
+             Offset internal = 0;
+             for (const auto& term : terms)
+               if (!dynamic_cast<const ContactVisits*>(term.get())) internal += term->pairs();
+             set_columns(state, {{"% contact", share},
+                                 {"contact pairs", visited},
+                                 {"ns/contact pair", 1e7 * share * shares.step / visited},
+                                 {"internal pairs", static_cast<double>(internal)}});
+           });
+}
+
 }  // namespace
 
 void add_contact_cases() {
@@ -151,6 +181,10 @@ void add_contact_cases() {
   for (const char* form : {"energy", "pressure", "dissertation", "volume"}) add_form_case(form);
   add_impact_case("touching", 0.64);
   add_impact_case("apart", 4.5);
+  add_contact_step("spinning_collision, at the least gap", "spinning_collision.toml",
+                   {"body.one.centre=[-1.1, 0, 0]", "body.two.centre=[1.1, 0, 0]"});
+  add_contact_step("pull_off, the plate 0.06 away", "pull_off.toml",
+                   {"contact.tip.partner.point=[0, 0, 1.06]"});
   const ContactLaw space;
   const Vec<3> o = Vec<3>::Zero(), x = Vec<3>::UnitX();
   add_partner_case<3>("half space", rigid_half_space<3>(space, 1, o, x), 0.4 * x, 4.0 * x);

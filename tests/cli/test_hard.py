@@ -109,7 +109,8 @@ TABLE = [
     ("jitter 60 %", head(2) + sheet(SOFT, "jitter = 0.6"), 3, "body[0].jitter"),
     ("bar let go at 0.6 of its length", let_go(0.6, SOFT, 12) + BALANCED, 0, ""),
     ("bar let go at half its length, Mooney-Rivlin", let_go(0.5, RUBBER, 12) + BALANCED, 0, ""),
-    ("bar let go at twice its length, fixed step", let_go(2, SOFT, 2, "step = 0.14"), 0, "energy balance is off by"),
+    # From about twice its length on such a bar folds or not by chance, with supports of any width.
+    ("bar let go at 1.7 of its length, fixed step", let_go(1.7, SOFT, 2, "step = 0.13"), 0, "energy balance is off by"),
     ("cells 10 : 1", head(1) + sheet(SOFT, SWIRL, size=(1, 0.1)), 0, ""),
     ("cells 100 : 1", head(0.1) + sheet(SOFT, SWIRL, size=(1, 0.01)), 0, ""),
     ("one layer of cells", head(1) + sheet(SOFT, cells=(6, 1)), 3, "body[0]: body 'sheet': the shape functions"),

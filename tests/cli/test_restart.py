@@ -356,7 +356,7 @@ class OtherScene(ProgramTest):
         self.call("run", file, "--output", "out", "--until", "0.02")
         # Written out or left out, a default is the same.
         self.call("run", file, "--restart", "out", "--until", "0.03", "--set", "title=other",
-                  "--set", "body[0].support_factor=1.8", "--set", "time.safety=0.5")
+                  "--set", "body[0].support_factor=1.5", "--set", "time.safety=0.5")
 
     def test_new_step_is_taken_and_checked(self):
         file = self.scene(BLOCK)

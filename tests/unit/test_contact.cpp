@@ -2,6 +2,7 @@
 // Contact of deformable bodies with each other and with rigid partners: gradients of energies,
 // momenta, overlaps, and what a step may do.
 #include "meniscus/core/error.hpp"
+#include "meniscus/physics/contact_visits.hpp"
 
 #include <gtest/gtest.h>
 
@@ -167,6 +168,113 @@ TEST(Contact, BitsDoNotDependOnWhenTheListWasBuilt) {
     expect_same_bits_after<2>(detour);
     expect_same_bits_after<3>(detour);
   }
+}
+
+/// What a force asks of the next step is the same whenever the list was built: a restart builds it
+/// anew.
+template <int D>
+void expect_same_demand_after(Real detour, Real gap) {
+  SCOPED_TRACE(std::to_string(D) + "D, gap " + std::to_string(gap));
+  const auto pair = test::round_pair<D>(gap);
+  const NodalVectors u = pair.random(0.01, 1), v = pair.random(1, 2);
+  const auto fresh = test::contact_of<D>(pair, test::law<D>(), ContactForm::energy),
+             used = test::contact_of<D>(pair, test::law<D>(), ContactForm::energy);
+  NodalVectors before = u;
+  for (Index A = 0; A < pair.first->size(); ++A) at(before, A) += Lanes(detour, 0, 0, 0);
+  test::force_of(*used, before);
+  const StepDemand expected = test::report_of(*fresh, u, v).demand,
+                   again = test::report_of(*used, u, v).demand;
+  EXPECT_EQ(again.longest, expected.longest);
+  EXPECT_EQ(again.stiffness, expected.stiffness);
+}
+
+TEST(Contact, DemandsDoNotDependOnWhenTheListWasBuilt) {
+  // Within the skin of 0.2; near, just within reach of 2, and beyond it.
+  for (const Real detour : {-0.12, -0.05, 0.05, 0.12})
+    for (const Real gap : {0.35, 1.95, 2.1}) {
+      expect_same_demand_after<2>(detour, gap);
+      expect_same_demand_after<3>(detour, gap);
+    }
+}
+
+/// A displacement that turns the first body by an angle about its centre, brings the second nearer
+/// by a way, and deforms both.
+template <int D>
+NodalVectors turned_and_nearer(const test::Pair<D>& pair, Real angle, Real nearer, Real deformed,
+                               unsigned seed) {
+  NodalVectors u = pair.random(deformed, seed);
+  for (Index A = 0; A < pair.size(); ++A) {
+    if (A >= pair.first->size()) {
+      at(u, A) += Lanes(-nearer, 0, 0, 0);
+      continue;
+    }
+    const Vec<D>& X = at(pair.first->particles.X(), A);
+    at(u, A) += Lanes((std::cos(angle) - 1) * X[0] - std::sin(angle) * X[1],
+                      std::sin(angle) * X[0] + (std::cos(angle) - 1) * X[1], 0, 0);
+  }
+  return u;
+}
+
+/// Points that are left where they were while they are far from the other body change nothing: at
+/// every motion a term that has come there through others has the bits of a fresh one.
+template <int D>
+void expect_fresh_bits_on_the_way(int points) {
+  SCOPED_TRACE(std::to_string(D) + "D, " + std::to_string(points) + " points");
+  const auto pair = test::round_pair<D>(2.4);  // beyond the reach of 2
+  ContactChoice choice;
+  choice.name = "pair";
+  choice.points = points;
+  const auto term = [&] {
+    return contact_pair<D>({*pair.first, 1.2}, {*pair.second, 0.7}, test::law<D>(), choice);
+  };
+  const auto used = term();
+  struct Stage {
+    Real angle, nearer, deformed;
+  };
+  // A fast approach, a spin that brings the far side near, large deformations between two builds of
+  // the list, small steps that leave the list as it is, and away again.
+  const std::vector<Stage> stages{{0, 0, 0.01},      {0, 2, 0.01},     {0.9, 2, 0.01},
+                                  {1.8, 2.05, 0.02}, {3.1, 2.05, 0.1}, {3.1, 2.06, 0.1},
+                                  {3.12, 2.08, 0.1}, {3.1, 1, 0.05},   {3.1, -1, 0.01}};
+  unsigned seed = 0;
+  for (const Stage& s : stages) {
+    const NodalVectors u =
+        turned_and_nearer<D>(pair, s.angle, s.nearer, s.deformed, s.deformed < 0.1 ? ++seed : 99);
+    const auto fresh = term();
+    const NodalVectors expected = test::force_of(*fresh, u), f = test::force_of(*used, u);
+    EXPECT_EQ(0, std::memcmp(f.data(), expected.data(), f.size() * sizeof(Lanes))) << s.angle;
+    EXPECT_EQ(test::energy_of(*used, u), test::energy_of(*fresh, u)) << s.angle;
+    const NodalVectors v = pair.random(1, 5);
+    EXPECT_EQ(test::report_of(*used, u, v).demand.longest,
+              test::report_of(*fresh, u, v).demand.longest);
+  }
+}
+
+TEST(Contact, PointsLeftBehindChangeNothing) {
+  for (const int points : {2, 5}) {
+    expect_fresh_bits_on_the_way<2>(points);
+    expect_fresh_bits_on_the_way<3>(points);
+  }
+}
+
+TEST(Contact, CountsThePairsItVisits) {
+  const auto visited = [](Real gap, int points) {
+    const auto pair = test::round_pair<3>(gap);
+    ContactChoice choice;
+    choice.points = points;
+    const auto term = contact_pair<3>({*pair.first, 1}, {*pair.second, 1}, test::law<3>(), choice);
+    const auto* visits = dynamic_cast<const ContactVisits*>(term.get());
+    EXPECT_EQ(visits->pairs_per_force(), 0);
+    const NodalVectors still = test::zeros(pair.random(1, 1));
+    test::force_of(*term, still);
+    test::force_of(*term, still);
+    return visits->pairs_per_force();
+  };
+  const Real facets = 96, all = 2 * std::pow(facets * 36, 2);
+  EXPECT_EQ(visited(3, 6), 0);
+  EXPECT_GT(visited(1.5, 6), 0);
+  EXPECT_LT(visited(1.5, 6), visited(0.5, 6));
+  EXPECT_LT(visited(0.5, 6), 0.3 * all);
 }
 
 TEST(Contact, OverlapIsAFailureOfTheStep) {

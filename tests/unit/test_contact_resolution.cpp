@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points per facet: as many as the estimate asks for make balls slide on each other, fewer do not;
 // far from a rigid partner fewer give the same forces.
+#include "meniscus/physics/contact_forms.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 #include "meniscus/physics/contact_resolution.hpp"
 #include "meniscus/physics/facet_grades.hpp"
@@ -214,6 +215,80 @@ TEST(FacetGrades, KeepForcesBalanced) {
   EXPECT_LT(torque.norm(), 1e-13 * scale);
 }
 
+/// Force and energy of two bodies by the sum over all points of both, in the form of the energy.
+template <int D>
+struct AllPairs {
+  NodalVectors force;
+  Real energy = 0;
+
+  AllPairs(const test::Pair<D>& pair, const ContactLaw& law, int points, const NodalVectors& u)
+      : force(test::zeros(u)) {
+    const Motion motion{0, u, force};
+    std::array<ContactPoints<D>, 2> side{
+        ContactPoints<D>::on_surface(*pair.first, 1.2, SiteDensity::constant, points),
+        ContactPoints<D>::on_surface(*pair.second, 0.7, SiteDensity::constant, points)};
+    std::array<ContactPlaces<D>, 2> places{side[0].at_rest(), side[1].at_rest()};
+    std::array<std::vector<Index>, 2> all;
+    for (std::size_t k = 0; k < 2; ++k) {
+      all[k].resize(static_cast<std::size_t>(side[k].clusters()));
+      std::iota(all[k].begin(), all[k].end(), Index{0});
+      side[k].move(motion, places[k]);
+      side[k].update_weights(all[k], motion, places[k]);
+    }
+    with_kernel(law.kernel, [&](auto K) {
+      const PairLaw<K()> pairs(law);
+      for (std::size_t k = 0; k < 2; ++k) {
+        AlignedVector<Lanes> T(places[k].x.size(), Lanes::zero()), S = T;
+        for (const Index c : all[k]) {
+          if constexpr (dimension_of(K()) == D)
+            contact::sum_over_partners<contact::Energy<D>, D>(
+                pairs, law.reach(), places[k].x_of(c), places[k].weight_of(c), all[1 - k], 1,
+                places[1 - k], &at(T, c * D), &at(S, c * D));
+          for (int i = 0; k == 0 && i < D; ++i)
+            energy += sum(at(S, c * D + i) * places[k].weight_of(c)[i]);
+        }
+        side[k].add_force(places[k], all[k], T, S, force);
+      }
+    });
+  }
+};
+
+/// Two round bodies with waves of the length of a facet, at gaps from near the core to the cut-off.
+template <int D>
+void expect_same_of_pairs(Real size, int points) {
+  SCOPED_TRACE(std::to_string(D) + "D, " + std::to_string(points) + " points");
+  const ContactLaw law = test::law<D>(D == 3 ? PairKernel::space : PairKernel::integrated, size);
+  Real nodal = 0, net = 0, energy = 0, nodal_error = 0, net_error = 0, energy_error = 0;
+  for (Real gap = 0.5 * size; gap < 4 * size; gap *= D == 3 ? 1.7 : 1.25) {
+    const auto pair = test::round_pair<D>(gap);
+    const NodalVectors u = pair.random(0.01, 3);
+    const auto term =
+        contact_pair<D>({*pair.first, 1.2}, {*pair.second, 0.7}, law, choice<D>(points));
+    const AllPairs<D> all(pair, law, points, u);
+    const NodalVectors f = test::force_of(*term, u), error = test::sum_of(f, -1, all.force);
+    const auto on_first = [&](const NodalVectors& force) {
+      return size_of_sum({force.begin(), force.begin() + pair.first->size()});
+    };
+    nodal = std::max(nodal, largest(all.force));
+    nodal_error = std::max(nodal_error, largest(error));
+    net = std::max(net, on_first(all.force));
+    net_error = std::max(net_error, on_first(error));
+    energy = std::min(energy, all.energy);
+    energy_error = std::max(energy_error, std::abs(test::energy_of(*term, u) - all.energy));
+  }
+  EXPECT_GT(nodal_error, 0);
+  EXPECT_LT(nodal_error, 3e-5 * nodal);
+  EXPECT_LT(net_error, 1e-4 * net);
+  EXPECT_LT(energy_error, -1e-4 * energy);
+}
+
+TEST(FacetGrades, DoNotChangeForcesOfPairs) {
+  expect_same_of_pairs<3>(0.4, 6);
+  expect_same_of_pairs<3>(0.2, 5);
+  expect_same_of_pairs<2>(0.4, 6);
+  expect_same_of_pairs<2>(0.3, 5);
+}
+
 TEST(FacetGrades, AreCoarserFarther) {
   const LennardJones interaction(uncut<3>(0.1), 1);
   const FacetGrades grades(5, interaction, 0.2);
@@ -228,6 +303,11 @@ TEST(FacetGrades, AreCoarserFarther) {
   }
   EXPECT_EQ(FacetGrades(2, interaction, 0.2).count(), 1);
   EXPECT_EQ(FacetGrades(5, AllPoints(uncut<3>(0.1)), 0.2).count(), 1);
+  const FacetGrades pairs = FacetGrades::of_pairs(6, interaction, 0.2);
+  EXPECT_EQ(pairs.points(), (std::vector<int>{6, 4, 3, 2}));
+  EXPECT_EQ(pairs.grade(0.05, 0.2), 0);
+  EXPECT_EQ(pairs.grade(50, 0.2), 2);  // two points tell the distance alone
+  EXPECT_EQ(FacetGrades::of_pairs(3, interaction, 0.2).count(), 1);
 }
 
 }  // namespace

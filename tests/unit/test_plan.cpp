@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A plan is read once; scenes can be built from it any number of times.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -61,6 +62,41 @@ TEST(Plan, CanBeBuiltAgainAndOnTheReferencesOfTheSceneIn2D) {
 
 TEST(Plan, CanBeBuiltAgainAndOnTheReferencesOfTheSceneIn3D) {
   expect_equal_builds<3>();
+}
+
+template <int D>
+Real default_support(const std::string& shape, const std::string& material,
+                     const std::string& more = "") {
+  const SceneInput input =
+      SceneInput::from_text(fmt::format("dimension = {}\n[time]\nend = 1\n[[body]]\nname = "
+                                        "\"body\"\n{}\n{}{}",
+                                        D, shape, material, more));
+  scene_dimension(input);
+  const Real factor = read_plan<D>(input).bodies.front().settings.support_factor.value();
+  EXPECT_NE(input.complete().find(fmt::format("support_factor = {}", factor)), std::string::npos);
+  return factor;
+}
+
+/// Performance note 3.1.
+TEST(Plan, SupportsAreAsWideAsTheirUseAsksFor) {
+  const auto box = [](const char* size) {
+    return fmt::format("shape = \"box\"\ncells = [4, 4, 4]\nsize = {}", size);
+  };
+  const std::string solid = example_solid(), cube = box("[1, 1, 1]"),
+                    ball = "shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2",
+                    tension = "[[surface_tension]]\nbody = \"body\"\ngamma = 1\nform = ";
+  EXPECT_EQ(default_support<3>(cube, solid), 1.5);
+  EXPECT_EQ(default_support<3>(cube, example_liquid()), 1.8);
+  EXPECT_EQ(default_support<3>(cube + "\nsupport_factor = 1.7", solid), 1.7);
+  EXPECT_EQ(default_support<2>("shape = \"rectangle\"\ncells = [4, 4]\nsize = [1, 1]", solid), 1.8);
+  EXPECT_EQ(default_support<3>(box("[1, 1, 1.1]"), solid), 1.5);
+  EXPECT_EQ(default_support<3>(box("[1, 1, 1.4]"), solid), 1.8);
+  EXPECT_EQ(default_support<3>(box("[1, 1, 0.7]"), solid), 1.8);
+  EXPECT_EQ(default_support<3>("shape = \"ellipsoid\"\nsemi_axes = [1, 1, 2]\ncore = 2\nlayers = 2",
+                               solid),
+            1.5);
+  EXPECT_EQ(default_support<3>(ball, solid, tension + "\"balanced\"\n"), 1.5);
+  EXPECT_EQ(default_support<3>(ball, solid, tension + "\"curvature\"\n"), 1.8);
 }
 
 }  // namespace

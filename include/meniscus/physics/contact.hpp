@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/physics/contact_law.hpp"
 #include "meniscus/physics/contact_points.hpp"
+#include "meniscus/physics/facet_grades.hpp"
 #include "meniscus/physics/interaction.hpp"
 #include "meniscus/physics/rigid_motion.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
@@ -49,6 +50,21 @@ ContactPoints<D> surface_contact_points(const Body<D>& body, Real beta, const Co
   if (choice.on_patches[side] && choice.density == SiteDensity::constant)
     return ContactPoints<D>::on_patches(body, beta, choice.points, clusters);
   return ContactPoints<D>::on_surface(body, beta, choice.density, choice.points, clusters);
+}
+
+/// Its points by grade, the finest first. With several, those of a facet are clusters of their own.
+template <int D>
+std::vector<ContactPoints<D>> graded_contact_points(const Body<D>& body, Real beta,
+                                                    const ContactChoice& choice, std::size_t side,
+                                                    const FacetGrades& grades) {
+  std::vector<ContactPoints<D>> all;
+  ContactChoice of_grade = choice;
+  const Clusters clusters = grades.count() > 1 ? Clusters::of_facets : Clusters::of_neighbours;
+  for (const int points : grades.points()) {
+    of_grade.points = points;
+    all.push_back(surface_contact_points(body, beta, of_grade, side, clusters));
+  }
+  return all;
 }
 
 /// A body with `beta` particles of the interaction per volume.

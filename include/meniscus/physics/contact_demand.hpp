@@ -26,17 +26,28 @@ Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active
 struct Approach {
   Real distance, speed;
 };
+/// Of two bodies by their coefficients alone: no contact point has to be moved.
 template <int D>
-Approach approach(const ContactPoints<D>& first, const ContactPlaces<D>& at_first,
-                  const ContactPoints<D>& second, const ContactPlaces<D>& at_second,
+Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
                   const Motion& motion);
 /// Of a body and a rigid partner with `velocity`, whose distance is known.
 template <int D>
-Approach approach(const Body<D>& body, Real distance, const Vec<D>& velocity, const Motion& motion);
+Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
+                  const Motion& motion);
 
 /// A step brings bodies that do not interact yet at most a quarter of the range into it: at any
 /// speed they interact before they meet.
 StepDemand approach_demand(const Approach& approach, Real range);
+
+/// How fast a gap closes: points within the distance `within` of the partner approach it at
+/// `speed`, all others at `fastest` at most.
+struct ClosingSpeed {
+  Real speed, within = unbounded, fastest = 0;
+};
+/// A `within` for which the others seldom matter.
+inline Real close_by(Real gap) {
+  return 2 * gap;
+}
 
 /// The numbers of a contact that decide its stiffness.
 struct ContactInertia {
@@ -50,7 +61,7 @@ struct ContactInertia {
 /// reach (CGCM notes 3.1 and 8); (1 + 2 (spacing/gap)^(D-1)) K where the points of the other side
 /// are so far apart that the force of single ones shows. The step is at most half the stable one of
 /// that stiffness: so stiff a spring whose stiffness changes by multiples heats up at longer steps.
-StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed);
+StepDemand contact_demand(const ContactInertia& contact, Real gap, const ClosingSpeed& closing);
 
 /// A sentence if the points are more than half a gap apart where the interaction, of that range, is
 /// strong.

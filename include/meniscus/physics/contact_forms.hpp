@@ -92,24 +92,26 @@ struct Potential {
   }
 };
 
-/// Adds up Form over the partner clusters of the four points x with weights V; returns the least
-/// squared distance of each. Points beyond `reach`, where the law is cut off, add exactly zero.
+/// Adds up Form over the partners of the four points x with weights V, each `run` clusters that
+/// follow each other; returns the least squared distance of each point. Points beyond `reach`,
+/// where the law is cut off, add exactly zero.
 template <class Form, int D, class Law>
 Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes* V,
-                        std::span<const Index> partners, const ContactPlaces<D>& others, Lanes* T,
-                        Lanes* S) {
+                        std::span<const Index> partners, Index run, const ContactPlaces<D>& others,
+                        Lanes* T, Lanes* S) {
   Lanes nearest = unbounded;
-  for (const Index partner : partners) {
-    const Lanes *y = others.x_of(partner), *weight = others.weight_of(partner);
-    for (int lane = 0; lane < Lanes::width; ++lane) {
-      Lanes r[D], W[Form::components];
-      for (int i = 0; i < D; ++i) r[i] = x[i] - detail::components(y[i])[lane];
-      for (int i = 0; i < Form::components; ++i) W[i] = detail::components(weight[i])[lane];
-      const Lanes square = dot<D>(r, r);
-      nearest = min(square, nearest);
-      if (any(square.v < reach * reach)) Form::add(law, square, r, V, W, T, S);
+  for (const Index partner : partners)
+    for (Index c = partner * run; c < (partner + 1) * run; ++c) {
+      const Lanes *y = others.x_of(c), *weight = others.weight_of(c);
+      for (int lane = 0; lane < Lanes::width; ++lane) {
+        Lanes r[D], W[Form::components];
+        for (int i = 0; i < D; ++i) r[i] = x[i] - detail::components(y[i])[lane];
+        for (int i = 0; i < Form::components; ++i) W[i] = detail::components(weight[i])[lane];
+        const Lanes square = dot<D>(r, r);
+        nearest = min(square, nearest);
+        if (any(square.v < reach * reach)) Form::add(law, square, r, V, W, T, S);
+      }
     }
-  }
   return nearest;
 }
 
@@ -117,25 +119,26 @@ Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes*
 template <class Form, int D, class Law>
 void sum_changes_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes* dx,
                                const Lanes* V, const Lanes* dV, std::span<const Index> partners,
-                               const ContactPlaces<D>& others, const ContactChanges<D>& changes,
-                               Dual<Lanes>* T, Dual<Lanes>* S) {
+                               Index run, const ContactPlaces<D>& others,
+                               const ContactChanges<D>& changes, Dual<Lanes>* T, Dual<Lanes>* S) {
   Dual<Lanes> own[Form::components];
   for (int i = 0; i < Form::components; ++i) own[i] = {V[i], dV[i]};
-  for (const Index partner : partners) {
-    const Lanes *y = others.x_of(partner), *dy = changes.x_of(partner);
-    const Lanes *weight = others.weight_of(partner),
-                *dweight = &at(changes.weight, partner * Form::components);
-    for (int lane = 0; lane < Lanes::width; ++lane) {
-      Dual<Lanes> r[D], W[Form::components];
-      for (int i = 0; i < D; ++i)
-        r[i] = {x[i] - detail::components(y[i])[lane], dx[i] - detail::components(dy[i])[lane]};
-      for (int i = 0; i < Form::components; ++i)
-        W[i] = {Lanes(detail::components(weight[i])[lane]),
-                Lanes(detail::components(dweight[i])[lane])};
-      const Dual<Lanes> square = dot<D>(r, r);
-      if (any(square.v.v < reach * reach)) Form::add(law, square, r, own, W, T, S);
+  for (const Index partner : partners)
+    for (Index c = partner * run; c < (partner + 1) * run; ++c) {
+      const Lanes *y = others.x_of(c), *dy = changes.x_of(c);
+      const Lanes *weight = others.weight_of(c),
+                  *dweight = &at(changes.weight, c * Form::components);
+      for (int lane = 0; lane < Lanes::width; ++lane) {
+        Dual<Lanes> r[D], W[Form::components];
+        for (int i = 0; i < D; ++i)
+          r[i] = {x[i] - detail::components(y[i])[lane], dx[i] - detail::components(dy[i])[lane]};
+        for (int i = 0; i < Form::components; ++i)
+          W[i] = {Lanes(detail::components(weight[i])[lane]),
+                  Lanes(detail::components(dweight[i])[lane])};
+        const Dual<Lanes> square = dot<D>(r, r);
+        if (any(square.v.v < reach * reach)) Form::add(law, square, r, own, W, T, S);
+      }
     }
-  }
 }
 
 }  // namespace contact

@@ -11,7 +11,7 @@ namespace meniscus {
 /// the other, and some more, as rows in both directions. Partners ascend, so that a sum over them
 /// in which points out of reach add exactly zero has the same bits whenever the list was built.
 ///
-/// It is built for reach + skin and stays valid as long as no point of the first cloud and none of
+/// It is built for reach + skin and holds as long as no point of the first cloud and none of
 /// the second have moved by more than `skin` together.
 template <int D>
 class ContactList {
@@ -23,8 +23,9 @@ class ContactList {
   /// what they need.
   bool update(std::span<const Lanes> first, std::span<const Lanes> second);
 
-  /// Whether the list still holds for these places.
-  bool valid(std::span<const Lanes> first, std::span<const Lanes> second) const;
+  /// Makes it for these places, whether it holds or not: for those who know themselves how far
+  /// points can have moved since.
+  void build(std::span<const Lanes> first, std::span<const Lanes> second);
 
   /// Rows of one cloud: partners of cluster c are partner[start[c]] ... partner[start[c + 1] - 1].
   struct Rows {
@@ -46,7 +47,7 @@ class ContactList {
   std::size_t bytes() const;
 
  private:
-  void build(std::span<const Lanes> first, std::span<const Lanes> second);
+  bool valid(std::span<const Lanes> first, std::span<const Lanes> second) const;
   void find_partners(std::span<const Lanes> first, std::span<const Lanes> second);
   void transpose(Index second_clusters);
 

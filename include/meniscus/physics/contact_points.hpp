@@ -150,6 +150,8 @@ class ContactPoints {
   /// Calls f(A, value) for the shape functions at a point, or parts of them.
   template <class F>
   void for_shape_functions(Index point, F&& f) const;
+  template <class F>
+  void for_points(Index cluster, F&& f) const;
   void want_nodes(std::span<const Index> clusters, ContactPlaces<D>& places) const;
   void move(Index cluster, const NodalVector* u, ContactPlaces<D>& places) const;
   void move_on_patches(Index cluster, ContactPlaces<D>& places) const;

@@ -33,4 +33,11 @@ Real roughness(Real gap_per_spacing, bool rigid);
 template <int D>
 Real facet_size(const Body<D>& body);
 
+/// The same of the smallest and of the largest facet alone.
+struct FacetEdges {
+  Real least, largest;
+};
+template <int D>
+FacetEdges facet_edges(const Body<D>& body);
+
 }  // namespace meniscus

@@ -33,6 +33,7 @@ struct BodyPlan {
   std::shared_ptr<const Material<D>> material;
   bool in_order;             ///< a body that cannot be made has a stand-in for its geometry
   bool enclosed = false;     ///< if it is a fluid: Integration::enclosed
+  bool curvature = false;    ///< of its surface, by second derivatives, is asked for
   SolidSettings solid = {};  ///< if it is none
 };
 template <int D>

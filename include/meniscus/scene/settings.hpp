@@ -41,11 +41,13 @@ struct OutputSettings {
 struct BodySettings {
   std::string name, integration, volumetric, precision, window;
   int gauss_points = 3;
-  Real support_factor = 0;    ///< x distance to the rank-th neighbour
-  int support_rank = 0;       ///< 0: 20 in 3D, 8 in 2D
-  Real support_spacings = 0;  ///< > 0: the same support everywhere, x mean cell size
+  std::optional<Real> support_factor;  ///< x distance to the rank-th neighbour; a plan has one
+  int support_rank = 0;                ///< 0: 20 in 3D, 8 in 2D
+  Real support_spacings = 0;           ///< > 0: the same support everywhere, x mean cell size
   std::vector<Expression> initial_displacement, initial_velocity;  ///< empty: zero
   static Rows<BodySettings> rows();
+  /// The default of support_factor, which depends on what else the scene says, where it gives none.
+  void settle_support(const Block& block, Real fallback);
 };
 
 /// What [body.material] of any solid may have besides the numbers of its law.

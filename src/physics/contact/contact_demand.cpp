@@ -14,7 +14,7 @@ namespace meniscus {
 namespace {
 
 template <int D>
-std::vector<Vec<D>> places(const ContactPlaces<D>& points) {
+std::vector<Vec<D>> list_of(const ContactPlaces<D>& points) {
   std::vector<Vec<D>> x;
   for (Index q = 0; q < points.size; ++q) x.push_back(points.place(q));
   return x;
@@ -45,29 +45,6 @@ Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> ac
   return std::sqrt(std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3])));
 }
 
-/// Around points in lanes, [cluster][i].
-template <int D>
-Box<D> box_around_lanes(std::span<const Lanes> x) {
-  Lanes low[D], high[D];
-  for (int i = 0; i < D; ++i) low[i] = high[i] = x[static_cast<std::size_t>(i)];
-  for (std::size_t k = 0; k < x.size(); k += D)
-    for (int i = 0; i < D; ++i) {
-      low[i] = min(low[i], at(x, k + static_cast<std::size_t>(i)));
-      high[i] = max(high[i], at(x, k + static_cast<std::size_t>(i)));
-    }
-  Box<D> box;
-  for (int lane = 0; lane < Lanes::width; ++lane) {
-    Vec<D> a, b;
-    for (int i = 0; i < D; ++i) {
-      a[i] = low[i][lane];
-      b[i] = high[i][lane];
-    }
-    box.include(a);
-    box.include(b);
-  }
-  return box;
-}
-
 /// Around the coefficients of the velocity of a body.
 template <int D>
 Box<D> velocities(const Body<D>& body, const Motion& motion) {
@@ -84,6 +61,27 @@ Box<D> velocities(const Body<D>& body, const Motion& motion) {
   return box;
 }
 
+/// Around the coefficients of the places of a body.
+template <int D>
+Box<D> places(const Body<D>& body, const Motion& motion) {
+  const auto u = body.part(motion.u);
+  Box<D> box;
+  for (Index A = 0; A < body.size(); ++A) {
+    Vec<D> d = at(body.particles.X(), A);
+    for (int i = 0; i < D; ++i) d[i] += at(u, A)[i];
+    box.include(d);
+  }
+  return box;
+}
+
+/// Holds sum_A N_A c_A at all contact points, where all coefficients c_A are in the box: from its
+/// middle a value is no farther than sum_A |N_A| times the farthest of them.
+template <int D>
+Box<D> of_points(const Box<D>& coefficients, const ContactPoints<D>& points) {
+  const Vec<D> half = points.gain() / 2 * coefficients.extent(), centre = coefficients.centre();
+  return {centre - half, centre + half};
+}
+
 template <int D>
 Real distance_between(const Box<D>& a, const Box<D>& b) {
   return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(Vec<D>::Zero()).norm();
@@ -97,7 +95,7 @@ Real farthest_between(const Box<D>& a, const Box<D>& b) {
 
 template <int D>
 Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second) {
-  const std::vector<Vec<D>> x = places(first), y = places(second);
+  const std::vector<Vec<D>> x = list_of(first), y = list_of(second);
   const NeighborSearch<D> search(y);
   Real gap = std::numeric_limits<Real>::max();
   for (const Vec<D>& point : x) gap = std::min(gap, search.distance_of_nearest(point, 1));
@@ -114,17 +112,19 @@ Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active
 }
 
 template <int D>
-Approach approach(const ContactPoints<D>& first, const ContactPlaces<D>& at_first,
-                  const ContactPoints<D>& second, const ContactPlaces<D>& at_second,
+Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
                   const Motion& motion) {
-  return {distance_between(box_around_lanes<D>(at_first.x), box_around_lanes<D>(at_second.x)),
-          farthest_between(velocities(first.body(), motion), velocities(second.body(), motion))};
+  return {distance_between(of_points(places(first.body(), motion), first),
+                           of_points(places(second.body(), motion), second)),
+          farthest_between(of_points(velocities(first.body(), motion), first),
+                           of_points(velocities(second.body(), motion), second))};
 }
 
 template <int D>
-Approach approach(const Body<D>& body, Real distance, const Vec<D>& velocity,
+Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
                   const Motion& motion) {
-  return {distance, farthest_between(velocities(body, motion), Box<D>{velocity, velocity})};
+  return {distance, farthest_between(of_points(velocities(points.body(), motion), points),
+                                     Box<D>{velocity, velocity})};
 }
 
 StepDemand approach_demand(const Approach& approach, Real range) {
@@ -136,11 +136,14 @@ StepDemand approach_demand(const Approach& approach, Real range) {
   return demand;
 }
 
-StepDemand contact_demand(const ContactInertia& contact, Real gap, Real closing_speed) {
+StepDemand contact_demand(const ContactInertia& contact, Real gap, const ClosingSpeed& closing) {
   constexpr Real closed_in_a_step = 0.05;
   StepDemand demand;
   if (!(gap > 0)) return demand;
-  if (closing_speed > 0) demand.longest = closed_in_a_step * gap / closing_speed;
+  if (closing.speed > 0) demand.longest = closed_in_a_step * gap / closing.speed;
+  if (closing.fastest > 0)
+    demand.longest =
+        std::min(demand.longest, (closing.within - (1 - closed_in_a_step) * gap) / closing.fastest);
   const Real reached = std::max((1 - closed_in_a_step) * gap, contact.interaction.least_gap());
   const Real K = contact.interaction.at(reached).stiffness;
   const Real single = 1 + 2 * std::pow(contact.spacing / reached, contact.dimension - 1);
@@ -166,9 +169,8 @@ std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, 
   template Real closing_speed(const ContactPoints<D>&, std::span<const Index>,                 \
                               const ContactPoints<D>*, std::span<const Index>, const Vec<D>&,  \
                               const Motion&);                                                  \
-  template Approach approach(const ContactPoints<D>&, const ContactPlaces<D>&,                 \
-                             const ContactPoints<D>&, const ContactPlaces<D>&, const Motion&); \
-  template Approach approach(const Body<D>&, Real, const Vec<D>&, const Motion&);
+  template Approach approach(const ContactPoints<D>&, const ContactPoints<D>&, const Motion&); \
+  template Approach approach(const ContactPoints<D>&, Real, const Vec<D>&, const Motion&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -229,23 +229,34 @@ ContactPlaces<D> ContactPoints<D>::at_rest() const {
   return places;
 }
 
+/// Calls f(q, set) for the points of a cluster; set(lanes, value) puts a value of the point where
+/// it belongs, and that of the last point into the lanes without one as well.
+template <int D>
+template <class F>
+void ContactPoints<D>::for_points(Index cluster, F&& f) const {
+  const Index points = points_in(cluster);
+  for (Index k = 0; k < points; ++k)
+    f(cluster * Lanes::width + k, [&](Lanes& lanes, Real value) {
+      for (Index lane = k; lane < (k + 1 < points ? k + 1 : Lanes::width); ++lane)
+        lanes.set(lane, value);
+    });
+}
+
 template <int D>
 void ContactPoints<D>::move(Index c, const NodalVector* u, ContactPlaces<D>& places) const {
-  for (Index lane = 0; lane < Lanes::width; ++lane) {
-    const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
+  for_points(c, [&](Index q, auto&& set) {
+    const Index lane = q % Lanes::width;
     const Lanes moved = value_at(rule_.rows, q, u);
-    for (int i = 0; i < D; ++i)
-      at(places.x, c * D + i).set(lane, at(X_, c * D + i)[lane] + moved[i]);
-  }
+    for (int i = 0; i < D; ++i) set(at(places.x, c * D + i), at(X_, c * D + i)[lane] + moved[i]);
+  });
 }
 
 template <int D>
 void ContactPoints<D>::move_on_patches(Index c, ContactPlaces<D>& places) const {
-  for (Index lane = 0; lane < Lanes::width; ++lane) {
-    const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
+  for_points(c, [&](Index q, auto&& set) {
     const Vec<D> x = patches_->place(at(order_, q), places.nodes);
-    for (int i = 0; i < D; ++i) at(places.x, c * D + i).set(lane, x[i]);
-  }
+    for (int i = 0; i < D; ++i) set(at(places.x, c * D + i), x[i]);
+  });
 }
 
 template <int D>
@@ -330,22 +341,20 @@ template <int D>
 void ContactPoints<D>::velocity(Index cluster, const Motion& motion, const ContactPlaces<D>& places,
                                 Lanes* v) const {
   if (!patches_) return velocity_nearby(cluster, motion, v);
-  for (Index lane = 0; lane < Lanes::width; ++lane) {
-    const Index q = cluster * Lanes::width + std::min(lane, points_in(cluster) - 1);
+  for_points(cluster, [&](Index q, auto&& set) {
     const Vec<D> rate = patches_->place(at(order_, q), places.node_v);
-    for (int i = 0; i < D; ++i) v[i].set(lane, rate[i]);
-  }
+    for (int i = 0; i < D; ++i) set(v[i], rate[i]);
+  });
 }
 
 template <int D>
 void ContactPoints<D>::velocity_nearby(Index cluster, const Motion& motion, Lanes* v) const {
   const NodalVector* field = motion.v.data() + body_->first;
-  for (Index lane = 0; lane < Lanes::width; ++lane) {
-    const Index q = cluster * Lanes::width + std::min(lane, points_in(cluster) - 1);
+  for_points(cluster, [&](Index q, auto&& set) {
     const Lanes rate =
         patches_ ? patches_->velocity_nearby(at(order_, q), field) : value_at(rule_.rows, q, field);
-    for (int i = 0; i < D; ++i) v[i].set(lane, rate[i]);
-  }
+    for (int i = 0; i < D; ++i) set(v[i], rate[i]);
+  });
 }
 
 /// The first Piola stress (S.V) F^-T [constant density only] - V (F^-1 S)^T of a cluster.

@@ -4,6 +4,7 @@
 
 #include "meniscus/body/surface_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -37,6 +38,15 @@ Real facet_size(const Body<D>& body) {
   return std::pow(total / static_cast<Real>(body.geometry.grid.facets.size()), 1.0 / (D - 1));
 }
 
+template <int D>
+FacetEdges facet_edges(const Body<D>& body) {
+  const std::vector<Real> area = surface_points(body.geometry, 1).area;
+  const auto [least, largest] = std::minmax_element(area.begin(), area.end());
+  return {std::pow(*least, 1.0 / (D - 1)), std::pow(*largest, 1.0 / (D - 1))};
+}
+
+template FacetEdges facet_edges(const Body<2>&);
+template FacetEdges facet_edges(const Body<3>&);
 template Real facet_size(const Body<2>&);
 template Real facet_size(const Body<3>&);
 

@@ -17,14 +17,13 @@ Real gauss_error(int n, int k) {
          (factorial(k - 1) * (2 * n + 1) * std::pow(factorial(2 * n), 3));
 }
 
-/// The distance from which on n points are enough for a facet of that edge.
-Real distance_for(int n, const Interaction& interaction, Real edge) {
-  constexpr Real bearable = 1e-6;
+/// The distance from which on `error`, relative and a function of the distance that falls with it,
+/// does not change the pressure by more than a part of the largest traction.
+template <class F>
+Real distance_for(const Interaction& interaction, Real bearable, F&& error) {
   const PlaneContact flat = interaction.flat();
-  const Real c = gauss_error(n, *interaction.far_power());
   const auto enough = [&](Real a) {
-    return c * std::pow(edge / a, 2 * n) * std::abs(interaction.at(a).pressure) <
-           bearable * flat.peak_traction;
+    return error(a) * std::abs(interaction.at(a).pressure) < bearable * flat.peak_traction;
   };
   // Beyond the largest traction the error falls with the distance.
   Real near = flat.peak_gap, far = near;
@@ -38,15 +37,41 @@ Real distance_for(int n, const Interaction& interaction, Real edge) {
 
 }  // namespace
 
-FacetGrades::FacetGrades(int points, const Interaction& interaction, Real edge)
-    : points_{points}, edges_away_{0} {
-  // A corner of a facet is nearer than the nearest of four Gauss points by as much at most.
-  constexpr Real corner = 0.3;
-  if (!interaction.far_power()) return;
+template <class F>
+void FacetGrades::add_grades(Real part, F&& distance_for) {
   while (points_.back() > 2) {
-    points_.push_back((points_.back() + 1) / 2);
-    edges_away_.push_back(distance_for(points_.back(), interaction, edge) / edge + corner);
+    points_.push_back(std::max(2, static_cast<int>(std::ceil(part * points_.back()))));
+    edges_away_.push_back(distance_for(points_.back()));
   }
+}
+
+FacetGrades::FacetGrades(int points, const Interaction& interaction, Real edge)
+    : FacetGrades(points) {
+  // A corner of a facet is nearer than the nearest of four Gauss points by as much at most.
+  constexpr Real corner = 0.3, bearable = 1e-6;
+  if (!interaction.far_power()) return;
+  add_grades(0.5, [&](int n) {
+    const Real c = gauss_error(n, *interaction.far_power());
+    const auto error = [&](Real a) { return c * std::pow(edge / a, 2 * n); };
+    return distance_for(interaction, bearable, error) / edge + corner;
+  });
+}
+
+FacetGrades FacetGrades::of_pairs(int points, const Interaction& interaction, Real edge) {
+  constexpr Real bearable = 1e-5, part = 0.6;
+  constexpr int fewest = 3;
+  FacetGrades grades(points);
+  if (!interaction.far_power() || points <= fewest) return grades;
+  grades.add_grades(part, [&](int n) {
+    if (n < fewest) return unbounded;
+    const Real c = gauss_error(n, *interaction.far_power() + 2);
+    const auto error = [&](Real a) {
+      const Real from = a / edge + 0.58, to = a / edge - 0.42;
+      return to > 0 ? 2 * c * std::pow(from * to, -n) : unbounded;
+    };
+    return distance_for(interaction, bearable, error) / edge;
+  });
+  return grades;
 }
 
 }  // namespace meniscus

@@ -5,6 +5,7 @@
 #include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_facets.hpp"
 #include "meniscus/physics/contact_list.hpp"
+#include "meniscus/physics/contact_visits.hpp"
 
 #include <fmt/core.h>
 
@@ -28,7 +29,7 @@ namespace {
 /// be W(X, t), X the place in the reference of the ground below a point: E has W e(g), and what
 /// slides over the ground is pulled to more of it.
 template <int D>
-class GapPair final : public ForceTerm {
+class GapPair final : public ForceTerm, public ContactVisits {
  public:
   GapPair(const Body<D>& first, const Body<D>& second, std::shared_ptr<const Interaction> law,
           const ContactChoice& choice)
@@ -53,16 +54,19 @@ class GapPair final : public ForceTerm {
 
   Report add_force(const Motion& motion, Forces force) override {
     work_.begin(motion.time);
+    Offset visited = 0;
     for (auto [side, result] :
          {std::pair{&first_, &now_first_}, std::pair{&second_, &now_second_}}) {
       if (side == &second_ && up_) break;
       side->move(motion, *result);
       side->list.update(result->places.x, result->others.samples);
+      visited += side->list.pairs() * Lanes::width;
       evaluate(*side, side->list, motion, *result);
       side->points.add_force(result->places, side->list.of_first().active, result->T, result->S,
                              force);
       side->facets.add_force(result->pull, force);
     }
+    count(visited);
     return report(motion);
   }
 
@@ -378,7 +382,7 @@ Report GapPair<D>::report(const Motion& motion) const {
   // The stiffness of the core does not vary.
   const Real strength = pattern_ && gap >= rest_ ? largest_adhesion(motion.time) : 1;
   const Real inverse_inertia = 1 / first_.points.inertia() + 1 / second_.points.inertia();
-  report.demand = contact_demand({*law_, strength * inverse_inertia, 0, D}, gap, speed);
+  report.demand = contact_demand({*law_, strength * inverse_inertia, 0, D}, gap, {speed});
   return report;
 }
 

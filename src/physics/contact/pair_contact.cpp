@@ -6,32 +6,56 @@
 #include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_list.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
+#include "meniscus/physics/contact_resolution.hpp"
+#include "meniscus/physics/contact_visits.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "facet_pairs.hpp"
+#include "moved_since.hpp"
 #include "pair_sums.hpp"
 
 namespace meniscus {
 namespace {
 
-/// Where the points of both bodies are.
+/// The contact points of a body by grade: all of a facet first, then fewer and fewer.
 template <int D>
-struct PairPlaces {
-  ContactPlaces<D> first, second;
-};
+using Graded = std::vector<ContactPoints<D>>;
 
 template <int D>
-ContactPoints<D> points_of(const ContactBody<D>& b, const ContactChoice& choice, std::size_t side) {
-  if (choice.form == ContactForm::volume)
-    return ContactPoints<D>::in_volume(b.body, b.beta, choice.points);
-  return surface_contact_points(b.body, b.beta, choice, side);
+FacetGrades grades_of(const ContactBody<D>& first, const ContactBody<D>& second,
+                      const Interaction& interaction, const ContactChoice& choice) {
+  const Real edge = std::min(facet_edges(first.body).least, facet_edges(second.body).least);
+  // Points of the volume have no facets.
+  return FacetGrades::of_pairs(choice.form == ContactForm::volume ? 1 : choice.points, interaction,
+                               edge);
 }
 
 template <int D>
-class PairContact final : public ForceTerm {
+Graded<D> points_of(const ContactBody<D>& b, const ContactChoice& choice, std::size_t side,
+                    const FacetGrades& grades) {
+  Graded<D> all;
+  if (choice.form == ContactForm::volume) {
+    all.push_back(ContactPoints<D>::in_volume(b.body, b.beta, choice.points));
+    return all;
+  }
+  return graded_contact_points(b.body, b.beta, choice, side, grades);
+}
+
+/// Nothing where facets have one grade.
+template <int D>
+Real overhang(const ContactBody<D>& first, const ContactBody<D>& second,
+              const FacetGrades& grades) {
+  if (grades.count() == 1) return 0;
+  return FacetPairs<D>::overhang(
+      std::max(facet_edges(first.body).largest, facet_edges(second.body).largest));
+}
+
+template <int D>
+class PairContact final : public ForceTerm, public ContactVisits {
  public:
   PairContact(const ContactBody<D>& first, const ContactBody<D>& second, const ContactLaw& law,
               const ContactChoice& choice)
@@ -39,45 +63,60 @@ class PairContact final : public ForceTerm {
         law_(law),
         sums_(pair_sums<D>(law, choice.form)),
         interaction_(law, first.beta * second.beta),
-        first_(points_of(first, choice, 0)),
-        second_(points_of(second, choice, 1)),
-        list_(law.reach(), choice.skin * law.sigma0),
-        now_{first_.at_rest(), second_.at_rest()},
-        first_result_(first_.clusters(), sums_->moment()),
-        second_result_(second_.clusters(), sums_->moment()) {}
+        grades_(grades_of(first, second, interaction_, choice)),
+        first_(points_of(first, choice, 0, grades_)),
+        second_(points_of(second, choice, 1, grades_)),
+        list_(law.reach() + overhang(first, second, grades_), choice.skin * law.sigma0),
+        now_(*this) {
+    for (std::size_t g = 0; g < first_.size(); ++g) {
+      first_result_.emplace_back(first_[g].clusters(), sums_->moment());
+      second_result_.emplace_back(second_[g].clusters(), sums_->moment());
+    }
+    close_.first.reserve(static_cast<std::size_t>(first_.front().clusters()));
+    close_.second.reserve(static_cast<std::size_t>(second_.front().clusters()));
+  }
 
   std::string name() const override { return "contact '" + name_ + "'"; }
   std::string_view energy_kind() const override { return "contact"; }
 
   Report add_force(const Motion& motion, Forces force) override {
-    move(motion, now_);
-    list_.update(now_.first.x, now_.second.x);
-    update_weights(motion, list_, now_);
-    sums_->evaluate(now_.first, list_.of_first(), now_.second, first_result_);
-    sums_->evaluate(now_.second, list_.of_second(), now_.first, second_result_);
-    first_.add_force(now_.first, list_.of_first().active, first_result_.T, first_result_.S, force);
-    second_.add_force(now_.second, list_.of_second().active, second_result_.T, second_result_.S,
-                      force);
+    visit(motion);
+    count(point_pairs());
+    for (std::size_t g = 0; g < first_.size(); ++g) {
+      const FacetRows<D> first = of_first(now_, list_, g), second = of_second(now_, list_, g);
+      sums_->evaluate(now_.first[g], first, now_.second[g], first_result_[g]);
+      sums_->evaluate(now_.second[g], second, now_.first[g], second_result_[g]);
+      first_[g].add_force(now_.first[g], first.clusters, first_result_[g].T, first_result_[g].S,
+                          force);
+      second_[g].add_force(now_.second[g], second.clusters, second_result_[g].T,
+                           second_result_[g].S, force);
+    }
     return report(motion);
   }
 
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
-    move(motion, now_);
-    list_.update(now_.first.x, now_.second.x);
-    update_weights(motion, list_, now_);
-    const ContactChanges<D> first =
-                                first_.changes(list_.of_first().active, now_.first, motion, change),
-                            second = second_.changes(list_.of_second().active, now_.second, motion,
-                                                     change);
-    add_change({first_, list_.of_first(), now_.first, first}, now_.second, second, motion, change,
-               force);
-    add_change({second_, list_.of_second(), now_.second, second}, now_.first, first, motion, change,
-               force);
+    visit(motion);
+    for (std::size_t g = 0; g < first_.size(); ++g) {
+      const FacetRows<D> of_first = this->of_first(now_, list_, g),
+                         of_second = this->of_second(now_, list_, g);
+      const ContactChanges<D> first = first_[g].changes(of_first.clusters, now_.first[g], motion,
+                                                        change),
+                              second = second_[g].changes(of_second.clusters, now_.second[g],
+                                                          motion, change);
+      add_change({first_[g], of_first, now_.first[g], first}, now_.second[g], second, motion,
+                 change, force);
+      add_change({second_[g], of_second, now_.second[g], second}, now_.first[g], first, motion,
+                 change, force);
+    }
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
-    return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
-      return sums_->energy(places.first, first_.clusters(), list.of_first(), places.second);
+    return look_at(motion, [&](const Visited& at_motion, const ContactList<D>& list) {
+      Real energy = 0;
+      for (std::size_t g = 0; g < first_.size(); ++g)
+        energy += sums_->energy(at_motion.first[g], first_[g].clusters(),
+                                of_first(at_motion, list, g), at_motion.second[g]);
+      return energy;
     });
   }
 
@@ -91,8 +130,8 @@ class PairContact final : public ForceTerm {
   bool stops_drift() const override { return true; }
 
   std::optional<std::string> warning(const Motion& motion) const override {
-    return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
-      return unresolved_gap(name_, std::sqrt(least_square(places, list.of_first())), spacing(),
+    return look_at(motion, [&](const Visited& at_motion, const ContactList<D>& list) {
+      return unresolved_gap(name_, nearest_of(evaluated(at_motion, list)).distance, spacing(),
                             interaction_.range());
     });
   }
@@ -100,43 +139,154 @@ class PairContact final : public ForceTerm {
   std::vector<MeasureSource> measures() const override;
 
   std::size_t bytes() const override {
-    return first_.bytes() + second_.bytes() + now_.first.bytes() + now_.second.bytes() +
-           list_.bytes() + first_result_.bytes() + second_result_.bytes();
+    std::size_t n = list_.bytes() + first_since_.bytes() + second_since_.bytes() + now_.bytes();
+    for (std::size_t g = 0; g < first_.size(); ++g)
+      n += first_[g].bytes() + second_[g].bytes() + first_result_[g].bytes() +
+           second_result_[g].bytes();
+    return n;
   }
   Offset pairs() const override {
-    return first_.pairs() + second_.pairs() + 2 * list_.pairs() * Lanes::width * Lanes::width;
+    Offset n = point_pairs();
+    for (std::size_t g = 0; g < first_.size(); ++g) n += first_[g].pairs() + second_[g].pairs();
+    return n;
   }
 
  private:
-  using Rows = typename ContactList<D>::Rows;
+  /// The points of both bodies at a motion, by grade, as far as they may be within reach of the
+  /// other body, and which act on which.
+  struct Visited {
+    std::vector<ContactPlaces<D>> first, second;
+    FacetPairs<D> facets;
 
-  void move(const Motion& motion, PairPlaces<D>& places) const {
-    first_.move(motion, places.first);
-    second_.move(motion, places.second);
+    explicit Visited(const PairContact& term)
+        : facets(term.grades_, clusters_per_facet(term.first_), term.law_.reach()) {
+      for (const ContactPoints<D>& points : term.first_) first.push_back(points.at_rest());
+      for (const ContactPoints<D>& points : term.second_) second.push_back(points.at_rest());
+    }
+    std::size_t bytes() const {
+      std::size_t n = facets.bytes();
+      for (const auto* side : {&first, &second})
+        for (const ContactPlaces<D>& places : *side) n += places.bytes();
+      return n;
+    }
+  };
+  /// Of the points of the first.
+  struct Nearest {
+    Real distance = unbounded;
+    std::size_t grade = 0;
+    Index cluster = 0;
+  };
+
+  static std::vector<Index> clusters_per_facet(const Graded<D>& points) {
+    std::vector<Index> all;
+    for (const ContactPoints<D>& grade : points)
+      all.push_back(grade.clusters() / points.back().clusters());
+    return all;
   }
-  void update_weights(const Motion& motion, const ContactList<D>& list,
-                      PairPlaces<D>& places) const {
-    first_.update_weights(list.of_first().active, motion, places.first);
-    second_.update_weights(list.of_second().active, motion, places.second);
+  static FacetRows<D> all_of(const typename ContactList<D>::Rows& rows) {
+    return {&rows, 1, rows.active};
+  }
+  FacetRows<D> of_first(const Visited& at_motion, const ContactList<D>& list,
+                        std::size_t grade) const {
+    return first_.size() == 1 ? all_of(list.of_first()) : at_motion.facets.of_first(grade);
+  }
+  FacetRows<D> of_second(const Visited& at_motion, const ContactList<D>& list,
+                         std::size_t grade) const {
+    return first_.size() == 1 ? all_of(list.of_second()) : at_motion.facets.of_second(grade);
+  }
+  /// Of points, from both sides.
+  Offset point_pairs() const {
+    Offset n = 0;
+    for (std::size_t g = 0; g < first_.size(); ++g)
+      n += pairs_of(of_first(now_, list_, g)) + pairs_of(of_second(now_, list_, g));
+    return n;
+  }
+  static Offset pairs_of(const FacetRows<D>& rows) {
+    const Offset clusters = rows.clusters_per_facet * rows.clusters_per_facet;
+    return static_cast<Offset>(rows.facets->partner.size()) * clusters * Lanes::width *
+           Lanes::width;
   }
 
-  /// f(places, list) at any motion; takes memory. The list of the forces serves where it holds.
+  /// Whether the list has all pairs within reach at this motion.
+  bool holds(const Motion& motion) const {
+    return first_since_.farthest(first_.back(), motion) +
+               second_since_.farthest(second_.back(), motion) <=
+           list_.skin() * (1 - 1e-12);
+  }
+  /// Brings to this motion the points that may be within reach of the other body: all others are
+  /// left where they were. The coarsest points tell which.
+  void visit(const Motion& motion) {
+    if (holds(motion)) {
+      first_.back().move(list_.of_first().active, motion, now_.first.back());
+      second_.back().move(list_.of_second().active, motion, now_.second.back());
+    } else {
+      make_list(motion, list_, now_);
+      first_since_.begin(first_.back(), motion);
+      second_since_.begin(second_.back(), motion);
+    }
+    bring_others(motion, list_, now_);
+  }
+  void make_list(const Motion& motion, ContactList<D>& list, Visited& at_motion) const {
+    first_.back().move(motion, at_motion.first.back());
+    second_.back().move(motion, at_motion.second.back());
+    list.build(at_motion.first.back().x, at_motion.second.back().x);
+  }
+  /// Weights of the coarsest points of the list, which have been moved, and all of the others.
+  void bring_others(const Motion& motion, const ContactList<D>& list, Visited& at_motion) const {
+    if (first_.size() > 1)
+      at_motion.facets.choose(list, at_motion.first.back(), at_motion.second.back());
+    for (std::size_t g = 0; g < first_.size(); ++g) {
+      const auto first = of_first(at_motion, list, g).clusters,
+                 second = of_second(at_motion, list, g).clusters;
+      if (g + 1 < first_.size()) {
+        first_[g].move(first, motion, at_motion.first[g]);
+        second_[g].move(second, motion, at_motion.second[g]);
+      }
+      first_[g].update_weights(first, motion, at_motion.first[g]);
+      second_[g].update_weights(second, motion, at_motion.second[g]);
+    }
+  }
+
+  /// f(visited, list) at any motion; takes memory. The list of the forces serves where it holds.
   template <class F>
   auto look_at(const Motion& motion, F&& f) const {
-    PairPlaces<D> places{first_.at_rest(), second_.at_rest()};
-    move(motion, places);
+    Visited at_motion(*this);
     std::optional<ContactList<D>> own;
-    if (!list_.valid(places.first.x, places.second.x))
-      own.emplace(list_.reach(), list_.skin()).update(places.first.x, places.second.x);
+    if (holds(motion)) {
+      first_.back().move(list_.of_first().active, motion, at_motion.first.back());
+      second_.back().move(list_.of_second().active, motion, at_motion.second.back());
+    } else {
+      make_list(motion, own.emplace(list_.reach(), list_.skin()), at_motion);
+    }
     const ContactList<D>& list = own ? *own : list_;
-    update_weights(motion, list, places);
-    return f(places, list);
+    bring_others(motion, list, at_motion);
+    return f(at_motion, list);
+  }
+  /// On the first, by grade.
+  std::vector<PairEvaluation<D>> evaluated(const Visited& at_motion,
+                                           const ContactList<D>& list) const {
+    std::vector<PairEvaluation<D>> results;
+    for (std::size_t g = 0; g < first_.size(); ++g) {
+      results.emplace_back(first_[g].clusters(), sums_->moment());
+      sums_->evaluate(at_motion.first[g], of_first(at_motion, list, g), at_motion.second[g],
+                      results.back());
+    }
+    return results;
+  }
+  /// `cluster` counts among those with partners.
+  static Nearest nearest_of(const std::vector<PairEvaluation<D>>& results) {
+    Nearest least;
+    for (std::size_t g = 0; g < results.size(); ++g)
+      for (std::size_t k = 0; k < results[g].nearest.size(); ++k)
+        if (const Real distance = std::sqrt(results[g].nearest[k]); distance < least.distance)
+          least = {distance, g, static_cast<Index>(k)};
+    return least;
   }
 
   /// The points of one body with their changes.
   struct Changing {
     ContactPoints<D>& points;
-    const Rows& rows;
+    const FacetRows<D>& rows;
     const ContactPlaces<D>& places;
     const ContactChanges<D>& changes;
   };
@@ -144,92 +294,94 @@ class PairContact final : public ForceTerm {
                   const ContactChanges<D>& changes, const Motion& motion, const Motion& change,
                   Forces force) const {
     const PairChange by = sums_->change(own.places, own.changes, own.rows, others, changes);
-    own.points.add_force_change(own.places, own.changes, motion, change, own.rows.active, by.dT,
+    own.points.add_force_change(own.places, own.changes, motion, change, own.rows.clusters, by.dT,
                                 by.S, by.dS, force);
   }
 
-  /// Least squared distance between points within reach of the list; `unbounded` if there are none.
-  static Real least_square(const PairPlaces<D>& places, const Rows& rows) {
-    Real least = unbounded;
-    for (const Index c : rows.active)
-      least = std::min(least, squares(places, c, rows.of(c)).minCoeff());
-    return least;
-  }
-  /// Squared distances of the four points of a cluster to the nearest points of the partners.
-  static Eigen::Array4d squares(const PairPlaces<D>& places, Index cluster,
-                                std::span<const Index> partners) {
-    Eigen::Array4d nearest = Eigen::Array4d::Constant(unbounded);
-    const Index begin = cluster * Lanes::width;
-    const Index points = std::min<Index>(Lanes::width, places.first.size - begin);
-    for (const Index partner : partners)
-      for (int lane = 0; lane < Lanes::width; ++lane) {
-        const Vec<D> y =
-            places.second.place(std::min(partner * Lanes::width + lane, places.second.size - 1));
-        for (Index k = 0; k < points; ++k)
-          nearest[k] = std::min(nearest[k], (places.first.place(begin + k) - y).squaredNorm());
-      }
-    return nearest;
-  }
-
-  Report report(const Motion& motion) const;
-  Failure describe_overlap(Real gap) const;
-  Real spacing() const { return std::max(first_.spacing(), second_.spacing()); }
+  Report report(const Motion& motion);
+  Real closing_speed_of(std::size_t grade, Real within, const Motion& motion);
+  Failure describe_overlap(const Nearest& nearest) const;
+  Real spacing() const { return std::max(first_.front().spacing(), second_.front().spacing()); }
   Vec<D> force_on_first(const Motion& motion) const;
 
   std::string name_;
   ContactLaw law_;
   std::unique_ptr<PairSums<D>> sums_;
   LennardJones interaction_;
-  ContactPoints<D> first_, second_;
-  ContactList<D> list_;
+  FacetGrades grades_;
+  Graded<D> first_, second_;
+  ContactList<D> list_;                       // of the coarsest points
+  MovedSince<D> first_since_, second_since_;  // that was made
   // Work space of a force.
-  PairPlaces<D> now_;
-  PairEvaluation<D> first_result_, second_result_;
+  Visited now_;
+  std::vector<PairEvaluation<D>> first_result_, second_result_;  // by grade
+  struct {
+    std::vector<Index> first, second;
+  } close_;  // clusters
 };
 
-/// What the places and velocities of a force mean for the step.
+/// Clusters with points within a distance of the other body.
 template <int D>
-Report PairContact<D>::report(const Motion& motion) const {
+void find_close(const FacetRows<D>& rows, const std::vector<Real>& nearest, Real within,
+                std::vector<Index>& close) {
+  close.clear();
+  for (std::size_t k = 0; k < nearest.size(); ++k)
+    if (nearest[k] < within * within) close.push_back(rows.clusters[k]);
+}
+
+/// Of the points of a grade within a distance of each other.
+template <int D>
+Real PairContact<D>::closing_speed_of(std::size_t grade, Real within, const Motion& motion) {
+  find_close(of_first(now_, list_, grade), first_result_[grade].nearest, within, close_.first);
+  find_close(of_second(now_, list_, grade), second_result_[grade].nearest, within, close_.second);
+  if (close_.first.empty()) return 0;
+  return closing_speed<D>(first_[grade], close_.first, &second_[grade], close_.second,
+                          Vec<D>::Zero(), motion);
+}
+
+/// What the places and velocities of a force mean for the step: by the present motion alone, not by
+/// what else the list has.
+template <int D>
+Report PairContact<D>::report(const Motion& motion) {
   Report report;
-  const std::vector<Real>& nearest = first_result_.nearest;
-  if (nearest.empty()) {
-    report.demand =
-        approach_demand(approach(first_, now_.first, second_, now_.second, motion), law_.reach());
+  const Nearest nearest = nearest_of(first_result_);
+  const Approach any = approach(first_.front(), second_.front(), motion);
+  if (!(nearest.distance < law_.reach())) {
+    report.demand = approach_demand(any, law_.reach());
     return report;
   }
-  const Real gap = std::sqrt(*std::min_element(nearest.begin(), nearest.end()));
-  if (gap < interaction_.least_gap()) report.failure = describe_overlap(gap);
-  const Real speed = closing_speed<D>(first_, list_.of_first().active, &second_,
-                                      list_.of_second().active, Vec<D>::Zero(), motion);
-  report.demand = contact_demand(
-      {interaction_, 1 / first_.inertia() + 1 / second_.inertia(), spacing(), D}, gap, speed);
+  if (nearest.distance < interaction_.least_gap()) report.failure = describe_overlap(nearest);
+  const Real within = std::min(close_by(nearest.distance), law_.reach());
+  Real speed = 0;
+  for (std::size_t g = 0; g < first_.size(); ++g)
+    speed = std::max(speed, closing_speed_of(g, within, motion));
+  const Real inverse_inertia = 1 / first_.front().inertia() + 1 / second_.front().inertia();
+  report.demand = contact_demand({interaction_, inverse_inertia, spacing(), D}, nearest.distance,
+                                 {speed, within, any.speed});
   return report;
 }
 
 template <int D>
-Failure PairContact<D>::describe_overlap(Real gap) const {
-  const auto& active = list_.of_first().active;
-  const std::vector<Real>& nearest = first_result_.nearest;
-  const auto k = std::min_element(nearest.begin(), nearest.end()) - nearest.begin();
-  const Index cluster = at(active, k);
-  Eigen::Index lane = 0;
-  squares(now_, cluster, list_.of_first().of(cluster)).minCoeff(&lane);
-  const Index point = cluster * Lanes::width + static_cast<Index>(lane);
-  return {first_.particle_at(point),
+Failure PairContact<D>::describe_overlap(const Nearest& nearest) const {
+  const ContactPoints<D>& points = first_[nearest.grade];
+  const Index cluster =
+      of_first(now_, list_, nearest.grade).clusters[static_cast<std::size_t>(nearest.cluster)];
+  return {points.particle_at(cluster * Lanes::width),
           fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g} = {:.3g} sigma0, "
                       "least is {:.2g} sigma0",
-                      first_.body().name, second_.body().name, gap, gap / law_.sigma0, law_.guard),
+                      points.body().name, second_.front().body().name, nearest.distance,
+                      nearest.distance / law_.sigma0, law_.guard),
           true};
 }
 
 template <int D>
 Vec<D> PairContact<D>::force_on_first(const Motion& motion) const {
-  return look_at(motion, [&](const PairPlaces<D>& places, const ContactList<D>& list) {
-    PairEvaluation<D> result(first_.clusters(), sums_->moment());
-    sums_->evaluate(places.first, list.of_first(), places.second, result);
+  return look_at(motion, [&](const Visited& at_motion, const ContactList<D>& list) {
+    const std::vector<PairEvaluation<D>> results = evaluated(at_motion, list);
     Vec<D> force = Vec<D>::Zero();
-    for (const Index c : list.of_first().active)
-      for (int i = 0; i < D; ++i) force[i] -= sum(at(result.T, c * D + i));
+    for (std::size_t g = 0; g < first_.size(); ++g)
+      for (const Index c : of_first(at_motion, list, g).clusters)
+        for (int i = 0; i < D; ++i) force[i] -= sum(at(results[g].T, c * D + i));
     return force;
   });
 }
@@ -237,9 +389,10 @@ Vec<D> PairContact<D>::force_on_first(const Motion& motion) const {
 template <int D>
 std::vector<MeasureSource> PairContact<D>::measures() const {
   const auto gap = [this](const Motion& motion) {
-    PairPlaces<D> places{first_.at_rest(), second_.at_rest()};
-    move(motion, places);
-    return gap_between(places.first, places.second);
+    ContactPlaces<D> first = first_.front().at_rest(), second = second_.front().at_rest();
+    first_.front().move(motion, first);
+    second_.front().move(motion, second);
+    return gap_between(first, second);
   };
   std::vector<MeasureSource> all{
       {"energy", dimension::energy, "energy of the interaction",

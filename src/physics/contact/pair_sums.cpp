@@ -16,8 +16,6 @@ namespace {
 template <int D, class Form, PairKernel K>
 class PairSumsOf final : public PairSums<D> {
  public:
-  using Rows = typename PairSums<D>::Rows;
-
   explicit PairSumsOf(const ContactLaw& law) : law_(law), reach_(law.reach()) {}
 
   bool moment() const override { return Form::moment; }
@@ -25,17 +23,18 @@ class PairSumsOf final : public PairSums<D> {
     return std::is_same_v<Form, contact::Energy<D>> || std::is_same_v<Form, contact::Volume<D>>;
   }
 
-  void evaluate(const ContactPlaces<D>& points, const Rows& rows, const ContactPlaces<D>& others,
-                PairEvaluation<D>& result) const override {
-    result.nearest.resize(rows.active.size());
+  void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
+                const ContactPlaces<D>& others, PairEvaluation<D>& result) const override {
+    result.nearest.resize(rows.clusters.size());
     divided_for(
-        static_cast<Index>(rows.active.size()),
+        static_cast<Index>(rows.clusters.size()),
         [&](Index k) {
-          const Index c = at(rows.active, k);
+          const Index c = at(rows.clusters, k);
           Lanes T[D], S[D];
           for (int i = 0; i < D; ++i) T[i] = S[i] = Lanes::zero();
           const Lanes nearest = contact::sum_over_partners<Form, D>(
-              law_, reach_, points.x_of(c), points.weight_of(c), rows.of(c), others, T, S);
+              law_, reach_, points.x_of(c), points.weight_of(c), rows.partners_of(c),
+              rows.clusters_per_facet, others, T, S);
           at(result.nearest, k) =
               std::min(std::min(nearest[0], nearest[1]), std::min(nearest[2], nearest[3]));
           for (int i = 0; i < D; ++i) {
@@ -43,9 +42,9 @@ class PairSumsOf final : public PairSums<D> {
             if (Form::moment) at(result.S, c * D + i) = S[i];
           }
         },
-        [&](Index k) { return record_of(at(rows.active, k), at(result.nearest, k), result); },
+        [&](Index k) { return record_of(at(rows.clusters, k), at(result.nearest, k), result); },
         [&](Index k, const Record& record) {
-          const Index c = at(rows.active, k);
+          const Index c = at(rows.clusters, k);
           for (int i = 0; i < D; ++i) {
             at(result.T, c * D + i) = record.T[i];
             if (Form::moment) at(result.S, c * D + i) = record.S[i];
@@ -56,19 +55,20 @@ class PairSumsOf final : public PairSums<D> {
   }
 
   PairChange change(const ContactPlaces<D>& points, const ContactChanges<D>& changes,
-                    const Rows& rows, const ContactPlaces<D>& others,
+                    const FacetRows<D>& rows, const ContactPlaces<D>& others,
                     const ContactChanges<D>& other_changes) const override {
     PairChange result{AlignedVector<Lanes>(points.x.size(), Lanes::zero()), {}, {}};
     if (Form::moment) result.S = result.dS = result.dT;
     parallel_for(
-        static_cast<Index>(rows.active.size()),
+        static_cast<Index>(rows.clusters.size()),
         [&](Index k) {
-          const Index c = at(rows.active, k);
+          const Index c = at(rows.clusters, k);
           Dual<Lanes> t[D], s[D];
           for (int i = 0; i < D; ++i) t[i] = s[i] = 0.0;
           contact::sum_changes_over_partners<Form, D>(
               law_, reach_, points.x_of(c), changes.x_of(c), points.weight_of(c),
-              &at(changes.weight, c * Form::components), rows.of(c), others, other_changes, t, s);
+              &at(changes.weight, c * Form::components), rows.partners_of(c),
+              rows.clusters_per_facet, others, other_changes, t, s);
           for (int i = 0; i < D; ++i) {
             at(result.dT, c * D + i) = t[i].d;
             if (!Form::moment) continue;
@@ -80,14 +80,15 @@ class PairSumsOf final : public PairSums<D> {
     return result;
   }
 
-  Real energy(const ContactPlaces<D>& points, Index clusters, const Rows& rows,
+  Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
               const ContactPlaces<D>& others) const override {
     // Over all clusters: the order of summation must not depend on which are active.
     return divided_sum(clusters, 0.0, [&](Index c) {
       Lanes T[D], S[1];
       T[0] = Lanes::zero();
       contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
-          law_, reach_, points.x_of(c), points.weight_of(c), rows.of(c), others, T, S);
+          law_, reach_, points.x_of(c), points.weight_of(c), rows.partners_of(c),
+          rows.clusters_per_facet, others, T, S);
       return sum(T[0]);
     });
   }

@@ -3,11 +3,11 @@
 #pragma once
 #include "meniscus/core/dual.hpp"
 #include "meniscus/physics/contact.hpp"
-#include "meniscus/physics/contact_list.hpp"
-#include "meniscus/physics/contact_points.hpp"
 
 #include <memory>
 #include <vector>
+
+#include "facet_pairs.hpp"
 
 namespace meniscus {
 
@@ -15,7 +15,7 @@ namespace meniscus {
 template <int D>
 struct PairEvaluation {
   AlignedVector<Lanes> T, S;  ///< [cluster][i], as in contact_forms.hpp
-  std::vector<Real> nearest;  ///< [active cluster] least squared distance to the other body
+  std::vector<Real> nearest;  ///< [k of rows.clusters] least squared distance to the other body
 
   PairEvaluation(Index clusters, bool moment) {
     T.assign(static_cast<std::size_t>(clusters) * D, Lanes::zero());
@@ -33,21 +33,19 @@ struct PairChange {
 template <int D>
 class PairSums {
  public:
-  using Rows = typename ContactList<D>::Rows;
-
   virtual ~PairSums() = default;
   /// Whether the form has S.
   virtual bool moment() const = 0;
   /// Whether its force is minus the gradient of its energy.
   virtual bool conservative() const = 0;
   /// Forces of `others` on `points`, which has these partners.
-  virtual void evaluate(const ContactPlaces<D>& points, const Rows& rows,
+  virtual void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
                         const ContactPlaces<D>& others, PairEvaluation<D>& result) const = 0;
   virtual PairChange change(const ContactPlaces<D>& points, const ContactChanges<D>& changes,
-                            const Rows& rows, const ContactPlaces<D>& others,
+                            const FacetRows<D>& rows, const ContactPlaces<D>& others,
                             const ContactChanges<D>& other_changes) const = 0;
   /// Potential energy of all `clusters` of the points.
-  virtual Real energy(const ContactPlaces<D>& points, Index clusters, const Rows& rows,
+  virtual Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
                       const ContactPlaces<D>& others) const = 0;
 };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of a deformable body with a rigid partner in closed form.
-#include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/divided.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
-#include "meniscus/physics/facet_grades.hpp"
+#include "meniscus/physics/contact_resolution.hpp"
+#include "meniscus/physics/contact_visits.hpp"
 
 #include <fmt/core.h>
 
@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "contact_tangent.hpp"
+#include "facet_pairs.hpp"
 #include "reach_list.hpp"
 #include "wall_effects.hpp"
 
@@ -27,24 +28,8 @@ Eigen::Vector3d cross(const Vec<D>& x, const Vec<D>& y) {
   return meniscus::cross(spatial<D>(x), spatial<D>(y));
 }
 
-/// Edge of a facet by its two Gauss points per direction.
 template <int D>
-Real edge_by_points(const ContactPlaces<D>& places, Index cluster) {
-  Real square = 0;  // of the largest distance
-  for (int a = 0; a < Lanes::width; ++a)
-    for (int b = 0; b < a; ++b) {
-      Real between = 0;
-      for (int i = 0; i < D; ++i) {
-        const Real r = places.x_of(cluster)[i][a] - places.x_of(cluster)[i][b];
-        between += r * r;
-      }
-      square = std::max(square, between);
-    }
-  return std::sqrt(3 * square / (D - 1));
-}
-
-template <int D>
-class RigidContact final : public ForceTerm {
+class RigidContact final : public ForceTerm, public ContactVisits {
  public:
   RigidContact(const ContactBody<D>& body, MovingPartner<D> partner,
                std::shared_ptr<const Interaction> interaction, const ContactChoice& choice)
@@ -54,10 +39,11 @@ class RigidContact final : public ForceTerm {
         wets_(choice.wets),
         partner_(std::move(partner)),
         effects_(*interaction_, partner_, choice.friction),
-        grades_(choice.points, *interaction_, smallest_edge(body.body)),
-        points_(points_of(body, choice, grades_)),
+        grades_(choice.points, *interaction_, facet_edges(body.body).least),
+        points_(graded_contact_points(body.body, body.beta, choice, 0, grades_)),
         now_(points_),
         list_(interaction_->range()) {
+    close_.reserve(static_cast<std::size_t>(finest().clusters()));
     if (partner_.motion.moves()) steady_after_ = end_of_motion();
     if (const auto* pattern = effects_.pattern()) {
       require_adhesion(*pattern);
@@ -71,6 +57,7 @@ class RigidContact final : public ForceTerm {
   Report add_force(const Motion& motion, Forces force) override {
     effects_.begin(motion.time);
     visit(motion);
+    count(points_visited());
     evaluate(motion, now_);
     add_effects(motion, now_);
     for (std::size_t g = 0; g < points_.size(); ++g) {
@@ -187,10 +174,6 @@ class RigidContact final : public ForceTerm {
     Index point = 0;
   };
 
-  static Real smallest_edge(const Body<D>& body);
-  static std::vector<ContactPoints<D>> points_of(const ContactBody<D>& body,
-                                                 const ContactChoice& choice,
-                                                 const FacetGrades& grades);
   const ContactPoints<D>& finest() const { return points_.front(); }
   void require_adhesion(const AdhesionPattern& W) const;
   Real end_of_motion() const;
@@ -200,6 +183,12 @@ class RigidContact final : public ForceTerm {
       visit_near(motion);
     else
       visit_by_grade(motion, now_);
+  }
+  Offset points_visited() const {
+    Offset n = 0;
+    for (const Layer& layer : now_.layers)
+      n += static_cast<Offset>(layer.visited.size()) * Lanes::width;
+    return n;
   }
   void visit_near(const Motion& motion);
   void visit_by_grade(const Motion& motion, Evaluation& result) const;
@@ -254,6 +243,12 @@ class RigidContact final : public ForceTerm {
     return partner_.motion.velocity(motion.time, partner_.velocity_step);
   }
   Report report(const Motion& motion);
+  /// Clusters with points within a distance of the partner that is below the range.
+  void find_close(const Layer& layer, Real within) {
+    close_.clear();
+    for (const Index c : layer.near)
+      if (layer.nearest_of(c) < within) close_.push_back(c);
+  }
 
   Vec<D> net_force(const Evaluation& result) const {
     Vec<D> force = Vec<D>::Zero();
@@ -275,29 +270,9 @@ class RigidContact final : public ForceTerm {
   Real steady_after_ = 0;
   // Work space of a force.
   Evaluation now_;
+  std::vector<Index> close_;  // clusters that decide how fast the gap closes
   ReachList<D> list_;
 };
-
-/// Edge of the smallest facet.
-template <int D>
-Real RigidContact<D>::smallest_edge(const Body<D>& body) {
-  const SurfacePoints<D> surface = surface_points(body.geometry, 1);
-  return std::pow(*std::min_element(surface.area.begin(), surface.area.end()), 1.0 / (D - 1));
-}
-
-template <int D>
-std::vector<ContactPoints<D>> RigidContact<D>::points_of(const ContactBody<D>& body,
-                                                         const ContactChoice& choice,
-                                                         const FacetGrades& grades) {
-  std::vector<ContactPoints<D>> all;
-  ContactChoice of_grade = choice;
-  const Clusters clusters = grades.count() > 1 ? Clusters::of_facets : Clusters::of_neighbours;
-  for (const int points : grades.points()) {
-    of_grade.points = points;
-    all.push_back(surface_contact_points(body.body, body.beta, of_grade, 0, clusters));
-  }
-  return all;
-}
 
 /// Before a run, that W can be taken wherever on the partner the body may touch it first.
 template <int D>
@@ -573,7 +548,7 @@ Report RigidContact<D>::report(const Motion& motion) {
   const auto [gap, grade, nearest] = nearest_of(now_);
   if (!(gap < interaction_->range())) {
     report.demand =
-        approach_demand(approach<D>(finest().body(), gap, velocity, motion), interaction_->range());
+        approach_demand(approach<D>(finest(), gap, velocity, motion), interaction_->range());
     return report;
   }
   if (gap < interaction_->least_gap())
@@ -583,12 +558,16 @@ Report RigidContact<D>::report(const Motion& motion) {
                     "is {:.4g}, least is {:.4g}",
                     finest().body().name, name_, gap, interaction_->least_gap()),
         true};
+  const Real within = std::min(close_by(gap), interaction_->range());
   Real speed = 0;
-  for (std::size_t g = 0; g < points_.size(); ++g)
-    speed = std::max(
-        speed, closing_speed<D>(points_[g], now_.layers[g].near, nullptr, {}, velocity, motion));
+  for (std::size_t g = 0; g < points_.size(); ++g) {
+    find_close(now_.layers[g], within);
+    speed = std::max(speed, closing_speed<D>(points_[g], close_, nullptr, {}, velocity, motion));
+  }
   const Real strength = effects_.varies_at(gap) ? now_.sums.adhesion : 1;
-  report.demand = contact_demand({*interaction_, strength / finest().inertia(), 0, D}, gap, speed);
+  report.demand =
+      contact_demand({*interaction_, strength / finest().inertia(), 0, D}, gap,
+                     {speed, within, approach<D>(finest(), gap, velocity, motion).speed});
   return report;
 }
 
