@@ -74,6 +74,7 @@ void Constants::add_formula(const std::string& name, const std::string& formula)
   if (!std::isfinite(value)) throw InputError(range::any.refusal(value));
   if (!in(formula)) return add(name, value);
   if (angle_in(formula)) angles_.insert(name);
+  if (plain_number_in(formula)) return add(name, value, std::nullopt);
   std::array<Real, 4> values{};
   for (std::size_t i = 0; i < numbers_.size(); ++i)
     at(values, i) = single_number(formula, at(numbers_, i));
@@ -116,7 +117,16 @@ Real Constants::value(const std::string& formula, Dimension expected) const {
   return value;
 }
 
+/// Their values in other units are no numbers; but what is compared with no number is one again.
+bool Constants::plain_number_in(std::string_view formula) const {
+  const std::vector<std::string> names = names_in(formula);
+  return std::any_of(numbers_[1].begin(), numbers_[1].end(), [&](const auto& c) {
+    return std::isnan(c.second) && std::find(names.begin(), names.end(), c.first) != names.end();
+  });
+}
+
 std::optional<Dimension> Constants::dimension_of(const std::string& formula) const {
+  if (plain_number_in(formula)) return std::nullopt;
   const Real value = single_number(formula, numbers());
   std::array<int, 3> powers{};
   for (std::size_t i = 0; i < powers.size(); ++i) {

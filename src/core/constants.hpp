@@ -58,6 +58,8 @@ class Constants {
   Functions functions;
 
  private:
+  bool plain_number_in(std::string_view formula) const;
+
   std::array<NamedNumbers, 4> numbers_;  ///< as measured; with half the unit of length, time, mass
   std::set<std::string> broken_, angles_;
 };

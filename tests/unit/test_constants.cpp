@@ -260,7 +260,7 @@ TEST(Constants, ExponentsAreNoNames) {
 TEST(Constants, DimensionsOfFormulas) {
   const auto refused_as = [](const std::string& formula) {
     const std::string text = report(
-        "key = '" + formula + "'\n[constants]\nr = '3 m'\np = '7 Pa'\none = 1",
+        "key = '" + formula + "'\n[constants]\nr = '3 m'\np = '7 Pa'\none = 1\nkind = 2",
         [](const Block& root) { root.real("key", dimension::angular_momentum, range::any, {}); });
     const std::size_t begin = text.find(" is "), end = text.find(", expected");
     return begin == std::string::npos ? text : text.substr(begin + 4, end - begin - 4);
@@ -269,7 +269,8 @@ TEST(Constants, DimensionsOfFormulas) {
   EXPECT_EQ(refused_as("-p*r/2"), "a tension (kg/s^2)");
   EXPECT_EQ(refused_as("sqrt(r*r)"), "a length (m)");
   EXPECT_EQ(refused_as("r > 2 ? r : p"), "a length (m)");
-  for (const char* plain : {"r/(2*r) + one", "sqrt(r)", "r + one", "r - r", "one"})
+  for (const char* plain : {"r/(2*r) + one", "sqrt(r)", "r + one", "r - r", "one",
+                            "kind < 1.5 ? 20 : (kind < 2.5 ? 50 : 100)"})
     EXPECT_EQ(refused_as(plain), "") << plain;
 }
 
