@@ -29,6 +29,7 @@ MAY_INCLUDE = {
     "app": ["core", "approx", "body", "physics", "solve", "measure", "remap", "io", "scene", "study"],
 }
 LEAVES = {
+    "mpi": "core",
     "materials": "physics",
     "surfaces": "physics",
     "interactions": "physics",
@@ -45,6 +46,8 @@ CONFINED = {
     "spdlog": (r"spdlog/", None),
     "OpenSSL": (r"openssl/", None),
     "HDF5": (r"hdf5|H5", "src/io/hdf5*"),
+    "MPI": (r"mpi\.h", "src/mpi/*"),
+    "PETSc": (r"petsc", "src/mpi/*"),
 }
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]

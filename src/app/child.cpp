@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// This program called by itself: its output is read through a pipe, signals are handed on.
+// Calling programs: signals are handed on, the output of this one is read through a pipe.
 #include "meniscus/app/child.hpp"
 
 #include "meniscus/core/error.hpp"
@@ -70,6 +70,19 @@ pid_t start(const std::vector<std::string>& arguments, int pipe_in, int pipe_out
   return process;
 }
 
+void hand_on_to(pid_t process) {
+  running = process;
+  if (handed != 0) kill(process, handed);  // it came just before
+}
+
+int status_at_end(pid_t process) {
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  running = 0;
+  return status;
+}
+
 }  // namespace
 
 Child::Child() {
@@ -85,17 +98,21 @@ ChildEnd Child::call(const std::vector<std::string>& arguments) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) child_failed("make a pipe", errno);
   const pid_t process = start(arguments, ends[0], ends[1]);
-  running = process;
-  if (handed != 0) kill(process, handed);  // it came just before
+  hand_on_to(process);
   close(ends[1]);
   ChildEnd end{0, read_all(ends[0])};
   close(ends[0]);
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  running = 0;
+  const int status = status_at_end(process);
   end.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   return end;
+}
+
+int Child::call(const std::string& program, char** argv) {
+  pid_t process = 0;
+  if (const int error = posix_spawn(&process, program.c_str(), nullptr, nullptr, argv, environ))
+    child_failed(fmt::format("start '{}'", program).c_str(), error);
+  hand_on_to(process);
+  return status_at_end(process);
 }
 
 std::optional<int> Child::signal() const {

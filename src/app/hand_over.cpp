@@ -13,15 +13,11 @@
 #include <vector>
 
 namespace meniscus {
-namespace {
 
-/// The directory of this program.
 std::filesystem::path own_directory() {
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
 }
-
-}  // namespace
 
 void hand_over_to_studies(char** argv) {
   const std::string program = (own_directory() / "meniscus-study").string();

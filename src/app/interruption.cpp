@@ -2,6 +2,8 @@
 // Signal handlers that only set a flag.
 #include "meniscus/app/interruption.hpp"
 
+#include "meniscus/core/ranks.hpp"
+
 #include <atomic>
 #include <csignal>
 #include <cstdint>
@@ -69,10 +71,15 @@ Interruption::~Interruption() {
   handle_by(SIG_DFL);
 }
 
-std::optional<int> Interruption::requested() const {
+std::optional<int> Interruption::noticed() const {
   if (caught) return static_cast<int>(caught);
   if (elapsed_seconds() > limit_seconds_) return SIGALRM;
   return std::nullopt;
+}
+
+std::optional<int> Interruption::requested() const {
+  const auto of_all = static_cast<int>(ranks().largest(noticed().value_or(0)));
+  return of_all > 0 ? std::optional(of_all) : std::nullopt;
 }
 
 double Interruption::elapsed_seconds() const {

@@ -6,9 +6,11 @@
 #include "meniscus/app/interruption.hpp"
 #include "meniscus/app/manual.hpp"
 #include "meniscus/app/print.hpp"
+#include "meniscus/app/rank_process.hpp"
 #include "meniscus/app/sweep.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
+#include "meniscus/core/ranks.hpp"
 #include "meniscus/io/files.hpp"
 #include "meniscus/io/info.hpp"
 #include "meniscus/io/provenance.hpp"
@@ -19,6 +21,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <sstream>
 
@@ -280,11 +283,17 @@ int dispatch(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
+    if (launch().size > 1 && !run_command->parsed())
+      throw InputError("several ranks can only run a scene: mpirun ... meniscus run SCENE");
     if (new_command->parsed()) write_new_scene(new_request);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? exit_ok : exit_usage;
+    std::ostream nowhere(nullptr);
+    const bool speaks = launch().rank == 0;
+    return app.exit(e, speaks ? std::cout : nowhere, speaks ? std::cerr : nowhere) == 0
+               ? exit_ok
+               : exit_usage;
   }
-  if (run_command->parsed()) return run(request);
+  if (run_command->parsed()) return run_with_ranks(request, argv);
   if (check_command->parsed()) check(request);
   if (study_command->parsed()) hand_over_to_studies(argv);
   if (plot_command->parsed()) hand_over_to_python("plot", argv);
@@ -305,5 +314,6 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return meniscus::exit_code_of([&] { return dispatch(argc, argv); });
+  const int exit_code = meniscus::exit_code_of([&] { return dispatch(argc, argv); });
+  return meniscus::ranks().leave(exit_code, meniscus::last_complaint());
 }

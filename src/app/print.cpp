@@ -3,6 +3,7 @@
 #include "meniscus/app/print.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/ranks.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -18,6 +19,7 @@ namespace meniscus {
 namespace {
 
 int lost = 0;  ///< errno of the first text that could not be written to stdout
+std::string complaint;
 
 }  // namespace
 
@@ -29,17 +31,24 @@ void secure_streams() {
 }
 
 void print_text(std::string_view text) {
+  if (launch().rank > 0) return;  // the first rank speaks for all
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written && lost == 0) lost = errno;
 }
 
 void print_complaint(std::string_view text) {
+  complaint = text;
+  if (launch().rank > 0) return;
   std::string line(text);
   std::replace_if(
       line.begin(), line.end(),
       [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; }, '?');
   line += '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+const std::string& last_complaint() {
+  return complaint;
 }
 
 void require_printed() {

@@ -3,6 +3,7 @@
 #include "meniscus/app/progress.hpp"
 
 #include "meniscus/app/print.hpp"
+#include "meniscus/core/ranks.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -114,7 +115,9 @@ void Progress::finish() {
 }
 
 Progress::Shown Progress::for_stdout(bool quiet) {
-  return quiet ? Shown::in_log_only : isatty(STDOUT_FILENO) ? Shown::on_terminal : Shown::in_lines;
+  if (quiet) return Shown::in_log_only;
+  // mpirun reads what looks like a terminal to its ranks.
+  return launch().size == 1 && isatty(STDOUT_FILENO) ? Shown::on_terminal : Shown::in_lines;
 }
 
 double Progress::wall_time() {

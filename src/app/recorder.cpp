@@ -5,6 +5,7 @@
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/simplex.hpp"
+#include "meniscus/core/ranks.hpp"
 
 #include <fmt/core.h>
 
@@ -118,21 +119,29 @@ Recorder<D>::Recorder(Simulation<D>& simulation, const RunDirectory& directory,
       directory_(directory),
       provenance_(provenance),
       measures_(chosen_measures(simulation.scene())),
-      energy_kinds_(stored_kinds(simulation.scene())),
-      checkpoints_(directory, provenance),
-      history_(directory.history_file(), history_columns(simulation.scene()),
-               continued ? std::optional(simulation.state().time) : std::nullopt),
-      lines_(line_writers(simulation.scene(), directory,
-                          continued ? std::optional(simulation.state().time) : std::nullopt)),
-      results_(make_result_file(simulation, directory, provenance, continued)),
-      partners_(simulation, directory, provenance, continued) {}
+      energy_kinds_(stored_kinds(simulation.scene())) {
+  on_first_rank([&] { files_.emplace(simulation, directory, provenance, continued); });
+}
+
+template <int D>
+Recorder<D>::Files::Files(const Simulation<D>& simulation, const RunDirectory& directory,
+                          const Provenance& provenance, bool continued)
+    : checkpoints(directory, provenance),
+      history(directory.history_file(), history_columns(simulation.scene()),
+              continued ? std::optional(simulation.state().time) : std::nullopt),
+      lines(line_writers(simulation.scene(), directory,
+                         continued ? std::optional(simulation.state().time) : std::nullopt)),
+      results(make_result_file(simulation, directory, provenance, continued)),
+      partners(simulation, directory, provenance, continued) {}
 
 template <int D>
 void Recorder<D>::begin_epoch(Simulation<D>& simulation) {
   simulation_ = &simulation;
   measures_ = chosen_measures(simulation.scene());
-  results_.reset();  // closes the file before
-  results_ = make_result_file(simulation, directory_, provenance_, false);
+  on_first_rank([&] {
+    files_->results.reset();  // closes the file before
+    files_->results = make_result_file(simulation, directory_, provenance_, false);
+  });
   write_frame(simulation.scene().output.restartable);
 }
 
@@ -172,19 +181,23 @@ void Recorder<D>::write_row(const Ledger& ledger) {
   for (const Residual& residual : simulation_->stepper().residuals(state))
     row.push_back(residual.value);
   for (const MeasureSource& m : measures_) row.push_back(m.compute(state.motion()));
-  history_.write(row);
+  on_first_rank([&] { files_->history.write(row); });
 }
 
 template <int D>
 void Recorder<D>::write_lines() {
   const State& state = simulation_->state();
   const auto& lines = simulation_->scene().lines;
-  for (std::size_t k = 0; k < lines.size(); ++k)
-    for (const std::vector<Real>& point : lines[k].compute(state.motion())) {
-      std::vector<Real> row{state.time};
-      row.insert(row.end(), point.begin(), point.end());
-      lines_[k].write(row);
-    }
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const auto points = lines[k].compute(state.motion());
+    on_first_rank([&] {
+      for (const std::vector<Real>& point : points) {
+        std::vector<Real> row{state.time};
+        row.insert(row.end(), point.begin(), point.end());
+        files_->lines[k].write(row);
+      }
+    });
+  }
 }
 
 template <int D>
@@ -215,15 +228,19 @@ void Recorder<D>::write_frame(bool with_state) {
   }
   std::optional<Snapshot> snapshot;
   if (with_state) snapshot = simulation_->snapshot();
-  results_->write_frame(state.step, state.time, fields, snapshot ? &*snapshot : nullptr);
-  partners_.write(state.step, state.time);
+  on_first_rank([&] {
+    files_->results->write_frame(state.step, state.time, fields, snapshot ? &*snapshot : nullptr);
+    files_->partners.write(state.step, state.time);
+  });
   last_frame_ = state.step;
 }
 
 template <int D>
-std::filesystem::path Recorder<D>::checkpoint() {
-  return checkpoints_.write(simulation_->state().step, simulation_->state().time,
-                            simulation_->snapshot());
+void Recorder<D>::checkpoint() {
+  const Snapshot snapshot = simulation_->snapshot();
+  on_first_rank([&] {
+    files_->checkpoints.write(simulation_->state().step, simulation_->state().time, snapshot);
+  });
 }
 
 template <int D>

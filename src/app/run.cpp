@@ -10,6 +10,7 @@
 #include "meniscus/app/set_up.hpp"
 #include "meniscus/app/warnings.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/ranks.hpp"
 #include "meniscus/io/run_log.hpp"
 #include "meniscus/measure/drop_measures.hpp"
 #include "meniscus/physics/contact_visits.hpp"
@@ -39,18 +40,31 @@ int report_expectations(const Simulation<D>& simulation, const RunDirectory& dir
       for (std::optional<Real>* time : {&e.at, &e.to})
         if (*time) *time = std::min(**time, end);
   }
-  const History history = History::read(directory.history_file());
-  const auto results = evaluate_expectations(
-      expectations,
-      [&](const std::string& name) -> const std::vector<Real>& { return history.column(name); },
-      end);
-  const std::string table = expectation_table(results);
-  say("{}", table);
-  std::istringstream lines(table);
-  for (std::string line; std::getline(lines, line);) log.info(line);
-  for (const auto& r : results)
-    if (r.reached && !r.met) return exit_expectation;
-  return exit_ok;
+  bool met = true;
+  on_first_rank([&] {
+    const History history = History::read(directory.history_file());
+    const auto results = evaluate_expectations(
+        expectations,
+        [&](const std::string& name) -> const std::vector<Real>& { return history.column(name); },
+        end);
+    const std::string table = expectation_table(results);
+    say("{}", table);
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) log.info(line);
+    for (const auto& r : results) met &= !r.reached || r.met;
+  });
+  return ranks().largest(met ? exit_ok : exit_expectation) == exit_ok ? exit_ok : exit_expectation;
+}
+
+/// What the clocks of the ranks and signals to any of them ask for, the same on all.
+struct Asked {
+  std::optional<int> signal;
+  bool checkpoint;
+};
+Asked asked_anywhere(const Interruption& interruption, double next_checkpoint) {
+  const std::int64_t due = interruption.elapsed_seconds() > next_checkpoint ? 1 : 0;
+  const std::int64_t of_all = ranks().largest(2 * interruption.noticed().value_or(0) + due);
+  return {of_all > 1 ? std::optional(static_cast<int>(of_all / 2)) : std::nullopt, of_all % 2 == 1};
 }
 
 /// Steps until the end of the scene, the time to stop, or a request to; returns the signal of the
@@ -67,7 +81,12 @@ std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& l
   };
   Warnings<D> warnings(epochs.simulation(), warn);
   while (epochs.simulation().state().time < stop && !epochs.simulation().finished()) {
-    if (const auto signal = interruption.requested()) return signal;
+    const Asked asked = asked_anywhere(interruption, next_checkpoint);
+    if (asked.signal) return asked.signal;
+    if (asked.checkpoint) {
+      recorder.checkpoint();
+      next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
+    }
     const Real before = epochs.simulation().state().time;
     const typename Epochs<D>::Remapped remapped = epochs.advance();
     Simulation<D>& simulation = epochs.simulation();
@@ -86,10 +105,6 @@ std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& l
       progress.finish();
       log.info(note);
     }
-    if (interruption.elapsed_seconds() > next_checkpoint) {
-      recorder.checkpoint();
-      next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
-    }
   }
   return std::nullopt;
 }
@@ -97,8 +112,10 @@ std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& l
 template <int D>
 void introduce(const Scene<D>& scene, const Provenance& origin,
                const std::optional<Restart>& restart, const StableStep& stable, RunLog& log) {
-  log.info(fmt::format("meniscus {} ({}), {} threads: {}", origin.build.version,
-                       origin.build.git_hash, origin.threads, origin.command_line));
+  const std::string ranks_of_run =
+      ranks().alone() ? std::string() : fmt::format("{} ranks of ", ranks().size());
+  log.info(fmt::format("meniscus {} ({}), {}{} threads: {}", origin.build.version,
+                       origin.build.git_hash, ranks_of_run, origin.threads, origin.command_line));
   for (const auto& note : scene.notes) log.info(note);
   for (const auto& warning : scene.warnings) log.warning(warning);
   if (restart) {
@@ -138,6 +155,18 @@ std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double
       "{} steps in {:.2f} s ({:.0f} ns per particle-step{}{}), set-up {:.2f} s, state {:016x}",
       steps, seconds, 1e9 * seconds / particle_steps, effort.empty() ? "" : ", ", effort,
       set_up_seconds, simulation.snapshot().hash());
+}
+
+/// What the ranks have sent since the beginning of the run.
+void report_traffic(std::int64_t steps, RunLog& log) {
+  if (ranks().alone()) return;
+  const Traffic sent = ranks().traffic();
+  const std::int64_t messages = ranks().largest(sent.messages), bytes = ranks().largest(sent.bytes),
+                     divisor = std::max<std::int64_t>(1, steps);
+  log.info(fmt::format(
+      "{} ranks: at most {} messages of {} bytes in all sent by one, {:.1f} of {:.0f} per step",
+      ranks().size(), messages, bytes, static_cast<double>(messages) / static_cast<double>(divisor),
+      static_cast<double>(bytes) / static_cast<double>(divisor)));
 }
 
 /// Pairs that the contacts visited per force, beside those of all other terms.
@@ -217,9 +246,11 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
                  const RunDirectory& directory, RunLog& log) {
   const bool in_place = restart && restart->in_place;
   const State& begin = epochs.simulation().state();
-  if (in_place)  // before rows and frames are dropped that a later checkpoint would need
-    CheckpointWriter(directory, origin)
-        .write(begin.step, begin.time, epochs.simulation().snapshot());
+  if (in_place) {  // before rows and frames are dropped that a later checkpoint would need
+    const Snapshot snapshot = epochs.simulation().snapshot();
+    on_first_rank(
+        [&] { CheckpointWriter(directory, origin).write(begin.step, begin.time, snapshot); });
+  }
   Recorder<D> recorder(epochs.simulation(), directory, origin, in_place);
   Progress progress(begin, stop,
                     {epochs.scene().units.symbol(dimension::time),
@@ -260,6 +291,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
   report_contacts(simulation.scene().system, log);
   log.info(summary);
+  report_traffic(simulation.state().step - first_step, log);
   if (!request.quiet) say("{}\nresults in {}\n", summary, directory.path().string());
   repeat_warnings(request.quiet, log);
   if (!signal) {
@@ -269,6 +301,22 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   }
   say_how_to_continue(simulation, *signal, directory, log);
   return exit_signal + *signal;
+}
+
+/// The first rank has the directory, as soon as all have read what they continue from.
+std::unique_ptr<RunDirectory> opened_directory(const std::filesystem::path& path,
+                                               ExistingRun existing) {
+  std::unique_ptr<RunDirectory> directory;
+  ranks().largest(0);
+  on_first_rank([&] { directory = std::make_unique<RunDirectory>(path, existing); });
+  return directory ? std::move(directory)
+                   : std::make_unique<RunDirectory>(path, ExistingRun::leave);
+}
+
+RunLog opened_log(const RunDirectory& directory) {
+  RunLog log = RunLog::silent();
+  on_first_rank([&] { log = RunLog(directory.log_file()); });
+  return log;
 }
 
 template <int D>
@@ -286,17 +334,17 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
   if (!restart) set_up(input, [&] { epochs->simulation().begin(); });
 
   interruption.catch_signals();  // before this nothing is lost by ending at once
-  const RunDirectory directory(output_directory(request),
-                               restart && restart->in_place ? ExistingRun::keep
-                               : request.overwrite          ? ExistingRun::replace
-                                                            : ExistingRun::refuse);
-  RunLog log(directory.log_file());
+  const std::unique_ptr<RunDirectory> directory =
+      opened_directory(output_directory(request), restart && restart->in_place ? ExistingRun::keep
+                                                  : request.overwrite ? ExistingRun::replace
+                                                                      : ExistingRun::refuse);
+  RunLog log = opened_log(*directory);
   const Provenance origin = provenance(request.command_line, complete);
   introduce(epochs->scene(), origin, restart, epochs->simulation().controller().stable(), log);
   for (const std::string& note : epochs->simulation().take_notes()) log.info(note);
   if (!restart) report_residuals(epochs->simulation(), log);
   try {
-    return run_recorded(*epochs, request, origin, restart, interruption, stop, directory, log);
+    return run_recorded(*epochs, request, origin, restart, interruption, stop, *directory, log);
   } catch (const FileError& e) {
     log.error(e.what());
     return exit_file;

@@ -89,6 +89,7 @@ void remove_result(const std::filesystem::path& result_file) {
 
 RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
     : path_(std::move(path)) {
+  if (existing == ExistingRun::leave) return;
   make_directory(path_);
   if (!std::filesystem::is_directory(path_)) throw_file_error("write to", path_, ENOTDIR);
   if (access(path_.c_str(), W_OK | X_OK) != 0) throw_file_error("write to", path_, errno);
@@ -104,7 +105,7 @@ RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
 }
 
 RunDirectory::~RunDirectory() {
-  close(lock_);
+  if (lock_ >= 0) close(lock_);
 }
 
 std::filesystem::path RunDirectory::result_file(std::size_t number, const std::string& name) const {

@@ -49,6 +49,10 @@ struct RunLog::Logger {
 RunLog::RunLog() : logger_(new Logger{stderr_sink()}) {}
 RunLog::RunLog(const std::filesystem::path& file)
     : logger_(new Logger{file_sink(file), stderr_sink()}) {}
+RunLog::RunLog(std::unique_ptr<Logger> logger) : logger_(std::move(logger)) {}
+RunLog RunLog::silent() {
+  return RunLog(std::unique_ptr<Logger>(new Logger{}));
+}
 RunLog::~RunLog() = default;
 RunLog::RunLog(RunLog&&) noexcept = default;
 RunLog& RunLog::operator=(RunLog&&) noexcept = default;

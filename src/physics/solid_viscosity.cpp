@@ -25,22 +25,24 @@ class SolidViscosity final : public ForceTerm {
     PerChunk<Real> heat(windows_.chunks(), 0);
     const NodalVector* u = motion.u.data() + body_.first;
     const NodalVector* v = motion.v.data() + body_.first;
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)),
-                        [&](int chunk, Index begin, Index end, NodalVector* f) {
-                          Lanes power = Lanes::zero();
-                          KeptDeformations kept(kept_.empty() ? nullptr : kept_.data());
-                          for (Index g = begin; g < end; ++g) {
-                            Tensor<Lanes> H, F_rate;
-                            rule_.gather(g, u, H);
-                            kept.take(g, H);
-                            rule_.gather(g, v, F_rate);
-                            const Tensor<Lanes> P = stress(H, F_rate);
-                            const Lanes w = rule_.weight(g);
-                            power += w * contract(P, F_rate);
-                            rule_.scatter(g, -w * P, f);
-                          }
-                          at(heat, chunk) = sum(power);
-                        });
+    windows_.accumulate(
+        body_.part(std::span<NodalVector>(force)),
+        [&](int chunk, Index begin, Index end, NodalVector* f) {
+          Lanes power = Lanes::zero();
+          KeptDeformations kept(kept_.empty() ? nullptr : kept_.data());
+          for (Index g = begin; g < end; ++g) {
+            Tensor<Lanes> H, F_rate;
+            rule_.gather(g, u, H);
+            kept.take(g, H);
+            rule_.gather(g, v, F_rate);
+            const Tensor<Lanes> P = stress(H, F_rate);
+            const Lanes w = rule_.weight(g);
+            power += w * contract(P, F_rate);
+            rule_.scatter(g, -w * P, f);
+          }
+          at(heat, chunk) = sum(power);
+        },
+        heat);
     Report report;
     for (const Real p : heat) report.heat += p;
     return report;

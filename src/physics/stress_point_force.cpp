@@ -2,6 +2,8 @@
 // Tangent, energy, failures, warnings and output of the internal force.
 #include "meniscus/physics/stress_point_force.hpp"
 
+#include "meniscus/core/divided.hpp"
+
 #include <fmt/core.h>
 
 namespace meniscus {
@@ -32,19 +34,22 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
   if (surface_)
     enclosed = surface_->measure(Size::volume, u, du) / surface_->reference(Size::volume) - 1.0;
   PerChunk<Dual<Real>> pull(chunks(), 0.0);
-  accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
-    DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
-    Dual<Lanes> sum_of_pulls(0.0);
-    for (Index g = begin; g < end; ++g) {
-      x.H = gradients(g, u, du);
-      if (viscous) x.F_rate = gradients(g, v, dv);
-      const StressChange stress = laws_->tangent(g, motion.time, x);
-      const Lanes w = rule_.weight(g);
-      rule_.scatter(g, -w * stress.P, f);
-      sum_of_pulls += w * stress.pull_on_enclosed;
-    }
-    at(pull, chunk) = sum(sum_of_pulls);
-  });
+  accumulate(
+      force,
+      [&](int chunk, Index begin, Index end, NodalVector* f) {
+        DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
+        Dual<Lanes> sum_of_pulls(0.0);
+        for (Index g = begin; g < end; ++g) {
+          x.H = gradients(g, u, du);
+          if (viscous) x.F_rate = gradients(g, v, dv);
+          const StressChange stress = laws_->tangent(g, motion.time, x);
+          const Lanes w = rule_.weight(g);
+          rule_.scatter(g, -w * stress.P, f);
+          sum_of_pulls += w * stress.pull_on_enclosed;
+        }
+        at(pull, chunk) = sum(sum_of_pulls);
+      },
+      pull);
   if (!surface_) return;
   Dual<Real> slope(0.0);
   for (const Dual<Real>& p : pull) slope += p;
@@ -68,7 +73,7 @@ void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diag
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  return parallel_sum(rule_.groups(), 0.0, [&](Index g) {
+  return divided_sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws.energy_density(g, motion.time, gradients(g, u)));
   });
 }
@@ -83,7 +88,7 @@ std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motio
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  const Real force = parallel_sum(rule_.groups(), 0.0, [&](Index g) {
+  const Real force = divided_sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
   });
   return force / spacing_;

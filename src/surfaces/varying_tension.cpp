@@ -69,7 +69,9 @@ class VaryingTension final : public ForceTerm, public VariedTension {
                           }
                         });
     Report report;
-    if (changes_) report.external_work = supplied();
+    if (!changes_) return report;
+    windows_.complete(std::span(now_.area), Lanes::width);
+    report.external_work = supplied();
     return report;
   }
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// This program called by itself, in a process of its own.
+// This program called by itself, or one that lies beside it, in a process of its own.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ struct ChildEnd {
   std::string output;  ///< what it wrote to stdout
 };
 
-/// Calls this program and waits for its end. While the object lives, signals that ask to stop are
+/// Calls a program and waits for its end. While the object lives, signals that ask to stop are
 /// handed on to it. One object at a time.
 class Child {
  public:
@@ -20,8 +20,11 @@ class Child {
   ~Child();
   Child(const Child&) = delete;
 
-  /// Throws FileError if it cannot be started.
+  /// Calls this program. Throws FileError if it cannot be started.
   ChildEnd call(const std::vector<std::string>& arguments);
+  /// Calls a program that speaks for itself, with a null after its arguments; returns what waitpid
+  /// says of its end. Throws FileError.
+  int call(const std::string& program, char** argv);
   /// The first signal that was handed on, or came between two calls.
   std::optional<int> signal() const;
 };

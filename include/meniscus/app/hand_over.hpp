@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that are programs of their own.
 #pragma once
+#include <filesystem>
 #include <string>
 
 namespace meniscus {
+
+/// The directory of this program.
+std::filesystem::path own_directory();
 
 /// Replaces this process by meniscus-study, which lies beside this program. `argv`: "meniscus study
 /// ...". Throws FileError if it was not built.

@@ -21,6 +21,8 @@ class Interruption {
   void catch_signals();
 
   /// Number of the signal to stop for; SIGALRM (14) when the time is up.
+  std::optional<int> noticed() const;
+  /// The same of all ranks, which ask together.
   std::optional<int> requested() const;
   double elapsed_seconds() const;
 

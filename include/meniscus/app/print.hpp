@@ -3,6 +3,7 @@
 #pragma once
 #include <fmt/core.h>
 
+#include <string>
 #include <string_view>
 
 namespace meniscus {
@@ -12,10 +13,12 @@ namespace meniscus {
 /// reported where they occur. To be called first.
 void secure_streams();
 
-/// Writes to stdout.
+/// Writes to stdout. Here and below, only the first of several ranks does.
 void print_text(std::string_view text);
 /// Writes a line to stderr with control characters as '?'.
 void print_complaint(std::string_view text);
+/// Whether it was written or not; empty if there was none.
+const std::string& last_complaint();
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... arguments) {
   print_text(fmt::vformat(format, fmt::make_format_args(arguments...)));

@@ -9,7 +9,8 @@
 
 namespace meniscus {
 
-/// Writes what is due after each step of a run.
+/// Writes what is due after each step of a run. All ranks find out what is written, the first one
+/// has the files.
 template <int D>
 class Recorder {
  public:
@@ -24,7 +25,7 @@ class Recorder {
   /// Writes the row and frame that are due after a step that began at `before` (-1: the initial
   /// state), or because the end of the scene is reached. Returns the ledger if a row was written.
   std::optional<Ledger> record(Real before);
-  std::filesystem::path checkpoint();
+  void checkpoint();
   /// After a failed step: the frame before it if it was not written yet, without the state, which
   /// is not complete.
   void write_last_good_frame();
@@ -39,11 +40,18 @@ class Recorder {
   Provenance provenance_;
   std::vector<MeasureSource> measures_;
   std::vector<std::string> energy_kinds_;
-  CheckpointWriter checkpoints_;
-  HistoryWriter history_;  // before the frames: it refuses other columns before anything is dropped
-  std::vector<HistoryWriter> lines_;
-  std::unique_ptr<ResultFile> results_;
-  PartnerFrames<D> partners_;
+  struct Files {
+    Files(const Simulation<D>& simulation, const RunDirectory& directory,
+          const Provenance& provenance, bool continued);
+
+    CheckpointWriter checkpoints;
+    HistoryWriter
+        history;  // before the frames: it refuses other columns before anything is dropped
+    std::vector<HistoryWriter> lines;
+    std::unique_ptr<ResultFile> results;
+    PartnerFrames<D> partners;
+  };
+  std::optional<Files> files_;
   std::int64_t last_frame_ = -1;
 };
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adding up forces from rows on several threads with the same bits for any thread count: row
-// chunks, as many as their number asks for, each with its own window of particles, summed in
-// ascending order (performance note 5).
+// Adding up forces from rows on several threads and ranks with the same bits for any number of
+// them: row chunks, as many as their number asks for, each with its own window of particles, summed
+// in ascending order (performance note 5, scaling note 2).
 #pragma once
+#include "meniscus/approx/shared_windows.hpp"
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/parallel.hpp"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,38 +17,50 @@ namespace meniscus {
 class ForceWindows {
  public:
   ForceWindows() = default;
-  /// Windows for compressed rows.
+  /// Windows for compressed rows. All ranks make them of the same rows.
   ForceWindows(std::span<const Offset> start, std::span<const Index> particle, Index particles);
 
-  /// Calls work(chunk, begin row, end row, window) for each chunk; window[A] += ... is allowed for
-  /// the particles A of those rows. Then adds all windows to `force`.
-  template <class F>
-  void accumulate(std::span<NodalVector> force, F&& work) {
+  /// Calls work(chunk, begin row, end row, window) for each chunk of this rank; window[A] += ... is
+  /// allowed for the particles A of those rows. Then adds all windows to `force`, which is the same
+  /// on all ranks before and after, and completes what work has written per chunk.
+  template <class F, class... T>
+  void accumulate(std::span<NodalVector> force, F&& work, PerChunk<T>&... results) {
     parallel_for(
-        static_cast<Index>(chunks_.size()),
+        static_cast<Index>(own_.size()),
         [&](Index c) {
-          Chunk& chunk = at(chunks_, c);
-          std::fill(chunk.sum.begin(), chunk.sum.end(), Lanes::zero());
-          work(chunk.number, chunk.begin, chunk.end, chunk.sum.data() - chunk.low);
+          const WindowChunk& chunk = at(own_, c);
+          NodalVector* sum = sums_.data() + chunk.sum;
+          std::fill(sum, sum + (chunk.high - chunk.low), Lanes::zero());
+          work(chunk.number, chunk.begin, chunk.end, sum - chunk.low);
         },
         1);
+    if (shared_) shared_->bring_windows(sums_);
     add_to(force);
+    if (shared_) {
+      shared_->spread_forces(force);
+      if constexpr (sizeof...(T) > 0) shared_->spread_results(results...);
+    }
+  }
+
+  /// What the work of accumulate() has written per row, `per_row` numbers each, of all rows.
+  template <class T>
+  void complete(std::span<T> of_rows, int per_row = 1) {
+    if (shared_)
+      shared_->spread_rows(of_rows.data(), sizeof(T) * static_cast<std::size_t>(per_row));
   }
 
   /// All chunk numbers are below this.
-  int chunks() const { return chunks_.empty() ? 0 : chunks_.back().number + 1; }
-  std::size_t bytes() const;
+  int chunks() const { return chunks_; }
+  std::size_t bytes() const { return sums_.size() * sizeof(Lanes); }
 
  private:
-  struct Chunk {
-    int number;
-    Index begin, end;  // rows
-    Index low, high;   // particles
-    NodalVectors sum;  // [particle - low]
-  };
   void add_to(std::span<NodalVector> force) const;
 
-  std::vector<Chunk> chunks_;
+  int chunks_ = 0;
+  std::vector<WindowChunk> own_;     // whose rows this rank does
+  std::vector<WindowChunk> summed_;  // windows over this rank's particles, ascending
+  NodalVectors sums_;
+  std::shared_ptr<SharedWindows> shared_;  // null: there are no other ranks
 };
 
 }  // namespace meniscus

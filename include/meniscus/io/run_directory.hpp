@@ -11,7 +11,8 @@ namespace meniscus {
 enum class ExistingRun {
   refuse,   ///< FileError if there is one
   replace,  ///< its files are removed (--overwrite); files of other names stay
-  keep      ///< it is continued
+  keep,     ///< it is continued
+  leave     ///< to another rank, which has made and locked the directory
 };
 
 /// The result files of a run in `directory`, in the order of their epochs: run.h5, run.1.h5, ... as

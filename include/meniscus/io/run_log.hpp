@@ -17,6 +17,8 @@ class RunLog {
   RunLog();
   /// Appends to `file`, each line with its time (UTC) and level, written at once. Throws FileError.
   explicit RunLog(const std::filesystem::path& file);
+  /// Nothing but the list of warnings.
+  static RunLog silent();
   ~RunLog();
   RunLog(RunLog&&) noexcept;
   RunLog& operator=(RunLog&&) noexcept;
@@ -30,6 +32,7 @@ class RunLog {
 
  private:
   struct Logger;
+  explicit RunLog(std::unique_ptr<Logger> logger);
   std::unique_ptr<Logger> logger_;
 };
 

@@ -62,10 +62,10 @@ class StressPointForce : public ForceTerm {
   const Rule& rule() const { return rule_; }
   PointLaws& laws() { return *laws_; }
   int chunks() const { return windows_.chunks(); }
-  /// Sums of the forces of this body's particles out of `all`.
-  template <class F>
-  void accumulate(std::span<NodalVector> all, F&& work) {
-    windows_.accumulate(body_.part(all), work);
+  /// Sums of the forces of this body's particles out of `all`; results are per chunk.
+  template <class F, class... T>
+  void accumulate(std::span<NodalVector> all, F&& work, PerChunk<T>&... results) {
+    windows_.accumulate(body_.part(all), work, results...);
   }
 
   /// J_e - 1 of the surface at the displacements `u` of the body, whose gradient is remembered;

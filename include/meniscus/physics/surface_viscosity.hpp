@@ -16,18 +16,20 @@ class SurfaceViscosity final : public SurfaceTerm<D, L> {
   Report add_force(const Motion& motion, Forces force) override {
     PerChunk<Real> heat(windows_.chunks(), 0);
     const NodalVector *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int chunk, Index begin,
-                                                                       Index end, NodalVector* f) {
-      Lanes power = Lanes::zero();
-      for (Index g = begin; g < end; ++g) {
-        const Tensor<Lanes> F_rate = surface_.gradients(g, v);
-        const Tensor<Lanes> P = law_.stress(surface_.state(g, surface_.gradients(g, u)), F_rate,
-                                            -surface_.points.weight(g));
-        power += -contract(P, F_rate);
-        surface_.points.scatter(g, P, f);
-      }
-      at(heat, chunk) = sum(power);
-    });
+    windows_.accumulate(
+        body_.part(std::span<NodalVector>(force)),
+        [&](int chunk, Index begin, Index end, NodalVector* f) {
+          Lanes power = Lanes::zero();
+          for (Index g = begin; g < end; ++g) {
+            const Tensor<Lanes> F_rate = surface_.gradients(g, v);
+            const Tensor<Lanes> P = law_.stress(surface_.state(g, surface_.gradients(g, u)), F_rate,
+                                                -surface_.points.weight(g));
+            power += -contract(P, F_rate);
+            surface_.points.scatter(g, P, f);
+          }
+          at(heat, chunk) = sum(power);
+        },
+        heat);
     Report report;
     for (const Real p : heat) report.heat += p;
     return report;

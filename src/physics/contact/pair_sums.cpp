@@ -3,6 +3,7 @@
 // spend their time.
 #include "pair_sums.hpp"
 
+#include "meniscus/core/divided.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/physics/contact_forms.hpp"
@@ -25,7 +26,7 @@ class PairSumsOf final : public PairSums<D> {
   void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
                 const ContactPlaces<D>& others, PairEvaluation<D>& result) const override {
     result.nearest.resize(rows.clusters.size());
-    parallel_for(
+    divided_for(
         static_cast<Index>(rows.clusters.size()),
         [&](Index k) {
           const Index c = at(rows.clusters, k);
@@ -40,6 +41,15 @@ class PairSumsOf final : public PairSums<D> {
             at(result.T, c * D + i) = T[i];
             if (Form::moment) at(result.S, c * D + i) = S[i];
           }
+        },
+        [&](Index k) { return record_of(at(rows.clusters, k), at(result.nearest, k), result); },
+        [&](Index k, const Record& record) {
+          const Index c = at(rows.clusters, k);
+          for (int i = 0; i < D; ++i) {
+            at(result.T, c * D + i) = record.T[i];
+            if (Form::moment) at(result.S, c * D + i) = record.S[i];
+          }
+          at(result.nearest, k) = record.nearest;
         },
         4);
   }
@@ -73,7 +83,7 @@ class PairSumsOf final : public PairSums<D> {
   Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
               const ContactPlaces<D>& others) const override {
     // Over all clusters: the order of summation must not depend on which are active.
-    return parallel_sum(clusters, 0.0, [&](Index c) {
+    return divided_sum(clusters, 0.0, [&](Index c) {
       Lanes T[D], S[1];
       T[0] = Lanes::zero();
       contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
@@ -84,6 +94,21 @@ class PairSumsOf final : public PairSums<D> {
   }
 
  private:
+  /// What other ranks are told of a cluster.
+  struct Record {
+    Lanes T[D], S[D];
+    Real nearest;
+  };
+  static Record record_of(Index cluster, Real nearest, const PairEvaluation<D>& result) {
+    Record record;
+    for (int i = 0; i < D; ++i) {
+      record.T[i] = at(result.T, cluster * D + i);
+      record.S[i] = Form::moment ? at(result.S, cluster * D + i) : Lanes::zero();
+    }
+    record.nearest = nearest;
+    return record;
+  }
+
   PairLaw<K> law_;
   Real reach_;
 };

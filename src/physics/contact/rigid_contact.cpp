@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of a deformable body with a rigid partner in closed form.
 #include "meniscus/core/dense.hpp"
+#include "meniscus/core/divided.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_demand.hpp"
@@ -136,6 +137,26 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     Real nearest_of(Index cluster) const {
       const Lanes& d = at(distances, cluster);
       return std::min(std::min(d[0], d[1]), std::min(d[2], d[3]));
+    }
+    /// What other ranks are told of a cluster.
+    struct AtCluster {
+      Lanes T[D], S[D], distances;
+    };
+    AtCluster at_cluster(Index c) const {
+      AtCluster found;
+      for (int i = 0; i < D; ++i) {
+        found.T[i] = at(T, c * D + i);
+        found.S[i] = at(S, c * D + i);
+      }
+      found.distances = at(distances, c);
+      return found;
+    }
+    void take(Index c, const AtCluster& found) {
+      for (int i = 0; i < D; ++i) {
+        at(T, c * D + i) = found.T[i];
+        at(S, c * D + i) = found.S[i];
+      }
+      at(distances, c) = found.distances;
     }
   };
   /// Of all points: those of a facet are of one grade.
@@ -324,9 +345,14 @@ void RigidContact<D>::evaluate(const Motion& motion, Evaluation& result) const {
     Layer& layer = result.layers[g];
     if (g == 0 || g + 1 < points_.size()) points.move(layer.visited, motion, layer.places);
     points.update_weights(layer.visited, motion, layer.places);
-    parallel_for(
+    divided_for(
         static_cast<Index>(layer.visited.size()),
-        [&](Index k) { evaluate(points, at(layer.visited, k), shift, layer); }, 16);
+        [&](Index k) { evaluate(points, at(layer.visited, k), shift, layer); },
+        [&](Index k) { return layer.at_cluster(at(layer.visited, k)); },
+        [&](Index k, const typename Layer::AtCluster& of_other) {
+          layer.take(at(layer.visited, k), of_other);
+        },
+        16);
   }
 }
 

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The chunks of a set of rows divided between the ranks of a run, and what they exchange: a rank
+// does the rows of some chunks and adds up the windows over some particles (scaling note 2).
+#pragma once
+#include "meniscus/core/aligned.hpp"
+#include "meniscus/core/parallel.hpp"
+#include "meniscus/core/ranks.hpp"
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace meniscus {
+
+/// A chunk of rows and its window.
+struct WindowChunk {
+  int number;
+  Index begin, end;  ///< rows
+  Index low, high;   ///< particles
+  Offset sum = 0;    ///< where the sums [particle - low] begin
+};
+
+/// Sums of a window, so many that the next one begins on a cache line.
+inline Offset window_length(const WindowChunk& chunk) {
+  return (Offset{chunk.high} - chunk.low + 1) / 2 * 2;
+}
+
+class SharedWindows {
+ public:
+  /// `chunks`: all that have rows, in ascending order, of compressed rows.
+  SharedWindows(const std::vector<WindowChunk>& chunks, std::span<const Offset> start,
+                std::span<const Index> particle, Index particles);
+
+  /// Those whose rows this rank does.
+  const std::vector<WindowChunk>& own() const { return own_; }
+  /// Windows over this rank's particles, cut to them, in ascending order.
+  const std::vector<WindowChunk>& summed() const { return summed_; }
+  /// Of the sums of all windows here.
+  Offset size() const { return size_; }
+
+  /// Windows of the rows of other ranks.
+  void bring_windows(NodalVectors& sums) const {
+    windows_->bring(sums.data(), sums.data(), sizeof(NodalVector));
+  }
+  /// Forces on all particles that the rows touch.
+  void spread_forces(std::span<NodalVector> force) const {
+    particles_->bring(force.data(), force.data(), sizeof(NodalVector));
+  }
+  void spread_rows(void* of_rows, std::size_t bytes_per_row) const {
+    rows_->bring(of_rows, of_rows, bytes_per_row);
+  }
+  template <class... T>
+  void spread_results(PerChunk<T>&... results);
+
+ private:
+  /// Particles that the rows of a chunk touch, ascending, [chunk].
+  using Touched = std::vector<std::vector<Index>>;
+
+  void divide(const std::vector<WindowChunk>& chunks, Index particles);
+  void share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched);
+  void share_particles(const Touched& touched);
+  void share_rows(const std::vector<WindowChunk>& chunks);
+
+  template <class T>
+  static constexpr std::size_t in_record = (sizeof(T) + 7) / 8 * 8;
+
+  std::vector<int> rank_;      // that does a chunk, [chunk]
+  std::vector<Index> border_;  // particle at which those of a rank begin, [rank], and their number
+  std::vector<WindowChunk> own_, summed_;
+  Offset size_ = 0;
+  int numbers_ = 0;           // of chunks are below this
+  std::vector<int> foreign_;  // numbers of the chunks of others
+  std::unique_ptr<Exchange> windows_, particles_, chunks_, rows_;
+  std::vector<std::byte> records_;  // results, [chunk number]
+};
+
+template <class... T>
+void SharedWindows::spread_results(PerChunk<T>&... results) {
+  constexpr std::size_t size = (in_record<T> + ...);
+  const auto for_each = [&](int number, auto&& copy) {
+    std::byte* record = records_.data() + size * static_cast<std::size_t>(number);
+    const auto next = [&](auto& values) {
+      using Value = std::remove_cvref_t<decltype(at(values, number))>;
+      if (values.begin() != values.end()) copy(record, &at(values, number), sizeof(Value));
+      record += in_record<Value>;
+    };
+    (next(results), ...);
+  };
+  records_.resize(size * static_cast<std::size_t>(numbers_));
+  for (const WindowChunk& chunk : own_)
+    for_each(chunk.number, [](std::byte* record, const void* value, std::size_t bytes) {
+      std::memcpy(record, value, bytes);
+    });
+  chunks_->bring(records_.data(), records_.data(), size);
+  for (const int number : foreign_)
+    for_each(number, [](const std::byte* record, void* value, std::size_t bytes) {
+      std::memcpy(value, record, bytes);
+    });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loops over what all ranks of a run hold, of which each rank does a part (scaling note 2).
+#pragma once
+#include "meniscus/core/parallel.hpp"
+#include "meniscus/core/ranks.hpp"
+
+#include <vector>
+
+namespace meniscus {
+
+/// The items that this rank does of n, a neighbouring part.
+struct OwnItems {
+  Index begin, end;
+};
+OwnItems own_items(Index n);
+/// Brings values of so many bytes, [item], of the others.
+void complete_items(Index n, void* values, std::size_t bytes_per_value);
+
+/// Calls f(k) for the items k of this rank out of n; what record(k) then says of each, a copy of
+/// memory, is handed to others by take(k, record).
+template <class F, class Record, class Take>
+void divided_for(Index n, F&& f, Record&& record, Take&& take, int grain = 64) {
+  const OwnItems own = own_items(n);
+  parallel_for(
+      own.end - own.begin, [&](Index i) { f(own.begin + i); }, grain);
+  if (ranks().alone()) return;
+  std::vector<decltype(record(0))> records(static_cast<std::size_t>(n));
+  for (Index k = own.begin; k < own.end; ++k) at(records, k) = record(k);
+  complete_items(n, records.data(), sizeof records[0]);
+  for (Index k = 0; k < n; ++k)
+    if (k < own.begin || k >= own.end) take(k, at(records, k));
+}
+
+/// parallel_sum() with the same bits, of which each rank does some chunks.
+template <class T, class F>
+T divided_sum(Index n, T zero, F&& f) {
+  const int chunks = chunk_count(n);
+  PerChunk<T> partial(chunks, zero);
+  const OwnItems own = own_items(chunks);
+  parallel_for(
+      own.end - own.begin,
+      [&](Index k) {
+        const Index c = own.begin + k;
+        T s = zero;
+        for (Index i = chunk_begin(n, c); i < chunk_begin(n, c + 1); ++i) s = s + f(i);
+        at(partial, c) = s;
+      },
+      1);
+  if (!ranks().alone()) complete_items(chunks, partial.begin(), sizeof(T));
+  T total = zero;
+  for (const T& p : partial) total = total + p;
+  return total;
+}
+
+}  // namespace meniscus

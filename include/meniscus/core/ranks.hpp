@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ranks of a run: processes that make the same steps on the same state and divide the rows
+// between them. A run that mpirun did not start is the only rank.
+#pragma once
+#include "meniscus/core/types.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// What mpirun or srun says of this process in its environment.
+struct Launch {
+  int rank = 0, size = 1;
+};
+const Launch& launch();
+
+/// Values that are made at one place, the root, and needed at others, the leaves.
+class Exchange {
+ public:
+  virtual ~Exchange() = default;
+  /// Brings each leaf of this rank the value of its root. `roots` and `leaves` are arrays of values
+  /// of that many bytes; they may be the same array if no leaf of it is a root. All ranks call it.
+  virtual void bring(const void* roots, void* leaves, std::size_t bytes_per_value) = 0;
+};
+
+struct Leaf {
+  Index place;  ///< among the leaves of this rank
+  int rank;     ///< that has the root
+  Index root;   ///< among the roots of that rank
+};
+
+/// What a rank has sent so far.
+struct Traffic {
+  std::int64_t messages = 0, bytes = 0;
+};
+
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  virtual int rank() const { return 0; }
+  virtual int size() const { return 1; }
+  bool first() const { return rank() == 0; }
+  bool alone() const { return size() == 1; }
+
+  // All ranks call these together.
+
+  /// The largest of what the ranks say.
+  virtual std::int64_t largest(std::int64_t mine) { return mine; }
+  /// What the first rank says.
+  virtual std::string of_first(const std::string& mine) { return mine; }
+  /// For leaves that are on other ranks than their roots. Not called by a rank that is alone.
+  virtual std::unique_ptr<Exchange> exchange(Index roots, const std::vector<Leaf>& leaves);
+  /// At the end of the program: returns the exit code of all. If the others do not come, this rank
+  /// has failed alone: it says why and ends them.
+  virtual int leave(int exit_code, const std::string& complaint);
+
+  virtual Traffic traffic() const { return {}; }
+};
+
+/// The ranks of this run.
+Ranks& ranks();
+
+/// Makes the ranks that mpirun has started those of this run. Not to be called by a program that
+/// cannot.
+void join_ranks();
+/// Whether this program can: MPI is in a program of its own, so that others need not load it.
+bool can_join_ranks();
+/// Says how; returns true.
+bool register_ranks(std::unique_ptr<Ranks> (*join)());
+
+/// Calls what only one rank may do, as to write a file, on the first one. What fails there as
+/// FileError or SolveError fails on all ranks.
+void on_first_rank(const std::function<void()>& work);
+
+}  // namespace meniscus

@@ -1,0 +1,231 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run on several ranks ends with the same bits as one that is alone, and fails as one.
+Usage: test_ranks.py PROGRAM"""
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+import h5py
+
+import program
+from hostile_files import set_text
+from program import (BLOCK, DROP, ENVIRONMENT, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of,
+                     with_output)
+
+INPUTS = Path(__file__).resolve().parents[2] / "inputs"
+# As many ranks as we like on any machine, which leave the processor to others while they wait.
+MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n"]
+RANKS_ENVIRONMENT = {**ENVIRONMENT, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1",
+                     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+SHORT_DROP = DROP.replace('"60 ps"', '"9 ps"').replace('"7 ps"', '"3 ps"')
+SHORT_REMAP = REMAPPED_DROP.replace('"60 ps"', '"9 ps"').replace('["17 ps", "35 ps"]', '["4 ps"]')
+SHORT_BLOCK = BLOCK.replace("end = 0.4", "end = 0.06")
+PUSHED = BLOCK.replace("[time]", "[time]\nstep = 0.008").replace(
+    "[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
+BENT_SHEET = RELAXING_SHEET.replace('"relax"', '"newton"')
+
+SMALLER = ("--set", "body.drop.core=4", "--set", "body.drop.layers=2")
+# [name] scene of inputs/ and how much of it
+SCENES = {
+    "two bodies in contact": ("first_two_discs", "--until", "0.0024"),
+    "contact with a plate": ("droplet_spreading", "--until", "1"),
+    "a surface law": ("drop_with_skin", "--until", "0.05", *SMALLER),
+    "a nematic": ("nematic_drop", "--until", "0.005", *SMALLER),
+}
+
+
+class RanksTest(ProgramTest):
+    def command(self, ranks, *arguments):
+        return [*MPIRUN, str(ranks), program.PROGRAM, *map(str, arguments)]
+
+    def ranks(self, ranks, *arguments, code=0):
+        """Runs the program on so many ranks."""
+        done = subprocess.run(self.command(ranks, *arguments), cwd=self.directory, text=True,
+                              capture_output=True, env=RANKS_ENVIRONMENT, timeout=100)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def start_ranks(self, ranks, *arguments):
+        process = subprocess.Popen(self.command(ranks, *arguments), cwd=self.directory, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   env=RANKS_ENVIRONMENT)
+        self.addCleanup(process.__exit__, None, None, None)
+        self.addCleanup(process.kill)
+        return process
+
+    def log(self, output):
+        return (self.directory / output / "run.log").read_text()
+
+
+class SameBits(RanksTest):
+    def assert_same_bits(self, counts, scene, *options):
+        alone = self.call("run", scene, *options, "--output", "alone")
+        for count in counts:
+            done = self.ranks(count, "run", scene, *options, "--output", f"ranks{count}")
+            self.assertEqual(state_of(done), state_of(alone), f"{count} ranks")
+            self.assertIn(f"{count} ranks: at most", self.log(f"ranks{count}"))
+            for file in ("history.csv",):
+                self.assertEqual((self.directory / f"ranks{count}" / file).read_text(),
+                                 (self.directory / "alone" / file).read_text())
+
+    def test_viscous_drop(self):
+        self.assert_same_bits((2, 3, 4), self.scene(SHORT_DROP))
+        self.assert_same_frames(self.frames("ranks3"), self.frames("alone"))
+
+    def assert_same_frames(self, frames, expected):
+        self.assertEqual(len(frames), len(expected))
+        for frame, other in zip(frames, expected):
+            self.assertEqual(frame.keys(), other.keys())
+            for name in frame:
+                self.assertTrue((frame[name] == other[name]).all(), name)
+
+    def test_solid(self):
+        self.assert_same_bits((3,), self.scene(SHORT_BLOCK))
+
+    def test_new_reference(self):
+        self.assert_same_bits((3,), self.scene(SHORT_REMAP))
+
+    def test_relaxation(self):
+        self.assert_same_bits((2,), self.scene(RELAXING_SHEET), "--until", "0.05")
+
+    def test_newton(self):
+        self.assert_same_bits((2,), self.scene(BENT_SHEET))
+
+    def test_scenes(self):
+        for name, (scene, *options) in SCENES.items():
+            with self.subTest(name):
+                self.directory = self.directory / scene
+                self.directory.mkdir()
+                self.assert_same_bits((2,), INPUTS / f"{scene}.toml", *options)
+                self.directory = self.directory.parent
+
+    def test_one_rank(self):
+        """mpirun -n 1 starts the program as it is."""
+        scene = self.scene(SHORT_BLOCK)
+        self.ranks(1, "run", scene, "--output", "one")
+        self.assertNotIn("ranks", self.log("one"))
+
+    def test_restart_on_other_numbers(self):
+        scene = self.scene(SHORT_DROP)
+        whole = self.call("run", scene, "--output", "whole")
+        self.ranks(3, "run", scene, "--output", "part", "--until", "3 ps")
+        self.ranks(2, "run", scene, "--restart", "part", "--until", "6 ps")
+        done = self.call("run", scene, "--restart", "part")
+        self.assertEqual(state_of(done), state_of(whole))
+        self.assertEqual((self.directory / "part/history.csv").read_text(),
+                         (self.directory / "whole/history.csv").read_text())
+
+
+class Failures(RanksTest):
+    def assert_said_once(self, done, text):
+        self.assertEqual((done.stdout + done.stderr).count(text), 1, done.stdout + done.stderr)
+
+    def test_bad_scene(self):
+        done = self.ranks(2, "run", self.scene(SHORT_BLOCK.replace("mu = 1e5", "mu = -1")), code=3)
+        self.assert_said_once(done, "mu")
+
+    def test_bad_command_line(self):
+        scene = self.scene(DROP)
+        self.assert_said_once(self.ranks(2, "run", scene, "--wrong", code=2), "--wrong")
+        self.assert_said_once(self.ranks(2, "check", scene, code=3), "several ranks")
+
+    def test_existing_output(self):
+        """Files are refused by the first rank, which has them."""
+        scene = self.scene(SHORT_BLOCK)
+        self.call("run", scene, "--output", "out", "--until", "0.01")
+        self.assert_said_once(self.ranks(2, "run", scene, "--output", "out", code=5), "already holds")
+
+    def test_failing_run(self):
+        """It fails at the same step, with the same words, once."""
+        scene = self.scene(PUSHED)
+        alone = self.call("run", scene, "--output", "alone", code=4)
+        done = self.ranks(2, "run", scene, "--output", "out", code=4)
+        words = re.search(r"error: (step.*)", alone.stderr)[1]
+        self.assert_said_once(done, words)
+
+    def test_full_disk(self):
+        """The first rank cannot write: all end, by the exit code of files."""
+        scene = self.scene(BLOCK.replace("end = 0.4", "end = 40"))
+        # The limit is not that of mpirun, nor of memory that ranks share as a file.
+        limited = ["bash", "-c", 'ulimit -f 100; exec "$@"', "bash"]
+        mpirun, program = self.command(2)[:-1], self.command(2)[-1:]
+        done = subprocess.run([*mpirun, "--mca", "btl", "self,tcp", *limited, *program, "run", scene,
+                               "--output", "out"], cwd=self.directory, text=True,
+                              capture_output=True, env=RANKS_ENVIRONMENT, timeout=100)
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assert_said_once(done, "File too large")
+
+    def long_run(self):
+        """A run on two ranks that has written its first frame, and the processes of meniscus-mpi by
+        rank."""
+        self.file = self.scene(BLOCK.replace("end = 0.4", "end = 400"))
+        process = self.start_ranks(2, "run", self.file, "--output", "out")
+        frames = self.directory / "out/run.h5"
+        end = time.time() + 60
+        while not frames.exists():
+            self.assertLess(time.time(), end)
+            self.assertIsNone(process.poll())
+            time.sleep(0.05)
+        return process, self.processes_of_ranks(process.pid)
+
+    def processes_of_ranks(self, mpirun):
+        """mpirun starts meniscus, and that starts meniscus-mpi."""
+        parents = {}
+        for entry in Path("/proc").glob("[0-9]*"):
+            try:
+                parents[int(entry.name)] = int((entry / "stat").read_text().rsplit(")")[-1].split()[1])
+            except OSError:
+                pass
+        found = {}
+        for process, parent in parents.items():
+            if parents.get(parent) != mpirun:
+                continue
+            environment = Path(f"/proc/{process}/environ").read_bytes().split(b"\0")
+            rank = next(word for word in environment if word.startswith(b"OMPI_COMM_WORLD_RANK="))
+            found[int(rank.split(b"=")[1])] = process
+        self.assertEqual(sorted(found), [0, 1])
+        return found
+
+    def test_killed_rank(self):
+        for rank in (0, 1):
+            with self.subTest(rank=rank):
+                process, ranks = self.long_run()
+                begin = time.time()
+                os.kill(ranks[rank], signal.SIGKILL)
+                output, errors = process.communicate(timeout=60)
+                self.assertLess(time.time() - begin, 60)
+                self.assertEqual(process.returncode, 4, errors)
+                self.assertIn(f"rank {rank} of 2", errors)
+                self.call("info", "out")
+                for file in (self.directory / "out").iterdir():
+                    file.unlink()
+
+    def test_signal_to_one_rank(self):
+        """All stop after the same step, with a checkpoint from which the run goes on."""
+        process, ranks = self.long_run()
+        os.kill(ranks[1], signal.SIGUSR1)
+        output, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 128 + signal.SIGUSR1, errors)
+        step = int(re.search(r"stopped after step (\d+)", errors)[1])
+        self.assertEqual(errors.count("stopped after"), 1)
+        done = self.call("run", self.file, "--restart", "out", "--until", "0.001")
+        self.assertIn(f"continuing from step {step}", self.log("out"))
+
+    def test_output_of_another_version(self):
+        """It is said once, and continued."""
+        scene = self.scene(with_output(SHORT_BLOCK, "restartable = true"))
+        self.call("run", scene, "--output", "out", "--until", "0.05")
+        with h5py.File(self.directory / "out/run.h5", "r+") as results:
+            set_text(results["meta"], "version", "0.0.7")
+        done = self.ranks(2, "run", scene, "--restart", "out", "--frame", 1, "--output", "other")
+        self.assertEqual(done.stderr.count("was written by meniscus 0.0.7"), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    program.main()
