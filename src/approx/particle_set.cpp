@@ -72,6 +72,16 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
       pressed_(press(stretch, X_)) {}
 
 template <int D>
+ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support, Window window,
+                            const Mat<D>& stretch)
+    : X_(std::move(X)),
+      support_(support.begin(), support.end()),
+      largest_support_(*std::max_element(support_.begin(), support_.end())),
+      window_(window),
+      search_(X_),
+      pressed_(press(stretch, X_)) {}
+
+template <int D>
 Index ParticleSet<D>::limit_supports(std::vector<Real> limit) {
   limit_ = std::move(limit);
   Index shortened = 0;

@@ -202,6 +202,48 @@ Real mean_spacing(const Grid<D>& grid) {
   return std::pow(is_simplex<D>(grid.cells.front()) ? simplices * V : V, 1.0 / D);
 }
 
+namespace {
+
+/// Mean square of the diagonals of a cell; of a simplex, of the cube that is cut into such.
+template <int D>
+Real squared_diagonal(const Grid<D>& grid, Index cell, const Mat<D>& inverse_stretch) {
+  constexpr int corners = Grid<D>::corners;
+  const auto X = grid.corner_points(at(grid.cells, cell));
+  Real sum = 0;
+  if (is_simplex<D>(at(grid.cells, cell))) {
+    // The edges of the six tetrahedra, two triangles, of a unit cube have squares that add up to
+    // 10, 4 in each.
+    for (const auto& [i, j] : simplex_edges<D>())
+      sum += (inverse_stretch *
+              (at(X, at(simplex_corners<D>(), j)) - at(X, at(simplex_corners<D>(), i))))
+                 .squaredNorm();
+    return D * sum / (D == 3 ? 10 : 4);
+  }
+  for (int a = 0; a < corners / 2; ++a)
+    sum += (inverse_stretch * (at(X, corners - 1 - a) - at(X, a))).squaredNorm();
+  return sum / (corners / 2);
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Real> diagonals_around_nodes(const Grid<D>& grid, const Mat<D>& stretch) {
+  const Mat<D> inverse_stretch = inverse<D>(stretch);
+  std::vector<Real> length(grid.X.size(), 0.0), cells(grid.X.size(), 0.0);
+  for (Index e = 0; e < grid.cell_count(); ++e) {
+    const Real diagonal = std::sqrt(squared_diagonal(grid, e, inverse_stretch));
+    Index before = -1;
+    for (const Index A : at(grid.cells, e)) {
+      if (A == before) continue;  // a corner of a simplex stands there again
+      before = A;
+      at(length, A) += diagonal;
+      at(cells, A) += 1;
+    }
+  }
+  for (Index A = 0; A < grid.node_count(); ++A) at(length, A) /= at(cells, A);
+  return length;
+}
+
 template <int D>
 Mat<D> mean_stretch(const Grid<D>& grid) {
   Mat<D> squares = Mat<D>::Zero();
@@ -280,6 +322,7 @@ CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
   template Real volume(const Grid<D>&);                                               \
   template Real mean_spacing(const Grid<D>&);                                         \
   template Mat<D> mean_stretch(const Grid<D>&);                                       \
+  template std::vector<Real> diagonals_around_nodes(const Grid<D>&, const Mat<D>&);   \
   template std::vector<Index> boundary_nodes(const Grid<D>&);                         \
   template std::vector<std::array<Index, D>> triangulate_boundary<D>(const Grid<D>&); \
   template CellPoints<D> cell_gauss_points(const Grid<D>&, int);

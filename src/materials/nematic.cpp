@@ -66,6 +66,7 @@ class Nematic final : public Material<D> {
     return built;
   }
   bool fluid() const override { return true; }
+  bool carries_director() const override { return true; }
 
  private:
   /// sum_P V_P N_A(X_P): with these, what is uniform relaxes uniformly. The floor is that of lumped

@@ -154,9 +154,9 @@ bool has_stretched_cells(const Geometry<D>& geometry) {
   return symmetric_eigenvalues<D>(mean_stretch(geometry.grid))[D - 1] > most;
 }
 
-/// Support over the distance to the 20th neighbour (plane: 8th) where the scene gives none. Solids
-/// in space reach the same error in a third of the time with narrower supports than drops and
-/// curvature need (performance note 3.1).
+/// Support over the length of support_by, as that to the 20th neighbour (plane: 8th), where the
+/// scene gives none. Solids in space reach the same error in a third of the time with narrower
+/// supports than drops and curvature need (performance note 3.1).
 template <int D>
 Real default_support(const BodyPlan<D>& body) {
   const bool narrow = D == 3 && body.material && !body.material->fluid() && !body.curvature &&
@@ -164,11 +164,19 @@ Real default_support(const BodyPlan<D>& body) {
   return narrow ? 1.5 : 1.8;
 }
 
+/// Which length supports are multiples of where the scene does not say. A liquid is sheared at the
+/// surface by its director, and supports that grow there double the error (cells note 6).
+template <int D>
+std::string default_support_length(const BodyPlan<D>& body) {
+  return D == 2 && body.material && body.material->carries_director() ? "cells" : "neighbours";
+}
+
 template <int D>
 void settle_supports(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
   for (std::size_t k = 0; k < bodies.size(); ++k)
-    bodies[k].settings.settle_support(blocks[k], default_support(bodies[k]));
+    bodies[k].settings.settle_support(blocks[k], default_support(bodies[k]),
+                                      default_support_length(bodies[k]));
 }
 
 /// What can never be met, or is always, is a mistake.

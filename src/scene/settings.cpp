@@ -128,10 +128,16 @@ Rows<BodySettings> BodySettings::rows() {
       choice_row("window", &S::window, windows(), "window function of the kernel", "cubic_spline"),
       optional_row("support_factor", &S::support_factor, dimension::none, support_factors,
                    "1.5 for solids in 3D, else 1.8",
-                   "support of a particle / distance to its neighbour of rank support_rank; both "
-                   "are measured after a round body, as an ellipsoid, is pressed back to a ball. "
-                   "1.8 also for solids whose cells are all stretched alike, by more than 1.1 over "
+                   "support of a particle / length of support_by; both are measured after a round "
+                   "body, as an ellipsoid, is pressed back to a ball. 1.8 also for solids whose "
+                   "cells are all stretched alike, by more than 1.1 over "
                    "a cube of the same volume, or whose surface tension has form = \"curvature\""),
+      choice_row("support_by", &S::support_by, {"automatic", "neighbours", "cells"},
+                 "which length support_factor multiplies: the distance to the neighbour of rank "
+                 "support_rank, which grows at faces, or the mean diagonal of the cells around the "
+                 "particle, which does not; in a lattice both are the same. automatic: cells for "
+                 "nematics in the plane, else neighbours",
+                 "automatic"),
       integer_row("support_rank", &S::support_rank, {0, 200},
                   "rank of that neighbour; 0: 20 in 3D, 8 in 2D", 0),
       real_row("support_spacings", &S::support_spacings, dimension::none, {0, 20},
@@ -144,9 +150,15 @@ Rows<BodySettings> BodySettings::rows() {
   };
 }
 
-void BodySettings::settle_support(const Block& block, Real fallback) {
+void BodySettings::settle_support(const Block& block, Real factor, const std::string& by) {
   if (!support_factor)
-    support_factor = block.real("support_factor", dimension::none, support_factors, fallback);
+    support_factor = block.real("support_factor", dimension::none, support_factors, factor);
+  if (support_rank > 0 && support_by == "cells")
+    block.problem(
+        "support_rank",
+        "is a rank of neighbours, which support_by = \"cells\" does not ask for; leave one "
+        "of them out");
+  if (support_by == "automatic") support_by = support_rank > 0 ? "neighbours" : by;
 }
 
 Rows<SolidSettings> SolidSettings::rows() {

@@ -253,6 +253,8 @@ class Scenes(ProgramTest):
     def test_support_too_small(self):
         self.assert_refused(self.change(BLOCK, ("[[body]]", "[[body]]\nsupport_factor = 0.5")),
                             "body[0].support_factor")
+        self.assert_refused(self.change(BLOCK, ("[[body]]", '[[body]]\nsupport_rank = 20\nsupport_by = "cells"')),
+                            "body[0].support_rank", "leave one of them out")
         text = self.change(BLOCK, ("[[body]]", "[[body]]\nsupport_spacings = 0.9"))
         file = self.scene(text)
         done = self.call("check", file)

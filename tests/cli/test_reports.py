@@ -388,7 +388,7 @@ class Reports(ProgramTest):
                 "[output]": "frames_every history_every fields measures precision compression "
                             "restartable checkpoint_minutes",
                 "[[body]]": "name integration gauss_points volumetric precision window support_factor "
-                            "support_rank support_spacings initial_displacement initial_velocity",
+                            "support_by support_rank support_spacings initial_displacement initial_velocity",
                 "[[body]] of any shape": "shape map rotate rotate_axis move imperfection "
                                           "imperfection_seed jitter jitter_seed",
                 "[[surface_tension]]": "body gamma form points coefficient_damping",

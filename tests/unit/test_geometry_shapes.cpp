@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grids of the shapes: counts, volumes, boundaries, checks, jitter.
 #include "meniscus/body/shapes.hpp"
+#include "meniscus/body/simplex.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <gtest/gtest.h>
@@ -390,6 +391,49 @@ TEST(Grid, ImpossibleJitterIsRefused) {
   Grid<2> grid = Disk{}.geometry().grid;
   EXPECT_THROW(jitter_interior(grid, 1e6, 1), InputError);
   EXPECT_THROW(jitter_interior(grid, -0.1, 1), InputError);
+}
+
+template <int D>
+void expect_diagonals(const Grid<D>& grid, const Mat<D>& stretch, Real length) {
+  for (const Real found : diagonals_around_nodes(grid, stretch)) EXPECT_NEAR(found, length, 1e-14);
+}
+
+/// Not longer at faces, edges and corners, unlike distances to neighbours.
+TEST(Grid, DiagonalsOfALatticeAreTheSameEverywhere) {
+  Brick<3> brick;
+  brick.cells = {2, 3, 4};
+  brick.size = {1, 1.5, 2};
+  expect_diagonals<3>(brick.geometry().grid, Mat<3>::Identity(), std::sqrt(0.75));
+  Brick<2> long_cells;
+  long_cells.cells = {3, 3};
+  long_cells.size = {6, 1.5};
+  expect_diagonals<2>(long_cells.geometry().grid, Mat<2>::Identity(), std::sqrt(4.25));
+  expect_diagonals<2>(long_cells.geometry().grid, Vec<2>(2, 0.5).asDiagonal(), std::sqrt(2));
+}
+
+TEST(Grid, DiagonalsOfSimplicesAreThoseOfTheCubeTheyFill) {
+  Grid<2> square;
+  square.X = {{0, 0}, {3, 0}, {0, 3}, {3, 3}};
+  using Triangle = std::array<Index, 3>;
+  square.cells = {collapsed(Triangle{0, 1, 3}), collapsed(Triangle{0, 3, 2})};
+  expect_diagonals<2>(square, Mat<2>::Identity(), 3 * std::sqrt(2));
+  Grid<3> cube;  // six tetrahedra around a diagonal
+  for (int k = 0; k < 8; ++k) cube.X.push_back({Real(k & 1), Real(k >> 1 & 1), Real(k >> 2)});
+  using Tetrahedron = std::array<Index, 4>;
+  for (const auto& [a, b] : {std::pair{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}})
+    cube.cells.push_back(collapsed(Tetrahedron{0, a, b, 7}));
+  expect_diagonals<3>(cube, Mat<3>::Identity(), std::sqrt(3));
+}
+
+/// Of a node between cells of two lengths, their mean.
+TEST(Grid, DiagonalsAreAveragedOverCells) {
+  Grid<2> grid;
+  grid.X = {{0, 0}, {1, 0}, {3, 0}, {0, 1}, {1, 1}, {3, 1}};
+  grid.cells = {{0, 1, 3, 4}, {1, 2, 4, 5}};
+  const auto length = diagonals_around_nodes<2>(grid, Mat<2>::Identity());
+  EXPECT_NEAR(length[0], std::sqrt(2), 1e-15);
+  EXPECT_NEAR(length[1], 0.5 * (std::sqrt(2) + std::sqrt(5)), 1e-15);
+  EXPECT_NEAR(length[5], std::sqrt(5), 1e-15);
 }
 
 TEST(Grid, GaussPointsIntegratePolynomials) {

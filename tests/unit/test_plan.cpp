@@ -65,16 +65,22 @@ TEST(Plan, CanBeBuiltAgainAndOnTheReferencesOfTheSceneIn3D) {
 }
 
 template <int D>
-Real default_support(const std::string& shape, const std::string& material,
-                     const std::string& more = "") {
+BodySettings settings_of(const std::string& shape, const std::string& material,
+                         const std::string& more = "") {
   const SceneInput input =
       SceneInput::from_text(fmt::format("dimension = {}\n[time]\nend = 1\n[[body]]\nname = "
                                         "\"body\"\n{}\n{}{}",
                                         D, shape, material, more));
   scene_dimension(input);
-  const Real factor = read_plan<D>(input).bodies.front().settings.support_factor.value();
-  EXPECT_NE(input.complete().find(fmt::format("support_factor = {}", factor)), std::string::npos);
-  return factor;
+  BodySettings settings = read_plan<D>(input).bodies.front().settings;
+  EXPECT_NE(input.complete().find(fmt::format("support_factor = {}", *settings.support_factor)),
+            std::string::npos);
+  return settings;
+}
+template <int D>
+Real default_support(const std::string& shape, const std::string& material,
+                     const std::string& more = "") {
+  return settings_of<D>(shape, material, more).support_factor.value();
 }
 
 /// Performance note 3.1.
@@ -97,6 +103,36 @@ TEST(Plan, SupportsAreAsWideAsTheirUseAsksFor) {
             1.5);
   EXPECT_EQ(default_support<3>(ball, solid, tension + "\"balanced\"\n"), 1.5);
   EXPECT_EQ(default_support<3>(ball, solid, tension + "\"curvature\"\n"), 1.8);
+}
+
+/// Cells note 6.
+TEST(Plan, SupportsOfNematicsInThePlaneDoNotGrowAtTheSurface) {
+  const std::string nematic =
+                        "[body.material]\ntype = \"nematic\"\ndensity = 1\nbulk_modulus = 100\n"
+                        "viscosity = 1\nfrank_constant = 1\nrotational_viscosity = 1\n"
+                        "flow_alignment = 1\n",
+                    disk = "shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n",
+                    ball = "shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2\n";
+  EXPECT_EQ(settings_of<2>(disk, nematic).support_by, "cells");
+  EXPECT_EQ(settings_of<2>(disk + "support_rank = 9\n", nematic).support_by, "neighbours");
+  EXPECT_EQ(settings_of<2>(disk + "support_by = \"neighbours\"\n", nematic).support_by,
+            "neighbours");
+  EXPECT_EQ(settings_of<3>(ball, nematic).support_by, "neighbours");
+  EXPECT_EQ(settings_of<2>(disk, example_liquid()).support_by, "neighbours");
+  EXPECT_EQ(settings_of<3>(ball + "support_by = \"cells\"\n", example_solid()).support_by, "cells");
+}
+
+/// A scene's supports are those multiples, at the surface as well as inside.
+TEST(Plan, SupportsByCellsAreMultiplesOfTheirDiagonals) {
+  const SceneInput input = SceneInput::from_text(
+      "dimension = 3\n[time]\nend = 1\n[[body]]\nname = \"body\"\nshape = \"box\"\ncells = [3, 3, "
+      "3]\n"
+      "size = [3, 3, 3]\nsupport_by = \"cells\"\nsupport_factor = 1.6\n" +
+      example_solid());
+  scene_dimension(input);
+  const Scene<3> scene = build(read_plan<3>(input));
+  for (const Real support : scene.system.bodies.front().particles.support())
+    EXPECT_NEAR(support, 1.6 * std::sqrt(3), 1e-14);
 }
 
 }  // namespace

@@ -32,6 +32,10 @@ class ParticleSet {
   ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
               const Mat<D>& stretch = Mat<D>::Identity());
 
+  /// A support for each particle.
+  ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support, Window window,
+              const Mat<D>& stretch = Mat<D>::Identity());
+
   Index size() const { return static_cast<Index>(X_.size()); }
   std::span<const Vec<D>> X() const { return X_; }
   std::span<const Real> support() const { return support_; }

@@ -160,6 +160,13 @@ Real volume(const Grid<D>& grid);
 template <int D>
 Real mean_spacing(const Grid<D>& grid);
 
+/// Of every node the mean, over the cells around it, of the root mean square of their diagonals:
+/// sqrt(D) spacings of a lattice, also at its faces. Of a simplex it is that of the cube (2D:
+/// square) that is cut into such simplices, by the squares of the edges. Measured after the grid
+/// has been pressed back by the symmetric stretch U (ParticleSet).
+template <int D>
+std::vector<Real> diagonals_around_nodes(const Grid<D>& grid, const Mat<D>& stretch);
+
 /// How the cells are stretched in the mean: U symmetric, det U = 1, U^2 proportional to the sum of
 /// J J^T at the centres of the cells. After a map A it is that of A U: where the cells of a unit
 /// shape point nowhere, as those of a ball, it is the left stretch of A. What deviates from I by

@@ -52,6 +52,8 @@ class Material {
   virtual Built build(Body<D>& body, const Integration& integration) const = 0;
   /// No stress but a pressure at rest.
   virtual bool fluid() const = 0;
+  /// A nematic, whose director is a second unknown.
+  virtual bool carries_director() const { return false; }
 };
 
 /// A material with the law L. What is done once is marked cold: it is compiled for every law.

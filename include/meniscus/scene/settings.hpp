@@ -39,15 +39,16 @@ struct OutputSettings {
 
 /// The keys of [[body]] besides those of its shape, and the tables in it.
 struct BodySettings {
-  std::string name, integration, volumetric, precision, window;
+  std::string name, integration, volumetric, precision, window, support_by;
   int gauss_points = 3;
-  std::optional<Real> support_factor;  ///< x distance to the rank-th neighbour; a plan has one
+  std::optional<Real> support_factor;  ///< x length of support_by; a plan has one
   int support_rank = 0;                ///< 0: 20 in 3D, 8 in 2D
   Real support_spacings = 0;           ///< > 0: the same support everywhere, x mean cell size
   std::vector<Expression> initial_displacement, initial_velocity;  ///< empty: zero
   static Rows<BodySettings> rows();
-  /// The default of support_factor, which depends on what else the scene says, where it gives none.
-  void settle_support(const Block& block, Real fallback);
+  /// Defaults of support_factor and support_by, which depend on what else the scene says, where it
+  /// gives none.
+  void settle_support(const Block& block, Real factor, const std::string& by);
 };
 
 /// What [body.material] of any solid may have besides the numbers of its law.
