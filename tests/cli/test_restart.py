@@ -17,6 +17,10 @@ import program
 from hostile_files import sign
 from program import BLOCK, DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of, with_output
 
+# With one thread, where a test does not ask for more: two take half as much again for such small
+# bodies, and other tests run beside these.
+program.ENVIRONMENT["OMP_NUM_THREADS"] = "1"
+
 
 class Restart(ProgramTest):
     kept = {}  # [scene] a copy of the uninterrupted run, and its hash
@@ -61,14 +65,14 @@ class EveryWay:
 
     def test_threads(self):
         self.reference(self.SCENE)
-        for threads in (1, 3):
+        for threads in (2, 3):
             done = self.call("run", self.file, "--output", f"t{threads}", "--threads", threads)
             self.assert_same(done, f"t{threads}")
 
     def test_directory(self):
         self.reference(self.SCENE)
         self.stop_at(self.TIME, "part")
-        self.assert_same(self.go_on("part", "--restart", "part", "--threads", "1"), "part")
+        self.assert_same(self.go_on("part", "--restart", "part", "--threads", "2"), "part")
 
     def test_checkpoint_file(self):
         self.reference(self.SCENE)
@@ -151,7 +155,7 @@ class ViscousDrop(Restart):
         self.reference(self.SCENE)
         self.assertIn("viscosity is implicit", (self.directory / "whole/run.log").read_text())
         self.stop_at("20.3 ps", "part")
-        self.assert_same(self.go_on("part", "--restart", "part", "--threads", "1"), "part")
+        self.assert_same(self.go_on("part", "--restart", "part", "--threads", "2"), "part")
 
     def test_it_may_change(self):
         self.reference(self.SCENE)
@@ -262,11 +266,12 @@ class Block(EveryWay, Restart):
 
 
 class RelaxingPlate(EveryWay, Restart):
-    """Thin, so that it moves by another inertia."""
+    """Thin, so that it moves by another inertia. Its residual has a floor near 0.05, with which it
+    would take 2100 steps instead of 500; where it ends is not what is tested."""
     SCENE = RELAXING_SHEET.replace("dimension = 2", "dimension = 3").replace("rectangle", "box").replace(
         "[1, 2]", "[1, 2, 0.08]").replace("[5, 10]", "[3, 6, 2]").replace(
         '["0.1*y^2", "0.05*y"]', '[0, 0, "0.1*y^2"]').replace(
-        "check_every = 40", "force_tolerance = 0.05\nshape_tolerance = 1e-3")
+        "check_every = 40", "force_tolerance = 0.07\nshape_tolerance = 2e-3")
     TIME, LATER = "0.2", "0.35"
     test_longer = None  # its end is not that of the scene
 
@@ -342,7 +347,7 @@ class OtherScene(ProgramTest):
         scene.write_text(scene.read_text().partition("[expect]")[0])
         run = ["run", "drop.toml", "--set", "time.end=0.1", "--output"]
         whole = state_of(self.call(*run, "whole"))
-        self.call(*run, "part", "--until", "0.05", "--threads", "1")
+        self.call(*run, "part", "--until", "0.05", "--threads", "2")
         self.call(*run, "same", "--restart", "part")
         self.assertEqual(state_of(self.call(*run, "part", "--restart", "part")), whole)
         text = mesh.read_text()

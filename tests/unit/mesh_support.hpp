@@ -87,13 +87,30 @@ std::string msh_of(const Grid<D>& grid, const CellList& cells) {
   return text + "$EndElements\n";
 }
 
-/// A folder for files of this test; the name of one with this text.
+/// A folder for the files of this process, removed at its end.
+class MeshFolder {
+ public:
+  MeshFolder() { std::filesystem::create_directories(path_); }
+  ~MeshFolder() {
+    std::error_code ignored;  // an exception here would end the process
+    std::filesystem::remove_all(path_, ignored);
+  }
+  MeshFolder(const MeshFolder&) = delete;
+  MeshFolder& operator=(const MeshFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() /
+                                fmt::format("meniscus_mesh_{}", static_cast<long>(::getpid()));
+};
+
+/// The name of a file with this text, which is there until the process ends.
 inline std::string written(const std::string& name, const std::string& text) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      fmt::format("meniscus_mesh_{}", static_cast<long>(::getpid()));
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / name) << text;
-  return (folder / name).string();
+  static const MeshFolder folder;
+  const std::filesystem::path file = folder.path() / name;
+  std::ofstream(file) << text;
+  return file.string();
 }
 
 /// In the folder of the test, where examples of keys look for it; several tests may at once.
