@@ -79,11 +79,11 @@ bool can_join_ranks();
 bool register_ranks(std::unique_ptr<Ranks> (*join)());
 
 /// Calls what only one rank may do, as to write a file, on the first one. What fails there as
-/// FileError or SolveError fails on all ranks.
+/// FileError, InputError or SolveError fails on all ranks.
 void on_first_rank(const std::function<void()>& work);
 
-/// Calls what each rank does for a part of its own, as to build rows. What fails on one of them so,
-/// or as InputError, fails on all.
+/// Calls what each rank does for a part of its own, as to build rows. What fails so on one of them
+/// fails on all.
 void on_each_rank(const std::function<void()>& work);
 
 }  // namespace meniscus
