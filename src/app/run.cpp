@@ -10,6 +10,7 @@
 #include "meniscus/app/set_up.hpp"
 #include "meniscus/app/warnings.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/memory.hpp"
 #include "meniscus/core/ranks.hpp"
 #include "meniscus/io/run_log.hpp"
 #include "meniscus/measure/drop_measures.hpp"
@@ -157,16 +158,19 @@ std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double
       set_up_seconds, simulation.snapshot().hash());
 }
 
-/// What the ranks have sent since the beginning of the run.
-void report_traffic(std::int64_t steps, RunLog& log) {
+/// What the ranks have sent and held since the beginning of the run.
+void report_ranks(std::int64_t steps, RunLog& log) {
   if (ranks().alone()) return;
   const Traffic sent = ranks().traffic();
   const std::int64_t messages = ranks().largest(sent.messages), bytes = ranks().largest(sent.bytes),
+                     memory = ranks().largest(static_cast<std::int64_t>(peak_memory())),
                      divisor = std::max<std::int64_t>(1, steps);
   log.info(fmt::format(
-      "{} ranks: at most {} messages of {} bytes in all sent by one, {:.1f} of {:.0f} per step",
+      "{} ranks: at most {} messages of {} bytes in all sent by one, {:.1f} of {:.0f} per step; at "
+      "most {:.0f} MB of memory",
       ranks().size(), messages, bytes, static_cast<double>(messages) / static_cast<double>(divisor),
-      static_cast<double>(bytes) / static_cast<double>(divisor)));
+      static_cast<double>(bytes) / static_cast<double>(divisor),
+      1e-6 * static_cast<double>(memory)));
 }
 
 /// Pairs that the contacts visited per force, beside those of all other terms.
@@ -291,7 +295,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
   report_contacts(simulation.scene().system, log);
   log.info(summary);
-  report_traffic(simulation.state().step - first_step, log);
+  report_ranks(simulation.state().step - first_step, log);
   if (!request.quiet) say("{}\nresults in {}\n", summary, directory.path().string());
   repeat_warnings(request.quiet, log);
   if (!signal) {

@@ -21,10 +21,12 @@ ForceWindows::ForceWindows(std::span<const Offset> start, std::span<const Index>
   }
   chunks_ = own_.empty() ? 0 : own_.back().number + 1;
   summed_ = own_;
+  pairs_ = start.empty() ? 0 : start.back();
   if (!ranks().alone()) {
     shared_ = std::make_shared<SharedWindows>(own_, start, particle, particles);
     own_ = shared_->own();
     summed_ = shared_->summed();
+    pairs_ = shared_->pairs();
     size = shared_->size();
   }
   sums_.resize(static_cast<std::size_t>(size));

@@ -94,6 +94,33 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   return rows;
 }
 
+/// For so many times the entries of some rows, and more where there are others: what is not filled
+/// takes no memory, but growing would take twice as much for a moment.
+template <int D>
+void reserve(PointRows<D>& rows, std::span<const PointRows<D>> some, Real times,
+             RowContent content) {
+  std::size_t entries = 0;
+  for (const PointRows<D>& part : some) entries += part.particle.size();
+  if (times > 1) entries = static_cast<std::size_t>(2 * times * static_cast<Real>(entries));
+  rows.particle.reserve(entries);
+  rows.value.reserve(content.value ? entries : 0);
+  rows.gradient.reserve(content.gradient ? entries * D : 0);
+  rows.hessian.reserve(content.hessian ? entries * static_cast<std::size_t>(hessian_count(D)) : 0);
+}
+
+template <int D>
+void append_rows(PointRows<D>& rows, const PointRows<D>& more) {
+  const auto append = [](auto& all, const auto& some) {
+    all.insert(all.end(), some.begin(), some.end());
+  };
+  const Offset base = rows.start.back();
+  for (std::size_t q = 1; q < more.start.size(); ++q) rows.start.push_back(base + more.start[q]);
+  append(rows.particle, more.particle);
+  append(rows.value, more.value);
+  append(rows.gradient, more.gradient);
+  append(rows.hessian, more.hessian);
+}
+
 }  // namespace
 
 template <int D>
@@ -107,35 +134,23 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
                               RowContent content, const std::string& body) {
   const auto n = static_cast<Index>(points.size());
   const Index groups = (n + group_size - 1) / group_size;
-  std::vector<PointRows<D>> part(static_cast<std::size_t>(groups));
-  parallel_for(
-      groups,
-      [&](Index g) {
-        const auto first = static_cast<std::size_t>(g) * group_size;
-        const auto count = std::min<std::size_t>(group_size, points.size() - first);
-        at(part, g) = group_rows<D, Degree>(particles, points.subspan(first, count), content, body);
-      },
-      1);
-
+  constexpr Index block = 1024;  // rows of all groups apart would take more than together
+  std::vector<PointRows<D>> part(static_cast<std::size_t>(std::min(block, groups)));
   PointRows<D> rows;
-  std::size_t entries = 0;
-  for (const auto& p : part) entries += p.particle.size();
   rows.start.reserve(points.size() + 1);
-  rows.particle.reserve(entries);
-  rows.value.reserve(content.value ? entries : 0);
-  rows.gradient.reserve(content.gradient ? entries * D : 0);
-  rows.hessian.reserve(content.hessian ? entries * static_cast<std::size_t>(hessian_count(D)) : 0);
-  const auto append = [](auto& all, auto& some) {
-    all.insert(all.end(), some.begin(), some.end());
-    some = {};
-  };
-  for (auto& p : part) {
-    const Offset base = rows.start.back();
-    for (std::size_t q = 1; q < p.start.size(); ++q) rows.start.push_back(base + p.start[q]);
-    append(rows.particle, p.particle);
-    append(rows.value, p.value);
-    append(rows.gradient, p.gradient);
-    append(rows.hessian, p.hessian);
+  for (Index begin = 0; begin < groups; begin += block) {
+    const Index count = std::min(block, groups - begin);
+    parallel_for(
+        count,
+        [&](Index k) {
+          const auto first = static_cast<std::size_t>(begin + k) * group_size;
+          const auto size = std::min<std::size_t>(group_size, points.size() - first);
+          at(part, k) =
+              group_rows<D, Degree>(particles, points.subspan(first, size), content, body);
+        },
+        1);
+    if (begin == 0) reserve<D>(rows, part, static_cast<Real>(groups) / count, content);
+    for (Index k = 0; k < count; ++k) append_rows(rows, at(part, k));
   }
   return rows;
 }

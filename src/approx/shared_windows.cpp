@@ -2,52 +2,83 @@
 // Which rank does which chunks and adds up the windows over which particles.
 #include "meniscus/approx/shared_windows.hpp"
 
+#include "meniscus/core/divided.hpp"
+
 #include <algorithm>
 
 namespace meniscus {
-namespace {
 
-std::vector<std::vector<Index>> touched_particles(const std::vector<WindowChunk>& chunks,
-                                                  std::span<const Offset> start,
-                                                  std::span<const Index> particle) {
-  std::vector<std::vector<Index>> touched;
-  for (const WindowChunk& chunk : chunks) {
-    std::vector<bool> is(static_cast<std::size_t>(std::max(0, chunk.high - chunk.low)), false);
-    for (Offset e = at(start, chunk.begin); e < at(start, chunk.end); ++e)
-      is[static_cast<std::size_t>(at(particle, e) - chunk.low)] = true;
-    std::vector<Index>& all = touched.emplace_back();
-    for (Index A = chunk.low; A < chunk.high; ++A)
-      if (is[static_cast<std::size_t>(A - chunk.low)]) all.push_back(A);
-  }
-  return touched;
-}
-
-}  // namespace
-
-SharedWindows::SharedWindows(const std::vector<WindowChunk>& chunks, std::span<const Offset> start,
+SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Offset> start,
                              std::span<const Index> particle, Index particles) {
+  find_windows(chunks, start);
   divide(chunks, particles);
-  const Touched touched = touched_particles(chunks, start, particle);
-  share_windows(chunks, touched);
-  share_particles(touched);
-  share_rows(chunks);
+  const Touched of_chunks = touched(chunks, start, particle);
+  share_windows(chunks, of_chunks);
+  share_particles(chunks, of_chunks);
+  share_results(chunks);
 }
 
-/// Chunks, which have the same number of rows but for one, evenly; the particles half-way between
-/// what the chunks on both sides reach.
+/// Who does which chunk is known before its rows are.
+void SharedWindows::find_windows(std::vector<WindowChunk>& chunks, std::span<const Offset> start) {
+  struct Reach {
+    Index low, high;
+    Offset pairs;
+  };
+  const auto rows = static_cast<Index>(start.size()) - 1;
+  const int count = chunk_count(rows);
+  std::vector<Reach> reach(static_cast<std::size_t>(count));
+  for (const WindowChunk& chunk : chunks) {
+    rank_.push_back(rank_of_item(count, chunk.number));
+    if (rank_.back() == ranks().rank())
+      at(reach, chunk.number) = {chunk.low, chunk.high,
+                                 at(start, chunk.end) - at(start, chunk.begin)};
+  }
+  complete_items(count, reach.data(), sizeof reach[0]);
+  for (WindowChunk& chunk : chunks) {
+    const Reach& found = at(reach, chunk.number);
+    chunk.low = found.low;
+    chunk.high = found.high;
+    pairs_ += found.pairs;
+  }
+}
+
+/// Particles half-way between what the chunks on both sides reach.
 void SharedWindows::divide(const std::vector<WindowChunk>& chunks, Index particles) {
   const int size = ranks().size();
   const auto count = static_cast<Index>(chunks.size());
   border_.push_back(0);
+  Index end = 0;
   for (int rank = 0; rank < size; ++rank) {
-    const Index end = count * (rank + 1) / size;
-    while (static_cast<Index>(rank_.size()) < end) rank_.push_back(rank);
+    while (end < count && at(rank_, end) == rank) ++end;
     const Index middle = rank + 1 == size || end == count ? particles
                          : end == 0                       ? 0
                                     : (at(chunks, end).low + at(chunks, end - 1).high) / 2;
     border_.push_back(std::clamp(middle, border_.back(), particles));
   }
   numbers_ = count > 0 ? chunks.back().number + 1 : 0;
+}
+
+SharedWindows::Touched SharedWindows::touched(const std::vector<WindowChunk>& chunks,
+                                              std::span<const Offset> start,
+                                              std::span<const Index> particle) const {
+  constexpr Index bits = 8;
+  Touched of_chunks;
+  std::vector<std::uint8_t> packed;
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    const WindowChunk& chunk = chunks[k];
+    const Index length = chunk.high - chunk.low;
+    packed.assign(static_cast<std::size_t>((length + bits - 1) / bits), 0);
+    if (rank_[k] == ranks().rank())
+      for (Offset e = at(start, chunk.begin); e < at(start, chunk.end); ++e) {
+        const Index A = at(particle, e) - chunk.low;
+        at(packed, A / bits) |= static_cast<std::uint8_t>(1u << (A % bits));
+      }
+    ranks().hand_out(rank_[k], packed.data(), packed.size());
+    std::vector<bool>& is = of_chunks.emplace_back(static_cast<std::size_t>(length));
+    for (Index A = 0; A < length; ++A)
+      is[static_cast<std::size_t>(A)] = (at(packed, A / bits) >> (A % bits)) & 1;
+  }
+  return of_chunks;
 }
 
 /// In the sums of each rank its own windows come first.
@@ -74,8 +105,8 @@ void SharedWindows::share_windows(const std::vector<WindowChunk>& chunks, const 
     part.sum = mine ? chunk.sum + part.low - chunk.low : size_;
     summed_.push_back(part);
     if (mine) continue;
-    for (const Index A : touched[k])
-      if (first <= A && A < last)
+    for (Index A = part.low; A < part.high; ++A)
+      if (touched[k][static_cast<std::size_t>(A - chunk.low)])
         leaves.push_back({static_cast<Index>(part.sum + A - part.low), rank_[k],
                           static_cast<Index>(root[k] + A - chunk.low)});
     size_ += window_length(part);
@@ -83,11 +114,13 @@ void SharedWindows::share_windows(const std::vector<WindowChunk>& chunks, const 
   windows_ = ranks().exchange(static_cast<Index>(at(used, me)), leaves);
 }
 
-void SharedWindows::share_particles(const Touched& touched) {
+void SharedWindows::share_particles(const std::vector<WindowChunk>& chunks,
+                                    const Touched& touched) {
   const int me = ranks().rank();
   std::vector<bool> is(static_cast<std::size_t>(border_.back()), false);
-  for (const auto& of_chunk : touched)
-    for (const Index A : of_chunk) is[static_cast<std::size_t>(A)] = true;
+  for (std::size_t k = 0; k < chunks.size(); ++k)
+    for (std::size_t A = 0; A < touched[k].size(); ++A)
+      if (touched[k][A]) is[static_cast<std::size_t>(chunks[k].low) + A] = true;
   std::vector<Leaf> leaves;
   for (int rank = 0; rank < ranks().size(); ++rank)
     for (Index A = at(border_, rank); A < at(border_, rank + 1); ++A)
@@ -95,17 +128,14 @@ void SharedWindows::share_particles(const Touched& touched) {
   particles_ = ranks().exchange(border_.back(), leaves);
 }
 
-void SharedWindows::share_rows(const std::vector<WindowChunk>& chunks) {
-  std::vector<Leaf> of_chunks, of_rows;
+void SharedWindows::share_results(const std::vector<WindowChunk>& chunks) {
+  std::vector<Leaf> leaves;
   for (std::size_t k = 0; k < chunks.size(); ++k) {
     if (rank_[k] == ranks().rank()) continue;
     foreign_.push_back(chunks[k].number);
-    of_chunks.push_back({chunks[k].number, rank_[k], chunks[k].number});
-    for (Index row = chunks[k].begin; row < chunks[k].end; ++row)
-      of_rows.push_back({row, rank_[k], row});
+    leaves.push_back({chunks[k].number, rank_[k], chunks[k].number});
   }
-  chunks_ = ranks().exchange(numbers_, of_chunks);
-  rows_ = ranks().exchange(chunks.empty() ? 0 : chunks.back().end, of_rows);
+  chunks_ = ranks().exchange(numbers_, leaves);
 }
 
 }  // namespace meniscus

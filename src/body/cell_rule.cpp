@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "rounded_rows.hpp"
+#include "sums_of_rows.hpp"
 
 namespace meniscus {
 namespace {
@@ -382,15 +383,17 @@ void assemble_row(const Body<D>& body, Index cell, std::span<const CellIntegrals
   }
 }
 
-/// For more entries than all rows have, by the particles that reach boxes like some of the cells:
-/// what is not filled takes no memory, but growing would take twice as much for a moment.
+/// For more entries than the rows of these cells have, by the particles that reach boxes like some
+/// of the cells: what is not filled takes no memory, but growing would take twice as much for a
+/// moment.
 template <int D>
-void reserve_entries(const Body<D>& body, RowPrecision precision, CellRule<D>& rule) {
+void reserve_entries(const Body<D>& body, OwnItems cells, RowPrecision precision,
+                     CellRule<D>& rule) {
   constexpr Index samples = 256;
-  const Index n = body.size(), step = (n + samples - 1) / samples;
+  const Index step = (cells.end - cells.begin + samples - 1) / samples;
   std::vector<Candidate<D>> candidates;
   std::size_t entries = 0;
-  for (Index cell = step / 2; cell < n; cell += step) {
+  for (Index cell = cells.begin + step / 2; cell < cells.end; cell += step) {
     const Real half_diagonal = std::sqrt(3 * body.cells.covariance(cell).trace());
     body.particles.candidates(body.cells.centroid(cell), half_diagonal, candidates);
     entries += candidates.size() * static_cast<std::size_t>(step);
@@ -437,7 +440,7 @@ void pack(const Body<D>& body, CellRow<D>& row, RowPrecision precision, CellRule
       precision == RowPrecision::full
           ? particle.size()
           : make_up_for_rounding<D>(body.particles.X(),
-                                    body.cells.centroid(static_cast<Index>(rule.volume.size())),
+                                    body.cells.centroid(static_cast<Index>(rule.start.size()) - 1),
                                     particle, row.gradient);
   rule.particle.insert(rule.particle.end(), particle.begin(), particle.end());
   for (std::size_t e = 0; e < particle.size(); ++e)
@@ -451,38 +454,73 @@ void pack(const Body<D>& body, CellRow<D>& row, RowPrecision precision, CellRule
   rule.double_start.push_back(rule.double_start.back() + static_cast<Offset>(exact));
 }
 
+/// Volumes and stress points of all cells: little beside their rows.
+template <int D>
+void list_points(const Body<D>& body, CellRule<D>& rule) {
+  for (Index cell = 0; cell < body.size(); ++cell) {
+    rule.volume.push_back(body.cells.volume(cell));
+    for (const Lanes& xi : stress_points<D>(body.cells.covariance(cell))) rule.point.push_back(xi);
+  }
+}
+
+/// Makes the rows of all other cells empty.
+template <int D>
+void end_rows(const Body<D>& body, CellRule<D>& rule) {
+  const std::size_t size = static_cast<std::size_t>(body.size()) + 1;
+  rule.start.resize(size, rule.start.back());
+  rule.double_start.resize(size, rule.double_start.back());
+}
+
+/// Appends rows to a rule that has none. What cells share with lower ones of their block is
+/// computed once, for whatever cells the rows are asked: so rows do not depend on that to the last
+/// bit.
+template <int D>
+void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, CellRule<D>& rule,
+                 SumsOfRows& shape_integral) {
+  rule.start.resize(static_cast<std::size_t>(cells.begin) + 1, 0);
+  rule.double_start.resize(rule.start.size(), 0);
+  reserve_entries(body, cells, precision, rule);
+  constexpr Index block = 512;  // what rows are made of takes several times their memory
+  std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, body.size())));
+  std::vector<CellRow<D>> rows(integrals.size());
+  for (Index begin = cells.begin / block * block; begin < cells.end; begin += block) {
+    const Index first = std::max(begin, cells.begin), end = std::min(begin + block, cells.end);
+    parallel_for(
+        end - begin, [&](Index k) { integrate_cell(body, begin + k, at(integrals, k)); }, 4);
+    parallel_for(
+        end - first,
+        [&](Index k) { assemble_row<D>(body, first + k, integrals, begin, at(rows, k)); }, 4);
+    for (Index k = 0; k < end - first; ++k) {
+      CellRow<D>& row = at(rows, k);
+      for (const auto& entry : row.entries) shape_integral.add(entry.particle, entry.integral);
+      pack(body, row, precision, rule);
+    }
+  }
+}
+
 }  // namespace
 
 template <int D>
-CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision) {
-  const Index n = body.size();
+CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells) {
   CellOperator<D> op;
-  CellRule<D>& rule = op.rule;
-  op.shape_integral.assign(static_cast<std::size_t>(n), 0.0);
-  reserve_entries(body, precision, rule);
-  constexpr Index block = 512;  // what rows are made of takes several times their memory
-  std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, n)));
-  std::vector<CellRow<D>> rows(integrals.size());
-  for (Index begin = 0; begin < n; begin += block) {
-    const Index count = std::min(block, n - begin);
-    parallel_for(
-        count, [&](Index k) { integrate_cell(body, begin + k, at(integrals, k)); }, 4);
-    parallel_for(
-        count, [&](Index k) { assemble_row<D>(body, begin + k, integrals, begin, at(rows, k)); },
-        4);
-    for (Index k = 0; k < count; ++k) {
-      CellRow<D>& row = at(rows, k);
-      for (const auto& entry : row.entries) at(op.shape_integral, entry.particle) += entry.integral;
-      pack(body, row, precision, rule);
-      rule.volume.push_back(body.cells.volume(begin + k));
-      for (const Lanes& xi : stress_points<D>(body.cells.covariance(begin + k)))
-        rule.point.push_back(xi);
-    }
-  }
+  SumsOfRows shape_integral(body.size());
+  on_each_rank([&] { append_rows(body, cells, precision, op.rule, shape_integral); });
+  end_rows(body, op.rule);
+  list_points(body, op.rule);
+  op.shape_integral = shape_integral.of_all();
   return op;
 }
 
-template CellOperator<2> build_cell_rule(const Body<2>&, RowPrecision);
-template CellOperator<3> build_cell_rule(const Body<3>&, RowPrecision);
+template <int D>
+CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision) {
+  return build_cell_rule(body, precision, own_rows(body.size()));
+}
+
+#define MENISCUS_INSTANTIATE(D)                                           \
+  template CellOperator<D> build_cell_rule(const Body<D>&, RowPrecision); \
+  template CellOperator<D> build_cell_rule(const Body<D>&, RowPrecision, OwnItems);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
 
 }  // namespace meniscus

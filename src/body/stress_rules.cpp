@@ -11,40 +11,82 @@
 namespace meniscus {
 namespace {
 
+/// Rows of some of the points; those of all others are empty. Points are treated in the fours that
+/// they would be in with all of them: so rows do not depend on which are asked for to the last bit.
+template <int D>
+PointRows<D> rows_of(const Body<D>& body, std::span<const Vec<D>> points, OwnItems some) {
+  constexpr Index four = 4;
+  const auto n = static_cast<Index>(points.size());
+  const Index first = some.begin / four * four,
+              last = std::min(n, (some.end + four - 1) / four * four);
+  PointRows<D> rows = build_point_rows<D>(
+      body.particles,
+      points.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first)),
+      {.gradient = true}, body.name);
+  const Offset before = at(rows.start, some.begin - first), end = at(rows.start, some.end - first);
+  rows.particle.resize(static_cast<std::size_t>(end));
+  rows.particle.erase(rows.particle.begin(), rows.particle.begin() + before);
+  rows.gradient.resize(static_cast<std::size_t>(end) * D);
+  rows.gradient.erase(rows.gradient.begin(), rows.gradient.begin() + before * D);
+  std::vector<Offset> start(static_cast<std::size_t>(some.begin), 0);
+  for (Index q = some.begin; q <= some.end; ++q)
+    start.push_back(at(rows.start, q - first) - before);
+  start.resize(points.size() + 1, end - before);
+  rows.start = std::move(start);
+  return rows;
+}
+
+/// Number of the particle nearest to a point with a row.
+template <int D>
+Index nearest(const Body<D>& body, const PointRows<D>& rows, Index point, const Vec<D>& X) {
+  Index owner = 0;
+  Real least = unbounded;
+  for (Offset e = at(rows.start, point); e < at(rows.start, point + 1); ++e) {
+    const Index A = at(rows.particle, e);
+    const Real distance = (at(body.particles.X(), A) - X).squaredNorm();
+    if (distance < least) {
+      least = distance;
+      owner = A;
+    }
+  }
+  return owner;
+}
+
 template <int D>
 PointRule<D> make_point_rule(const Body<D>& body, std::span<const Vec<D>> points,
-                             std::vector<Real> weight) {
+                             std::vector<Real> weight, Index per_group) {
+  const auto n = static_cast<Index>(points.size());
+  const Index groups = (n + per_group - 1) / per_group;
+  const OwnItems own_groups = own_rows(groups), own{std::min(n, own_groups.begin * per_group),
+                                                    std::min(n, own_groups.end * per_group)};
   PointRule<D> rule;
-  rule.rows = build_point_rows<D>(body.particles, points, {.gradient = true}, body.name);
+  rule.per_group = per_group;
+  on_each_rank([&] { rule.rows = rows_of(body, points, own); });
   rule.point_weight = std::move(weight);
-  rule.point_owner.resize(points.size());
-  parallel_for(static_cast<Index>(points.size()), [&](Index q) {
-    Real nearest = unbounded;
-    for (Offset e = at(rule.rows.start, q); e < at(rule.rows.start, q + 1); ++e) {
-      const Index A = at(rule.rows.particle, e);
-      const Real distance = (at(body.particles.X(), A) - at(points, q)).squaredNorm();
-      if (distance < nearest) {
-        nearest = distance;
-        at(rule.point_owner, q) = A;
-      }
-    }
+  rule.point_owner.resize(static_cast<std::size_t>(groups * per_group));
+  parallel_for(own.end - own.begin, [&](Index k) {
+    const Index q = own.begin + k;
+    at(rule.point_owner, q) = nearest<D>(body, rule.rows, q, at(points, q));
   });
+  complete_rows(groups, rule.point_owner.data(),
+                static_cast<std::size_t>(per_group) * sizeof(Index));
+  rule.point_owner.resize(points.size());
   return rule;
 }
 
 }  // namespace
 
 template <int D>
-PointRule<D> build_gauss_rule(const Body<D>& body, int points_per_direction) {
+PointRule<D> build_gauss_rule(const Body<D>& body, int points_per_direction, Index per_group) {
   auto points = cell_gauss_points(body.geometry.grid, points_per_direction);
-  return make_point_rule<D>(body, points.X, std::move(points.weight));
+  return make_point_rule<D>(body, points.X, std::move(points.weight), per_group);
 }
 
 template <int D>
-PointRule<D> build_nodal_rule(const Body<D>& body) {
+PointRule<D> build_nodal_rule(const Body<D>& body, Index per_group) {
   std::vector<Real> volume;
   for (Index A = 0; A < body.size(); ++A) volume.push_back(body.cells.volume(A));
-  return make_point_rule<D>(body, body.particles.X(), std::move(volume));
+  return make_point_rule<D>(body, body.particles.X(), std::move(volume), per_group);
 }
 
 template <int D>
@@ -67,9 +109,9 @@ std::vector<Real> shape_integrals(const Body<D>& body) {
   return integral;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                \
-  template PointRule<D> build_gauss_rule(const Body<D>&, int); \
-  template PointRule<D> build_nodal_rule(const Body<D>&);      \
+#define MENISCUS_INSTANTIATE(D)                                       \
+  template PointRule<D> build_gauss_rule(const Body<D>&, int, Index); \
+  template PointRule<D> build_nodal_rule(const Body<D>&, Index);      \
   template std::vector<Real> shape_integrals(const Body<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

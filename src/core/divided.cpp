@@ -11,6 +11,10 @@ Index first_item(Index n, int rank) {
   return static_cast<Index>(static_cast<Offset>(n) * rank / ranks().size());
 }
 
+Index first_row(Index n, int rank) {
+  return chunk_begin(n, first_item(chunk_count(n), rank));
+}
+
 Exchange& exchange_of(Index n) {
   constexpr std::size_t most = 64;  // lists of contacts have ever new lengths
   static std::map<Index, std::unique_ptr<Exchange>> known;
@@ -29,6 +33,31 @@ Exchange& exchange_of(Index n) {
 
 OwnItems own_items(Index n) {
   return {first_item(n, ranks().rank()), first_item(n, ranks().rank() + 1)};
+}
+
+int rank_of_item(Index n, Index item) {
+  int rank = 0;
+  while (item >= first_item(n, rank + 1)) ++rank;
+  return rank;
+}
+
+OwnItems own_rows(Index n) {
+  return {first_row(n, ranks().rank()), first_row(n, ranks().rank() + 1)};
+}
+
+void complete_rows(Index n, void* values, std::size_t bytes_per_value) {
+  auto* bytes = static_cast<std::byte*>(values);
+  for (int rank = 0; rank < ranks().size(); ++rank) {
+    const std::size_t begin = static_cast<std::size_t>(first_row(n, rank)) * bytes_per_value,
+                      end = static_cast<std::size_t>(first_row(n, rank + 1)) * bytes_per_value;
+    ranks().hand_out(rank, bytes + begin, end - begin);
+  }
+}
+
+int rank_of_row(Index n, Index row) {
+  int chunk = 0;
+  while (row >= chunk_begin(n, chunk + 1)) ++chunk;
+  return rank_of_item(chunk_count(n), chunk);
 }
 
 void complete_items(Index n, void* values, std::size_t bytes_per_value) {

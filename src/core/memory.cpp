@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Free memory as Linux tells it.
+// Memory as Linux tells it.
 #include "meniscus/core/memory.hpp"
 
 #include <sys/resource.h>
@@ -49,6 +49,12 @@ Real left_of_control_group() {
 Real available_memory() {
   const Real free = 1024 * number_behind("/proc/meminfo", "MemAvailable:");
   return std::max(0.0, std::min({free, left_of_addresses(), left_of_control_group()}));
+}
+
+Real peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<Real>(usage.ru_maxrss);
 }
 
 }  // namespace meniscus

@@ -36,6 +36,30 @@ Launch launch_in_environment() {
   return {};
 }
 
+constexpr char of_files = 'F', of_input = 'I', of_run = 'S';
+
+/// How `work` fails: the kind, then what it says; empty if it does not.
+std::string failure_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const FileError& error) {
+    return of_files + std::string(error.what());
+  } catch (const InputError& error) {
+    return of_input + std::string(error.what());
+  } catch (const SolveError& error) {
+    return of_run + std::string(error.what());
+  }
+  return {};
+}
+
+void fail_as(const std::string& failure) {
+  if (failure.empty()) return;
+  const std::string said = failure.substr(1);
+  if (failure.front() == of_files) throw FileError(said);
+  if (failure.front() == of_input) throw InputError(said);
+  throw SolveError(said);
+}
+
 }  // namespace
 
 const Launch& launch() {
@@ -68,21 +92,28 @@ bool register_ranks(std::unique_ptr<Ranks> (*join)()) {
   return true;
 }
 
+std::string Ranks::of_rank(int rank, std::string mine) {
+  auto length = static_cast<std::int64_t>(mine.size());
+  hand_out(rank, &length, sizeof length);
+  mine.resize(static_cast<std::size_t>(length));
+  hand_out(rank, mine.data(), mine.size());
+  return mine;
+}
+
+std::string Ranks::first_said(std::string mine) {
+  const std::int64_t before_last = largest(mine.empty() ? 0 : size() - rank());
+  return before_last > 0 ? of_rank(size() - static_cast<int>(before_last), std::move(mine))
+                         : std::string();
+}
+
 void on_first_rank(const std::function<void()>& work) {
   if (ranks().alone()) return work();
-  constexpr char of_files = 'F', of_run = 'S';
-  std::string failure;  // its kind, then what it says
-  if (ranks().first()) try {
-      work();
-    } catch (const FileError& error) {
-      failure = of_files + std::string(error.what());
-    } catch (const SolveError& error) {
-      failure = of_run + std::string(error.what());
-    }
-  failure = ranks().of_first(failure);
-  if (failure.empty()) return;
-  if (failure.front() == of_run) throw SolveError(failure.substr(1));
-  throw FileError(failure.substr(1));
+  fail_as(ranks().of_rank(0, ranks().first() ? failure_of(work) : std::string()));
+}
+
+void on_each_rank(const std::function<void()>& work) {
+  if (ranks().alone()) return work();
+  fail_as(ranks().first_said(failure_of(work)));
 }
 
 }  // namespace meniscus

@@ -7,6 +7,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -107,13 +108,18 @@ class PetscRanks final : public Ranks {
     return of_all;
   }
 
-  std::string of_first(const std::string& mine) override {
-    auto length = static_cast<std::int64_t>(mine.size());
-    MPI_Bcast(&length, 1, MPI_INT64_T, 0, PETSC_COMM_WORLD);
-    std::string text = mine;
-    text.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, PETSC_COMM_WORLD);
-    return text;
+  void hand_out(int from, void* values, std::size_t bytes) override {
+    constexpr std::size_t most = std::size_t{1} << 30;  // MPI counts by int
+    auto* part = static_cast<std::byte*>(values);
+    for (std::size_t left = bytes; left > 0;) {
+      const std::size_t now = std::min(left, most);
+      MPI_Bcast(part, static_cast<int>(now), MPI_BYTE, from, PETSC_COMM_WORLD);
+      part += now;
+      left -= now;
+    }
+    if (from != rank_) return;
+    ++traffic_.messages;
+    traffic_.bytes += static_cast<std::int64_t>(bytes);
   }
 
   std::unique_ptr<Exchange> exchange(Index roots, const std::vector<Leaf>& leaves) override {

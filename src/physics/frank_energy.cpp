@@ -4,6 +4,7 @@
 
 #include "meniscus/approx/monomials.hpp"
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/divided.hpp"
 
 #include <fmt/core.h>
 
@@ -78,7 +79,7 @@ Report FrankEnergy<D>::add_force(const Motion& motion, Forces force) {
 template <int D>
 std::optional<Real> FrankEnergy<D>::stored_energy(const Motion& motion) const {
   const NodalVector *u = motion.u.data() + body_.first, *h = director(motion);
-  return parallel_sum(rule_.groups(), 0.0, [&](Index P) {
+  return divided_sum(rule_.groups(), 0.0, [&](Index P) {
     Tensor<Lanes> H, slope;
     rule_.gather(P, u, H);
     rule_.gather(P, h, slope);
@@ -92,14 +93,14 @@ std::optional<Real> FrankEnergy<D>::stored_energy(const Motion& motion) const {
 
 template <int D>
 void FrankEnergy<D>::hold_places(const NodalVector* u) {
-  for_chunks(rule_.groups(), [&](Index, Index begin, Index end) {
-    for (Index P = begin; P < end; ++P) {
-      Tensor<Lanes> H;
-      rule_.gather(P, u, H);
-      const Lanes J = 1.0 + volume_change(H);
-      at(metric_, P) = metric(P, cofactor_of_deformation(H), J);
-      at(volume_, P) = sum(rule_.weight(P) * J);
-    }
+  const OwnItems own = own_rows(rule_.groups());
+  parallel_for(own.end - own.begin, [&](Index k) {
+    const Index P = own.begin + k;
+    Tensor<Lanes> H;
+    rule_.gather(P, u, H);
+    const Lanes J = 1.0 + volume_change(H);
+    at(metric_, P) = metric(P, cofactor_of_deformation(H), J);
+    at(volume_, P) = sum(rule_.weight(P) * J);
   });
 }
 
@@ -119,7 +120,7 @@ Tensor<Lanes> weighted(const Tensor<Lanes>& x, const Metric& M) {
 
 template <int D>
 Real FrankEnergy<D>::held_energy(const NodalVector* x) const {
-  return parallel_sum(rule_.groups(), 0.0, [&](Index P) {
+  return divided_sum(rule_.groups(), 0.0, [&](Index P) {
     Tensor<Lanes> slope;
     rule_.gather(P, x, slope);
     const Real r = excess(P, x);

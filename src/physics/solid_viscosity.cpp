@@ -15,6 +15,7 @@ class SolidViscosity final : public ForceTerm {
       : body_(body),
         rule_(build_cell_rule(body).rule),
         windows_(rule_.windows(body.size())),
+        own_(own_rows(rule_.groups())),
         shear_(shear),
         volumetric_(volumetric) {}
 
@@ -29,7 +30,7 @@ class SolidViscosity final : public ForceTerm {
         body_.part(std::span<NodalVector>(force)),
         [&](int chunk, Index begin, Index end, NodalVector* f) {
           Lanes power = Lanes::zero();
-          KeptDeformations kept(kept_.empty() ? nullptr : kept_.data());
+          KeptDeformations kept(this->kept());
           for (Index g = begin; g < end; ++g) {
             Tensor<Lanes> H, F_rate;
             rule_.gather(g, u, H);
@@ -48,7 +49,9 @@ class SolidViscosity final : public ForceTerm {
     return report;
   }
 
-  void expect_viscous_calls() override { kept_.resize(static_cast<std::size_t>(rule_.groups())); }
+  void expect_viscous_calls() override {
+    kept_.resize(static_cast<std::size_t>(own_.end - own_.begin));
+  }
   void add_viscous(const Motion& motion, Forces force) override {
     const NodalVector* v = motion.v.data() + body_.first;
     windows_.accumulate(body_.part(std::span<NodalVector>(force)),
@@ -56,7 +59,7 @@ class SolidViscosity final : public ForceTerm {
                           for (Index g = begin; g < end; ++g) {
                             Tensor<Lanes> F_rate;
                             rule_.gather(g, v, F_rate);
-                            rule_.scatter(g, -rule_.weight(g) * stress(at(kept_, g), F_rate), f);
+                            rule_.scatter(g, -rule_.weight(g) * stress(kept()[g], F_rate), f);
                           }
                         });
   }
@@ -64,7 +67,7 @@ class SolidViscosity final : public ForceTerm {
   void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
     windows_.accumulate(body_.part(diagonal), [&](int, Index begin, Index end, NodalVector* sum) {
       for (Index g = begin; g < end; ++g) {
-        const Tensor<Lanes> F = add_diagonal(at(kept_, g), Lanes(1.0));
+        const Tensor<Lanes> F = add_diagonal(kept()[g], Lanes(1.0));
         const Lanes w = rule_.weight(g);
         std::array<Tensor<Lanes>, D> weighted;
         for (int i = 0; i < D; ++i) {
@@ -82,9 +85,11 @@ class SolidViscosity final : public ForceTerm {
   std::size_t bytes() const override {
     return rule_.bytes() + windows_.bytes() + kept_.size() * sizeof(Tensor<Lanes>);
   }
-  Offset pairs() const override { return rule_.pairs(); }
+  Offset pairs() const override { return windows_.pairs(); }
 
  private:
+  /// H, [group] of this rank; null: not kept.
+  Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data() - own_.begin; }
   Tensor<Lanes> stress(const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const {
     const Tensor<Lanes> F = add_diagonal(H, Lanes(1.0));
     const Tensor<Lanes> half = transpose(F) * F_rate;
@@ -95,8 +100,9 @@ class SolidViscosity final : public ForceTerm {
   const Body<D>& body_;
   CellRule<D> rule_;
   ForceWindows windows_;
+  OwnItems own_;  // groups whose rows this rank has
   Lanes shear_, volumetric_;
-  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [group] H
+  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group]
 };
 
 }  // namespace

@@ -2,8 +2,6 @@
 // Tangent, energy, failures, warnings and output of the internal force.
 #include "meniscus/physics/stress_point_force.hpp"
 
-#include "meniscus/core/divided.hpp"
-
 #include <fmt/core.h>
 
 namespace meniscus {
@@ -62,7 +60,7 @@ void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diag
   if (kept_.empty()) return;
   accumulate(diagonal, [&](int, Index begin, Index end, NodalVector* sum) {
     for (Index g = begin; g < end; ++g) {
-      const auto viscosity = laws_->viscosity(g, 0, at(kept_, g));
+      const auto viscosity = laws_->viscosity(g, 0, kept()[g]);
       std::array<Tensor<Lanes>, D> weighted;
       for (int i = 0; i < D; ++i) at(weighted, i) = rule_.weight(g) * at(viscosity, i);
       rule_.add_diagonal(g, weighted, sum);
@@ -108,7 +106,8 @@ template <int D, class Rule>
 std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
                                                              const NodalVector* u) const {
   if (group == no_group) return std::nullopt;
-  const Tensor<Lanes> H = gradients(group, u);
+  Tensor<Lanes> H = gradients(group, u);
+  ranks().hand_out(rank_of_row(rule_.groups(), group), &H, sizeof H);
   int lane = 0;
   while (1 + volume_change(lane_of(H, lane)) > 0) ++lane;
   const Tensor<Real> F = deformation_gradient(lane_of(H, lane));
@@ -124,8 +123,14 @@ std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
 template <int D, class Rule>
 std::optional<std::string> StressPointForce<D, Rule>::warning(const Motion& motion) const {
   if (!laws_->warns()) return {};
+  const std::string said = ranks().first_said(own_warning(motion));
+  return said.empty() ? std::nullopt : std::optional(said);
+}
+
+template <int D, class Rule>
+std::string StressPointForce<D, Rule>::own_warning(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  for (Index g = 0; g < rule_.groups(); ++g) {
+  for (Index g = own_.begin; g < own_.end; ++g) {
     const Tensor<Lanes> H = gradients(g, u);
     const Lanes w = rule_.weight(g);
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
@@ -141,15 +146,17 @@ template <int D, class Rule>
 void StressPointForce<D, Rule>::visit(const Motion& motion,
                                       const std::function<void(const StressPoint&)>& f) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  for (Index g = 0; g < rule_.groups(); ++g) {
-    const Tensor<Lanes> H = gradients(g, u), P = laws_->stress(g, motion.time, H);
-    const Lanes w = rule_.weight(g);
-    for (int lane = 0; lane < rule_.points_per_group(); ++lane)
-      if (w[lane] > 0) {
-        const Index owner = rule_.owner(g, lane);
-        f({owner, w[lane], lane_of(H, lane), lane_of(P, lane), body_.volume_ratio(owner)});
-      }
-  }
+  for_all_in_order(
+      rule_.groups(), [&](Index g) { return gradients(g, u); },
+      [&](Index g, const Tensor<Lanes>& H) {
+        const Tensor<Lanes> P = laws_->stress(g, motion.time, H);
+        const Lanes w = rule_.weight(g);
+        for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+          if (w[lane] > 0) {
+            const Index owner = rule_.owner(g, lane);
+            f({owner, w[lane], lane_of(H, lane), lane_of(P, lane), body_.volume_ratio(owner)});
+          }
+      });
 }
 
 template <int D, class Rule>

@@ -3,6 +3,7 @@
 // note 3): f_A = - sum_q gamma da e grad N_A. Of material points it is the gradient of the energy
 // sum gamma da; of places it is not, and what the outside does, sum da Dgamma/Dt, is booked as
 // external work.
+#include "meniscus/core/divided.hpp"
 #include "meniscus/core/expression.hpp"
 #include "meniscus/physics/surface_registry.hpp"
 
@@ -70,7 +71,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
                         });
     Report report;
     if (!changes_) return report;
-    windows_.complete(std::span(now_.area), Lanes::width);
+    complete_rows(surface_.groups(), now_.area.data(), sizeof(Lanes));
     report.external_work = supplied();
     return report;
   }

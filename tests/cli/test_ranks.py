@@ -28,6 +28,23 @@ SHORT_REMAP = REMAPPED_DROP.replace('"60 ps"', '"9 ps"').replace('["17 ps", "35 
 SHORT_BLOCK = BLOCK.replace("end = 0.4", "end = 0.06")
 PUSHED = BLOCK.replace("[time]", "[time]\nstep = 0.008").replace(
     "[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
+FIELDS = 'fields = ["J", "F", "pressure", "von_mises", "cauchy_stress", "velocity"]\n' \
+    'measures = ["block.volume", "block.min_J", "block.mean_pressure"]'
+VARYING = SHORT_BLOCK.replace("mu = 1e5", 'mu = "1e5*(1 + x)"')
+# [name] what the rows of the internal force can be: of cells, in single precision, of Gauss points
+# in fours and one by one, of particles, and those of a viscosity
+ROWS = {
+    "cells": SHORT_BLOCK,
+    "single precision": SHORT_BLOCK.replace("[body.material]", 'precision = "single"\n[body.material]'),
+    "Gauss points": SHORT_BLOCK.replace("[body.material]",
+                                        'integration = "gauss"\ngauss_points = 2\n[body.material]'),
+    "points of laws of their own": VARYING.replace(
+        "[body.material]", 'integration = "gauss"\ngauss_points = 1\n[body.material]'),
+    "particles": SHORT_BLOCK.replace("[body.material]", 'integration = "nodal"\n[body.material]'),
+    "a viscosity": SHORT_BLOCK.replace("[body.material]", "[body.material]\nviscosity = 10"),
+}
+PRESSED = SHORT_BLOCK.replace("neo_hookean", "st_venant_kirchhoff").replace(
+    "[[body]]", '[[body]]\ninitial_velocity = ["-15*x^2", 0, 0]')
 BENT_SHEET = RELAXING_SHEET.replace('"relax"', '"newton"')
 
 SMALLER = ("--set", "body.drop.core=4", "--set", "body.drop.layers=2")
@@ -85,8 +102,35 @@ class SameBits(RanksTest):
             for name in frame:
                 self.assertTrue((frame[name] == other[name]).all(), name)
 
-    def test_solid(self):
-        self.assert_same_bits((3,), self.scene(SHORT_BLOCK))
+    def test_rows(self):
+        """Also of what reads rows of all ranks: fields and measures."""
+        for name, scene in ROWS.items():
+            with self.subTest(name):
+                self.directory = self.directory / name.split()[-1]
+                self.directory.mkdir()
+                self.assert_same_bits((3,), self.scene(with_output(scene, FIELDS)))
+                self.assert_same_frames(self.frames("ranks3"), self.frames("alone"))
+                self.directory = self.directory.parent
+
+    def test_own_rows(self):
+        """A rank has the rows of its part only."""
+        scene = self.scene(SHORT_BLOCK.replace("[4, 4, 4]", "[12, 12, 12]"))
+        megabytes = {}
+        for count in (1, 4):
+            self.ranks(count, "run", scene, "--output", f"ranks{count}", "--until", 1e-5)
+            log = self.log(f"ranks{count}")
+            megabytes[count] = float(re.search(r"([\d.]+) MB for the internal force", log)[1])
+        self.assertLess(megabytes[4], 0.35 * megabytes[1])
+        self.assertRegex(log, r"at most \d+ MB of memory")
+
+    def test_doubtful_law(self):
+        """What the law of one rank warns of is said once, with the words of a run that is alone."""
+        scene = self.scene(PRESSED)
+        self.call("run", scene, "--output", "alone")
+        self.ranks(3, "run", scene, "--output", "ranks3")
+        warnings = [re.findall(r"warning: t = .*", self.log(name)) for name in ("alone", "ranks3")]
+        self.assertTrue(warnings[0])
+        self.assertEqual(*warnings)
 
     def test_new_reference(self):
         self.assert_same_bits((3,), self.scene(SHORT_REMAP))
@@ -142,12 +186,13 @@ class Failures(RanksTest):
         self.assert_said_once(self.ranks(2, "run", scene, "--output", "out", code=5), "already holds")
 
     def test_failing_run(self):
-        """It fails at the same step, with the same words, once."""
+        """It fails at the same step, with the same words, once, whichever rank has the rows."""
         scene = self.scene(PUSHED)
         alone = self.call("run", scene, "--output", "alone", code=4)
-        done = self.ranks(2, "run", scene, "--output", "out", code=4)
         words = re.search(r"error: (step.*)", alone.stderr)[1]
-        self.assert_said_once(done, words)
+        for count in (2, 4):
+            done = self.ranks(count, "run", scene, "--output", f"ranks{count}", code=4)
+            self.assert_said_once(done, words)
 
     def test_full_disk(self):
         """The first rank cannot write: all end, by the exit code of files."""

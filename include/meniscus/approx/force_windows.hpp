@@ -17,7 +17,8 @@ namespace meniscus {
 class ForceWindows {
  public:
   ForceWindows() = default;
-  /// Windows for compressed rows. All ranks make them of the same rows.
+  /// Windows for compressed rows. All ranks make them of the same number of rows, of which each has
+  /// those of its own chunks at least (own_rows()).
   ForceWindows(std::span<const Offset> start, std::span<const Index> particle, Index particles);
 
   /// Calls work(chunk, begin row, end row, window) for each chunk of this rank; window[A] += ... is
@@ -42,21 +43,17 @@ class ForceWindows {
     }
   }
 
-  /// What the work of accumulate() has written per row, `per_row` numbers each, of all rows.
-  template <class T>
-  void complete(std::span<T> of_rows, int per_row = 1) {
-    if (shared_)
-      shared_->spread_rows(of_rows.data(), sizeof(T) * static_cast<std::size_t>(per_row));
-  }
-
   /// All chunk numbers are below this.
   int chunks() const { return chunks_; }
+  /// Pairs of the rows of all ranks and particles.
+  Offset pairs() const { return pairs_; }
   std::size_t bytes() const { return sums_.size() * sizeof(Lanes); }
 
  private:
   void add_to(std::span<NodalVector> force) const;
 
   int chunks_ = 0;
+  Offset pairs_ = 0;
   std::vector<WindowChunk> own_;     // whose rows this rank does
   std::vector<WindowChunk> summed_;  // windows over this rank's particles, ascending
   NodalVectors sums_;

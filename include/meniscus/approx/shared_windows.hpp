@@ -27,8 +27,9 @@ inline Offset window_length(const WindowChunk& chunk) {
 
 class SharedWindows {
  public:
-  /// `chunks`: all that have rows, in ascending order, of compressed rows.
-  SharedWindows(const std::vector<WindowChunk>& chunks, std::span<const Offset> start,
+  /// `chunks`: all that have rows, in ascending order, of compressed rows; of the rows, and of the
+  /// particles that chunks reach, only those of own chunks are looked at.
+  SharedWindows(std::vector<WindowChunk> chunks, std::span<const Offset> start,
                 std::span<const Index> particle, Index particles);
 
   /// Those whose rows this rank does.
@@ -37,6 +38,8 @@ class SharedWindows {
   const std::vector<WindowChunk>& summed() const { return summed_; }
   /// Of the sums of all windows here.
   Offset size() const { return size_; }
+  /// Pairs of all rows and particles.
+  Offset pairs() const { return pairs_; }
 
   /// Windows of the rows of other ranks.
   void bring_windows(NodalVectors& sums) const {
@@ -46,20 +49,20 @@ class SharedWindows {
   void spread_forces(std::span<NodalVector> force) const {
     particles_->bring(force.data(), force.data(), sizeof(NodalVector));
   }
-  void spread_rows(void* of_rows, std::size_t bytes_per_row) const {
-    rows_->bring(of_rows, of_rows, bytes_per_row);
-  }
   template <class... T>
   void spread_results(PerChunk<T>&... results);
 
  private:
-  /// Particles that the rows of a chunk touch, ascending, [chunk].
-  using Touched = std::vector<std::vector<Index>>;
+  /// Which particles of its window the rows of a chunk touch, [chunk][particle - low].
+  using Touched = std::vector<std::vector<bool>>;
 
+  void find_windows(std::vector<WindowChunk>& chunks, std::span<const Offset> start);
   void divide(const std::vector<WindowChunk>& chunks, Index particles);
+  Touched touched(const std::vector<WindowChunk>& chunks, std::span<const Offset> start,
+                  std::span<const Index> particle) const;
   void share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched);
-  void share_particles(const Touched& touched);
-  void share_rows(const std::vector<WindowChunk>& chunks);
+  void share_particles(const std::vector<WindowChunk>& chunks, const Touched& touched);
+  void share_results(const std::vector<WindowChunk>& chunks);
 
   template <class T>
   static constexpr std::size_t in_record = (sizeof(T) + 7) / 8 * 8;
@@ -67,10 +70,10 @@ class SharedWindows {
   std::vector<int> rank_;      // that does a chunk, [chunk]
   std::vector<Index> border_;  // particle at which those of a rank begin, [rank], and their number
   std::vector<WindowChunk> own_, summed_;
-  Offset size_ = 0;
+  Offset size_ = 0, pairs_ = 0;
   int numbers_ = 0;           // of chunks are below this
   std::vector<int> foreign_;  // numbers of the chunks of others
-  std::unique_ptr<Exchange> windows_, particles_, chunks_, rows_;
+  std::unique_ptr<Exchange> windows_, particles_, chunks_;
   std::vector<std::byte> records_;  // results, [chunk number]
 };
 

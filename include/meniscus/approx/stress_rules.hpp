@@ -35,7 +35,8 @@ void add_squares(const std::array<Tensor<Lanes>, D>& S, const std::array<Lanes, 
 /// Nodal cells with linear moments, "q_scni" (RKPM note 5.3): in cell L the gradient of a field is
 /// sum_A f_A (a_A + B_A xi), evaluated at D + 1 points xi_q of equal weight that reproduce volume,
 /// centroid and covariance of the cell. A group is a cell. Rows may have coefficients in single
-/// precision, behind those in double that make up for their rounding (performance note 2).
+/// precision, behind those in double that make up for their rounding (performance note 2). Rows of
+/// other ranks are empty.
 template <int D>
 struct CellRule {
   std::vector<Offset> start{0};         ///< [cell + 1]
@@ -191,10 +192,12 @@ struct CellRule {
 /// different material numbers).
 template <int D>
 struct PointRule {
-  PointRows<D> rows;               ///< gradients
+  static constexpr Index most_per_group = 4;
+
+  PointRows<D> rows;               ///< gradients; those of other ranks may be empty
   std::vector<Real> point_weight;  ///< [point]: reference volume
   std::vector<Index> point_owner;  ///< [point]: nearest particle, for messages and output
-  Index per_group = 4;
+  Index per_group = most_per_group;
 
   Index groups() const { return (rows.size() + per_group - 1) / per_group; }
   Index points_per_group() const { return per_group; }

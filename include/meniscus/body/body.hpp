@@ -7,6 +7,7 @@
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/body/reference.hpp"
+#include "meniscus/core/divided.hpp"
 
 #include <memory>
 #include <string>
@@ -67,17 +68,23 @@ struct CellOperator {
   std::vector<Real> shape_integral;  ///< [particle] integral of N_A over the body
 };
 
-/// Throws SolveError where shape functions cannot be determined.
+/// The rows of this rank (own_rows()), and the integrals over all cells. Throws SolveError where
+/// shape functions cannot be determined.
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision = RowPrecision::full);
-
-/// `points_per_direction` Gauss points in every cell of the grid.
+/// Likewise the rows of some cells, which the ranks share out; those of all others are empty.
 template <int D>
-PointRule<D> build_gauss_rule(const Body<D>& body, int points_per_direction);
+CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells);
 
-/// One point per particle with the volume of its nodal cell: unstable, for comparison only.
+/// `points_per_direction` Gauss points in every cell of the grid. The rows of this rank.
 template <int D>
-PointRule<D> build_nodal_rule(const Body<D>& body);
+PointRule<D> build_gauss_rule(const Body<D>& body, int points_per_direction,
+                              Index per_group = PointRule<D>::most_per_group);
+
+/// One point per particle with the volume of its nodal cell: unstable, for comparison only. The
+/// rows of this rank.
+template <int D>
+PointRule<D> build_nodal_rule(const Body<D>& body, Index per_group = PointRule<D>::most_per_group);
 
 /// Integrals of the shape functions over the body, without building a rule.
 template <int D>

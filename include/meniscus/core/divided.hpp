@@ -13,6 +13,14 @@ struct OwnItems {
   Index begin, end;
 };
 OwnItems own_items(Index n);
+/// The rank that does an item of n.
+int rank_of_item(Index n, Index item);
+/// The rows of the chunks of this rank, of n rows.
+OwnItems own_rows(Index n);
+/// The rank whose rows have a row of n.
+int rank_of_row(Index n, Index row);
+/// Brings values of so many bytes, [row], of the rows of the others.
+void complete_rows(Index n, void* values, std::size_t bytes_per_value);
 /// Brings values of so many bytes, [item], of the others.
 void complete_items(Index n, void* values, std::size_t bytes_per_value);
 
@@ -29,6 +37,22 @@ void divided_for(Index n, F&& f, Record&& record, Take&& take, int grain = 64) {
   complete_items(n, records.data(), sizeof records[0]);
   for (Index k = 0; k < n; ++k)
     if (k < own.begin || k >= own.end) take(k, at(records, k));
+}
+
+/// Calls use(i, value) for all i < n in ascending order on all ranks, with value = make(i) of the
+/// rank whose rows have i. Makes those of a chunk at a time.
+template <class Make, class Use>
+void for_all_in_order(Index n, Make&& make, Use&& use) {
+  std::vector<decltype(make(0))> values;
+  for (int c = 0; c < chunk_count(n); ++c) {
+    const Index begin = chunk_begin(n, c), size = chunk_begin(n, c + 1) - begin;
+    const int rank = rank_of_item(chunk_count(n), c);
+    values.resize(static_cast<std::size_t>(size));
+    if (rank == ranks().rank())
+      parallel_for(size, [&](Index k) { at(values, k) = make(begin + k); });
+    ranks().hand_out(rank, values.data(), values.size() * sizeof values[0]);
+    for (Index k = 0; k < size; ++k) use(begin + k, at(values, k));
+  }
 }
 
 /// parallel_sum() with the same bits, of which each rank does some chunks.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that is left to the program.
+// Memory that the program has used, and that is left to it.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -8,5 +8,8 @@ namespace meniscus {
 /// Bytes that the process can still ask for: what the machine has free, within the limits of the
 /// process (ulimit -v) and of its control group. Infinite where nothing is known.
 Real available_memory();
+
+/// Bytes that the process has had in memory at most.
+Real peak_memory();
 
 }  // namespace meniscus

@@ -51,8 +51,13 @@ class Ranks {
 
   /// The largest of what the ranks say.
   virtual std::int64_t largest(std::int64_t mine) { return mine; }
-  /// What the first rank says.
-  virtual std::string of_first(const std::string& mine) { return mine; }
+  /// Brings all ranks what one of them has in the same array.
+  virtual void hand_out([[maybe_unused]] int from, [[maybe_unused]] void* values,
+                        [[maybe_unused]] std::size_t bytes) {}
+  /// What one of the ranks says.
+  std::string of_rank(int rank, std::string mine);
+  /// What the first rank says that does not say nothing.
+  std::string first_said(std::string mine);
   /// For leaves that are on other ranks than their roots. Not called by a rank that is alone.
   virtual std::unique_ptr<Exchange> exchange(Index roots, const std::vector<Leaf>& leaves);
   /// At the end of the program: returns the exit code of all. If the others do not come, this rank
@@ -74,7 +79,11 @@ bool can_join_ranks();
 bool register_ranks(std::unique_ptr<Ranks> (*join)());
 
 /// Calls what only one rank may do, as to write a file, on the first one. What fails there as
-/// FileError or SolveError fails on all ranks.
+/// FileError, InputError or SolveError fails on all ranks.
 void on_first_rank(const std::function<void()>& work);
+
+/// Calls what each rank does for a part of its own, as to build rows. What fails so on one of them
+/// fails on all.
+void on_each_rank(const std::function<void()>& work);
 
 }  // namespace meniscus

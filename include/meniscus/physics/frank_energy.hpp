@@ -25,7 +25,9 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   std::optional<std::string> warning(const Motion& motion) const override;
   std::vector<MeasureSource> measures() const override;
   std::size_t bytes() const override;
-  Offset pairs() const override { return 3 * rule_.pairs() + 2 * body_.at_particles.entries(); }
+  Offset pairs() const override {
+    return 3 * cell_windows_.pairs() + 2 * body_.at_particles.entries();
+  }
 
   void hold_places(const NodalVector* u) override;
   Real held_energy(const NodalVector* x) const override;
@@ -46,7 +48,7 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   Real length_stiffness_;  // K/eps^2
   CellRule<D> rule_;
   ForceWindows cell_windows_, value_windows_;
-  // Of the places held:
+  // Of the places held, for the cells whose rows this rank has:
   AlignedVector<Metric> metric_;  // [cell]
   std::vector<Real> volume_;      // [cell]
 };

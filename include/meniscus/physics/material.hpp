@@ -78,9 +78,9 @@ class MaterialOf final : public Material<D> {
     const std::vector<Vec<D>> places =
         gauss ? cell_gauss_points(body.geometry.grid, integration.gauss_points).X
               : std::vector<Vec<D>>(X.begin(), X.end());
-    PointRule<D> rule =
-        gauss ? build_gauss_rule(body, integration.gauss_points) : build_nodal_rule(body);
-    if (!uniform()) rule.per_group = 1;
+    const Index per_group = uniform() ? PointRule<D>::most_per_group : 1;
+    PointRule<D> rule = gauss ? build_gauss_rule(body, integration.gauss_points, per_group)
+                              : build_nodal_rule(body, per_group);
     return integrated(body, std::move(rule), laws_at(places, body.geometry), shape_integrals(body),
                       integration);
   }

@@ -5,6 +5,7 @@
 #pragma once
 #include "meniscus/approx/stress_rules.hpp"
 #include "meniscus/body/surface_patches.hpp"
+#include "meniscus/core/divided.hpp"
 #include "meniscus/physics/force_term.hpp"
 #include "meniscus/physics/point_laws.hpp"
 #include "meniscus/physics/stress_output.hpp"
@@ -46,7 +47,7 @@ class StressPointForce : public ForceTerm {
            kept_.size() * sizeof(Tensor<Lanes>);
   }
   void add_viscous_diagonal(std::span<NodalVector> diagonal) final;
-  Offset pairs() const final { return rule_.pairs() + (surface_ ? surface_->pairs() : 0); }
+  Offset pairs() const final { return windows_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
  protected:
   StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<PointLaws> laws,
@@ -54,6 +55,7 @@ class StressPointForce : public ForceTerm {
       : body_(body),
         rule_(std::move(rule)),
         windows_(rule_.windows(body.size())),
+        own_(own_rows(rule_.groups())),
         laws_(std::move(laws)),
         surface_(std::move(surface)),
         spacing_(mean_spacing(body.geometry.grid)) {}
@@ -79,9 +81,9 @@ class StressPointForce : public ForceTerm {
       surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
 
-  /// From now on add_force leaves H of all groups in kept().
-  void keep_deformations() { kept_.resize(static_cast<std::size_t>(rule_.groups())); }
-  Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data(); }
+  /// From now on add_force leaves H of the groups of this rank in kept()[group].
+  void keep_deformations() { kept_.resize(static_cast<std::size_t>(own_.end - own_.begin)); }
+  Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data() - own_.begin; }
 
   static constexpr Index no_group = std::numeric_limits<Index>::max();
   /// The first of these groups with a point where J <= 0 or not a number; no_group if there is
@@ -99,16 +101,19 @@ class StressPointForce : public ForceTerm {
   Tensor<Dual<Lanes>> gradients(Index group, const NodalVector* u, const NodalVector* du) const {
     return dual(gradients(group, u), gradients(group, du));
   }
+  /// Of the groups of this rank; empty if there is nothing to say.
+  std::string own_warning(const Motion& motion) const;
   void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
   VisitStressPoints visitor() const;
 
   const Body<D>& body_;
   Rule rule_;
   ForceWindows windows_;
+  OwnItems own_;  // groups whose rows this rank has
   std::unique_ptr<PointLaws> laws_;
   std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
   Real spacing_;
-  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [group]
+  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group]
 };
 
 extern template class StressPointForce<2, CellRule<2>>;

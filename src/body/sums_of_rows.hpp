@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums over particles of what rows say of them, with the same bits whichever rank has the rows.
+#pragma once
+#include "meniscus/core/ranks.hpp"
+
+#include <deque>
+#include <vector>
+
+namespace meniscus {
+
+/// Adds in the order of the rows: a rank keeps what its rows say until the ranks before have added
+/// what theirs do.
+class SumsOfRows {
+ public:
+  explicit SumsOfRows(Index particles) : sums_(static_cast<std::size_t>(particles), 0.0) {}
+
+  /// Of the next entry of a row of this rank.
+  void add(Index A, Real value) {
+    if (ranks().first()) {
+      at(sums_, A) += value;
+      return;
+    }
+    particle_.push_back(A);
+    value_.push_back(value);
+  }
+
+  /// The sums over the rows of all ranks, which all call it.
+  std::vector<Real> of_all() {
+    for (int rank = 0; rank < ranks().size(); ++rank) {
+      if (rank == ranks().rank()) add_kept();
+      ranks().hand_out(rank, sums_.data(), sums_.size() * sizeof(Real));
+    }
+    return std::move(sums_);
+  }
+
+ private:
+  void add_kept() {
+    for (std::size_t e = 0; e < particle_.size(); ++e) at(sums_, particle_[e]) += value_[e];
+  }
+
+  std::vector<Real> sums_;
+  std::deque<Index> particle_;  // of the entries kept
+  std::deque<Real> value_;
+};
+
+}  // namespace meniscus
