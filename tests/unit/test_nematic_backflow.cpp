@@ -110,8 +110,8 @@ TEST(Nematic, DecaysAndSwingsAtTheRatesOfItsBackflow) {
     fmt::print("backflow, {}, lambda {}, mu {}: error of the rates {:.2e}, {:.2e}\n",
                row.at("kind").get<std::string>(), row.at("lam").get<Real>(),
                row.at("mu").get<Real>(), coarse, fine);
-    EXPECT_LT(fine, 0.015) << row.dump();
-    EXPECT_LT(fine, std::max(coarse / 3, 0.007)) << row.dump();
+    EXPECT_LT(fine, 0.007) << row.dump();
+    EXPECT_LT(fine, coarse / 2) << row.dump();
   }
 }
 
