@@ -3,24 +3,25 @@
 #pragma once
 #include "meniscus/core/simd.hpp"
 
-#include <cstdlib>
-#include <new>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace meniscus {
 
+/// Memory that starts a cache line; from 4 MB on it starts a page of 2 MB and the system is asked
+/// for such pages, of which the processor finds the address sooner (performance note 2).
+void* allocate_lines(std::size_t bytes);
+void release_lines(void* p, std::size_t bytes);
+
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
-  static constexpr std::size_t alignment = 64;
   CacheLineAllocator() = default;
   template <class U>
   CacheLineAllocator(const CacheLineAllocator<U>&) {}
-  T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{alignment}));
-  }
-  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{alignment}); }
+  T* allocate(std::size_t n) { return static_cast<T*>(allocate_lines(n * sizeof(T))); }
+  void deallocate(T* p, std::size_t n) { release_lines(p, n * sizeof(T)); }
   template <class U>
   bool operator==(const CacheLineAllocator<U>&) const {
     return true;
