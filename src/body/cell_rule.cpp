@@ -308,7 +308,7 @@ const SharedFlux<D>& integrate_facet(const Body<D>& body, Index lower, Index hig
   return shared.front();
 }
 
-/// One row of the cell rule, before it is packed; entries by ascending particle.
+/// One row of the cell rule, before it is packed.
 template <int D>
 struct CellRow {
   struct Entry {
@@ -316,8 +316,10 @@ struct CellRow {
     Real integral = 0;
     Flux<D> flux;
   };
-  std::vector<Entry> entries;
-  std::vector<std::array<Lanes, D>> gradient;  // [entry][K]: (a_K, B_K.)
+  std::vector<Entry> entries;                  // by ascending particle
+  std::vector<Index> particle;                 // in the order in which they are packed
+  std::vector<std::array<Lanes, D>> gradient;  // likewise, [K]: (a_K, B_K.)
+  std::size_t exact = 0;                       // how many of them stay in double
 };
 
 /// Flux integrals of one nodal cell: a_K = (1/V) oint N n_K,
@@ -430,28 +432,42 @@ std::array<Lanes, D> stress_points(const Mat<D>& S) {
   return xi;
 }
 
-/// Appends a row to the rule, in the asked precision.
+/// Orders the entries of a row as they are packed and rounded.
 template <int D>
-void pack(const Body<D>& body, CellRow<D>& row, RowPrecision precision, CellRule<D>& rule) {
-  thread_local std::vector<Index> particle;
-  particle.clear();
-  for (const auto& entry : row.entries) particle.push_back(entry.particle);
-  const std::size_t exact =
-      precision == RowPrecision::full
-          ? particle.size()
-          : make_up_for_rounding<D>(body.particles.X(),
-                                    body.cells.centroid(static_cast<Index>(rule.start.size()) - 1),
-                                    particle, row.gradient);
-  rule.particle.insert(rule.particle.end(), particle.begin(), particle.end());
-  for (std::size_t e = 0; e < particle.size(); ++e)
-    for (const Lanes& g : row.gradient[e]) {
-      if (e < exact)
-        rule.coefficient.push_back(g);
-      else
-        rule.rounded.push_back(SingleLanes::rounded(g));
-    }
-  rule.start.push_back(static_cast<Offset>(rule.particle.size()));
-  rule.double_start.push_back(rule.double_start.back() + static_cast<Offset>(exact));
+void order_row(const Body<D>& body, Index cell, RowPrecision precision, CellRow<D>& row) {
+  row.particle.clear();
+  for (const auto& entry : row.entries) row.particle.push_back(entry.particle);
+  row.exact = precision == RowPrecision::full
+                  ? row.particle.size()
+                  : make_up_for_rounding<D>(body.particles.X(), body.cells.centroid(cell),
+                                            row.particle, row.gradient);
+}
+
+/// Appends rows to the rule.
+template <int D>
+void pack(std::span<const CellRow<D>> rows, CellRule<D>& rule) {
+  const std::size_t first = rule.start.size() - 1;
+  for (const CellRow<D>& row : rows) {
+    rule.start.push_back(rule.start.back() + static_cast<Offset>(row.particle.size()));
+    rule.double_start.push_back(rule.double_start.back() + static_cast<Offset>(row.exact));
+  }
+  rule.particle.resize(static_cast<std::size_t>(rule.start.back()));
+  rule.coefficient.resize(static_cast<std::size_t>(rule.double_start.back()) * D);
+  rule.rounded.resize(static_cast<std::size_t>(rule.start.back() - rule.double_start.back()) * D);
+  parallel_for(static_cast<Index>(rows.size()), [&](Index k) {
+    const CellRow<D>& row = rows[static_cast<std::size_t>(k)];
+    const Offset start = at(rule.start, first + static_cast<std::size_t>(k)),
+                 double_start = at(rule.double_start, first + static_cast<std::size_t>(k));
+    std::copy(row.particle.begin(), row.particle.end(), rule.particle.begin() + start);
+    Lanes* g = rule.coefficient.data() + double_start * D;
+    SingleLanes* r = rule.rounded.data() + (start - double_start) * D;
+    for (std::size_t e = 0; e < row.particle.size(); ++e)
+      for (const Lanes& x : row.gradient[e])
+        if (e < row.exact)
+          *g++ = x;
+        else
+          *r++ = SingleLanes::rounded(x);
+  });
 }
 
 /// Volumes and stress points of all cells: little beside their rows.
@@ -489,12 +505,15 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
         end - begin, [&](Index k) { integrate_cell(body, begin + k, at(integrals, k)); }, 4);
     parallel_for(
         end - first,
-        [&](Index k) { assemble_row<D>(body, first + k, integrals, begin, at(rows, k)); }, 4);
-    for (Index k = 0; k < end - first; ++k) {
-      CellRow<D>& row = at(rows, k);
-      for (const auto& entry : row.entries) shape_integral.add(entry.particle, entry.integral);
-      pack(body, row, precision, rule);
-    }
+        [&](Index k) {
+          assemble_row<D>(body, first + k, integrals, begin, at(rows, k));
+          order_row(body, first + k, precision, at(rows, k));
+        },
+        4);
+    for (Index k = 0; k < end - first; ++k)
+      for (const auto& entry : at(rows, k).entries)
+        shape_integral.add(entry.particle, entry.integral);
+    pack<D>(std::span(rows).first(static_cast<std::size_t>(end - first)), rule);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
 
 #include <fmt/core.h>
 
@@ -14,6 +15,8 @@
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "octant_tables.hpp"
 
 namespace meniscus {
 
@@ -183,15 +186,35 @@ NodeCells cells_of_nodes(const Grid<D>& grid) {
   return result;
 }
 
+namespace {
+
+template <int D>
+std::vector<TabulatedPoint<D>> tabulated(const TensorRule<D>& rule) {
+  std::vector<TabulatedPoint<D>> points;
+  for (std::size_t q = 0; q < rule.x.size(); ++q)
+    points.push_back(tabulate<D>(rule.x[q], rule.w[q]));
+  return points;
+}
+
+}  // namespace
+
 template <int D>
 Real volume(const Grid<D>& grid) {
   // det J has degree 2 per direction, 2 D - 1 where the cell is curved.
   const TensorRule<D> straight = tensor_rule<D>(2), curved = tensor_rule<D>(D);
-  Real sum = 0;
-  for (Index e = 0; e < grid.cell_count(); ++e)
-    for_gauss_points(grid, e, grid.bulge(e) ? curved : straight,
-                     [&](const Vec<D>&, Real weight) { sum += weight; });
-  return sum;
+  const auto of_straight = tabulated<D>(straight), of_curved = tabulated<D>(curved);
+  return parallel_sum(grid.cell_count(), 0.0, [&](Index e) {
+    const bool bulges = grid.bulge(e) != nullptr;
+    Real sum = 0;
+    if (is_simplex<D>(at(grid.cells, e))) {
+      for_gauss_points(grid, e, bulges ? curved : straight,
+                       [&](const Vec<D>&, Real weight) { sum += weight; });
+      return sum;
+    }
+    const CellMap<D> map(grid, e);
+    for (const auto& p : bulges ? of_curved : of_straight) sum += p.w * determinant<D>(map(p).J);
+    return sum;
+  });
 }
 
 template <int D>

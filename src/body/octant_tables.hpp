@@ -6,6 +6,7 @@
 #include "meniscus/body/gauss.hpp"
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/core/dense.hpp"
+#include "meniscus/core/simd.hpp"
 
 #include <cmath>
 
@@ -269,7 +270,14 @@ class CellMap {
  public:
   CellMap(const Grid<D>& grid, Index cell)
       : bulge_(grid.bulge(cell)), simplex_(is_simplex<D>(at(grid.cells, cell))) {
-    for (int a = 0; a < (1 << D); ++a) corners_.col(a) = at(grid.X, at(at(grid.cells, cell), a));
+    for (int a = 0; a < corners; ++a)
+      at(corner_, a) = lanes_of(at(grid.X, at(at(grid.cells, cell), a)));
+    if (!bulge_) return;
+    for (int m = 0; m < Bulge<D>::mode_count; ++m) {
+      if (bulge_->deviation.col(m).isZero(0)) continue;
+      at(mode_, modes_) = m;
+      at(deviation_, modes_++) = lanes_of(bulge_->deviation.col(m));
+    }
   }
   const OctantTable<D>& table() const {
     return OctantTable<D>::instance(bulge_ ? bulge_->curved : 0);
@@ -279,18 +287,35 @@ class CellMap {
     return simplex_ ? &SimplexTable<D>::instance(bulge_ != nullptr) : nullptr;
   }
   CellPoint<D, D> operator()(const TabulatedPoint<D>& p) const {
-    // Not the products for large matrices, which take most of the time here.
-    CellPoint<D, D> point{corners_.lazyProduct(p.N), corners_.lazyProduct(p.dN)};
-    if (bulge_) {
-      point.X += bulge_->deviation.lazyProduct(p.bulge.N);
-      point.J += bulge_->deviation.lazyProduct(p.bulge.dN);
+    Lanes X = Lanes::zero();
+    std::array<Lanes, D> J;
+    J.fill(Lanes::zero());
+    const auto add = [&](const Lanes& x, Real N, const auto& dN) {
+      X += N * x;
+      for (int k = 0; k < D; ++k) at(J, k) += dN[k] * x;
+    };
+    for (int a = 0; a < corners; ++a) add(at(corner_, a), p.N[a], p.dN.row(a));
+    for (int m = 0; m < modes_; ++m) {
+      const int mode = at(mode_, m);
+      add(at(deviation_, m), p.bulge.N[mode], p.bulge.dN.row(mode));
+    }
+    CellPoint<D, D> point;
+    for (int i = 0; i < D; ++i) {
+      point.X[i] = X[i];
+      for (int k = 0; k < D; ++k) point.J(i, k) = at(J, k)[i];
     }
     return point;
   }
 
  private:
-  Eigen::Matrix<Real, D, (1 << D)> corners_;
+  static constexpr int corners = 1 << D;
+  static Lanes lanes_of(const Vec<D>& x) { return {x[0], x[1], D == 3 ? x[D - 1] : 0.0, 0.0}; }
+
+  std::array<Lanes, corners> corner_;
   const Bulge<D>* bulge_;
+  std::array<Lanes, Bulge<D>::mode_count> deviation_;  // of the modes that it has
+  std::array<int, Bulge<D>::mode_count> mode_;
+  int modes_ = 0;
   bool simplex_;
 };
 

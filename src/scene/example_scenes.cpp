@@ -35,8 +35,8 @@ std::string one_drop(int D) {
 
 std::string two_drops(int D) {
   return one_drop(D) + example_ball(D, "other") +
-         (D == 3 ? "centre = [2.2, 0, 0]\ninitial_velocity = [\"-0.3\", 0, 0]\n"
-                 : "centre = [2.2, 0]\ninitial_velocity = [\"-0.3\", 0]\n") +
+         (D == 3 ? "centre = [2.2, 0, 0]\ninitial_velocity = [\"-0.2\", 0, 0]\n"
+                 : "centre = [2.2, 0]\ninitial_velocity = [\"-0.2\", 0]\n") +
          example_solid();
 }
 

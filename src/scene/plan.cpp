@@ -4,16 +4,17 @@
 
 #include "meniscus/body/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/body/wall_supports.hpp"
-#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
+#include "meniscus/core/ranks.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 namespace meniscus {
@@ -60,22 +61,11 @@ void plan_material(const Block& body, BodyPlan<D>& plan) {
   block->done();
 }
 
-/// Each body for itself may be affordable where all are not.
-template <int D>
-void note_if_unaffordable(const Block& block, Real cells) {
-  try {
-    require_affordable<D>(cells, "the bodies up to this one");
-  } catch (const InputError& error) {
-    block.problem("shape", error.what());
-  }
-}
-
 template <int D>
 void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
   if (blocks.empty()) root.problem("body", "a scene needs at least one [[body]]");
   std::set<std::string> names;
-  Real cells = 0;
   for (const Block& block : blocks) {
     BodySettings settings = read<BodySettings>(block);
     if (!settings.name.empty() && !names.insert(settings.name).second)
@@ -95,8 +85,6 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
     require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
     Geometry<D> geometry = read_geometry<D>(block);
     const bool in_order = block.in_order();
-    cells += in_order ? geometry.grid.cell_count() : 0;
-    if (in_order && bodies.size() > 0) note_if_unaffordable<D>(block, cells);
     bodies.push_back({std::move(settings), std::move(geometry), nullptr, in_order});
     plan_material(block, bodies.back());
     block.done();
@@ -144,39 +132,63 @@ void plan_loads(const Block& root, Plan<D>& plan) {
   refuse_loads_of_other_dimension<D>(root);
 }
 
-/// Whether cells are all longer one way than another so much that the 20th neighbour, who is
-/// counted in all directions, does not tell of the long one. Round bodies are pressed back before
-/// it is counted (build_body), and the walls of cavities have cells of all directions.
+/// Solids in space reach an error much sooner with supports that are narrower than those of drops
+/// and curvature and do not grow at faces (performance note 3.1).
 template <int D>
-bool has_stretched_cells(const Geometry<D>& geometry) {
-  constexpr Real most = 1.1;  // beyond, moment matrices may be poor in the middle of a lattice
-  if (geometry.surface->smooth() || is_hollow(geometry)) return false;
-  return symmetric_eigenvalues<D>(mean_stretch(geometry.grid))[D - 1] > most;
-}
-
-/// Support over the length of support_by, as that to the 20th neighbour (plane: 8th), where the
-/// scene gives none. Solids in space reach the same error in a third of the time with narrower
-/// supports than drops and curvature need (performance note 3.1).
-template <int D>
-Real default_support(const BodyPlan<D>& body) {
-  const bool narrow = D == 3 && body.material && !body.material->fluid() && !body.curvature &&
-                      !has_stretched_cells(body.geometry);
-  return narrow ? 1.5 : 1.8;
+bool has_narrow_supports(const BodyPlan<D>& body) {
+  return D == 3 && body.material && !body.material->fluid() && !body.curvature;
 }
 
 /// Which length supports are multiples of where the scene does not say. A liquid is sheared at the
 /// surface by its director, and supports that grow there double the error (cells note 6).
 template <int D>
 std::string default_support_length(const BodyPlan<D>& body) {
-  return D == 2 && body.material && body.material->carries_director() ? "cells" : "neighbours";
+  const bool sheared = D == 2 && body.material && body.material->carries_director();
+  return sheared || has_narrow_supports(body) ? "cells" : "neighbours";
 }
 
 template <int D>
 void settle_supports(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
   for (std::size_t k = 0; k < bodies.size(); ++k)
-    bodies[k].settings.settle_support(blocks[k], default_support(bodies[k]),
+    bodies[k].settings.settle_support(blocks[k], has_narrow_supports(bodies[k]) ? 1.5 : 1.8,
                                       default_support_length(bodies[k]));
+}
+
+/// Bytes of a body while it is set up with integration "q_scni" and run, less than other rules
+/// take: rows have as many pairs as there are particles in a ball of the support and half of a
+/// cell's diagonal more (within 10 % of what is counted in lattices and balls).
+template <int D>
+Real expected_bytes(const BodyPlan<D>& body) {
+  const BodySettings& s = body.settings;
+  const Real support =
+      s.support_spacings > 0 ? s.support_spacings : *s.support_factor * std::sqrt(Real(D));
+  const Real reach = support + 0.6;
+  constexpr Real ball = (D == 3 ? 4.0 / 3 : 1.0) * std::numbers::pi;
+  const Real pairs = ball * std::pow(reach, D);
+  constexpr int gradients = D * (D + 1);  // means and linear moments
+  const Real bytes_per_pair = (s.precision == "single" ? 4.0 : 8.0) * gradients + 4;
+  constexpr Real rest = D == 3 ? 2e3 : 1e3;
+  return Real(body.geometry.grid.node_count()) * (pairs * bytes_per_pair / ranks().size() + rest);
+}
+
+/// Each body for itself may be affordable where all are not.
+template <int D>
+void require_memory_for(const Block& root, const BodyPlans<D>& bodies) {
+  const auto blocks = root.tables("body");
+  Real bytes = 0, particles = 0;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (!bodies[k].in_order) return;
+    bytes += expected_bytes(bodies[k]);
+    particles += bodies[k].geometry.grid.node_count();
+    try {
+      require_memory(bytes,
+                     fmt::format("{} would have {:.4g} particles",
+                                 k > 0 ? "the bodies up to this one" : "the body", particles));
+    } catch (const InputError& error) {
+      return blocks[k].problem("shape", error.what());
+    }
+  }
 }
 
 /// What can never be met, or is always, is a mistake.
@@ -244,6 +256,7 @@ Plan<D> read_plan(const SceneInput& input) {
   plan_bodies(input.root(), plan.bodies);
   plan_loads(input.root(), plan);
   settle_supports(input.root(), plan.bodies);
+  require_memory_for(input.root(), plan.bodies);
   input.root().done();
   input.check();
   return plan;

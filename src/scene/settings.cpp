@@ -130,13 +130,12 @@ Rows<BodySettings> BodySettings::rows() {
                    "1.5 for solids in 3D, else 1.8",
                    "support of a particle / length of support_by; both are measured after a round "
                    "body, as an ellipsoid, is pressed back to a ball. 1.8 also for solids whose "
-                   "cells are all stretched alike, by more than 1.1 over "
-                   "a cube of the same volume, or whose surface tension has form = \"curvature\""),
+                   "surface tension has form = \"curvature\""),
       choice_row("support_by", &S::support_by, {"automatic", "neighbours", "cells"},
                  "which length support_factor multiplies: the distance to the neighbour of rank "
                  "support_rank, which grows at faces, or the mean diagonal of the cells around the "
                  "particle, which does not; in a lattice both are the same. automatic: cells for "
-                 "nematics in the plane, else neighbours",
+                 "solids in 3D and nematics in the plane, else neighbours",
                  "automatic"),
       integer_row("support_rank", &S::support_rank, {0, 200},
                   "rank of that neighbour; 0: 20 in 3D, 8 in 2D", 0),

@@ -61,8 +61,7 @@ void run(StudyRun& study) {
   }
   for (const Method& method : methods)
     for (const int cells : study.levels())
-      study.record(
-          study::measure_lame_cube(method.name, cells, "support_spacings = 2.6\n" + method.keys));
+      study.record(study::measure_lame_cube(method.name, cells, method.keys));
 
   if (study.levels().size() > 1)
     study.require("order of the state error, q_scni", study.overall_order("q_scni", "state"),

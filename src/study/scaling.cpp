@@ -25,7 +25,6 @@ shape = "box"
 size = [1, 1, 1]
 corner = [0, 0, 0]
 cells = [{0}, {0}, {0}]
-support_spacings = 2.6
 initial_velocity = ["1e-5*cos(pi*x)*sin(pi*y)", "-1e-5*sin(pi*x)*cos(pi*y)", "0"]
 material = {{ type = "neo_hookean", density = 1, mu = 0.4, lambda = 0.6 }}
 )toml",

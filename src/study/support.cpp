@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How wide supports should be: errors of solids, drops and curvature against pairs and time, for
-// supports of f times the distance to the 20th neighbour (1.73 spacings of a lattice).
+// supports of f times the distance to the 20th neighbour and of f times the mean diagonal of the
+// cells around a particle. In a lattice both are 1.73 spacings, but at faces the first one grows.
 #include "meniscus/study/study.hpp"
 
 #include <fmt/core.h>
@@ -22,27 +23,47 @@ namespace {
 
 using namespace study;
 
-constexpr Real by_default = 1.8;
+struct Support {
+  bool by_cells;
+  Real factor;
+
+  /// "1.5 d_20", "1.5 diagonals"
+  std::string text() const {
+    return by_cells ? fmt::format("{:.4g} diagonals", factor)
+                    : support_text(factor, rank_of_degree<3>(2));
+  }
+};
+
+constexpr Support standard{false, 1.8};
 
 /// What supports are needed for.
 struct Use {
   std::string name;
   std::string error;  ///< by which supports are compared; empty: by none
   int finest;         ///< level
-  Measurement (*measure)(const std::string& method, Real factor, int level);
+  Measurement (*measure)(const std::string& method, Support support, int level);
 };
 
-std::string method_of(const Use& use, Real factor) {
-  return use.name + ", " + support_text(factor, rank_of_degree<3>(2));
+std::string method_of(const Use& use, Support support) {
+  return use.name + ", " + support.text();
 }
 
-std::unique_ptr<Body<3>> box(int n, Real jitter, Real factor) {
-  return unit_box<3>(n, jitter, 1, factor * std::sqrt(3.0));
+std::unique_ptr<Body<3>> box(int n, Real jitter, Support support) {
+  Geometry<3> geometry = unit_box_geometry<3>(n, jitter);
+  ParticleSet<3> particles = [&]() -> ParticleSet<3> {
+    constexpr Window window = Window::cubic_spline;
+    if (!support.by_cells)
+      return {geometry.grid.X, ParticleSet<3>::AdaptiveSupport{support.factor}, window};
+    std::vector<Real> lengths = diagonals_around_nodes<3>(geometry.grid, Mat<3>::Identity());
+    for (Real& length : lengths) length *= support.factor;
+    return {geometry.grid.X, lengths, window};
+  }();
+  return box_of(std::move(geometry), std::move(particles));
 }
 
-void solve_elastic(Measurement& m, const SmoothMap<3>& field, Real jitter, Real factor,
+void solve_elastic(Measurement& m, const SmoothMap<3>& field, Real jitter, Support support,
                    Real tolerance) {
-  const auto c = elastic_case<3>(box(m.level, jitter, factor), field, {});
+  const auto c = elastic_case<3>(box(m.level, jitter, support), field, {});
   const Stopwatch set_up;
   LinearBody<3> linear(*c.body, {"q_scni", 0}, c.moduli);
   m.set_up = set_up.seconds();
@@ -58,47 +79,50 @@ void solve_elastic(Measurement& m, const SmoothMap<3>& field, Real jitter, Real 
               {"iterations", Real(solution.iterations)}};
 }
 
-Measurement patch(const std::string& method, Real factor, int n) {
+Measurement patch(const std::string& method, Support support, int n) {
   Measurement m{.method = method, .level = n};
-  solve_elastic(m, polynomial_field<3>(true), 0.4, factor, 1e-15);
+  solve_elastic(m, polynomial_field<3>(true), 0.4, support, 1e-15);
   return m;
 }
 
-Measurement elasticity(const std::string& method, Real factor, int n) {
+Measurement elasticity(const std::string& method, Support support, int n) {
   Measurement m{.method = method, .level = n};
-  solve_elastic(m, smooth_field<3>(), 0.2, factor, 1e-9);
+  solve_elastic(m, smooth_field<3>(), 0.2, support, 1e-9);
   return m;
 }
 
-Measurement spectrum(const std::string& method, Real factor, int n) {
+Measurement spectrum(const std::string& method, Support support, int n) {
   static const Real lowest = cube_modes({}, 9)[6];
-  const auto body = box(n, 0.2, factor);
+  const auto body = box(n, 0.2, support);
   return measure_spectrum(method, {"q_scni", 0}, *body, n, lowest);
 }
 
-std::string body_keys(Real factor) {
-  return fmt::format("support_factor = {}", factor);
+std::string body_keys(Support support) {
+  return fmt::format("support_factor = {}\nsupport_by = \"{}\"", support.factor,
+                     support.by_cells ? "cells" : "neighbours");
 }
 
-Measurement vibration(const std::string& method, Real factor, int n) {
-  return measure_lame_cube(method, n, body_keys(factor));
+Measurement vibration(const std::string& method, Support support, int n) {
+  return measure_lame_cube(method, n, body_keys(support));
 }
 
-Measurement drop(const std::string& method, Real factor, int core) {
-  return measure_drop_mode(method, {.l = 2, .Oh = 0.2, .body_keys = body_keys(factor)}, core);
+Measurement drop(const std::string& method, Support support, int core) {
+  return measure_drop_mode(method, {.l = 2, .Oh = 0.2, .body_keys = body_keys(support)}, core);
 }
 
-Measurement rounding(const std::string& method, Real factor, int core) {
-  const StaticDrop drop{3, true, 0.93, "balanced", body_keys(factor)};
+Measurement rounding(const std::string& method, Support support, int core) {
+  const StaticDrop drop{3, true, 0.93, "balanced", body_keys(support)};
   Measurement m = measure_static_drop(drop, core, round_time(drop));
   m.method = method;
   return m;
 }
 
-Measurement curvature(const std::string& method, Real factor, int core) {
+Measurement curvature(const std::string& method, Support support, int core) {
   const CurvatureProblem<3> problem(reference_body<3>("ball", core), named_maps<3>().front());
-  Measurement m =
-      problem.measure(curvature_method<3>(2, factor, Window::cubic_spline, Places::points));
+  CurvatureMethod<3> by =
+      curvature_method<3>(2, support.factor, Window::cubic_spline, Places::points);
+  by.by_cells = support.by_cells;
+  Measurement m = problem.measure(by);
   m.method = method;
   m.level = core;
   return m;
@@ -114,20 +138,20 @@ std::optional<Real> time_to(Real error, const Measurement& a, const Measurement&
   return b.time * std::pow(b.error(name) / error, std::log(b.time / a.time) / fall);
 }
 
-/// Says what each support takes to the error that the default has at the last level but one.
-void compare(StudyRun& study, const Use& use, const std::vector<Real>& factors,
+/// Says what each support takes to the error that the standard has at the last level but one.
+void compare(StudyRun& study, const Use& use, const std::vector<Support>& supports,
              const std::vector<int>& levels) {
   if (use.error.empty() || levels.size() < 2) return;
   const int fine = levels.back(), coarse = levels[levels.size() - 2];
-  const auto of = [&](Real factor, int level) { return study.find(method_of(use, factor), level); };
-  const Measurement* standard = of(by_default, coarse);
+  const auto of = [&](Support s, int level) { return study.find(method_of(use, s), level); };
+  const Measurement& goal = *of(standard, coarse);
   std::string text = fmt::format("{}, time to the error {:.3g} over that of {}:", use.name,
-                                 standard->error(use.error), support_text(by_default, 20));
-  for (const Real factor : factors) {
+                                 goal.error(use.error), standard.text());
+  for (const Support support : supports) {
     const auto time =
-        time_to(standard->error(use.error), *of(factor, coarse), *of(factor, fine), use.error);
-    text += fmt::format("  {} {}", support_text(factor, 20),
-                        time ? fmt::format("{:.2f}", *time / standard->time) : "-");
+        time_to(goal.error(use.error), *of(support, coarse), *of(support, fine), use.error);
+    text += fmt::format("  {} {}", support.text(),
+                        time ? fmt::format("{:.2f}", *time / goal.time) : "-");
   }
   study.note(text);
 }
@@ -141,19 +165,20 @@ void run(StudyRun& study) {
                               {"drop", "rate", 8, drop},
                               {"rounding of an ellipsoid", "isoperimetric - 1", 8, rounding},
                               {"curvature", "L2", 20, curvature}};
-  std::vector<Real> factors{1.3, 1.4, 1.5, 1.65, by_default, 2};
-  if (study.brief()) factors = {1.5, by_default};
+  std::vector<Support> supports{{false, 1.5}, standard,     {false, 2},  {true, 1.2}, {true, 1.4},
+                                {true, 1.5},  {true, 1.65}, {true, 1.8}, {true, 2}};
+  if (study.brief()) supports = {{true, 1.5}, standard};
   for (const Use& use : uses) {
     std::vector<int> levels = study.levels();
     std::erase_if(levels, [&](int level) { return level > use.finest; });
-    for (const Real factor : factors)
+    for (const Support support : supports)
       for (const int level : levels) {
-        study.record(use.measure(method_of(use, factor), factor, level));
+        study.record(use.measure(method_of(use, support), support, level));
         if (use.name == "patch")
-          study.require(method_of(use, factor) + ": error of a quadratic displacement",
+          study.require(method_of(use, support) + ": error of a quadratic displacement",
                         study.measurements().back().error("H1"), {0, 1e-12});
       }
-    compare(study, use, factors, levels);
+    compare(study, use, supports, levels);
   }
 }
 

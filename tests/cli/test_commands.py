@@ -3,12 +3,14 @@
 """The commands beside run, check, keys and info: help, new, sweep, completion, manual.
 Usage: test_commands.py PROGRAM"""
 import csv
+import platform
 import re
 import shutil
 import signal
 import subprocess
 import time
 import tomllib
+import unittest
 from pathlib import Path
 
 
@@ -19,6 +21,17 @@ ROOT = Path(__file__).resolve().parents[2]
 TOPICS = sorted(path.stem for path in (ROOT / "inputs" / "guide").glob("*.md"))
 SCENES = sorted((ROOT / "inputs").glob("*.toml"))
 COMMANDS = ["run", "check", "keys", "info", "study", "plot", "report", "help", "new", "sweep", "completion", "manual", "version"]
+
+
+@unittest.skipUnless(platform.machine() == "x86_64" and shutil.which("objdump"), "reads the code of x86-64")
+class Code(ProgramTest):
+    def test_loops_over_stress_points_fetch_ahead(self):
+        """A compiler may drop calls that it takes for ones without effect: forces then take twice as long."""
+        code = subprocess.run(["objdump", "-d", "--no-show-raw-insn", program.PROGRAM],
+                              capture_output=True, text=True, check=True, errors="replace").stdout
+        loops = [f for f in code.split("\n\n")
+                 if re.match(r"\w+ <\S*InternalForce\S*CellRule\S*add_force", f) and "prefetch" in f]
+        self.assertGreater(len(loops), 10)
 
 
 class Help(ProgramTest):

@@ -320,12 +320,12 @@ class Scenes(ProgramTest):
 
     def test_memory_of_all_bodies(self):
         """Each may fit where all do not."""
-        big = self.change(BLOCK, ("cells = [4, 4, 4]", "cells = [36, 36, 36]"))
+        big = self.change(BLOCK, ("cells = [4, 4, 4]", "cells = [50, 50, 50]"))
         body = big[big.index("[[body]]"):big.index("[[body_force]]")]
         text = big + body.replace('"block"', '"second"')
         limits = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (3 << 30, 3 << 30))}
         done = self.call("check", self.scene(text), code=3, **limits)
-        self.assertRegex(done.stderr, r"body\[1\].shape: the bodies up to this one would have 9.3\d*e\+04 cells")
+        self.assertRegex(done.stderr, r"body\[1\].shape: the bodies up to this one would have 2.6\d*e\+05 particles")
 
     def test_settings(self):
         file = self.scene(BLOCK)

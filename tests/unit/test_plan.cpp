@@ -85,24 +85,26 @@ Real default_support(const std::string& shape, const std::string& material,
 
 /// Performance note 3.1.
 TEST(Plan, SupportsAreAsWideAsTheirUseAsksFor) {
-  const auto box = [](const char* size) {
-    return fmt::format("shape = \"box\"\ncells = [4, 4, 4]\nsize = {}", size);
-  };
-  const std::string solid = example_solid(), cube = box("[1, 1, 1]"),
+  const std::string solid = example_solid(),
+                    cube = "shape = \"box\"\ncells = [4, 4, 4]\nsize = [1, 1, 1]",
                     ball = "shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2",
                     tension = "[[surface_tension]]\nbody = \"body\"\ngamma = 1\nform = ";
   EXPECT_EQ(default_support<3>(cube, solid), 1.5);
   EXPECT_EQ(default_support<3>(cube, example_liquid()), 1.8);
   EXPECT_EQ(default_support<3>(cube + "\nsupport_factor = 1.7", solid), 1.7);
   EXPECT_EQ(default_support<2>("shape = \"rectangle\"\ncells = [4, 4]\nsize = [1, 1]", solid), 1.8);
-  EXPECT_EQ(default_support<3>(box("[1, 1, 1.1]"), solid), 1.5);
-  EXPECT_EQ(default_support<3>(box("[1, 1, 1.4]"), solid), 1.8);
-  EXPECT_EQ(default_support<3>(box("[1, 1, 0.7]"), solid), 1.8);
-  EXPECT_EQ(default_support<3>("shape = \"ellipsoid\"\nsemi_axes = [1, 1, 2]\ncore = 2\nlayers = 2",
-                               solid),
-            1.5);
   EXPECT_EQ(default_support<3>(ball, solid, tension + "\"balanced\"\n"), 1.5);
   EXPECT_EQ(default_support<3>(ball, solid, tension + "\"curvature\"\n"), 1.8);
+}
+
+TEST(Plan, SupportsOfSolidsInSpaceDoNotGrowAtFaces) {
+  const std::string ball = "shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2\n";
+  EXPECT_EQ(settings_of<3>(ball, example_solid()).support_by, "cells");
+  EXPECT_EQ(settings_of<3>(ball + "support_rank = 18\n", example_solid()).support_by, "neighbours");
+  EXPECT_EQ(settings_of<3>(ball, example_liquid()).support_by, "neighbours");
+  EXPECT_EQ(settings_of<2>("shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n", example_solid())
+                .support_by,
+            "neighbours");
 }
 
 /// Cells note 6.

@@ -8,17 +8,23 @@ namespace meniscus {
 /// sum_A N_A f_A at point q.
 template <int D>
 NodalVector value_at(const PointRows<D>& rows, Index q, const NodalVector* field) {
-  Lanes sum = Lanes::zero();
-  for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
-    sum += at(rows.value, e) * field[at(rows.particle, e)];
-  return sum;
+  Lanes even = Lanes::zero(), odd = even;  // two chains hide the latency
+  const Real* N = rows.value.data() + at(rows.start, q);
+  const Index* A = rows.particle.data() + at(rows.start, q);
+  const Index* const end = rows.particle.data() + at(rows.start, q + 1);
+  for (; A + 1 < end; A += 2, N += 2) {
+    even += N[0] * field[A[0]];
+    odd += N[1] * field[A[1]];
+  }
+  if (A != end) even += *N * field[*A];
+  return even + odd;
 }
 
 /// Column K: sum_A f_A N_A,K at point q.
 template <int D>
 [[gnu::always_inline]] inline std::array<Lanes, D> gradient_at(const PointRows<D>& rows, Index q,
                                                                const NodalVector* field) {
-  Lanes even[D], odd[D];  // two chains hide the latency
+  Lanes even[D], odd[D];
   for (int K = 0; K < D; ++K) even[K] = odd[K] = Lanes::zero();
   const Real* g = rows.gradient.data() + at(rows.start, q) * D;
   const Index* A = rows.particle.data() + at(rows.start, q);

@@ -77,13 +77,25 @@ struct CellRule {
       }
   }
 
-  /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM).
+  /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM), by vectors of coefficients whose lanes are
+  /// added up at the end.
   [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P,
                                       NodalVector* force) const {
-    if (rounded.empty())
-      scatter_by_number(cell, P, force);
-    else
-      scatter_by_vector(cell, P, force);
+    const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
+    Lanes moment[D][D];  // (sum P_iK, sum P_iK xi_0, ...) over the points
+    for (int i = 0; i < D; ++i)
+      for (int K = 0; K < D; ++K)
+        moment[i][K] = sums(P(i, K), P(i, K) * xi[0], P(i, K) * xi[1],
+                            D == 3 ? P(i, K) * xi[D - 1] : Lanes::zero());
+    for_entries(
+        cell, Half::second, [&](Index A, const Lanes* g) __attribute__((always_inline)) {
+          Lanes f[D];
+          for (int i = 0; i < D; ++i) {
+            f[i] = moment[i][0] * g[0];
+            for (int K = 1; K < D; ++K) f[i] += moment[i][K] * g[K];
+          }
+          force[A] += sums(f[0], f[1], D == 3 ? f[D - 1] : Lanes::zero(), Lanes::zero());
+        });
   }
 
   /// sum_A,i += sum_q S_i,KL(q) g_AK(q) g_AL(q), g the gradients of shape functions: the diagonal
@@ -115,51 +127,6 @@ struct CellRule {
   // overlap.
   enum class Half : std::uint8_t { first, second };
   static constexpr std::ptrdiff_t bytes_ahead = 64, rounded_bytes_ahead = 32;  // per entry
-
-  /// Coefficient by coefficient, which memory hands out to all lanes at no cost.
-  [[gnu::always_inline]] void scatter_by_number(Index cell, const Tensor<Lanes>& P,
-                                                NodalVector* force) const {
-    const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
-    Lanes moment[D][D + 1];  // [K][0] = sum P_.K, [K][1 + M] = sum P_.K xi_M; a lane per i
-    for (int K = 0; K < D; ++K) {
-      const auto Pq = by_lane(P(0, K), P(1, K), P(2, K));
-      moment[K][0] = (Pq[0] + Pq[1]) + (Pq[2] + Pq[3]);
-      for (int M = 0; M < D; ++M) {
-        const Real* x = detail::components(xi[M]);
-        moment[K][1 + M] = (Pq[0] * x[0] + Pq[1] * x[1]) + (Pq[2] * x[2] + Pq[3] * x[3]);
-      }
-    }
-    for_entries(
-        cell, Half::second, [&](Index A, const Lanes* g) __attribute__((always_inline)) {
-          Lanes sum[D + 1];  // a chain per moment hides the latency
-          sum[0] = force[A] + moment[0][0] * detail::components(g[0])[0];
-          for (int m = 1; m <= D; ++m) sum[m] = moment[0][m] * detail::components(g[0])[m];
-          for (int K = 1; K < D; ++K)
-            for (int m = 0; m <= D; ++m) sum[m] += moment[K][m] * detail::components(g[K])[m];
-          sum[1] += sum[D];
-          force[A] = D == 3 ? (sum[0] + sum[1]) + sum[2] : sum[0] + sum[1];
-        });
-  }
-
-  /// By vectors of coefficients as they are widened, whose lanes are added up at the end.
-  [[gnu::always_inline]] void scatter_by_vector(Index cell, const Tensor<Lanes>& P,
-                                                NodalVector* force) const {
-    const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
-    Lanes moment[D][D];  // (sum P_iK, sum P_iK xi_0, ...) over the points
-    for (int i = 0; i < D; ++i)
-      for (int K = 0; K < D; ++K)
-        moment[i][K] = sums(P(i, K), P(i, K) * xi[0], P(i, K) * xi[1],
-                            D == 3 ? P(i, K) * xi[D - 1] : Lanes::zero());
-    for_entries(
-        cell, Half::second, [&](Index A, const Lanes* g) __attribute__((always_inline)) {
-          Lanes f[D];
-          for (int i = 0; i < D; ++i) {
-            f[i] = moment[i][0] * g[0];
-            for (int K = 1; K < D; ++K) f[i] += moment[i][K] * g[K];
-          }
-          force[A] += sums(f[0], f[1], D == 3 ? f[D - 1] : Lanes::zero(), Lanes::zero());
-        });
-  }
 
   /// work(particle, coefficients[K]) for the entries of a row.
   template <class F>

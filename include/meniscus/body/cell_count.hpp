@@ -10,9 +10,13 @@ namespace meniscus {
 /// Numbers of cells along an edge or through a layer that a key of a shape may give.
 inline constexpr Range count_in_plane{1, 10000}, count_in_space{1, 1000};
 
-/// Throws InputError if a D-dimensional grid of so many cells cannot be numbered (2e8), or if what
-/// consists of them would take more memory than is there.
+/// Throws InputError if a D-dimensional grid of so many cells cannot be numbered (2e8), or if its
+/// particles would take more memory than is there even with the narrowest supports, in single
+/// precision.
 template <int D>
-void require_affordable(Real cells, const std::string& what = "the body");
+void require_affordable(Real cells, Real cells_per_particle = 1);
+
+/// Throws InputError if `what` takes more bytes than are there.
+void require_memory(Real bytes, const std::string& what);
 
 }  // namespace meniscus

@@ -10,23 +10,25 @@
 namespace meniscus {
 
 template <int D>
-void require_affordable(Real cells, const std::string& what) {
+void require_affordable(Real cells, Real cells_per_particle) {
   constexpr Real most = 2e8;
   if (cells > most)
     throw InputError(
-        fmt::format("{} would have {:.4g} cells; at most {:.4g} are possible", what, cells, most));
-  // Less than what the default supports and any integration take while they are set up (50 to 80 kB
-  // in 3D, 8 kB in 2D).
-  constexpr Real bytes_per_cell = D == 3 ? 40e3 : 6e3;
-  const Real needed = cells * bytes_per_cell, there = available_memory();
-  if (needed > there)
-    throw InputError(
-        fmt::format("{} would have {:.4g} cells and take about {:.3g} GB of memory, {:.3g} GB "
-                    "are there; use fewer cells",
-                    what, cells, 1e-9 * needed, 1e-9 * there));
+        fmt::format("the body would have {:.4g} cells; at most {:.4g} are possible", cells, most));
+  constexpr Real bytes_per_particle = D == 3 ? 8e3 : 1.5e3;
+  require_memory(cells / cells_per_particle * bytes_per_particle,
+                 fmt::format("the body would have {:.4g} cells", cells));
 }
 
-template void require_affordable<2>(Real, const std::string&);
-template void require_affordable<3>(Real, const std::string&);
+template void require_affordable<2>(Real, Real);
+template void require_affordable<3>(Real, Real);
+
+void require_memory(Real bytes, const std::string& what) {
+  const Real there = available_memory();
+  if (bytes > there)
+    throw InputError(
+        fmt::format("{} and take about {:.3g} GB of memory, {:.3g} GB are there; use fewer cells",
+                    what, 1e-9 * bytes, 1e-9 * there));
+}
 
 }  // namespace meniscus

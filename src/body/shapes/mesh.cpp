@@ -126,8 +126,9 @@ class MeshMaker {
  public:
   MeshMaker(const MeshData& data, Real unit) : data_(data) {
     const MeshShape shape = only_shape<D>(data);
-    require_affordable<D>(Real(std::count_if(data.cells.begin(), data.cells.end(),
-                                             [&](const MeshCell& c) { return c.shape == shape; })));
+    const auto cells = std::count_if(data.cells.begin(), data.cells.end(),
+                                     [&](const MeshCell& c) { return c.shape == shape; });
+    require_affordable<D>(Real(cells), Real(cells) / Real(data.X.size()));
     if constexpr (D == 2) require_flat();
     number_.assign(data.X.size(), -1);
     for (const MeshCell& cell : data.cells)

@@ -112,9 +112,9 @@ Vec<D> in_space(const std::array<Real, 3>& x) {
 template <int D>
 class Stage {
  public:
-  Stage(const CurvatureMethod<D>& method, const std::vector<Vec<D>>& X,
-        const SurfacePoints<D>& surface)
-      : particles_(X, method.support, method.window), surface_(surface) {
+  Stage(const CurvatureMethod<D>& method, ParticleSet<D> particles, const SurfacePoints<D>& surface)
+      : particles_(std::move(particles)), surface_(surface) {
+    const auto X = particles_.X();
     const bool direct = method.second == SecondDerivatives::direct;
     rows_ = rows_of_degree<D>(method.degree, particles_, surface.X,
                               {.value = true, .gradient = true, .hessian = direct});
@@ -233,11 +233,22 @@ Measurement::Numbers errors_of(const Found<D>& found, const SurfacePoints<D>& ex
           {"normal", std::sqrt(normal / area)}, {"F", std::sqrt(F / F_size)}};
 }
 
+template <int D>
+ParticleSet<D> particles_of(const CurvatureMethod<D>& method, const std::vector<Vec<D>>& X,
+                            std::vector<Real> lengths) {
+  if (!method.by_cells) return {X, method.support, method.window};
+  for (Real& length : lengths) length *= method.support.factor;
+  return {X, lengths, method.window};
+}
+
 }  // namespace
 
 template <int D>
 CurvatureProblem<D>::CurvatureProblem(const Geometry<D>& unit, NamedMap<D> map)
-    : map_(std::move(map)), X_(unit.grid.X), points_(surface_points(unit, 2)) {
+    : map_(std::move(map)),
+      X_(unit.grid.X),
+      diagonals_(diagonals_around_nodes<D>(unit.grid, Mat<D>::Identity())),
+      points_(surface_points(unit, 2)) {
   nodes_ = node_points(unit, points_);
   require_no_fold<D>(map_, X_);
   require_no_fold<D>(map_, points_.X);
@@ -262,7 +273,7 @@ Measurement CurvatureProblem<D>::measure(const CurvatureMethod<D>& method) const
   for (int k = 1; k <= method.stages; ++k) {
     const NodalVectors d = coefficients<D>(map_.path(k, method.stages), X_);
     const Stopwatch set_up;
-    Stage<D> stage(method, cloud, surface);
+    Stage<D> stage(method, particles_of(method, cloud, diagonals_), surface);
     std::optional<SurfaceFit<D>> fit;
     if (method.smoothed) fit.emplace(surface.X);
     result.set_up += set_up.seconds();

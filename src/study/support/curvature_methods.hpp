@@ -23,6 +23,7 @@ struct CurvatureMethod {
   std::string panel, line;  ///< of the plots
   int degree = 2;
   typename ParticleSet<D>::AdaptiveSupport support;
+  bool by_cells = false;  ///< supports of support.factor diagonals of cells in their place
   Window window = Window::cubic_spline;
   Places places = Places::points;
   SecondDerivatives second = SecondDerivatives::direct;
@@ -48,6 +49,7 @@ class CurvatureProblem {
  private:
   NamedMap<D> map_;
   std::vector<Vec<D>> X_;
+  std::vector<Real> diagonals_;  ///< of the cells around the particles, means
   SurfacePoints<D> points_, nodes_;
   Real h_;
 };

@@ -153,19 +153,31 @@ void jitter(Grid<D>& grid, Real reach, std::uint64_t seed) {
 }  // namespace
 
 template <int D>
-std::unique_ptr<Body<D>> unit_box(int n, Real jitter_share, std::uint64_t seed, Real spacings) {
+Geometry<D> unit_box_geometry(int n, Real jitter_share, std::uint64_t seed) {
   Brick<D> shape;
   shape.cells.assign(D, n);
   shape.corner.assign(D, 0);
   Geometry<D> geometry = shape.geometry();
   if (jitter_share > 0) jitter(geometry.grid, jitter_share / n, seed);
   order_spatially(geometry);
-  ParticleSet<D> particles(geometry.grid.X, spacings / n, Window::cubic_spline);
+  return geometry;
+}
+
+template <int D>
+std::unique_ptr<Body<D>> box_of(Geometry<D> geometry, ParticleSet<D> particles) {
   std::vector<Vec<D>> probes = geometry.grid.X;
   const auto centres = cell_gauss_points(geometry.grid, 1).X;
   probes.insert(probes.end(), centres.begin(), centres.end());
   particles.ensure_quality(probes, "box");
   return std::make_unique<Body<D>>("box", std::move(geometry), std::move(particles));
+}
+
+template <int D>
+std::unique_ptr<Body<D>> unit_box(int n, Real jitter_share, std::uint64_t seed) {
+  constexpr Real spacings = 2.6;
+  Geometry<D> geometry = unit_box_geometry<D>(n, jitter_share, seed);
+  ParticleSet<D> particles(geometry.grid.X, spacings / n, Window::cubic_spline);
+  return box_of(std::move(geometry), std::move(particles));
 }
 
 template <int D>
@@ -316,7 +328,9 @@ ElasticErrors errors_of(const ElasticCase<D>& c, NodalVectors u) {
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                         \
-  template std::unique_ptr<Body<D>> unit_box(int, Real, std::uint64_t, Real);           \
+  template Geometry<D> unit_box_geometry(int, Real, std::uint64_t);                     \
+  template std::unique_ptr<Body<D>> box_of(Geometry<D>, ParticleSet<D>);                \
+  template std::unique_ptr<Body<D>> unit_box(int, Real, std::uint64_t);                 \
   template ElasticCase<D> elastic_case(std::unique_ptr<Body<D>>, SmoothMap<D>, Moduli); \
   template class LinearBody<D>;                                                         \
   template std::vector<NodalVectors> rigid_modes(const Body<D>&);                       \

@@ -11,10 +11,16 @@
 
 namespace meniscus::study {
 
-/// The unit square or cube of n cells per edge h with supports of `spacings` h. Each coordinate of
-/// each node is moved at random by up to +-`jitter` h, along the boundary too.
+/// The unit square or cube of n cells per edge h. Each coordinate of each node is moved at random
+/// by up to +-`jitter` h, along the boundary too.
 template <int D>
-std::unique_ptr<Body<D>> unit_box(int n, Real jitter, std::uint64_t seed = 1, Real spacings = 2.6);
+Geometry<D> unit_box_geometry(int n, Real jitter, std::uint64_t seed = 1);
+/// The body of these particles, whose supports are enlarged where they have to be.
+template <int D>
+std::unique_ptr<Body<D>> box_of(Geometry<D> geometry, ParticleSet<D> particles);
+/// That of unit_box_geometry() with supports of 2.6 h.
+template <int D>
+std::unique_ptr<Body<D>> unit_box(int n, Real jitter, std::uint64_t seed = 1);
 
 struct Moduli {
   Real mu = 1, lambda = 1;
