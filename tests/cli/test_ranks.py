@@ -44,7 +44,7 @@ ROWS = {
     "a viscosity": SHORT_BLOCK.replace("[body.material]", "[body.material]\nviscosity = 10"),
 }
 PRESSED = SHORT_BLOCK.replace("neo_hookean", "st_venant_kirchhoff").replace(
-    "[[body]]", '[[body]]\ninitial_velocity = ["-15*x^2", 0, 0]')
+    "[[body]]", '[[body]]\ninitial_velocity = ["-20*x^2", 0, 0]')
 BENT_SHEET = RELAXING_SHEET.replace('"relax"', '"newton"')
 
 SMALLER = ("--set", "body.drop.core=4", "--set", "body.drop.layers=2")
