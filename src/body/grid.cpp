@@ -144,13 +144,19 @@ std::optional<CellPoint<D, D>> find_fold_of_simplex(const Grid<D>& grid, Index c
 
 template <int D>
 std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell) {
-  constexpr int points = D == 2 ? 9 : 27;
   if (is_simplex<D>(at(grid.cells, cell))) return find_fold_of_simplex(grid, cell);
-  const auto corners = grid.corner_points(at(grid.cells, cell));
-  for (int q = 0; q < points; ++q) {
-    Vec<D> xi;
-    for (int k = 0, rest = q; k < D; ++k, rest /= 3) xi[k] = rest % 3 - 1;
-    const CellPoint<D, D> point = cell_point(corners, grid.bulge(cell), xi);
+  static const std::vector<TabulatedPoint<D>> lattice = [] {
+    std::vector<TabulatedPoint<D>> points;
+    for (int q = 0; q < (D == 2 ? 9 : 27); ++q) {
+      Vec<D> xi;
+      for (int k = 0, rest = q; k < D; ++k, rest /= 3) xi[k] = rest % 3 - 1;
+      points.push_back(tabulate<D>(xi, 0));
+    }
+    return points;
+  }();
+  const CellMap<D> map(grid, cell);
+  for (const auto& p : lattice) {
+    const CellPoint<D, D> point = map(p);
     if (!(determinant<D>(point.J) > 0)) return point;
   }
   return {};
