@@ -85,23 +85,7 @@ class CoefficientDamping final : public ForceTerm {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
     return parallel_sum(body_.size(), Rotation{}, [&](Index A) {
       const PointRows<D>& rows = body_.at_particles;
-      // Two chains hide the latency.
-      Lanes d = v[A], e = u[A], odd_d = Lanes::zero(), odd_e = Lanes::zero();
-      const Real* N = rows.value.data() + at(rows.start, A);
-      const Index* B = rows.particle.data() + at(rows.start, A);
-      const Index* const end = rows.particle.data() + at(rows.start, A + 1);
-      for (; B + 1 < end; B += 2, N += 2) {
-        d -= N[0] * v[B[0]];
-        e -= N[0] * u[B[0]];
-        odd_d -= N[1] * v[B[1]];
-        odd_e -= N[1] * u[B[1]];
-      }
-      if (B != end) {
-        d -= *N * v[*B];
-        e -= *N * u[*B];
-      }
-      d += odd_d;
-      e += odd_e;
+      const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
       at(slip_, A) = d;
       at(offset_, A) = e;
       const Eigen::Vector3d x = spatial(e);
