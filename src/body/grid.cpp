@@ -274,6 +274,13 @@ std::vector<Real> diagonals_around_nodes(const Grid<D>& grid, const Mat<D>& stre
 }
 
 template <int D>
+std::vector<Real> supports_by_cells(const Grid<D>& grid, const Mat<D>& stretch, Real factor) {
+  std::vector<Real> supports = diagonals_around_nodes(grid, stretch);
+  for (Real& length : supports) length *= factor;
+  return supports;
+}
+
+template <int D>
 Mat<D> mean_stretch(const Grid<D>& grid) {
   Mat<D> squares = Mat<D>::Zero();
   for (Index e = 0; e < grid.cell_count(); ++e) {
@@ -352,6 +359,7 @@ CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
   template Real mean_spacing(const Grid<D>&);                                         \
   template Mat<D> mean_stretch(const Grid<D>&);                                       \
   template std::vector<Real> diagonals_around_nodes(const Grid<D>&, const Mat<D>&);   \
+  template std::vector<Real> supports_by_cells(const Grid<D>&, const Mat<D>&, Real);  \
   template std::vector<Index> boundary_nodes(const Grid<D>&);                         \
   template std::vector<std::array<Index, D>> triangulate_boundary<D>(const Grid<D>&); \
   template CellPoints<D> cell_gauss_points(const Grid<D>&, int);

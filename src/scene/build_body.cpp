@@ -28,11 +28,10 @@ ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& g
   if (settings.support_spacings > 0)
     return {geometry.grid.X, settings.support_spacings * mean_spacing(geometry.grid), window,
             stretch};
-  if (settings.support_by == "cells") {
-    std::vector<Real> support = diagonals_around_nodes(geometry.grid, stretch);
-    for (Real& length : support) length *= settings.support_factor.value();
-    return {geometry.grid.X, support, window, stretch};
-  }
+  if (settings.support_by == "cells")
+    return {geometry.grid.X,
+            supports_by_cells(geometry.grid, stretch, settings.support_factor.value()), window,
+            stretch};
   typename ParticleSet<D>::AdaptiveSupport rule;
   rule.factor = settings.support_factor.value();
   if (settings.support_rank > 0) rule.rank = settings.support_rank;

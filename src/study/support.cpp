@@ -54,9 +54,8 @@ std::unique_ptr<Body<3>> box(int n, Real jitter, Support support) {
     constexpr Window window = Window::cubic_spline;
     if (!support.by_cells)
       return {geometry.grid.X, ParticleSet<3>::AdaptiveSupport{support.factor}, window};
-    std::vector<Real> lengths = diagonals_around_nodes<3>(geometry.grid, Mat<3>::Identity());
-    for (Real& length : lengths) length *= support.factor;
-    return {geometry.grid.X, lengths, window};
+    return {geometry.grid.X,
+            supports_by_cells<3>(geometry.grid, Mat<3>::Identity(), support.factor), window};
   }();
   return box_of(std::move(geometry), std::move(particles));
 }

@@ -167,6 +167,10 @@ Real mean_spacing(const Grid<D>& grid);
 template <int D>
 std::vector<Real> diagonals_around_nodes(const Grid<D>& grid, const Mat<D>& stretch);
 
+/// Supports by cells: of every node `factor` times its diagonal, in the metric of the stretch.
+template <int D>
+std::vector<Real> supports_by_cells(const Grid<D>& grid, const Mat<D>& stretch, Real factor);
+
 /// How the cells are stretched in the mean: U symmetric, det U = 1, U^2 proportional to the sum of
 /// J J^T at the centres of the cells. After a map A it is that of A U: where the cells of a unit
 /// shape point nowhere, as those of a ball, it is the left stretch of A. What deviates from I by

@@ -233,24 +233,21 @@ Measurement::Numbers errors_of(const Found<D>& found, const SurfacePoints<D>& ex
           {"normal", std::sqrt(normal / area)}, {"F", std::sqrt(F / F_size)}};
 }
 
+/// With the nodes of the grid at X.
 template <int D>
 ParticleSet<D> particles_of(const CurvatureMethod<D>& method, const std::vector<Vec<D>>& X,
-                            std::vector<Real> lengths) {
+                            const Grid<D>& grid) {
   if (!method.by_cells) return {X, method.support, method.window};
-  for (Real& length : lengths) length *= method.support.factor;
-  return {X, lengths, method.window};
+  return {X, supports_by_cells<D>(grid, Mat<D>::Identity(), method.support.factor), method.window};
 }
 
 }  // namespace
 
 template <int D>
 CurvatureProblem<D>::CurvatureProblem(const Geometry<D>& unit, NamedMap<D> map)
-    : map_(std::move(map)),
-      X_(unit.grid.X),
-      diagonals_(diagonals_around_nodes<D>(unit.grid, Mat<D>::Identity())),
-      points_(surface_points(unit, 2)) {
+    : map_(std::move(map)), grid_(unit.grid), points_(surface_points(unit, 2)) {
   nodes_ = node_points(unit, points_);
-  require_no_fold<D>(map_, X_);
+  require_no_fold<D>(map_, grid_.X);
   require_no_fold<D>(map_, points_.X);
   h_ = std::pow(volume(unit.grid) / unit.grid.node_count(), 1.0 / D);
 }
@@ -264,16 +261,16 @@ Measurement CurvatureProblem<D>::measure(const CurvatureMethod<D>& method) const
   deform(exact, whole);
 
   Measurement result{.method = fmt::format("{}, {}: {}", map_.name, method.panel, method.line),
-                     .particles = static_cast<Index>(X_.size()),
+                     .particles = grid_.node_count(),
                      .h = h_};
-  std::vector<Vec<D>> cloud = X_;
+  std::vector<Vec<D>> cloud = grid_.X;
   Found<D> found;
   found.F.assign(map.size(), Mat<D>::Identity());
   std::optional<Real> G;
   for (int k = 1; k <= method.stages; ++k) {
-    const NodalVectors d = coefficients<D>(map_.path(k, method.stages), X_);
+    const NodalVectors d = coefficients<D>(map_.path(k, method.stages), grid_.X);
     const Stopwatch set_up;
-    Stage<D> stage(method, particles_of(method, cloud, diagonals_), surface);
+    Stage<D> stage(method, particles_of(method, cloud, grid_), surface);
     std::optional<SurfaceFit<D>> fit;
     if (method.smoothed) fit.emplace(surface.X);
     result.set_up += set_up.seconds();

@@ -48,8 +48,7 @@ class CurvatureProblem {
 
  private:
   NamedMap<D> map_;
-  std::vector<Vec<D>> X_;
-  std::vector<Real> diagonals_;  ///< of the cells around the particles, means
+  Grid<D> grid_;
   SurfacePoints<D> points_, nodes_;
   Real h_;
 };
