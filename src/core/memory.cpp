@@ -52,9 +52,15 @@ Real available_memory() {
 }
 
 Real peak_memory() {
+  const Real since_forgotten = 1024 * number_behind("/proc/self/status", "VmHWM:");
+  if (since_forgotten < unlimited) return since_forgotten;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024 * static_cast<Real>(usage.ru_maxrss);
+}
+
+void forget_peak_memory() {
+  std::ofstream("/proc/self/clear_refs") << 5;
 }
 
 }  // namespace meniscus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cost against size: building and stepping the free cube of lame_cube, per particle, with one
 // thread and with two (performance note 6).
+#include "meniscus/core/memory.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/study/study.hpp"
@@ -9,7 +10,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 namespace meniscus::scaling_study {
@@ -29,22 +29,6 @@ initial_velocity = ["1e-5*cos(pi*x)*sin(pi*y)", "-1e-5*sin(pi*x)*cos(pi*y)", "0"
 material = {{ type = "neo_hookean", density = 1, mu = 0.4, lambda = 0.6 }}
 )toml",
                      cells);
-}
-
-/// The most memory that the process has held since forget_peak(), bytes; 0 where the system does
-/// not say.
-Real peak_memory() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
-    if (word == "VmHWM:") {
-      Real kilobytes = 0;
-      status >> kilobytes;
-      return 1024 * kilobytes;
-    }
-  return 0;
-}
-void forget_peak() {
-  std::ofstream("/proc/self/clear_refs") << 5;
 }
 
 /// The fastest of three rounds of steps, s per step: others may use the machine.
@@ -67,7 +51,7 @@ struct Measured {
 Measured measure(int threads, int cells) {
   const int before = omp_get_max_threads();
   omp_set_num_threads(threads);
-  forget_peak();
+  forget_peak_memory();
   const Stopwatch set_up;
   const SceneInput input = SceneInput::from_text(scene_text(cells));
   scene_dimension(input);

@@ -9,7 +9,10 @@ namespace meniscus {
 /// process (ulimit -v) and of its control group. Infinite where nothing is known.
 Real available_memory();
 
-/// Bytes that the process has had in memory at most.
+/// Bytes that the process has had in memory at most, since forget_peak_memory() where that was
+/// called.
 Real peak_memory();
+/// Does nothing where the system keeps the peak of the whole process only.
+void forget_peak_memory();
 
 }  // namespace meniscus
