@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "rounded_rows.hpp"
-#include "sums_of_rows.hpp"
+#include "sums_over_ranks.hpp"
 
 namespace meniscus {
 namespace {
@@ -492,7 +492,7 @@ void end_rows(const Body<D>& body, CellRule<D>& rule) {
 /// bit.
 template <int D>
 void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, CellRule<D>& rule,
-                 SumsOfRows& shape_integral) {
+                 SumsOverRanks& shape_integral) {
   rule.start.resize(static_cast<std::size_t>(cells.begin) + 1, 0);
   rule.double_start.resize(rule.start.size(), 0);
   reserve_entries(body, cells, precision, rule);
@@ -522,7 +522,7 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells) {
   CellOperator<D> op;
-  SumsOfRows shape_integral(body.size());
+  SumsOverRanks shape_integral(body.size());
   on_each_rank([&] { append_rows(body, cells, precision, op.rule, shape_integral); });
   end_rows(body, op.rule);
   list_points(body, op.rule);

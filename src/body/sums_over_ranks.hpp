@@ -10,9 +10,9 @@ namespace meniscus {
 
 /// Adds in the order of the rows: a rank keeps what its rows say until the ranks before have added
 /// what theirs do.
-class SumsOfRows {
+class SumsOverRanks {
  public:
-  explicit SumsOfRows(Index particles) : sums_(static_cast<std::size_t>(particles), 0.0) {}
+  explicit SumsOverRanks(Index particles) : sums_(static_cast<std::size_t>(particles), 0.0) {}
 
   /// Of the next entry of a row of this rank.
   void add(Index A, Real value) {
