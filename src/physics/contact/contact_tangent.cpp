@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Changes of contact points and of their forces: the tangent. A file by itself, so that nothing in
 // the loops of the time step is compiled in another way for it.
-#include "contact_tangent.hpp"
+#include "meniscus/physics/contact_points.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "patch_points.hpp"
 
@@ -152,71 +151,13 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
   for (const Index c : clusters) at(pushed_, c) = 0;
 }
 
-/// dT = (grad grad S dx) V + grad S dV and dS = grad S dx; or dT = (grad U dx) V + U dV for the
-/// pressure form. Derivatives of the field by differences of fourth order over a small part of the
-/// gap.
-template <int D>
-void add_tangent_of_partner(ContactPoints<D>& points, const RigidPartner<D>& partner,
-                            ContactForm form, const PartnerContact<D>& now, const Motion& motion,
-                            const Motion& change, std::span<NodalVector> force) {
-  constexpr Real part_of_gap = 3e-4;
-  const ContactChanges<D> changes = points.changes(now.clusters, now.places, motion, change);
-  AlignedVector<Lanes> dT(now.S.size(), Lanes::zero()), dS = dT;
-  const auto change_of_point = [&](Index c, int lane) {
-    Vec<D> place, dx, V, dV;
-    for (int i = 0; i < D; ++i) {
-      place[i] = now.places.x_of(c)[i][lane] - now.shift[i];
-      dx[i] = changes.x_of(c)[i][lane];
-      V[i] = now.places.weight_of(c)[i][lane];
-      dV[i] = at(changes.weight, c * D + i)[lane];
-    }
-    const Real length = dx.norm();
-    if (length == 0 && dV.isZero(0)) return;
-    const Real gap = std::max(now.distances[static_cast<std::size_t>(c)][lane], now.least_gap);
-    const Real h = length > 0 ? part_of_gap * gap / length : 1;
-    const auto field = [&](Real s) { return partner.field(place + s * h * dx); };
-    const auto slope = [h](const auto& ahead, const auto& behind, const auto& ahead2,
-                           const auto& behind2) {
-      return ((8 * (ahead - behind) - (ahead2 - behind2)) / (12 * h)).eval();
-    };
-    const RigidField<D> here = field(0), ahead = field(1), behind = field(-1), ahead2 = field(2),
-                        behind2 = field(-2);
-    Vec<D> pull;
-    if (form == ContactForm::pressure) {
-      const auto U = [](const RigidField<D>& f) { return Eigen::Matrix<Real, 1, 1>(f.U); };
-      pull = slope(U(ahead), U(behind), U(ahead2), U(behind2))[0] * V + here.U * dV;
-    } else {
-      pull =
-          slope(ahead.grad_S, behind.grad_S, ahead2.grad_S, behind2.grad_S) * V + here.grad_S * dV;
-    }
-    const Vec<D> turn = here.grad_S * dx;
-    for (int i = 0; i < D; ++i) {
-      at(dT, c * D + i).set(lane, pull[i]);
-      at(dS, c * D + i).set(lane, turn[i]);
-    }
-  };
-  parallel_for(
-      static_cast<Index>(now.clusters.size()),
-      [&](Index k) {
-        for (int lane = 0; lane < Lanes::width; ++lane)
-          change_of_point(now.clusters[static_cast<std::size_t>(k)], lane);
-      },
-      16);
-  const bool moment = form == ContactForm::energy;
-  points.add_force_change(now.places, changes, motion, change, now.clusters, dT,
-                          moment ? now.S : std::span<const Lanes>(), dS, force);
-}
-
-#define MENISCUS_INSTANTIATE(D)                                                                \
-  template ContactChanges<D> ContactPoints<D>::changes(                                        \
-      std::span<const Index>, const ContactPlaces<D>&, const Motion&, const Motion&) const;    \
-  template void ContactPoints<D>::add_force_change(                                            \
-      const ContactPlaces<D>&, const ContactChanges<D>&, const Motion&, const Motion&,         \
-      std::span<const Index>, std::span<const Lanes>, std::span<const Lanes>,                  \
-      std::span<const Lanes>, std::span<NodalVector>);                                         \
-  template void add_tangent_of_partner(ContactPoints<D>&, const RigidPartner<D>&, ContactForm, \
-                                       const PartnerContact<D>&, const Motion&, const Motion&, \
-                                       std::span<NodalVector>);
+#define MENISCUS_INSTANTIATE(D)                                                             \
+  template ContactChanges<D> ContactPoints<D>::changes(                                     \
+      std::span<const Index>, const ContactPlaces<D>&, const Motion&, const Motion&) const; \
+  template void ContactPoints<D>::add_force_change(                                         \
+      const ContactPlaces<D>&, const ContactChanges<D>&, const Motion&, const Motion&,      \
+      std::span<const Index>, std::span<const Lanes>, std::span<const Lanes>,               \
+      std::span<const Lanes>, std::span<NodalVector>);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The field of a rigid partner at the contact points of a body: distances and forces.
+#pragma once
+#include "partner_layers.hpp"
+
+namespace meniscus {
+
+/// Moves all points of one grade and takes their distances.
+template <int D>
+void take_distances(const BodyAndPartner<D>& pair, const ContactPoints<D>& points,
+                    const Motion& motion, PartnerLayer<D>& layer);
+
+/// Places, weights, distances, T and S of the points that are visited (partner_visits.hpp): by the
+/// interaction of uniform strength.
+template <int D>
+void take_forces(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers);
+
+}  // namespace meniscus

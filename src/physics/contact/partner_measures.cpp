@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums over the contact points beside a rigid partner, and the measures that are made of them.
+#include "partner_measures.hpp"
+
+#include "meniscus/core/dense.hpp"
+
+#include "partner_field.hpp"
+#include "partner_visits.hpp"
+
+namespace meniscus {
+namespace {
+
+/// By the interaction of uniform strength.
+template <int D>
+PartnerLayers<D> layers_without_effects(const BodyAndPartner<D>& pair, const Motion& motion) {
+  PartnerLayers<D> layers = layers_at_rest(pair);
+  choose_grades(pair, motion, layers);
+  take_forces(pair, motion, layers);
+  return layers;
+}
+
+/// Of a lane.
+template <int D>
+Eigen::Vector3d vector_of(const Lanes* field, int lane) {
+  Vec<D> x;
+  for (int i = 0; i < D; ++i) x[i] = field[i][lane];
+  return spatial<D>(x);
+}
+
+/// Torque about the origin, -sum (x cross T + V cross S): turning the body turns x and V. In the
+/// plane its third component.
+template <int D>
+Eigen::Vector3d net_torque(const PartnerLayers<D>& layers, ContactForm form) {
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+  for (const PartnerLayer<D>& layer : layers)
+    for (const Index c : layer.visited)
+      for (int lane = 0; lane < Lanes::width; ++lane) {
+        torque -= cross(vector_of<D>(layer.places.x_of(c), lane),
+                        vector_of<D>(&at(layer.T, c * D), lane));
+        if (form == ContactForm::energy)
+          torque -= cross(vector_of<D>(layer.places.weight_of(c), lane),
+                          vector_of<D>(&at(layer.S, c * D), lane));
+      }
+  return torque;
+}
+
+template <int D>
+Real wetted_area(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
+                 const Motion& motion) {
+  const PartnerLayers<D> uniform = layers_without_effects(pair, motion);
+  const Real energy =
+      effects.pattern() ? unit_energy(pair, effects, motion, uniform) : energy_of(uniform);
+  return std::max(0.0, -energy / effects.adhesion());
+}
+
+}  // namespace
+
+template <int D>
+PartnerLayers<D> layers_at(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
+                           const Motion& motion) {
+  PartnerLayers<D> layers = layers_without_effects(pair, motion);
+  add_effects(pair, effects, motion, layers);
+  return layers;
+}
+
+template <int D>
+Real energy_of(const PartnerLayers<D>& layers) {
+  Real sum_of_layers = 0;
+  for (const PartnerLayer<D>& layer : layers)
+    sum_of_layers += parallel_sum(static_cast<Index>(layer.visited.size()), 0.0, [&](Index k) {
+      const Index c = at(layer.visited, k);
+      Lanes E = Lanes::zero();
+      for (int i = 0; i < D; ++i) E += at(layer.S, c * D + i) * layer.places.weight_of(c)[i];
+      return sum(E);
+    });
+  return sum_of_layers;
+}
+
+template <int D>
+Vec<D> net_force(const PartnerLayers<D>& layers) {
+  Vec<D> force = Vec<D>::Zero();
+  for (const PartnerLayer<D>& layer : layers)
+    for (const Index c : layer.visited)
+      for (int i = 0; i < D; ++i) force[i] -= sum(at(layer.T, c * D + i));
+  return force;
+}
+
+template <int D>
+Real gap_at(const BodyAndPartner<D>& pair, const Motion& motion) {
+  PartnerLayer<D> layer(pair.finest());
+  take_distances(pair, pair.finest(), motion, layer);
+  Real least = unbounded;
+  for (const Index c : layer.visited) least = std::min(least, layer.nearest_of(c));
+  return least;
+}
+
+template <int D>
+std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
+                                       bool wets) {
+  const auto looked_at = [&pair, &effects](auto&& number) {
+    return [&pair, &effects, number](const Motion& motion) {
+      return Real(number(layers_at(pair, effects, motion)));
+    };
+  };
+  std::vector<MeasureSource> all{
+      {"energy", dimension::energy, "energy of the interaction",
+       looked_at([](const PartnerLayers<D>& layers) { return energy_of(layers); })},
+      {"gap", dimension::length, "least distance of the points of the body from the partner",
+       [&pair](const Motion& motion) { return gap_at(pair, motion); }},
+      {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
+       [&pair](const Motion& motion) { return gap_at(pair, motion) / pair.finest().spacing(); }}};
+  for (int i = 0; i < D; ++i)
+    all.push_back(
+        {std::string("force_") + "xyz"[i], dimension::force, "force on the body",
+         looked_at([i](const PartnerLayers<D>& layers) { return net_force(layers)[i]; })});
+  for (int i = D == 3 ? 0 : 2; i < 3; ++i)
+    all.push_back({std::string("torque_") + "xyz"[i], dimension::energy,
+                   "torque on the body about the origin",
+                   looked_at([i, &pair](const PartnerLayers<D>& layers) {
+                     return net_torque(layers, pair.form)[i];
+                   })});
+  if (wets) {
+    for (int i = 0; i < D; ++i)
+      all.push_back(
+          {std::string("reaction_") + "xyz"[i], dimension::force, "force on the partner",
+           looked_at([i](const PartnerLayers<D>& layers) { return -net_force(layers)[i]; })});
+    all.push_back(
+        {"wetted_area", D == 3 ? dimension::area : dimension::length,
+         "area in full contact that has the energy of the interaction (2D: length)",
+         [&pair, &effects](const Motion& motion) { return wetted_area(pair, effects, motion); }});
+  }
+  if (effects.rubs())
+    for (int i = 0; i < D; ++i)
+      all.push_back({std::string("slip_") + "xyz"[i], dimension::velocity,
+                     "mean velocity along the partner and relative to it, over the area that rubs",
+                     [i, &pair, &effects](const Motion& motion) {
+                       PartnerLayers<D> layers = layers_without_effects(pair, motion);
+                       return mean_slip(pair, effects, motion, layers)[i];
+                     }});
+  if (pair.partner.motion.moves())
+    for (int i = 0; i < D; ++i)
+      all.push_back({std::string("displacement_") + "xyz"[i], dimension::length,
+                     "prescribed displacement of the partner",
+                     [i, &pair](const Motion& motion) { return pair.shift(motion)[i]; }});
+  return all;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                                    \
+  template PartnerLayers<D> layers_at(const BodyAndPartner<D>&, const WallEffects<D>&,             \
+                                      const Motion&);                                              \
+  template Real energy_of(const PartnerLayers<D>&);                                                \
+  template Vec<D> net_force(const PartnerLayers<D>&);                                              \
+  template Real gap_at(const BodyAndPartner<D>&, const Motion&);                                   \
+  template std::vector<MeasureSource> measures_of(const BodyAndPartner<D>&, const WallEffects<D>&, \
+                                                  bool);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a rigid partner does to a body as a whole: energy, force, torque, gap, wetted area, slip.
+#pragma once
+#include <vector>
+
+#include "layer_effects.hpp"
+
+namespace meniscus {
+
+/// All points and their forces at any motion; takes memory.
+template <int D>
+PartnerLayers<D> layers_at(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
+                           const Motion& motion);
+
+/// Sum of S.V.
+template <int D>
+Real energy_of(const PartnerLayers<D>& layers);
+
+/// On the body.
+template <int D>
+Vec<D> net_force(const PartnerLayers<D>& layers);
+
+/// Least distance of all points of the finest grade.
+template <int D>
+Real gap_at(const BodyAndPartner<D>& pair, const Motion& motion);
+
+/// For the history: of `pair` and `effects`, which outlive them. A body that `wets` has measures of
+/// wetting.
+template <int D>
+std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
+                                       bool wets);
+
+}  // namespace meniscus
