@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contact points of two bodies that may be within reach of each other, and which act on which.
+#pragma once
+#include "meniscus/physics/contact.hpp"
+#include "meniscus/physics/contact_list.hpp"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "facet_pairs.hpp"
+#include "moved_since.hpp"
+
+namespace meniscus {
+
+/// The contact points of a body by grade: all of a facet first, then fewer and fewer.
+template <int D>
+using GradedPoints = std::vector<ContactPoints<D>>;
+
+/// Points of both bodies at a motion, by grade, as far as they may be within reach of the other
+/// body: all others are left where they were.
+template <int D>
+struct VisitedPair {
+  std::vector<ContactPlaces<D>> first, second;
+  FacetPairs<D> facets;        ///< where there are several grades
+  const ContactList<D>* list;  ///< of the coarsest points
+
+  /// Which clusters of a grade have partners, and which.
+  FacetRows<D> of_first(std::size_t grade) const {
+    return first.size() == 1 ? all_of(list->of_first()) : facets.of_first(grade);
+  }
+  FacetRows<D> of_second(std::size_t grade) const {
+    return first.size() == 1 ? all_of(list->of_second()) : facets.of_second(grade);
+  }
+  std::size_t bytes() const;
+
+ private:
+  static FacetRows<D> all_of(const typename ContactList<D>::Rows& rows) {
+    return {&rows, 1, rows.active};
+  }
+};
+
+/// The points of two bodies and what of them was visited last.
+template <int D>
+class PairVisits {
+ public:
+  /// Points of the volume for the form `volume`, else of the surfaces.
+  PairVisits(const ContactBody<D>& first, const ContactBody<D>& second,
+             const Interaction& interaction, const ContactLaw& law, const ContactChoice& choice);
+  PairVisits(const PairVisits&) = delete;
+  PairVisits& operator=(const PairVisits&) = delete;
+
+  std::size_t grades() const { return first_.size(); }
+  ContactPoints<D>& first(std::size_t grade) { return first_[grade]; }
+  ContactPoints<D>& second(std::size_t grade) { return second_[grade]; }
+  const ContactPoints<D>& first(std::size_t grade) const { return first_[grade]; }
+  const ContactPoints<D>& second(std::size_t grade) const { return second_[grade]; }
+
+  /// Brings now() to this motion. The coarsest points tell which may be within reach; takes no
+  /// memory while their list holds.
+  void visit(const Motion& motion);
+  const VisitedPair<D>& now() const { return now_; }
+
+  /// f(visited) at any motion; takes memory. The list of now() serves where it holds.
+  template <class F>
+  auto look_at(const Motion& motion, F&& f) const {
+    VisitedPair<D> at_motion = at_rest();
+    std::optional<ContactList<D>> own;
+    if (holds(motion))
+      move_listed(motion, at_motion);
+    else
+      make_list(motion, own.emplace(list_.reach(), list_.skin()), at_motion);
+    bring_others(motion, at_motion);
+    return f(std::as_const(at_motion));
+  }
+
+  std::size_t bytes() const;
+  /// Of points, from both sides.
+  Offset point_pairs() const;
+
+ private:
+  VisitedPair<D> at_rest() const;
+  bool holds(const Motion& motion) const;
+  void move_listed(const Motion& motion, VisitedPair<D>& at_motion) const;
+  void make_list(const Motion& motion, ContactList<D>& list, VisitedPair<D>& at_motion) const;
+  void bring_others(const Motion& motion, VisitedPair<D>& at_motion) const;
+
+  Real reach_;
+  FacetGrades grades_;
+  GradedPoints<D> first_, second_;
+  ContactList<D> list_;                       // of the coarsest points
+  MovedSince<D> first_since_, second_since_;  // that was made
+  VisitedPair<D> now_;
+};
+
+}  // namespace meniscus
