@@ -24,8 +24,8 @@ EFFECTS = {
     "implicit viscosity": r"ImplicitViscosity<|add_viscous",
     "cell average": r"InternalForce<[23], meniscus::CellAverage<",
     "internal force": r"InternalForce<",
-    "contact": r"(Pair|Rigid)Contact<|PairSums|GapPair<|(Contact|Patch)Points<|(Contact|Reach)List<|sum_over_partners|"
-    r"contact_demand",
+    "contact": r"(Pair|Rigid)Contact<|PairSums|PairVisits<|BodyAndPartner<|PartnerLayer<|Gap(Pair|Forces)<|"
+    r"(Contact|Patch)Points<|(Contact|Reach)List<|sum_over_partners|contact_demand",
 }
 
 BODY = """
