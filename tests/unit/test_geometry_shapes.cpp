@@ -396,6 +396,8 @@ TEST(Grid, ImpossibleJitterIsRefused) {
 template <int D>
 void expect_diagonals(const Grid<D>& grid, const Mat<D>& stretch, Real length) {
   for (const Real found : diagonals_around_nodes(grid, stretch)) EXPECT_NEAR(found, length, 1e-14);
+  for (const Real found : supports_by_cells(grid, stretch, 1.5))
+    EXPECT_NEAR(found, 1.5 * length, 1e-14);
 }
 
 /// Not longer at faces, edges and corners, unlike distances to neighbours.
