@@ -113,7 +113,8 @@ void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
   const Vec<D> middle = kernel_place(centre);
   const Real reach = pressed_ ? pressed_->growth * radius : radius;
   const auto keep = [&](const Vec<D>& X, Real support) {
-    return (X - middle).norm() < reach + support;
+    const Real within = reach + support;
+    return (X - middle).squaredNorm() < within * within;
   };
   find(middle, reach, keep, found);
 }

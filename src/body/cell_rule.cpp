@@ -61,29 +61,30 @@ struct Flux {
     for (int K = 0; K < D; ++K) at(moment, K) = n_dA[K] * one_and_X;
   }
   bool is_zero() const {
-    Lanes size = Lanes::zero();
-    for (const Lanes& m : moment) size += max(m, -m);
-    return sum(size) == 0;
+    Lanes::Mask set{};
+    for (const Lanes& m : moment) set |= m.v != 0.0;
+    return !any(set);
   }
   void add(Lanes N, const std::array<Flux, 4>& weight) {
     for (int lane = 0; lane < 4; ++lane)
       for (int K = 0; K < D; ++K) at(moment, K) += N[lane] * at(at(weight, lane).moment, K);
   }
-  /// Adds `sign` times another one, whose arms begin at Xf + `arm`.
-  void add_moved(const Flux& other, const Vec<D>& arm, Real sign) {
-    Lanes from_centre = with_one(arm);
-    from_centre.set(0, 0);
+  /// Adds `sign` times another one, whose arms begin at Xf + arm; `from_centre`: (0, arm).
+  void add_moved(const Flux& other, Lanes from_centre, Real sign) {
     for (int K = 0; K < D; ++K) {
       const Lanes& m = at(other.moment, K);
       at(moment, K) += sign * (m + m[0] * from_centre);
     }
   }
 
- private:
-  static Lanes with_one(const Vec<D>& arm) {
+  static Lanes with_zero(const Vec<D>& arm) {
     Lanes lanes = Lanes::zero();
-    lanes.set(0, 1);
     for (int Q = 0; Q < D; ++Q) lanes.set(1 + Q, arm[Q]);
+    return lanes;
+  }
+  static Lanes with_one(const Vec<D>& arm) {
+    Lanes lanes = with_zero(arm);
+    lanes.set(0, 1);
     return lanes;
   }
 };
@@ -97,13 +98,14 @@ struct SharedFlux {
   std::vector<Flux<D>> flux;
 };
 
-/// What one nodal cell gets and gives away: the integrals over its volume, over its facets on the
-/// body's boundary, and over the facets that it shares with nodal cells of greater number.
+/// What one nodal cell gets and gives away: the integrals over its volume, over the facets that no
+/// cell before it in its block has, and of these over those that it shares with cells after it in
+/// the block.
 template <int D>
 struct CellIntegrals {
   std::vector<Candidate<D>> candidates;
   std::vector<VolumeIntegral> volume;  // [candidate]
-  std::vector<Flux<D>> boundary;       // [candidate], arms from the centroid; empty: no such facets
+  std::vector<Flux<D>> flux;           // [candidate], arms from the centroid
   std::vector<SharedFlux<D>> shared;
 };
 
@@ -235,13 +237,28 @@ void integrate_fluxes(const Body<D>& body, std::span<const Vec<D>> X, std::span<
   add_integrals<D, Flux<D>>(body, X, weight, candidates, flux);
 }
 
+/// The integrals through a facet that are not zero, for the cell on its other side.
+template <int D>
+void pack_shared(const typename CellSamples<D>::SharedFacet& facet,
+                 std::span<const Candidate<D>> candidates, std::span<const Flux<D>> flux,
+                 SharedFlux<D>& packed) {
+  packed.neighbor = facet.neighbor;
+  packed.centre = facet.centre;
+  packed.particle.clear();
+  packed.flux.clear();
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (flux[k].is_zero()) continue;
+    packed.particle.push_back(candidates[k].particle);
+    packed.flux.push_back(flux[k]);
+  }
+}
+
 /// Integrals over the samples of a cell, its volume and facets.
 template <int D>
 void integrate_samples(const Body<D>& body, Index cell, const CellSamples<D>& samples,
-                       std::span<const Candidate<D>> candidates,
-                       std::vector<VolumeIntegral>& volume, std::vector<SharedFlux<D>>& shared) {
-  volume.assign(candidates.size(), {});
-  add_integrals<D, Real>(body, samples.volume_X, samples.volume_w, candidates, volume);
+                       OwnItems block, CellIntegrals<D>& own) {
+  own.volume.assign(own.candidates.size(), {});
+  add_integrals<D, Real>(body, samples.volume_X, samples.volume_w, own.candidates, own.volume);
   thread_local std::vector<std::vector<Flux<D>>> facets;
   facets.resize(samples.facets.size());
   for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -249,23 +266,21 @@ void integrate_samples(const Body<D>& body, Index cell, const CellSamples<D>& sa
     const std::size_t count = facet.end - facet.begin;
     integrate_fluxes<D>(body, std::span(samples.facet_X).subspan(facet.begin, count),
                         std::span(samples.facet_dA).subspan(facet.begin, count), facet.centre,
-                        candidates, facets[f]);
+                        own.candidates, facets[f]);
   }
-  MissingMoments<D>(body, cell, samples).add(candidates, volume, facets);
+  MissingMoments<D>(body, cell, samples).add(own.candidates, own.volume, facets);
 
-  shared.resize(facets.size());
+  std::size_t shared = 0;
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    SharedFlux<D>& packed = shared[f];
-    packed.neighbor = samples.facets[f].neighbor;
-    packed.centre = samples.facets[f].centre;
-    packed.particle.clear();
-    packed.flux.clear();
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (facets[f][k].is_zero()) continue;
-      packed.particle.push_back(candidates[k].particle);
-      packed.flux.push_back(facets[f][k]);
-    }
+    const auto& facet = samples.facets[f];
+    const Lanes arm = Flux<D>::with_zero(facet.centre - body.cells.centroid(cell));
+    for (std::size_t k = 0; k < own.candidates.size(); ++k)
+      own.flux[k].add_moved(facets[f][k], arm, 1);
+    if (facet.neighbor < cell || facet.neighbor >= block.end) continue;
+    if (shared == own.shared.size()) own.shared.emplace_back();
+    pack_shared<D>(facet, own.candidates, facets[f], own.shared[shared++]);
   }
+  own.shared.resize(shared);
 }
 
 template <int D>
@@ -275,11 +290,12 @@ Real reach(std::span<const Vec<D>> points, const Vec<D>& centre) {
   return radius * (1 + 1e-12);
 }
 
+/// `block`: the cells whose integrals are computed along with these.
 template <int D>
-void integrate_cell(const Body<D>& body, Index cell, CellIntegrals<D>& own) {
+void integrate_cell(const Body<D>& body, Index cell, OwnItems block, CellIntegrals<D>& own) {
   thread_local CellSamples<D> samples;
   thread_local CellQuadrature<D> boundary;
-  body.cells.sample(cell, body.particles, samples);
+  body.cells.sample(cell, block.begin, body.particles, samples);
   body.cells.boundary_points(cell, boundary);
   const Vec<D>& centroid = body.cells.centroid(cell);
   body.particles.candidates(
@@ -287,25 +303,9 @@ void integrate_cell(const Body<D>& body, Index cell, CellIntegrals<D>& own) {
       std::max({reach<D>(samples.volume_X, centroid), reach<D>(samples.facet_X, centroid),
                 reach<D>(boundary.facet_X, centroid)}),
       own.candidates);
-  integrate_samples<D>(body, cell, samples, own.candidates, own.volume, own.shared);
-  own.boundary.clear();
-  if (!boundary.facet_X.empty())
-    integrate_fluxes<D>(body, boundary.facet_X, boundary.facet_dA, centroid, own.candidates,
-                        own.boundary);
-}
-
-/// The integrals that `lower` shares with `higher`, alone.
-template <int D>
-const SharedFlux<D>& integrate_facet(const Body<D>& body, Index lower, Index higher) {
-  thread_local CellSamples<D> samples;
-  thread_local std::vector<Candidate<D>> candidates;
-  thread_local std::vector<VolumeIntegral> none;
-  thread_local std::vector<SharedFlux<D>> shared;
-  body.cells.sample_facet(lower, higher, body.particles, samples);
-  const Vec<D>& centre = samples.facets.front().centre;
-  body.particles.candidates(centre, reach<D>(samples.facet_X, centre), candidates);
-  integrate_samples<D>(body, lower, samples, candidates, none, shared);
-  return shared.front();
+  integrate_fluxes<D>(body, boundary.facet_X, boundary.facet_dA, centroid, own.candidates,
+                      own.flux);
+  integrate_samples<D>(body, cell, samples, block, own);
 }
 
 /// One row of the cell rule, before it is packed.
@@ -322,65 +322,64 @@ struct CellRow {
   std::size_t exact = 0;                       // how many of them stay in double
 };
 
+/// Adds to a row what facets of cells before it in its block have of it. Particles that are new to
+/// the row come behind the others.
+template <int D>
+void add_lower_facets(const Body<D>& body, Index cell, std::span<const CellIntegrals<D>> block,
+                      Index first, CellRow<D>& row) {
+  thread_local std::vector<Index> slot;  // [particle] its entry; -1: none yet
+  thread_local std::vector<Index> lower;
+  slot.resize(std::max(slot.size(), body.particles.X().size()), -1);
+  for (std::size_t e = 0; e < row.entries.size(); ++e)
+    at(slot, row.entries[e].particle) = static_cast<Index>(e);
+  body.cells.lower_neighbors(cell, lower);
+  for (const Index neighbor : lower) {
+    if (neighbor < first) continue;
+    for (const SharedFlux<D>& facet : at(block, neighbor - first).shared) {
+      if (facet.neighbor != cell) continue;
+      const Lanes arm = Flux<D>::with_zero(facet.centre - body.cells.centroid(cell));
+      for (std::size_t k = 0; k < facet.particle.size(); ++k) {
+        Index& s = at(slot, facet.particle[k]);
+        if (s < 0) {
+          s = static_cast<Index>(row.entries.size());
+          row.entries.push_back({facet.particle[k], 0, {}});
+        }
+        at(row.entries, s).flux.add_moved(facet.flux[k], arm, -1);
+      }
+    }
+  }
+  for (const auto& e : row.entries) at(slot, e.particle) = -1;
+}
+
 /// Flux integrals of one nodal cell: a_K = (1/V) oint N n_K,
 /// B_KM = [oint N n_K (X - Xb)_Q - delta_KQ int N] (V S)^-1_QM. `block`: integrals of the cells
-/// from `first` on; what is shared with lower ones is computed anew.
+/// from `first` on.
 template <int D>
 void assemble_row(const Body<D>& body, Index cell, std::span<const CellIntegrals<D>> block,
                   Index first, CellRow<D>& row) {
   const CellIntegrals<D>& own = at(block, cell - first);
-  thread_local std::vector<Index> slot;  // [particle] its entry; -1: none yet
-  thread_local std::vector<Index> lower;
-  slot.resize(std::max(slot.size(), body.particles.X().size()), -1);
   row.entries.clear();
-  const auto entry = [&](Index particle) -> typename CellRow<D>::Entry& {
-    Index& s = at(slot, particle);
-    if (s < 0) {
-      s = static_cast<Index>(row.entries.size());
-      row.entries.push_back({particle, 0, {}});
-    }
-    return at(row.entries, s);
-  };
-  for (std::size_t k = 0; k < own.candidates.size(); ++k) {
-    const bool on_boundary = !own.boundary.empty() && !own.boundary[k].is_zero();
-    if (own.volume[k].value == 0 && !on_boundary) continue;
-    auto& e = entry(own.candidates[k].particle);
-    e.integral = own.volume[k].value;
-    if (on_boundary) e.flux = own.boundary[k];
-  }
-  const Vec<D>& centroid = body.cells.centroid(cell);
-  const auto add = [&](const SharedFlux<D>& facet, Real sign) {
-    for (std::size_t k = 0; k < facet.particle.size(); ++k)
-      entry(facet.particle[k]).flux.add_moved(facet.flux[k], facet.centre - centroid, sign);
-  };
-  body.cells.lower_neighbors(cell, lower);
-  for (const Index neighbor : lower) {
-    if (neighbor < first) {
-      add(integrate_facet(body, neighbor, cell), -1);
-      continue;
-    }
-    for (const SharedFlux<D>& facet : at(block, neighbor - first).shared)
-      if (facet.neighbor == cell) add(facet, -1);
-  }
-  for (const SharedFlux<D>& facet : own.shared) add(facet, 1);
-  for (const auto& e : row.entries) at(slot, e.particle) = -1;
-  std::sort(row.entries.begin(), row.entries.end(),
-            [](const auto& a, const auto& b) { return a.particle < b.particle; });
+  for (std::size_t k = 0; k < own.candidates.size(); ++k)
+    row.entries.push_back({own.candidates[k].particle, own.volume[k].value, own.flux[k]});
+  add_lower_facets(body, cell, block, first, row);
+  std::erase_if(row.entries, [](const auto& e) { return e.integral == 0 && e.flux.is_zero(); });
+  const auto by_particle = [](const auto& a, const auto& b) { return a.particle < b.particle; };
+  if (!std::is_sorted(row.entries.begin(), row.entries.end(), by_particle))
+    std::sort(row.entries.begin(), row.entries.end(), by_particle);
 
   const Real V = body.cells.volume(cell);
   const Mat<D> inverse_VS = inverse<D>(V * body.cells.covariance(cell));
+  std::array<Lanes, D> inverse_row;
+  for (int Q = 0; Q < D; ++Q) at(inverse_row, Q) = Flux<D>::with_zero(inverse_VS.row(Q));
+  const Lanes inverse_V = Lanes(1 / V, 0, 0, 0);
   row.gradient.resize(row.entries.size());
   for (std::size_t k = 0; k < row.entries.size(); ++k) {
     const auto& [particle, integral, flux] = row.entries[k];
-    Mat<D> moment;
-    for (int K = 0; K < D; ++K)
-      for (int Q = 0; Q < D; ++Q) moment(K, Q) = at(flux.moment, K)[1 + Q];
-    const Mat<D> B = (moment - integral * Mat<D>::Identity()) * inverse_VS;
     for (int K = 0; K < D; ++K) {
-      Lanes& g = at(row.gradient[k], K);
-      g = Lanes::zero();
-      g.set(0, at(flux.moment, K)[0] / V);
-      for (int M = 0; M < D; ++M) g.set(1 + M, B(K, M));
+      const Lanes& m = at(flux.moment, K);
+      Lanes g = m[0] * inverse_V - integral * at(inverse_row, K);
+      for (int Q = 0; Q < D; ++Q) g += m[1 + Q] * at(inverse_row, Q);
+      at(row.gradient[k], K) = g;
     }
   }
 }
@@ -487,9 +486,9 @@ void end_rows(const Body<D>& body, CellRule<D>& rule) {
   rule.double_start.resize(size, rule.double_start.back());
 }
 
-/// Appends rows to a rule that has none. What cells share with lower ones of their block is
-/// computed once, for whatever cells the rows are asked: so rows do not depend on that to the last
-/// bit.
+/// Appends rows to a rule that has none. What cells share within a block is computed once, and what
+/// they share with others twice, for whatever cells the rows are asked: so rows do not depend on
+/// that to the last bit.
 template <int D>
 void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, CellRule<D>& rule,
                  SumsOverRanks& shape_integral) {
@@ -502,7 +501,11 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
   for (Index begin = cells.begin / block * block; begin < cells.end; begin += block) {
     const Index first = std::max(begin, cells.begin), end = std::min(begin + block, cells.end);
     parallel_for(
-        end - begin, [&](Index k) { integrate_cell(body, begin + k, at(integrals, k)); }, 4);
+        end - begin,
+        [&](Index k) {
+          integrate_cell(body, begin + k, {begin, begin + block}, at(integrals, k));
+        },
+        4);
     parallel_for(
         end - first,
         [&](Index k) {

@@ -260,7 +260,7 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
 }
 
 template <int D>
-void NodalCells<D>::sample(Index node, const ParticleSet<D>& particles,
+void NodalCells<D>::sample(Index node, Index first, const ParticleSet<D>& particles,
                            CellSamples<D>& samples) const {
   samples.clear();
   sample_volume(node, particles, samples);
@@ -268,26 +268,14 @@ void NodalCells<D>::sample(Index node, const ParticleSet<D>& particles,
   for (auto begin = parts.begin(); begin != parts.end();) {
     const auto end = std::find_if(
         begin, parts.end(), [&](const FacetPart& p) { return p.neighbor != begin->neighbor; });
-    if (begin->neighbor > node) sample_facet(node, std::span(begin, end), particles, samples);
+    if (begin->neighbor > node || begin->neighbor < first)
+      sample_facet(node, std::span(begin, end), particles, samples);
     begin = end;
   }
 }
 
-template <int D>
-void NodalCells<D>::sample_facet(Index node, Index neighbor, const ParticleSet<D>& particles,
-                                 CellSamples<D>& samples) const {
-  samples.clear();
-  std::vector<FacetPart> parts = facet_parts(node);
-  std::erase_if(parts, [&](const FacetPart& p) { return p.neighbor != neighbor; });
-  sample_facet(node, parts, particles, samples);
-}
-
-template void NodalCells<2>::sample(Index, const ParticleSet<2>&, CellSamples<2>&) const;
-template void NodalCells<3>::sample(Index, const ParticleSet<3>&, CellSamples<3>&) const;
-template void NodalCells<2>::sample_facet(Index, Index, const ParticleSet<2>&,
-                                          CellSamples<2>&) const;
-template void NodalCells<3>::sample_facet(Index, Index, const ParticleSet<3>&,
-                                          CellSamples<3>&) const;
+template void NodalCells<2>::sample(Index, Index, const ParticleSet<2>&, CellSamples<2>&) const;
+template void NodalCells<3>::sample(Index, Index, const ParticleSet<3>&, CellSamples<3>&) const;
 template void NodalCells<2>::lower_neighbors(Index, std::vector<Index>&) const;
 template void NodalCells<3>::lower_neighbors(Index, std::vector<Index>&) const;
 

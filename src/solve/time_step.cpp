@@ -11,6 +11,9 @@ namespace meniscus {
 namespace {
 
 constexpr int most_iterations = 300;
+/// A response that differs by more of M p anywhere is another one: about three times this share of
+/// the largest rates.
+constexpr Real same_response = 5e-3;
 
 /// The limit falls from iteration to iteration, in the end as a geometric series: what is left of
 /// it is subtracted.
@@ -19,8 +22,9 @@ struct FallingLimit {
   Real scale = 1;  ///< limit / what it falls to
   int settled = 0;
 
+  static constexpr Real tolerance = 2e-3;
+
   void add(Real limit) {
-    constexpr Real tolerance = 2e-3;
     const Real fall = dt - limit, slope = last_fall - fall;
     const Real left =
         fall > 0 && slope > 0 ? std::min(fall * fall / slope, 0.1 * limit) : std::abs(fall);
@@ -33,8 +37,7 @@ struct FallingLimit {
 };
 
 /// A start with all wave lengths in it, the same on every machine.
-NodalVectors rough_mode(Index n, int components) {
-  NodalVectors mode(static_cast<std::size_t>(n));
+void make_rough(NodalVectors& mode, int components) {
   std::uint64_t bits = 0x9e3779b97f4a7c15;
   for (NodalVector& w : mode) {
     w = Lanes::zero();
@@ -45,6 +48,11 @@ NodalVectors rough_mode(Index n, int components) {
       w.set(i, static_cast<Real>(bits >> 11) * 0x1p-52 - 1);
     }
   }
+}
+
+NodalVectors rough_mode(Index n, int components) {
+  NodalVectors mode(static_cast<std::size_t>(n));
+  make_rough(mode, components);
   return mode;
 }
 
@@ -67,7 +75,10 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
       viscous_counts_(viscous),
       spacing_(unbounded),
       critical_(system.mass),
-      mode_(rough_mode(system.size(), D)) {
+      mode_(rough_mode(system.size(), D)),
+      trial_force_(mode_.size()),
+      known_response_(mode_.size(), Lanes::zero()),
+      response_(mode_.size()) {
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A)
       spacing_ = std::min(
@@ -79,6 +90,10 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
 template <int D>
 void StableStepEstimator<D>::archive(const Archive& a) {
   a("mode", mode_, D);
+  a("mode_limit", mode_limit_, dimension::time);
+  a("response_step", response_step_, dimension::time);
+  a("response", known_response_, D);
+  require_saved(mode_limit_ >= 0 && response_step_ >= 0, a, "response_step");
   for (std::size_t k = 0; k < field_modes_.size(); ++k)
     a.in("field_modes")(system_.fields[k].spec.name, field_modes_[k],
                         system_.fields[k].spec.components);
@@ -89,20 +104,20 @@ void StableStepEstimator<D>::archive(const Archive& a) {
 template <int D>
 void StableStepEstimator<D>::find_stiff_forces(const State& state, TrialMode& trial) {
   const Real du = 1e-6 * spacing_ / largest(trial.w);
-  force_change(state, trial.w, du, 0, trial.Kw);
+  force_change(state, trial.w, du, 0, du, trial.Kw);
 }
 
 /// C w by a velocity that displaces as much in the time 1 / `rate` of the mode (any, if that is 0).
 template <int D>
 void StableStepEstimator<D>::find_viscous_forces(const State& state, Real rate, TrialMode& trial) {
   const Real dv = 1e-6 * spacing_ / largest(trial.w) * (rate > 0 ? rate : 1);
-  force_change(state, trial.w, 0, dv, trial.Cw);
+  force_change(state, trial.w, 0, dv, dv, trial.Cw);
 }
 
-/// result = - (f(u + du w, v + dv w) - f(u, v)) / (du + dv), where one of both is 0.
+/// result = - (f(u + du w, v + dv w) - f(u, v)) / size.
 template <int D>
 void StableStepEstimator<D>::force_change(const State& state, const NodalVectors& w, Real du,
-                                          Real dv, NodalVectors& result) {
+                                          Real dv, Real size, NodalVectors& result) {
   u_.resize(w.size());
   v_.resize(w.size());
   result.resize(w.size());
@@ -119,8 +134,7 @@ void StableStepEstimator<D>::force_change(const State& state, const NodalVectors
   }
   system_.add_up({state.time, u_, v_, fields}, {result, trial_});
   for_chunks(system_.size(), [&](Index, Index begin, Index end) {
-    for (Index A = begin; A < end; ++A)
-      at(result, A) = (1 / (du + dv)) * (at(base_, A) - at(result, A));
+    for (Index A = begin; A < end; ++A) at(result, A) = (1 / size) * (at(base_, A) - at(result, A));
   });
 }
 
@@ -159,7 +173,13 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
     const Real k = std::abs(found.stiffness), c = std::max(0.0, found.viscosity);
     const Real limit = 4 / (c + std::sqrt(c * c + 4 * k));
     if (!std::isfinite(limit)) break;
+    if (iteration == 0 && std::abs(limit - mode_limit_) < FallingLimit::tolerance * limit) {
+      // The responses differ elsewhere.
+      start_where_it_changed();
+      continue;
+    }
     falling.add(limit);
+    mode_limit_ = limit;
     best = {limit / falling.scale, falling.scale * std::sqrt(k), falling.scale * c,
             best.evaluations};
     if (falling.found()) break;
@@ -170,21 +190,100 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
   return best;
 }
 
+/// With the mode found last and, as long, the change of the responses.
 template <int D>
-StableStep StableStepEstimator<D>::estimate(const State& state) {
-  // Every iteration lengthens the mode a little: in a long run it would overflow.
-  const Real length = std::sqrt(dot(mode_, mode_));
-  for (NodalVector& w : mode_) w /= length;
+void StableStepEstimator<D>::start_where_it_changed() {
+  NodalVectors& change = trial_force_;
+  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(change, A) = (1 / at(system_.mass, A)) * (at(known_response_, A) - at(response_, A));
+  });
+  const Real scale = std::sqrt(dot(mode_, mode_) / dot(change, change));
+  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(mode_, A) += scale * at(change, A);
+  });
   if (system_.constraints) system_.constraints->project(mode_);
+  critical_.begin(mode_);
+}
 
+template <int D>
+void StableStepEstimator<D>::find_response(const State& state, NodalVectors& response) {
+  NodalVectors& rough = trial_force_;
+  make_rough(rough, D);
+  if (system_.constraints) system_.constraints->project(rough);
+  const Real dt = response_step_, size = 1e-6 * spacing_ / largest(rough) / (dt * dt / 4);
+  const bool viscous = viscous_counts_ && system_.viscous();
+  force_change(state, rough, size * dt * dt / 4, viscous ? size * dt / 2 : 0, size, response);
+}
+
+template <int D>
+void StableStepEstimator<D>::know_response(const State& state, Real dt) {
+  response_step_ = dt;
+  find_response(state, known_response_);
+}
+
+template <int D>
+bool StableStepEstimator<D>::responds_as_before() const {
+  struct Largest {
+    Real value;
+    Largest operator+(Largest b) const { return {std::max(value, b.value)}; }
+  };
+  const auto squared = parallel_sum(system_.size(), Largest{0}, [&](Index A) {
+    const Lanes change = (1 / at(system_.mass, A)) * (at(response_, A) - at(known_response_, A));
+    return Largest{sum(change * change)};
+  });
+  return squared.value < same_response * same_response;
+}
+
+/// The forces that changes are taken from.
+template <int D>
+void StableStepEstimator<D>::find_base_forces(const State& state) {
   base_.resize(mode_.size());
-  trial_force_.resize(mode_.size());
   trial_ = state.fields;
   v_ = state.v;
   if (!viscous_counts_) std::fill(v_.begin(), v_.end(), Lanes::zero());
   system_.add_up({state.time, state.u, v_, state.fields}, {base_, trial_});
   base_fields_.resize(trial_.size());
   for (std::size_t k = 0; k < trial_.size(); ++k) base_fields_[k] = trial_[k].f;
+}
+
+template <int D>
+StableStep StableStepEstimator<D>::estimate(const State& state) {
+  find_base_forces(state);
+  mode_limit_ = 0;
+  const StableStep found = limit_from_base(state);
+  if (state.fields.empty()) know_response(state, found.dt);
+  return found;
+}
+
+template <int D>
+StableStep StableStepEstimator<D>::estimate_again(const State& state, const StableStep& before) {
+  if (response_step_ == 0) return estimate(state);
+  if (system_.viscous() || system_.constraints) {
+    // The force of the state is at another velocity, or has reactions in it.
+    find_base_forces(state);
+  } else {
+    base_ = state.force;
+    v_ = state.v;
+  }
+  find_response(state, response_);
+  if (responds_as_before()) {
+    StableStep same = before;
+    same.evaluations = 1;
+    return same;
+  }
+  std::swap(known_response_, response_);
+  const StableStep found = limit_from_base(state);
+  if (std::abs(found.dt - response_step_) > 0.1 * response_step_) know_response(state, found.dt);
+  return found;
+}
+
+template <int D>
+StableStep StableStepEstimator<D>::limit_from_base(const State& state) {
+  // Every iteration lengthens the mode a little: in a long run it would overflow.
+  const Real length = std::sqrt(dot(mode_, mode_));
+  for (NodalVector& w : mode_) w /= length;
+  if (system_.constraints) system_.constraints->project(mode_);
   StableStep best = limit_of_motion(state);
   if (!system_.carried.empty())
     for (std::size_t k = 0; k < trial_.size(); ++k) trial_[k].x = state.fields[k].x;

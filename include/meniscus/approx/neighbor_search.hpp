@@ -12,8 +12,6 @@ namespace meniscus {
 /// A kd-tree over a cloud. Queries are const and may run on several threads at once.
 template <int D>
 requires SpaceDim<D>
-
-/// A search tree over points that stay where they are.
 class NeighborSearch {
  public:
   explicit NeighborSearch(std::span<const Vec<D>> points);

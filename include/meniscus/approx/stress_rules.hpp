@@ -62,10 +62,11 @@ struct CellRule {
     for (auto& row : moment)
       for (auto& m : row) m = Lanes::zero();
     for_entries(
-        cell, Half::first, [&](Index A, const Lanes* g) __attribute__((always_inline)) {
+        cell,
+        Half::first, [&](Index A, const std::array<Lanes, D>& g) __attribute__((always_inline)) {
           const Real* f = detail::components(field[A]);
           for (int i = 0; i < D; ++i)
-            for (int K = 0; K < D; ++K) moment[i][K] += f[i] * g[K];
+            for (int K = 0; K < D; ++K) moment[i][K] += f[i] * at(g, K);
         });
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     H = Tensor<Lanes>::zero();
@@ -88,11 +89,12 @@ struct CellRule {
         moment[i][K] = sums(P(i, K), P(i, K) * xi[0], P(i, K) * xi[1],
                             D == 3 ? P(i, K) * xi[D - 1] : Lanes::zero());
     for_entries(
-        cell, Half::second, [&](Index A, const Lanes* g) __attribute__((always_inline)) {
+        cell,
+        Half::second, [&](Index A, const std::array<Lanes, D>& g) __attribute__((always_inline)) {
           Lanes f[D];
           for (int i = 0; i < D; ++i) {
-            f[i] = moment[i][0] * g[0];
-            for (int K = 1; K < D; ++K) f[i] += moment[i][K] * g[K];
+            f[i] = moment[i][0] * at(g, 0);
+            for (int K = 1; K < D; ++K) f[i] += moment[i][K] * at(g, K);
           }
           force[A] += sums(f[0], f[1], D == 3 ? f[D - 1] : Lanes::zero(), Lanes::zero());
         });
@@ -102,10 +104,10 @@ struct CellRule {
   /// of what gather, P_iK = S_i,KL H_iL and scatter do to a field.
   void add_diagonal(Index cell, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
-    for_entries(cell, Half::first, [&](Index A, const Lanes* coefficients) {
+    for_entries(cell, Half::first, [&](Index A, const std::array<Lanes, D>& coefficients) {
       std::array<Lanes, D> g;
       for (int K = 0; K < D; ++K) {
-        const Real* moment = detail::components(coefficients[K]);
+        const Real* moment = detail::components(at(coefficients, K));
         at(g, K) = Lanes(moment[0]);
         for (int M = 0; M < D; ++M) at(g, K) += moment[M + 1] * xi[M];
       }
@@ -138,17 +140,19 @@ struct CellRule {
     const char* ahead = reinterpret_cast<const char*>(coefficient.data() + exact_end * D) +
                         (half == Half::second ? (end - A) * bytes_ahead : 0);
     for (; A != end; ++A, g += D, ahead += bytes_ahead) {
-      prefetch_second_level(ahead);
-      work(*A, g);
+      prefetch_passing(ahead);
+      std::array<Lanes, D> here;
+      for (int K = 0; K < D; ++K) at(here, K) = in_register(g[K]);
+      work(*A, here);
     }
     end = particle.data() + at(start, cell + 1);
     const SingleLanes* r = rounded.data() + (at(start, cell) - exact) * D;
     ahead = reinterpret_cast<const char*>(rounded.data() + (at(start, cell + 1) - exact_end) * D) +
             (half == Half::second ? (end - A) * rounded_bytes_ahead : 0);
     for (; A != end; ++A, r += D, ahead += rounded_bytes_ahead) {
-      prefetch_second_level(ahead);
-      Lanes wide[D];
-      for (int K = 0; K < D; ++K) wide[K] = r[K].widened();
+      prefetch_passing(ahead);
+      std::array<Lanes, D> wide;
+      for (int K = 0; K < D; ++K) at(wide, K) = in_register(r[K].widened());
       work(*A, wide);
     }
   }

@@ -89,11 +89,10 @@ class NodalCells {
   void quadrature(Index node, CellQuadrature<D>& q) const;
   /// Only the points on the boundary of the body.
   void boundary_points(Index node, CellQuadrature<D>& q) const;
-  /// Fills the samples of one node, with the facets towards nodes of higher number, likewise.
-  void sample(Index node, const ParticleSet<D>& particles, CellSamples<D>& samples) const;
-  /// Only those of the facet between a node and a neighbor of higher number.
-  void sample_facet(Index node, Index neighbor, const ParticleSet<D>& particles,
-                    CellSamples<D>& samples) const;
+  /// Fills the samples of one node, with the facets towards nodes of higher number and towards
+  /// those below `first`, likewise.
+  void sample(Index node, Index first, const ParticleSet<D>& particles,
+              CellSamples<D>& samples) const;
   /// Nodes of lower number whose nodal cells share a facet with this one, ascending.
   void lower_neighbors(Index node, std::vector<Index>& neighbors) const;
 

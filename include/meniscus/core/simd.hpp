@@ -118,11 +118,20 @@ inline bool any(Lanes::Mask mask) {
 #endif
 }
 
-/// Asks for the cache line of `p`, as far as the second level: it is needed soon, not next. Inlined
-/// before anything is optimised: g++ 12 takes a function that does nothing else for one without
-/// effect and drops the call.
-[[gnu::always_inline]] inline void prefetch_second_level(const void* p) {
-  __builtin_prefetch(p, 0, 2);
+/// The same number, kept in a register from here on: where several products have it as a factor,
+/// the compiler reads it from memory for each of them otherwise.
+[[gnu::always_inline]] inline Lanes in_register(Lanes a) {
+#ifdef __AVX__
+  asm("" : "+x"(a.v));
+#endif
+  return a;
+}
+
+/// Asks for the cache line of `p`, which is needed soon and then not for long: it takes no place
+/// from what stays. Inlined before anything is optimised: g++ 12 takes a function that does nothing
+/// else for one without effect and drops the call.
+[[gnu::always_inline]] inline void prefetch_passing(const void* p) {
+  __builtin_prefetch(p, 0, 0);
 }
 
 /// The vectors (a_q, b_q, c_q, 0) of the lanes q = 0 ... 3.

@@ -23,7 +23,8 @@ struct StableStep {
 
 /// Finds the critical mode of the motion by conjugate gradients, and those of other unknowns by
 /// power iteration, on differences of the force, starting with the mode found before: a new
-/// estimate of a slowly changing body takes a few evaluations.
+/// estimate of a slowly changing body takes a few evaluations. Whether it changes is seen from the
+/// response to a rough displacement and velocity, which takes one.
 template <int D>
 class StableStepEstimator {
  public:
@@ -33,6 +34,9 @@ class StableStepEstimator {
 
   /// Throws SolveError if no finite limit can be found.
   StableStep estimate(const State& state);
+  /// Of a state between steps, whose force is that of now, when `before` was found last: that again
+  /// if no particle responds in another way.
+  StableStep estimate_again(const State& state, const StableStep& before);
   /// `cause` at the particle that the critical mode found last moves most.
   StepError failure(std::string cause, const State& state) const;
 
@@ -40,10 +44,16 @@ class StableStepEstimator {
   void archive(const Archive& a);
 
  private:
+  void find_base_forces(const State& state);
+  StableStep limit_from_base(const State& state);
   StableStep limit_of_motion(const State& state);
+  void find_response(const State& state, NodalVectors& response);
+  void know_response(const State& state, Real dt);
+  bool responds_as_before() const;
+  void start_where_it_changed();
   void find_stiff_forces(const State& state, TrialMode& trial);
   void find_viscous_forces(const State& state, Real rate, TrialMode& trial);
-  void force_change(const State& state, const NodalVectors& w, Real du, Real dv,
+  void force_change(const State& state, const NodalVectors& w, Real du, Real dv, Real size,
                     NodalVectors& result);
   void carry_trial(const State& state);
   Real field_limit(const State& state, std::size_t number);
@@ -56,6 +66,11 @@ class StableStepEstimator {
   Real spacing_;  ///< smallest particle distance: scale of the trial displacements
   CriticalMode critical_;
   NodalVectors mode_, u_, v_, base_, trial_force_;
+  Real mode_limit_ = 0;  ///< by the quotient of mode_, when that was found; 0: not yet
+  // (dt^2/4 K + dt/2 C) p of a rough p, to be compared with M p: when the mode was looked for last,
+  // and after estimate_again() now or, where the mode was looked for, before.
+  NodalVectors known_response_, response_;
+  Real response_step_ = 0;  ///< dt; 0: no response is known
   // Of the unknown fields.
   std::vector<NodalVectors> field_modes_, base_fields_;
   std::vector<Unknown> trial_;
