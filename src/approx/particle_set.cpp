@@ -145,6 +145,35 @@ void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<
   number.resize(kept);
 }
 
+/// quality[q] for the numbers q of points, of which those that follow each other are often near
+/// each other and are then done together.
+template <int D>
+void ParticleSet<D>::find_quality(std::span<const Vec<D>> points, std::span<const Index> numbers,
+                                  std::vector<Real>& quality) const {
+  constexpr Index together = 4;
+  const auto count = static_cast<Index>(numbers.size());
+  parallel_for((count + together - 1) / together, [&](Index batch) {
+    thread_local std::vector<Candidate<D>> reaching;
+    thread_local ReproducingKernel<D> kernel(window_);
+    kernel.use(window_);
+    const Index end = std::min(count, (batch + 1) * together);
+    for (Index first = batch * together, next = first; first < end; first = next) {
+      std::array<Vec<D>, together> x;
+      x.fill(at(points, at(numbers, first)));
+      for (next = first; next < end; ++next) {
+        const Vec<D>& another = at(points, at(numbers, next));
+        if ((another - x[0]).squaredNorm() > largest_support_ * largest_support_) break;
+        at(x, next - first) = another;
+      }
+      candidates(x, reaching);
+      const bool enough = static_cast<int>(reaching.size()) >= kernel.basis_size;
+      if (enough) kernel.evaluate(kernel_places(x), reaching, Derivatives::none);
+      for (Index k = first; k < next; ++k)
+        at(quality, at(numbers, k)) = enough ? std::max(0.0, kernel.quality()[k - first]) : 0.0;
+    }
+  });
+}
+
 template <int D>
 Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::string& body) {
   const std::vector<Real> asked_for = support_;
@@ -156,16 +185,7 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
   constexpr int rounds = 10;  // 1.1^10 = 2.6
   Real growth = 1;
   for (int round = 0; round <= rounds; ++round) {
-    parallel_for(static_cast<Index>(poor.size()), [&](Index k) {
-      thread_local std::vector<Candidate<D>> reaching;
-      const Vec<D>& x = at(points, at(poor, k));
-      candidates(x, 0, reaching);
-      ReproducingKernel<D> kernel(window_);
-      const Vec<D> place = kernel_place(x);
-      if (static_cast<int>(reaching.size()) >= kernel.basis_size)
-        kernel.evaluate({place, place, place, place}, reaching, Derivatives::none);
-      at(quality, at(poor, k)) = kernel.quality()[0];
-    });
+    find_quality(points, poor, quality);
     std::erase_if(poor, [&](Index q) { return at(quality, q) >= poor_quality; });
     if (poor.empty() || round == rounds) break;
     // What reaches the point with supports `growth` times those asked for gets them: also particles

@@ -451,8 +451,8 @@ void pack(std::span<const CellRow<D>> rows, CellRule<D>& rule) {
     rule.double_start.push_back(rule.double_start.back() + static_cast<Offset>(row.exact));
   }
   rule.particle.resize(static_cast<std::size_t>(rule.start.back()));
-  rule.coefficient.resize(static_cast<std::size_t>(rule.double_start.back()) * D);
-  rule.rounded.resize(static_cast<std::size_t>(rule.start.back() - rule.double_start.back()) * D);
+  grow(rule.coefficient, static_cast<std::size_t>(rule.double_start.back()) * D);
+  grow(rule.rounded, static_cast<std::size_t>(rule.start.back() - rule.double_start.back()) * D);
   parallel_for(static_cast<Index>(rows.size()), [&](Index k) {
     const CellRow<D>& row = rows[static_cast<std::size_t>(k)];
     const Offset start = at(rule.start, first + static_cast<std::size_t>(k)),

@@ -2,8 +2,12 @@
 // Memory of arrays that the time loop reads.
 #include "meniscus/core/aligned.hpp"
 
+#include "meniscus/core/parallel.hpp"
+
 #include <sys/mman.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <new>
 
 namespace meniscus {
@@ -27,6 +31,20 @@ void* allocate_lines(std::size_t bytes) {
 
 void release_lines(void* p, std::size_t bytes) {
   ::operator delete(p, alignment_of(bytes));
+}
+
+void take_pages(void* begin, std::size_t bytes) {
+  constexpr std::size_t page = 4096;
+  auto* const first = static_cast<volatile char*>(begin);
+  const std::size_t to_page = (page - reinterpret_cast<std::uintptr_t>(begin) % page) % page;
+  parallel_for(
+      static_cast<Index>(bytes / large_page + 1),
+      [&](Index k) {
+        const std::size_t start = static_cast<std::size_t>(k) * large_page,
+                          end = std::min(start + large_page, bytes);
+        for (std::size_t i = start + to_page; i < end; i += page) first[i] = 0;
+      },
+      1);
 }
 
 }  // namespace meniscus

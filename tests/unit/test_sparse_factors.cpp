@@ -4,6 +4,7 @@
 #include "meniscus/solve/sparse_factors.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -119,6 +120,47 @@ TEST(SparseCholesky, NamesTheRowThatDependsOnOthersInAnyOrder) {
     EXPECT_LT(std::abs(least.value), 1e-14);
     EXPECT_EQ(least.row, 2);
   }
+}
+
+TEST(SparseCholesky, SolvesPartsThatHaveNothingToDoWithEachOther) {
+  std::vector<MatrixEntry> entries = springs(lattice<3>({3, 3, 3}));
+  for (const MatrixEntry& e : springs(lattice<2>({5, 1})))
+    entries.push_back({e.row + 64, e.column + 64, e.value});
+  entries.push_back({76, 76, 3});
+  for (const bool backwards : {false, true}) {
+    std::vector<Index> order(77);
+    std::iota(order.begin(), order.end(), 0);
+    if (backwards) std::reverse(order.begin(), order.end());
+    std::vector<Real> x(77), b(77, 0.0);
+    for (Index a = 0; a < 77; ++a) at(x, a) = std::cos(3.0 * a);
+    for (const MatrixEntry& e : entries) at(b, e.row) += e.value * at(x, e.column);
+    SparseCholesky(77, entries, order).solve(b);
+    for (Index a = 0; a < 77; ++a) EXPECT_NEAR(at(b, a), at(x, a), 1e-10);
+  }
+}
+
+TEST(SparseCholesky, ShowsThatAMatrixIsNotPositive) {
+  std::vector<MatrixEntry> entries = springs(lattice<3>({4, 3, 3}));
+  EXPECT_GT(SparseCholesky(80, entries).smallest_pivot().value, 1e-5);
+  entries.insert(entries.end(), {{17, 18, 90}, {18, 17, 90}});
+  EXPECT_LT(SparseCholesky(80, entries).smallest_pivot().value, -0.1);
+}
+
+TEST(SparseCholesky, HasTheSameBitsForAnyNumberOfThreads) {
+  const Grid<3> grid = lattice<3>({20, 15, 6});
+  const auto n = static_cast<Index>(grid.X.size());
+  const auto solution = [&](int threads) {
+    const int before = omp_get_max_threads();
+    omp_set_num_threads(threads);
+    std::vector<Real> x(grid.X.size());
+    for (Index a = 0; a < n; ++a) at(x, a) = std::cos(3.0 * a);
+    SparseCholesky(n, springs(grid), nested_dissection(grid)).solve(x);
+    omp_set_num_threads(before);
+    return x;
+  };
+  const std::vector<Real> one = solution(1);
+  EXPECT_EQ(one, solution(2));
+  EXPECT_EQ(one, solution(3));
 }
 
 }  // namespace

@@ -95,6 +95,8 @@ class ParticleSet {
 
   template <class Keep>
   void find(const Vec<D>& centre, Real radius, Keep&& keep, std::vector<Candidate<D>>& found) const;
+  void find_quality(std::span<const Vec<D>> points, std::span<const Index> numbers,
+                    std::vector<Real>& quality) const;
   [[noreturn]] void refuse(Real quality, const Vec<D>& x, const std::string& body) const;
 
   std::vector<Vec<D>> X_;

@@ -13,6 +13,9 @@ namespace meniscus {
 /// for such pages, of which the processor finds the address sooner (performance note 2).
 void* allocate_lines(std::size_t bytes);
 void release_lines(void* p, std::size_t bytes);
+/// Has the system fill pages of memory that is allocated and not used yet, on all threads: one
+/// alone waits for it as long as for what it writes there.
+void take_pages(void* begin, std::size_t bytes);
 
 template <class T>
 struct CacheLineAllocator {
@@ -31,6 +34,14 @@ struct CacheLineAllocator {
 /// A vector whose first element starts a cache line.
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+
+/// Resizes a vector, quickly where that much is reserved.
+template <class T>
+void grow(AlignedVector<T>& v, std::size_t size) {
+  if (size > v.size() && size <= v.capacity())
+    take_pages(v.data() + v.size(), (size - v.size()) * sizeof(T));
+  v.resize(size);
+}
 
 /// A vector of one particle, padded to four doubles (2D and 3D alike), so that it is one register.
 /// Components beyond D are zero and stay zero.

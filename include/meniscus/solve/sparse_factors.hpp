@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sparse factors of matrices: Eigen's, which take seconds to compile, in one file.
+// Factors of sparse matrices.
 #pragma once
 #include "meniscus/core/aligned.hpp"
 
@@ -14,11 +14,12 @@ struct MatrixEntry {
   Real value;
 };
 
-/// L D L^T of a symmetric positive matrix.
+/// L D L^T of a symmetric positive matrix, with the same bits for any number of threads.
 class SparseCholesky {
  public:
   /// Of the n x n matrix with the sums of `entries`, both triangles given. Its diagonal is scaled
-  /// to one first. Rows are eliminated in `order` (order[new] = old); by minimum degree if empty.
+  /// to one first. Rows are eliminated in `order` (order[new] = old), but for rows that do not
+  /// depend on each other; by minimum degree if empty.
   SparseCholesky(Index n, const std::vector<MatrixEntry>& entries, std::vector<Index> order = {});
   ~SparseCholesky();
 
