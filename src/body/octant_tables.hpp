@@ -9,6 +9,7 @@
 #include "meniscus/core/simd.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace meniscus {
 
@@ -30,14 +31,11 @@ struct TabulatedPoint {
 template <int D>
 TabulatedPoint<D> tabulate(const Vec<D>& xi, Real w) {
   TabulatedPoint<D> point{{}, {}, BulgeFunctions<D>(xi), w};
+  const auto slopes = corner_slopes<D>(xi);
   for (int a = 0; a < (1 << D); ++a) {
-    // The shape function of a corner is the map of corner values that are 1 there and 0 elsewhere.
-    std::array<Vec<D>, (1 << D)> unit;
-    unit.fill(Vec<D>::Zero());
-    at(unit, a)[0] = 1;
-    const CellPoint<D, D> p = multilinear<D, D>(unit, xi);
-    point.N[a] = p.X[0];
-    point.dN.row(a) = p.J.row(0);
+    point.N[a] = 1;
+    for (int k = 0; k < D; ++k) point.N[a] *= 0.5 * (1 + corner_sign(a, k) * xi[k]);
+    point.dN.row(a) = at(slopes, a);
   }
   return point;
 }
@@ -49,12 +47,11 @@ class OctantTable {
 
   /// For cells that are curved in the directions of the bits of `curved`.
   static const OctantTable& instance(unsigned curved) {
-    static const std::vector<OctantTable> tables = [] {
-      std::vector<OctantTable> all;
-      for (unsigned c = 0; c < (1u << D); ++c) all.push_back(OctantTable(c));
-      return all;
-    }();
-    return at(tables, curved);
+    static constexpr auto tables = []<unsigned... c>(std::integer_sequence<unsigned, c...>) {
+      return std::array{&made<c>...};
+    }
+    (std::make_integer_sequence<unsigned, 1u << D>());
+    return at(tables, curved)();
   }
   const Points& volume(int corner) const { return at(volume_, corner); }
   /// The facet xi_k = 0 of the octant; the same object for the two octants that share it.
@@ -63,6 +60,12 @@ class OctantTable {
   const Points& outer(int corner, int k) const { return at(outer_, corner * D + k); }
 
  private:
+  /// Made when it is asked for: most bodies need one of them.
+  template <unsigned curved>
+  static const OctantTable& made() {
+    static const OctantTable table(curved);
+    return table;
+  }
   explicit OctantTable(unsigned curved) {
     std::array<int, D> count;
     for (int k = 0; k < D; ++k) at(count, k) = points_along<D>(k, curved);
@@ -125,10 +128,7 @@ class SimplexTable {
     int k = 0;
   };
 
-  static const SimplexTable& instance(bool curved) {
-    static const SimplexTable straight(3), bent(D + 2);
-    return curved ? bent : straight;
-  }
+  static const SimplexTable& instance(bool curved) { return curved ? made<D + 2>() : made<3>(); }
   const Points& volume(int i) const { return at(volume_, i); }
   /// Between the parts at the corners i and j, seen from the lesser of them.
   const Side& between(int i, int j) const {
@@ -138,6 +138,11 @@ class SimplexTable {
   const Side& on_side(int i, int o) const { return at(begin_, i * (D + 1) + o); }
 
  private:
+  template <int points>
+  static const SimplexTable& made() {
+    static const SimplexTable table(points);
+    return table;
+  }
   explicit SimplexTable(int points) : begin_((D + 1) * (D + 1)), end_((D + 1) * (D + 1)) {
     const TensorRule<D> cube = tensor_rule<D>(points);
     const TensorRule<D - 1> square = tensor_rule<D - 1>(points);
@@ -186,10 +191,7 @@ class SampleTable {
     Real sign = 1;  ///< of the outward normal against column k of cof J
   };
 
-  static const SampleTable& of(bool simplex) {
-    static const SampleTable octants(false), parts(true);
-    return simplex ? parts : octants;
-  }
+  static const SampleTable& of(bool simplex) { return simplex ? made<true>() : made<false>(); }
   /// Bit k of `kind`: nothing continues the nodal cell beyond the particle in direction k.
   const Points& volume(int corner, unsigned kind) const {
     return meniscus::at(volume_, number(corner, kind));
@@ -200,6 +202,11 @@ class SampleTable {
   }
 
  private:
+  template <bool simplex>
+  static const SampleTable& made() {
+    static const SampleTable table(simplex);
+    return table;
+  }
   explicit SampleTable(bool simplex) {
     const int corners = simplex ? D + 1 : 1 << D;
     for (int corner = 0; corner < corners; ++corner)
