@@ -224,15 +224,11 @@ void StableStepEstimator<D>::know_response(const State& state, Real dt) {
 
 template <int D>
 bool StableStepEstimator<D>::responds_as_before() const {
-  struct Largest {
-    Real value;
-    Largest operator+(Largest b) const { return {std::max(value, b.value)}; }
-  };
-  const auto squared = parallel_sum(system_.size(), Largest{0}, [&](Index A) {
+  const Index others = parallel_sum(system_.size(), Index{0}, [&](Index A) {
     const Lanes change = (1 / at(system_.mass, A)) * (at(response_, A) - at(known_response_, A));
-    return Largest{sum(change * change)};
+    return Index{!(sum(change * change) < same_response * same_response)};  // also not a number
   });
-  return squared.value < same_response * same_response;
+  return others == 0;
 }
 
 /// The forces that changes are taken from.

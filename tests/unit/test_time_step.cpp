@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <limits>
 
 #include "one_body.hpp"
 
@@ -157,6 +158,34 @@ TEST(StableStep, IsLookedForAgainWhereItsModeHasChanged) {
   EXPECT_GT(std::abs(pressed.dt - first.dt), 0.02 * first.dt);
   const StableStep anew = StableStepEstimator<3>(one.system).estimate(one.state);
   EXPECT_NEAR(pressed.dt, anew.dt, 0.01 * anew.dt);
+}
+
+/// No number on particle 3 once it is broken.
+class Brittle final : public ForceTerm {
+ public:
+  explicit Brittle(const bool& broken) : broken_(broken) {}
+  std::string name() const override { return "brittle"; }
+  Report add_force(const Motion&, Forces force) override {
+    if (broken_) force[3] += Lanes(std::numeric_limits<Real>::quiet_NaN());
+    return {};
+  }
+  std::size_t bytes() const override { return 0; }
+  Offset pairs() const override { return 0; }
+
+ private:
+  const bool& broken_;
+};
+
+TEST(StableStep, IsNotThatOfBeforeWhereAResponseIsNoNumber) {
+  bool broken = false;
+  OneBody<3> one(test::ball(2, 1), "neo_hookean");
+  one.system.terms.push_back(std::make_unique<Brittle>(broken));
+  StableStepEstimator<3> estimator(one.system);
+  start(one.system, one.state);
+  const StableStep found = estimator.estimate(one.state);
+  EXPECT_EQ(estimator.estimate_again(one.state, found).dt, found.dt);
+  broken = true;
+  EXPECT_THROW(estimator.estimate_again(one.state, found), SolveError);
 }
 
 TEST(StableStep, FindsAModeFarFromTheOneItHad) {
