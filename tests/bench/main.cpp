@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
   meniscus::bench::add_shape_function_cases();
   meniscus::bench::add_force_cases();
   meniscus::bench::add_contact_cases();
+  meniscus::bench::add_memory_cases();
   meniscus::bench::Table table;
   benchmark::RunSpecifiedBenchmarks(&table);
 }

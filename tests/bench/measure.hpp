@@ -81,5 +81,6 @@ void add_material_cases();
 void add_shape_function_cases();
 void add_force_cases();
 void add_contact_cases();
+void add_memory_cases();
 
 }  // namespace meniscus::bench

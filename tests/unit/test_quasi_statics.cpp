@@ -3,6 +3,7 @@
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/solve/central_difference.hpp"
 #include "meniscus/solve/quasi_statics.hpp"
@@ -179,7 +180,17 @@ void expect_loaded_brick(const std::string& law) {
   Real largest = 0;
   for (const NodalVector& w : off)
     largest = std::max(largest, std::sqrt(sum((w - drift) * (w - drift))));
-  EXPECT_LT(largest, 1e-6);
+  // It stops before an iteration that would release 1e-9 of the energy, and what is left then is
+  // the square of a way; iterations converge faster and faster, so that most of it is gone.
+  constexpr Real left = 1e-9;
+  const auto potential = [&](const NodalVectors& u) {
+    State state = one.state;
+    state.u = u;
+    return *one.system.terms.front()->stored_energy(state.motion()) - dot(load, u);
+  };
+  const Real least = potential(target), released = -least;
+  EXPECT_LT(potential(one.state.u) - least, 0.01 * left * released) << law;
+  EXPECT_LT(largest, std::sqrt(left) * meniscus::largest(target)) << law;
 }
 
 TEST(QuasiStatics, FindsTheStateThatALoadHolds) {
