@@ -14,6 +14,17 @@
 namespace meniscus {
 namespace {
 
+/// Whether a support around X reaches into a ball.
+template <int D>
+struct Ball {
+  Vec<D> centre;
+  Real radius;
+  bool operator()(const Vec<D>& X, Real support) const {
+    const Real within = radius + support;
+    return (X - centre).squaredNorm() < within * within;
+  }
+};
+
 /// Whether a support around X reaches one of four points, up to rounding of the distance.
 template <int D>
 class FourPoints {
@@ -110,13 +121,22 @@ void ParticleSet<D>::find(const Vec<D>& centre, Real radius, Keep&& keep,
 template <int D>
 void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
                                 std::vector<Candidate<D>>& found) const {
-  const Vec<D> middle = kernel_place(centre);
-  const Real reach = pressed_ ? pressed_->growth * radius : radius;
-  const auto keep = [&](const Vec<D>& X, Real support) {
-    const Real within = reach + support;
-    return (X - middle).squaredNorm() < within * within;
-  };
-  find(middle, reach, keep, found);
+  const Ball<D> ball{kernel_place(centre), pressed_ ? pressed_->growth * radius : radius};
+  find(ball.centre, ball.radius, ball, found);
+}
+
+template <int D>
+void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
+                                std::span<const Candidate<D>> around,
+                                std::vector<Candidate<D>>& found) const {
+  const Ball<D> ball{kernel_place(centre), pressed_ ? pressed_->growth * radius : radius};
+  found.resize(around.size());
+  std::size_t kept = 0;
+  for (const Candidate<D>& candidate : around) {  // without a branch: it would be a guess
+    found[kept] = candidate;
+    kept += ball(candidate.X, candidate.support);
+  }
+  found.resize(kept);
 }
 
 template <int D>

@@ -7,6 +7,7 @@
 #include "meniscus/core/error.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "rounded_rows.hpp"
 #include "sums_over_ranks.hpp"
@@ -290,22 +291,69 @@ Real reach(std::span<const Vec<D>> points, const Vec<D>& centre) {
   return radius * (1 + 1e-12);
 }
 
-/// `block`: the cells whose integrals are computed along with these.
+/// What a nodal cell is integrated with.
 template <int D>
-void integrate_cell(const Body<D>& body, Index cell, OwnItems block, CellIntegrals<D>& own) {
-  thread_local CellSamples<D> samples;
-  thread_local CellQuadrature<D> boundary;
-  body.cells.sample(cell, block.begin, body.particles, samples);
-  body.cells.boundary_points(cell, boundary);
+struct SampledCell {
+  CellSamples<D> samples;
+  CellQuadrature<D> boundary;
+  Real reach;  ///< of all points from the centroid
+};
+
+/// `first`: that of the cells whose integrals are computed along with this one's.
+template <int D>
+void sample(const Body<D>& body, Index cell, Index first, SampledCell<D>& sampled) {
+  body.cells.sample(cell, first, body.particles, sampled.samples);
+  body.cells.boundary_points(cell, sampled.boundary);
   const Vec<D>& centroid = body.cells.centroid(cell);
-  body.particles.candidates(
-      centroid,
-      std::max({reach<D>(samples.volume_X, centroid), reach<D>(samples.facet_X, centroid),
-                reach<D>(boundary.facet_X, centroid)}),
-      own.candidates);
-  integrate_fluxes<D>(body, boundary.facet_X, boundary.facet_dA, centroid, own.candidates,
-                      own.flux);
-  integrate_samples<D>(body, cell, samples, block, own);
+  sampled.reach = std::max({reach<D>(sampled.samples.volume_X, centroid),
+                            reach<D>(sampled.samples.facet_X, centroid),
+                            reach<D>(sampled.boundary.facet_X, centroid)});
+}
+
+/// Cells that follow each other are mostly near each other, and then share a search.
+constexpr Index most_in_group = 8;
+
+/// The end of the group that begins with the first of these cells, and the mean of its centroids.
+template <int D>
+std::pair<Index, Vec<D>> group_of(const Body<D>& body, OwnItems cells) {
+  const Vec<D>& first = body.cells.centroid(cells.begin);
+  const Real near = at(body.particles.support(), cells.begin);
+  Vec<D> sum = first;
+  Index end = cells.begin + 1;
+  for (; end < cells.end; ++end) {
+    const Vec<D>& centroid = body.cells.centroid(end);
+    if ((centroid - first).squaredNorm() > near * near) break;
+    sum += centroid;
+  }
+  return {end, sum / (end - cells.begin)};
+}
+
+/// At most `most_in_group` cells of the block; `own` [cell - begin of the block].
+template <int D>
+void integrate_cells(const Body<D>& body, OwnItems cells, OwnItems block,
+                     std::span<CellIntegrals<D>> own) {
+  thread_local std::array<SampledCell<D>, most_in_group> sampled;
+  thread_local std::vector<Candidate<D>> around;
+  for (Index begin = cells.begin, end; begin < cells.end; begin = end) {
+    Vec<D> centre;
+    std::tie(end, centre) = group_of(body, {begin, cells.end});
+    Real radius = 0;
+    for (Index cell = begin; cell < end; ++cell) {
+      sample(body, cell, block.begin, at(sampled, cell - begin));
+      radius = std::max(
+          radius, (body.cells.centroid(cell) - centre).norm() + at(sampled, cell - begin).reach);
+    }
+    body.particles.candidates(centre, radius * (1 + 1e-12), around);
+    for (Index cell = begin; cell < end; ++cell) {
+      const auto& [samples, boundary, reach] = at(sampled, cell - begin);
+      CellIntegrals<D>& of_cell = at(own, cell - block.begin);
+      const Vec<D>& centroid = body.cells.centroid(cell);
+      body.particles.candidates(centroid, reach, around, of_cell.candidates);
+      integrate_fluxes<D>(body, boundary.facet_X, boundary.facet_dA, centroid, of_cell.candidates,
+                          of_cell.flux);
+      integrate_samples<D>(body, cell, samples, block, of_cell);
+    }
+  }
 }
 
 /// One row of the cell rule, before it is packed.
@@ -500,12 +548,13 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
   std::vector<CellRow<D>> rows(integrals.size());
   for (Index begin = cells.begin / block * block; begin < cells.end; begin += block) {
     const Index first = std::max(begin, cells.begin), end = std::min(begin + block, cells.end);
-    parallel_for(
-        end - begin,
-        [&](Index k) {
-          integrate_cell(body, begin + k, {begin, begin + block}, at(integrals, k));
-        },
-        4);
+    parallel_for((end - begin + most_in_group - 1) / most_in_group,
+                 [&](Index group) {
+                   const Index from = begin + group * most_in_group;
+                   integrate_cells<D>(body, {from, std::min(end, from + most_in_group)},
+                                      {begin, begin + block}, integrals);
+                 },
+                 1);
     parallel_for(
         end - first,
         [&](Index k) {

@@ -2,6 +2,7 @@
 // Surface quadrature on patches and facets, and its transport by maps.
 #include "meniscus/body/surface_points.hpp"
 
+#include "meniscus/core/parallel.hpp"
 #include "meniscus/core/surface_geometry.hpp"
 
 #include "facet_quadrature.hpp"
@@ -32,7 +33,7 @@ Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const V
 
 template <int D>
 void deform(SurfacePoints<D>& points, const SmoothMap<D>& map) {
-  for (Index q = 0; q < points.size(); ++q) {
+  parallel_for(points.size(), [&](Index q) {
     const MapPoint<D> m = map(at(points.X, q));
     const SurfaceFrame<Real> frame = surface_frame(embed<D>(m.F, 1), embed<D>(at(points.N, q)));
     std::array<Tensor<Real>, 3> G{Tensor<Real>::zero(), Tensor<Real>::zero(), Tensor<Real>::zero()};
@@ -45,7 +46,7 @@ void deform(SurfacePoints<D>& points, const SmoothMap<D>& map) {
       at(points.N, q)[i] = at(frame.n, i);
       for (int j = 0; j < D; ++j) at(points.grad_N, q)(i, j) = grad_n(i, j);
     }
-  }
+  });
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                          \

@@ -16,24 +16,80 @@ constexpr Real cosine_of_turn = -0.5;  // 120 degrees
 constexpr Real between_points = 0.98;  // places between surface points may be nearer than these
 constexpr Real largest_growth = 2.6;   // of supports in ParticleSet::ensure_quality
 
+/// The points of a surface by its facets, so that most are left out without being looked at.
+template <int D>
+class PointsOfFacets {
+ public:
+  explicit PointsOfFacets(const SurfacePoints<D>& points)
+      : points_(points), facets_(facets_of(points)), search_(middles_of(facets_)) {
+    for (const Facet& facet : facets_) largest_ = std::max(largest_, facet.radius);
+  }
+
+  /// Calls f(distance from X) for the points within `radius` whose normal N has -normal.N < cosine,
+  /// and maybe for some beyond it.
+  void for_turned(const Vec<D>& X, const Vec<D>& normal, Real cosine, Real radius, auto&& f) const {
+    thread_local std::vector<Index> near;
+    search_.within_unsorted(X, radius + largest_, near);
+    for (const Index i : near) {
+      const Facet& facet = at(facets_, i);
+      if (-normal.dot(facet.normal) - facet.turn >= cosine) continue;
+      for (Index q = facet.begin; q < facet.begin + points_.per_facet; ++q)
+        // Normals of the inner surface point out of the body, into the cavity.
+        if (-normal.dot(at(points_.N, q)) < cosine) f((X - at(points_.X, q)).norm());
+    }
+  }
+
+ private:
+  struct Facet {
+    Index begin;
+    Vec<D> middle = Vec<D>::Zero(), normal = Vec<D>::Zero();  // means of its points
+    Real radius = 0, turn = 0;                                // the most that one is off
+  };
+  static std::vector<Facet> facets_of(const SurfacePoints<D>& points) {
+    std::vector<Facet> facets;
+    const Index count = points.per_facet;
+    for (Index begin = 0; begin < points.size(); begin += count) {
+      Facet& facet = facets.emplace_back(Facet{begin});
+      for (Index q = begin; q < begin + count; ++q) {
+        facet.middle += at(points.X, q) / count;
+        facet.normal += at(points.N, q) / count;
+      }
+      for (Index q = begin; q < begin + count; ++q) {
+        facet.radius = std::max(facet.radius, (at(points.X, q) - facet.middle).norm());
+        facet.turn = std::max(facet.turn, (at(points.N, q) - facet.normal).norm());
+      }
+      facet.radius *= 1 + 1e-12;
+      facet.turn += 1e-12;
+    }
+    return facets;
+  }
+  static std::vector<Vec<D>> middles_of(const std::vector<Facet>& facets) {
+    std::vector<Vec<D>> middles;
+    for (const Facet& facet : facets) middles.push_back(facet.middle);
+    return middles;
+  }
+
+  const SurfacePoints<D>& points_;
+  std::vector<Facet> facets_;
+  NeighborSearch<D> search_;
+  Real largest_ = 0;
+};
+
 }  // namespace
 
 template <int D>
 WallReport keep_supports_in_wall(ParticleSet<D>& particles, const Geometry<D>& geometry) {
   if (!is_hollow(geometry)) return {};
   const auto inner = surface_points(geometry, 3, SurfacePart::inner);
-  const NeighborSearch<D> search(inner.X);
+  const PointsOfFacets<D> surface(inner);
   std::vector<Real> limit(particles.X().size(), std::numeric_limits<Real>::max());
   const std::vector<Real> asked_for(particles.support().begin(), particles.support().end());
   parallel_for(particles.size(), [&](Index A) {
-    thread_local std::vector<Index> near;
     const Vec<D>& X = at(particles.X(), A);
-    const Vec<D> normal = geometry.director(X);
-    search.within_unsorted(X, largest_growth * at(asked_for, A), near);
-    for (const Index q : near)
-      // Normals of the inner surface point out of the body, into the cavity.
-      if (-normal.dot(at(inner.N, q)) < cosine_of_turn)
-        at(limit, A) = std::min(at(limit, A), between_points * (X - at(inner.X, q)).norm());
+    const Real radius = largest_growth * at(asked_for, A);
+    surface.for_turned(X, geometry.director(X), cosine_of_turn, radius, [&](Real distance) {
+      if (distance <= radius) at(limit, A) = std::min(at(limit, A), between_points * distance);
+    });
   });
   WallReport report;
   report.shortened = particles.limit_supports(std::move(limit));

@@ -11,6 +11,7 @@
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
+#include "meniscus/core/parallel.hpp"
 #include "meniscus/solve/nested_dissection.hpp"
 #include "meniscus/solve/sparse_factors.hpp"
 
@@ -25,10 +26,14 @@ namespace {
 /// elements, two Gauss points per direction.
 template <int D>
 void add_laplacian(const Grid<D>& grid, Real factor, std::vector<MatrixEntry>& entries) {
-  for (const auto& cell : grid.cells) {
+  constexpr int corners_of_cell = 1 << D, of_cell = corners_of_cell * corners_of_cell;
+  const std::size_t first = entries.size();
+  entries.resize(first + grid.cells.size() * of_cell);
+  parallel_for(static_cast<Index>(grid.cells.size()), [&](Index c) {
+    const auto& cell = at(grid.cells, c);
     const auto corners = grid.corner_points(cell);
-    std::array<std::array<Real, 1 << D>, 1 << D> K{};
-    for (int q = 0; q < 1 << D; ++q) {
+    std::array<std::array<Real, corners_of_cell>, corners_of_cell> K{};
+    for (int q = 0; q < corners_of_cell; ++q) {
       Vec<D> xi;
       for (int k = 0; k < D; ++k) xi[k] = corner_sign(q, k) / std::sqrt(3.0);
       const Mat<D> J = multilinear<D, D>(corners, xi).J;
@@ -36,13 +41,15 @@ void add_laplacian(const Grid<D>& grid, Real factor, std::vector<MatrixEntry>& e
       auto g = corner_slopes<D>(xi);
       for (Vec<D>& slope : g) slope = to_place * slope;
       const Real weight = factor * std::abs(determinant<D>(J));
-      for (int a = 0; a < 1 << D; ++a)
-        for (int b = 0; b < 1 << D; ++b) at(at(K, a), b) += weight * at(g, a).dot(at(g, b));
+      for (int a = 0; a < corners_of_cell; ++a)
+        for (int b = 0; b < corners_of_cell; ++b)
+          at(at(K, a), b) += weight * at(g, a).dot(at(g, b));
     }
-    for (int a = 0; a < 1 << D; ++a)
-      for (int b = 0; b < 1 << D; ++b)
-        entries.push_back({at(cell, a), at(cell, b), at(at(K, a), b)});
-  }
+    MatrixEntry* entry = entries.data() + first + static_cast<std::size_t>(c) * of_cell;
+    for (int a = 0; a < corners_of_cell; ++a)
+      for (int b = 0; b < corners_of_cell; ++b)
+        *entry++ = {at(cell, a), at(cell, b), at(at(K, a), b)};
+  });
 }
 
 template <int D>

@@ -62,6 +62,9 @@ class ParticleSet {
   /// All particles whose support reaches into the ball around `centre`, by ascending number; with
   /// stretched supports also some that do not. Places of candidates are kernel places.
   void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
+  /// The same from those of a ball that this one lies in.
+  void candidates(const Vec<D>& centre, Real radius, std::span<const Candidate<D>> around,
+                  std::vector<Candidate<D>>& found) const;
   /// All particles whose support reaches one of the points, by ascending number.
   void candidates(const std::array<Vec<D>, 4>& points, std::vector<Candidate<D>>& found) const;
 
