@@ -236,8 +236,12 @@ ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
   for (const std::string& body : bodies) facet = std::max(facet, facet_size(assembly.body(body)));
   const auto& X = assembly.body(bodies[0]).particles.X();
   const Vec<D> sum = std::accumulate(X.begin(), X.end(), Vec<D>(Vec<D>::Zero()));
-  return {this->place, facet, assembly.surface_energy(bodies[0]),
-          spatial<D>(sum / static_cast<Real>(X.size())), assembly.tension_form(bodies[0])};
+  return {this->place,
+          facet,
+          assembly.surface_energy(bodies[0]),
+          spatial<D>(sum / static_cast<Real>(X.size())),
+          assembly.tension_form(bodies[0]),
+          bodies.size() > 1 ? assembly.surface_energy(bodies[1]) : std::nullopt};
 }
 
 template <int D>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of drops on walls: angles near both ends, complete wetting, ranges and supports that
-// hardly resolve the line, impact, lift-off, two drops that meet, a tip that is torn out of a film,
-// ground too soft for its adhesion.
+// Hard cases of drops on walls: angles near both ends, a heavy drop where hardly anything adheres,
+// complete wetting, ranges and supports that hardly resolve the line, impact, lift-off, two drops
+// that meet, a tip that is torn out of a film, ground too soft for its adhesion.
 #include <fmt/core.h>
 
 #include "support/hard_cases.hpp"
@@ -44,6 +44,15 @@ void angles(HardCases& cases, bool full) {
       cases.require(name, "angle of the cap", outcome.measure("drop-wall.contact_angle_vh"),
                     angle == 150 ? Range{143, 153} : Range{28, 45});
   }
+  const std::string heavy = "heavy drop on a wall, 175 degrees";
+  const auto outcome =
+      cases.stays_stable(heavy,
+                         heading(end) + drop("drop", 0) +
+                             "[[body_force]]\nbody = \"drop\"\nacceleration = [0, 0, -0.5]\n" +
+                             wall("drop", "contact_angle = 175\n" + lengths),
+                         1e-2);
+  if (full)
+    cases.require(heavy, "gap / offset", outcome.measure("drop-wall.gap") / 0.05, {0.7, 1.1});
   const std::string complete = "drop on a wall, adhesion of water on copper";
   cases.says(complete,
              cases.stays_stable(

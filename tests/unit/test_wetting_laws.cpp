@@ -270,6 +270,22 @@ TEST(WettingLaws, WorkOfAdhesionThatJumpsIsBooked) {
   }
 }
 
+/// A drop pressed into the core meets the tension of its own surface, whatever adheres.
+TEST(WettingLaws, TheCoreIsOneWhereHardlyAnythingAdheres) {
+  const auto push = [](const std::string& adhesion) {
+    Scene<3> scene = on_wall<3>("adhesion = " + adhesion + "\n" + young);
+    NodalVectors u(static_cast<std::size_t>(scene.system.size()), Lanes(0.0, 0.0, -0.08, 0.0));
+    const NodalVectors v = test::zeros(u);
+    NodalVectors force = v;
+    contact_of(scene).add_force({0, u, v}, force);
+    return net<3>(force)[2];
+  };
+  const Real weak = push("0.001");
+  EXPECT_GT(weak, 1);
+  // Where adhesion varies the core is four times as stiff.
+  EXPECT_NEAR(weak, push("\"0.001*exp(-t)\"") / 4, 1e-2 * weak);
+}
+
 /// Between two bodies, too, and in the core.
 TEST(WettingLaws, WorkOfActinBetweenBodiesIsBooked) {
   for (const std::string offset : {"0.05", "0.16"})

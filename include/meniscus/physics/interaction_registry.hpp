@@ -27,7 +27,8 @@ struct ContactSurfaces {
   Real facet;                 ///< edge of the larger facets
   std::optional<Real> gamma;  ///< surface tension of the first body, if it has any
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the particles of the first body
-  std::string tension_form = {};  ///< of its [[surface_tension]]; empty: it has none
+  std::string tension_form = {};          ///< of its [[surface_tension]]; empty: it has none
+  std::optional<Real> gamma_beyond = {};  ///< of the second body, if there is one and it has any
 
   /// gamma, for a contact angle; throws InputError if the first body has none.
   Real tension() const;
