@@ -34,10 +34,9 @@ ImplicitViscosity<D>::ImplicitViscosity(System<D>& system)
 
 template <int D>
 void ImplicitViscosity<D>::advance(State& state, Real dt) {
-  leapfrog::kick(state.v, state.force, system_.mass, dt / 2);
-  leapfrog::kick_fields(state, dt / 2);
+  leapfrog::kick(system_, state, dt / 2);
   system_.depart(state);
-  leapfrog::drift(state, dt);
+  leapfrog::drift(system_, state, dt);
   system_.constrain(state, dt);
   system_.arrive(state, dt);
   half_ = state.v;
@@ -51,7 +50,7 @@ void ImplicitViscosity<D>::advance(State& state, Real dt) {
     report = forces_with_velocity(state, dt);
   } catch (const SolveError&) {
     state.v = half_;
-    leapfrog::drift(state, -dt);
+    leapfrog::drift(system_, state, -dt);
     throw;
   }
   std::swap(state.v, half_);  // reactions are of the last half kick, which begins with that
@@ -84,11 +83,7 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
   Real rz = precondition(dt);
   p_ = z_;
   for (int k = 0; rz > tolerance * tolerance * motion; ++k) {
-    if (k == most_iterations)
-      throw SolveError(fmt::format(
-          "implicit viscosity: the velocity is not found within {} iterations, the residual is "
-          "{:.3g} of the motion, {:.3g} is asked for",
-          most_iterations, std::sqrt(rz / motion), tolerance));
+    if (k == most_iterations) throw not_found(state, std::sqrt(rz / motion));
     const Real a = rz / apply(state, dt);
     for_chunks(system_.size(), [&](Index, Index begin, Index end) {
       for (Index A = begin; A < end; ++A) {
@@ -115,6 +110,20 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
   });
   add_missing_rigid_motion(state);
   return report;
+}
+
+/// In a shorter step viscosity is less beside the masses. That begins with a diagonal of its own.
+template <int D>
+StepError ImplicitViscosity<D>::not_found(const State& state, Real residual) {
+  age_ = longest_age;
+  Index worst = 0;
+  for (Index A = 0; A < system_.size(); ++A)
+    if (sum(at(r_, A) * at(z_, A)) > sum(at(r_, worst) * at(z_, worst))) worst = A;
+  const std::string cause = fmt::format(
+      "implicit viscosity: the velocity is not found within {} iterations, the residual is {:.3g} "
+      "of the motion, {:.3g} is asked for",
+      most_iterations, residual, tolerance);
+  return StepError(system_.located({worst, cause, true}, state.motion()));
 }
 
 template <int D>

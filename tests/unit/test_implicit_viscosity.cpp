@@ -2,6 +2,8 @@
 // Implicit viscosity: order, conservation, and steps beyond the viscous limit.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
+#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/solve/implicit_viscosity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -187,6 +189,62 @@ TEST(ImplicitViscosity, HeldBodiesTakeStepsBeyondTheViscousLimitAndARestartGoesO
   for (Simulation<2>* each : {&run.simulation, &again})
     while (each->state().time < 0.4) each->advance();
   expect_same_motion(run.simulation, again);
+}
+
+/// Dampers of the same strength between particles that follow each other.
+class ChainOfDampers final : public ForceTerm {
+ public:
+  explicit ChainOfDampers(Real strength) : strength_(strength) {}
+  std::string name() const override { return "chain"; }
+  bool viscous() const override { return true; }
+  Report add_force(const Motion& motion, Forces force) override {
+    add_viscous(motion, force);
+    return {};
+  }
+  void add_viscous(const Motion& motion, Forces force) override {
+    for (std::size_t A = 0; A + 1 < motion.v.size(); ++A) {
+      const Lanes f = strength_ * (motion.v[A + 1] - motion.v[A]);
+      force[A] += f;
+      force[A + 1] -= f;
+    }
+  }
+  void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
+    for (std::size_t A = 0; A + 1 < diagonal.size(); ++A) {
+      diagonal[A] += Lanes(strength_);
+      diagonal[A + 1] += Lanes(strength_);
+    }
+  }
+  std::size_t bytes() const override { return 0; }
+  Offset pairs() const override { return 0; }
+
+ private:
+  Real strength_;
+};
+
+TEST(ImplicitViscosity, AsksForAShorterStepWhereNoVelocityIsFound) {
+  const std::string text =
+      "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"sheet\"\nshape = \"rectangle\"\n"
+      "size = [1, 1]\ncells = [24, 24]\ninitial_velocity = [\"1e-10*sin(40*x*y)\", "
+      "\"1e-10*cos(31*y)\"]\n"
+      "material = { type = \"neo_hookean\", density = 1, mu = 1e-6, lambda = 1e-6 }\n";
+  Scene<2> scene = test::scene_of<2>(text);
+  scene.system.terms.push_back(std::make_unique<ChainOfDampers>(1));
+  State state = scene.initial;
+  start(scene.system, state);
+  ImplicitViscosity<2> viscosity(scene.system);
+  const State before = state;
+  try {
+    viscosity.advance(state, 100);
+    FAIL() << "no step can be that long";
+  } catch (const StepError& e) {
+    EXPECT_TRUE(e.failure.of_step);
+    EXPECT_EQ(e.failure.body, "sheet");
+    EXPECT_NE(e.failure.cause.find("not found within 300 iterations"), std::string::npos)
+        << e.failure.cause;
+  }
+  state = before;
+  viscosity.advance(state, 1e-4);
+  EXPECT_GT(viscosity.mean_iterations(), 0);
 }
 
 }  // namespace

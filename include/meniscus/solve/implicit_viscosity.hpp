@@ -24,7 +24,7 @@ class ImplicitViscosity {
  public:
   explicit ImplicitViscosity(System<D>& system);
 
-  /// As meniscus::advance; also throws SolveError where no velocity is found.
+  /// As meniscus::advance; also throws StepError `of_step` where no velocity is found.
   void advance(State& state, Real dt);
 
   /// Of all steps of this object so far, per step.
@@ -35,6 +35,7 @@ class ImplicitViscosity {
 
  private:
   Report forces_with_velocity(State& state, Real dt);
+  StepError not_found(const State& state, Real residual);
   void renew_diagonal();
   /// z = (M + dt/2 diagonal)^-1 r, of what faces that are held leave free; returns r.z.
   Real precondition(Real dt);
