@@ -202,6 +202,7 @@ void Recorder<D>::write_lines() {
 
 template <int D>
 void Recorder<D>::write_frame(bool with_state) {
+  simulation_->complete_state();
   const Scene<D>& scene = simulation_->scene();
   const State& state = simulation_->state();
   std::deque<std::vector<Real>> storage;

@@ -159,8 +159,15 @@ std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double
 }
 
 /// What the ranks have sent and held since the beginning of the run.
-void report_ranks(std::int64_t steps, RunLog& log) {
+template <int D>
+void report_ranks(const System<D>& system, std::int64_t steps, RunLog& log) {
   if (ranks().alone()) return;
+  log.info(system.halo
+               ? fmt::format("a rank makes its steps on {} of {} particles at most, {} of them "
+                             "ghosts",
+                             ranks().largest(system.halo->size()), system.size(),
+                             ranks().largest(system.halo->ghosts()))
+               : "all ranks make their steps on all particles");
   const Traffic sent = ranks().traffic();
   const std::int64_t messages = ranks().largest(sent.messages), bytes = ranks().largest(sent.bytes),
                      memory = ranks().largest(static_cast<std::int64_t>(peak_memory())),
@@ -295,7 +302,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
   report_contacts(simulation.scene().system, log);
   log.info(summary);
-  report_ranks(simulation.state().step - first_step, log);
+  report_ranks(simulation.scene().system, simulation.state().step - first_step, log);
   if (!request.quiet) say("{}\nresults in {}\n", summary, directory.path().string());
   repeat_warnings(request.quiet, log);
   if (!signal) {

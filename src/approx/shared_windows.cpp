@@ -14,7 +14,8 @@ SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Of
   divide(chunks, particles);
   const Touched of_chunks = touched(chunks, start, particle);
   share_windows(chunks, of_chunks);
-  share_particles(chunks, of_chunks);
+  remember_touched(chunks, of_chunks);
+  particles_ = exchange_of_forces([](Index) { return true; });
   share_results(chunks);
 }
 
@@ -114,18 +115,36 @@ void SharedWindows::share_windows(const std::vector<WindowChunk>& chunks, const 
   windows_ = ranks().exchange(static_cast<Index>(at(used, me)), leaves);
 }
 
-void SharedWindows::share_particles(const std::vector<WindowChunk>& chunks,
-                                    const Touched& touched) {
-  const int me = ranks().rank();
-  std::vector<bool> is(static_cast<std::size_t>(border_.back()), false);
-  for (std::size_t k = 0; k < chunks.size(); ++k)
+void SharedWindows::remember_touched(const std::vector<WindowChunk>& chunks,
+                                     const Touched& touched) {
+  touched_.assign(static_cast<std::size_t>(border_.back()), 0);
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    const std::uint8_t bits = by_a_rank | (rank_[k] == ranks().rank() ? by_this_rank : 0);
     for (std::size_t A = 0; A < touched[k].size(); ++A)
-      if (touched[k][A]) is[static_cast<std::size_t>(chunks[k].low) + A] = true;
+      if (touched[k][A]) touched_[static_cast<std::size_t>(chunks[k].low) + A] |= bits;
+  }
+}
+
+template <class F>
+std::unique_ptr<Exchange> SharedWindows::exchange_of_forces(F&& is_wanted) const {
   std::vector<Leaf> leaves;
   for (int rank = 0; rank < ranks().size(); ++rank)
     for (Index A = at(border_, rank); A < at(border_, rank + 1); ++A)
-      if (rank != me && is[static_cast<std::size_t>(A)]) leaves.push_back({A, rank, A});
-  particles_ = ranks().exchange(border_.back(), leaves);
+      if (rank != ranks().rank() && at(touched_, A) != 0 && is_wanted(A))
+        leaves.push_back({A, rank, A});
+  return ranks().exchange(border_.back(), leaves);
+}
+
+void SharedWindows::mark_read(std::span<std::uint8_t> particles) const {
+  const int me = ranks().rank();
+  for (Index A = 0; A < border_.back(); ++A)
+    if ((at(touched_, A) & by_this_rank) != 0 || (A >= at(border_, me) && A < at(border_, me + 1)))
+      at(particles, A) = 1;
+}
+
+void SharedWindows::keep_to(std::shared_ptr<const Halo> halo, Index first) {
+  halo_ = std::move(halo);
+  followed_ = exchange_of_forces([&](Index A) { return halo_->follows(first + A); });
 }
 
 void SharedWindows::share_results(const std::vector<WindowChunk>& chunks) {

@@ -60,7 +60,7 @@ class StarForest final : public Exchange {
     if (!too_late) PetscSFDestroy(&forest_);
   }
 
-  void bring(const void* roots, void* leaves, std::size_t bytes_per_value) override {
+  void bring(const void* roots, void* leaves, std::size_t bytes_per_value) const override {
     const MPI_Datatype type = type_of(bytes_per_value);
     require(PetscSFBcastBegin(forest_, type, roots, leaves, MPI_REPLACE));
     require(PetscSFBcastEnd(forest_, type, roots, leaves, MPI_REPLACE));

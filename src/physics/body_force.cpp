@@ -2,6 +2,9 @@
 // Loads per mass from formulas.
 #include "meniscus/physics/body_force.hpp"
 
+#include "meniscus/core/divided.hpp"
+
+#include <algorithm>
 #include <limits>
 
 namespace meniscus {
@@ -23,6 +26,12 @@ class BodyForce final : public ForceTerm {
     return {};
   }
   void add_tangent(const Motion&, const Motion&, Forces) override {}  // the same everywhere
+  bool mark_read(std::span<std::uint8_t> particles) const override {
+    const OwnItems own = own_rows(body_.size());
+    const auto part = body_.part(particles);
+    std::fill(part.begin() + own.begin, part.begin() + own.end, std::uint8_t{1});
+    return true;
+  }
   std::optional<Real> potential(const Motion& motion) override {
     evaluate(motion.time);
     return -parallel_sum(body_.size(), 0.0, [&](Index A) {
@@ -32,8 +41,8 @@ class BodyForce final : public ForceTerm {
   Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
   Real load_power(const Motion& motion) override {
     evaluate(motion.time);
-    return parallel_sum(body_.size(), 0.0,
-                        [&](Index A) { return sum(at(load_, A) * at(motion.v, body_.first + A)); });
+    return divided_sum(body_.size(), 0.0,
+                       [&](Index A) { return sum(at(load_, A) * at(motion.v, body_.first + A)); });
   }
   std::size_t bytes() const override { return load_.size() * sizeof(Lanes); }
   Offset pairs() const override { return 0; }

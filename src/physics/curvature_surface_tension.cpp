@@ -57,6 +57,14 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
     });
   }
 
+  bool mark_read(std::span<std::uint8_t> particles) const override {
+    windows_.mark_read(body_.part(particles));
+    return true;
+  }
+  void keep_to(const std::shared_ptr<const Halo>& halo) override {
+    windows_.keep_to(halo, body_.first);
+  }
+
   std::vector<MeasureSource> measures() const override {
     auto sources = TensionForm<D>::measures();
     sources.push_back({"mean_curvature", Dimension{-1, 0, 0},

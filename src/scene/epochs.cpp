@@ -121,11 +121,11 @@ void Epochs<D>::new_epoch(const Nodes& nodes) {
 template <int D>
 bool Epochs<D>::due(const PlannedRemap& planned, Real before) const {
   const State& state = simulation_->state();
-  if (std::any_of(planned.times.begin(), planned.times.end(),
-                  [&](Real t) { return before < t && t <= state.time; }))
-    return true;
-  return planned.condition > 0 && state.step % steps_between_looks(state.step) == 0 &&
-         planned.now(state.motion()) > planned.condition;
+  const bool at_a_time = std::any_of(planned.times.begin(), planned.times.end(),
+                                     [&](Real t) { return before < t && t <= state.time; });
+  const bool looks = planned.condition > 0 && state.step % steps_between_looks(state.step) == 0;
+  if (at_a_time || looks) simulation_->complete_state();
+  return at_a_time || (looks && planned.now(state.motion()) > planned.condition);
 }
 
 template <int D>

@@ -47,7 +47,8 @@ StepperChoice stepper_choice(const Scene<D>& scene, bool implicit_viscosity) {
 }
 
 /// copy = state, what is large by all threads.
-void keep(State& state, State& copy) {
+template <int D>
+void keep(const System<D>& system, State& state, State& copy) {
   constexpr std::array large{&State::u, &State::v, &State::force};
   std::array<NodalVectors, large.size()> of_state, of_copy;
   for (std::size_t k = 0; k < large.size(); ++k) {
@@ -59,7 +60,12 @@ void keep(State& state, State& copy) {
   for (std::size_t k = 0; k < large.size(); ++k) {
     state.*at(large, k) = std::move(at(of_state, k));
     copy.*at(large, k) = std::move(at(of_copy, k));
-    meniscus::copy(state.*at(large, k), copy.*at(large, k));
+    const NodalVectors& from = state.*at(large, k);
+    NodalVectors& to = copy.*at(large, k);
+    to.resize(from.size());
+    system.for_particles([&](Index begin, Index end) {
+      std::copy(from.begin() + begin, from.begin() + end, to.begin() + begin);
+    });
   }
 }
 
@@ -86,6 +92,8 @@ void Simulation<D>::make_stepper(bool implicit_viscosity) {
   stepper_ = Registry<StepperEntry>::all()
                  .at(time.solver)
                  .make(scene_.system, stepper_choice(scene_, implicit_viscosity));
+  scene_.system.halo.reset();
+  if (stepper_->can_be_shared()) scene_.system.share_steps();
 }
 
 /// By the present state, where the scene leaves it open.
@@ -143,7 +151,7 @@ bool Simulation<D>::finished() const {
 template <int D>
 void Simulation<D>::step(Real dt) {
   constexpr int most_halvings = 6;
-  keep(state_, before_);
+  keep(scene_.system, state_, before_);
   for (int halvings = 0;; ++halvings) {
     last_step_ = dt;
     try {
@@ -176,6 +184,7 @@ void Simulation<D>::advance() {
     state_.energies_asked =
         !stepper_->implicit() &&  // whose last forces need not be those of the state it finds
         scene_.output.record_due(state_.time, state_.time + last_step_, scene_.time.end);
+    scene_.system.enter_halo(state_);
     if (keeps_state_before_)
       step(last_step_);
     else
@@ -242,6 +251,7 @@ void Simulation<D>::refuse_impossible_surfaces() const {
 
 template <int D>
 void Simulation<D>::give_up(StepFailure failure) {
+  complete_state();
   // The step left its broken forces; those of the places it was taken back to can be shown.
   scene_.system.add_up(state_.motion(), state_.forces());
   failure.step = state_.step + 1;
@@ -252,6 +262,7 @@ void Simulation<D>::give_up(StepFailure failure) {
 
 template <int D>
 Ledger Simulation<D>::audit_now() {
+  complete_state();
   refuse_impossible_states();
   const Ledger ledger = take_ledger(scene_.system, state_);
   audit_.follow(scene_.system, state_, ledger);
@@ -317,6 +328,7 @@ void Simulation<D>::archive_references(const Archive& a) const {
 
 template <int D>
 Snapshot Simulation<D>::snapshot() {
+  complete_state();
   Snapshot snapshot;
   archive(Archive::writing(snapshot, [this](Dimension d) { return scene_.units.symbol(d); }));
   return snapshot;

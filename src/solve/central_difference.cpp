@@ -5,15 +5,6 @@
 #include "leapfrog.hpp"
 
 namespace meniscus {
-namespace {
-
-template <int D>
-void kick(const System<D>& system, State& state, Real dt) {
-  leapfrog::kick(state.v, state.force, system.mass, dt);
-  leapfrog::kick_fields(state, dt);
-}
-
-}  // namespace
 
 template <int D>
 void start(System<D>& system, State& state) {
@@ -32,19 +23,19 @@ template <int D>
 void advance(System<D>& system, State& state, Real dt,
              const std::function<void(const State&)>& judge) {
   system.depart(state);
-  leapfrog::kick_and_drift(state, system.mass, dt);
+  leapfrog::kick_and_drift(system, state, dt);
   system.constrain(state, dt);
   system.arrive(state, dt);
   Report report;
   try {
     report = system.compute_forces(state.motion(), state.forces());
   } catch (const SolveError&) {
-    leapfrog::drift(state, -dt);
+    leapfrog::drift(system, state, -dt);
     throw;
   }
   system.react(state, dt);
   leapfrog::settle(state, dt);
-  kick(system, state, dt / 2);
+  leapfrog::kick(system, state, dt / 2);
   if (judge) judge(state);
   // Over a step the viscous force does the work dt/2 (f_n + f_n+1).v_n+1/2, of which f_n+1.v_n+1/2
   // is the power computed last and f_n.v_n+1/2 lies half-way between the power before and that.

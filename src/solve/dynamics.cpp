@@ -35,6 +35,7 @@ class Dynamics final : public Stepper<D> {
                  [&](const State& after) { resolution_.judge(system_, after, dt); });
   }
   bool may_reject_steps() const override { return true; }
+  bool can_be_shared() const override { return !viscosity_; }
   std::string effort() const override {
     return viscosity_ ? fmt::format("{:.2f} iterations of the viscosity per step",
                                     viscosity_->mean_iterations())

@@ -23,14 +23,14 @@ Real eta(const System<D>& system) {
 }
 
 /// sum m v^2/2, sum f^2/m, sum f.v
-Eigen::Vector3d products(const NodalVectors& v, const NodalVectors& f,
+template <int D>
+Eigen::Vector3d products(const System<D>& system, const NodalVectors& v, const NodalVectors& f,
                          const std::vector<Real>& mass) {
-  return parallel_sum(
-      static_cast<Index>(v.size()), Eigen::Vector3d(Eigen::Vector3d::Zero()), [&](Index A) {
-        const Real m = at(mass, A);
-        return Eigen::Vector3d(m / 2 * sum(at(v, A) * at(v, A)), sum(at(f, A) * at(f, A)) / m,
-                               sum(at(f, A) * at(v, A)));
-      });
+  return system.sum_over_particles(Eigen::Vector3d(Eigen::Vector3d::Zero()), [&](Index A) {
+    const Real m = at(mass, A);
+    return Eigen::Vector3d(m / 2 * sum(at(v, A) * at(v, A)), sum(at(f, A) * at(f, A)) / m,
+                           sum(at(f, A) * at(v, A)));
+  });
 }
 
 }  // namespace
@@ -38,10 +38,10 @@ Eigen::Vector3d products(const NodalVectors& v, const NodalVectors& f,
 template <int D>
 typename EnergyResolution<D>::Sums EnergyResolution<D>::sums(const System<D>& system,
                                                              const State& state) {
-  Eigen::Vector3d all = products(state.v, state.force, system.mass);
+  Eigen::Vector3d all = products(system, state.v, state.force, system.mass);
   for (const Unknown& field : state.fields)
     if (field.spec.evolution == Evolution::inertial)
-      all += products(field.rate, field.f, field.capacity);
+      all += products(system, field.rate, field.f, field.capacity);
   return {all[0], all[1], all[2], state.time};
 }
 

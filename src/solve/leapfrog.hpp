@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of a step of central differences: places and velocities half a step apart.
 #pragma once
-#include "meniscus/core/parallel.hpp"
+#include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/solve/system.hpp"
 
 namespace meniscus::leapfrog {
 
-/// v += dt f / m
+/// v += dt f / m, of a vector over all particles
 inline void kick(NodalVectors& v, const NodalVectors& f, const std::vector<Real>& mass, Real dt) {
   for_chunks(static_cast<Index>(v.size()), [&](Index, Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(v, A) += (dt / at(mass, A)) * at(f, A);
@@ -16,28 +16,35 @@ inline void kick_fields(State& state, Real dt) {
   for (Unknown& field : state.fields)
     if (field.spec.evolution == Evolution::inertial) kick(field.rate, field.f, field.capacity, dt);
 }
+template <int D>
+void kick(const System<D>& system, State& state, Real dt) {
+  system.for_particles([&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(state.v, A) += (dt / at(system.mass, A)) * at(state.force, A);
+  });
+  kick_fields(state, dt);
+}
 
 /// x += dt v
-inline void drift(NodalVectors& x, const NodalVectors& v, Real dt) {
-  for_chunks(static_cast<Index>(x.size()), [&](Index, Index begin, Index end) {
-    for (Index A = begin; A < end; ++A) at(x, A) += dt * at(v, A);
-  });
-}
 inline void drift_fields(State& state, Real dt) {
   for (Unknown& field : state.fields)
-    if (field.spec.evolution != Evolution::carried) drift(field.x, field.rate, dt);
+    if (field.spec.evolution != Evolution::carried) add(field.x, dt, field.rate);
 }
-inline void drift(State& state, Real dt) {
-  drift(state.u, state.v, dt);
+template <int D>
+void drift(const System<D>& system, State& state, Real dt) {
+  system.for_particles([&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(state.u, A) += dt * at(state.v, A);
+  });
   drift_fields(state, dt);
   state.time += dt;
 }
 
 /// The first half kick of all that is inertial, and the drift that follows.
-inline void kick_and_drift(State& state, const std::vector<Real>& mass, Real dt) {
-  for_chunks(static_cast<Index>(state.v.size()), [&](Index, Index begin, Index end) {
+template <int D>
+void kick_and_drift(const System<D>& system, State& state, Real dt) {
+  system.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
-      at(state.v, A) += (dt / 2 / at(mass, A)) * at(state.force, A);
+      at(state.v, A) += (dt / 2 / at(system.mass, A)) * at(state.force, A);
       at(state.u, A) += dt * at(state.v, A);
     }
   });

@@ -121,12 +121,12 @@ void Relaxation<D>::glide(State& state, Real dt) {
       at(window_impulse_, A) += at(impulse_, A);
     }
   });
-  leapfrog::drift(state, dt);
+  leapfrog::drift(system_, state, dt);
   Report report;
   try {
     report = system_.compute_forces(state.motion(), state.forces());
   } catch (const SolveError&) {
-    leapfrog::drift(state, -dt);
+    leapfrog::drift(system_, state, -dt);
     throw;
   }
   inertia_->solve(state.force, acceleration_);

@@ -50,7 +50,8 @@ void StepController<D>::choose_step() {
 }
 
 template <int D>
-void StepController<D>::reconsider(const State& state) {
+void StepController<D>::reconsider(State& state) {
+  system_.complete(state);
   const Real before = stable_.dt;
   stable_ = estimator_.estimate_again(state, stable_);
   // So long that the limit changes by 2 % between estimates (with implicit viscosity, where it
@@ -89,7 +90,7 @@ Real StepController<D>::allowed_step(const State& state) const {
 /// Shortens the step where a term demands it. The demand bounds the stiffness from above, so before
 /// a considerable change the operator itself is asked.
 template <int D>
-void StepController<D>::respect_demand(const State& state) {
+void StepController<D>::respect_demand(State& state) {
   constexpr Real tolerated = 1.05, margin = 0.9;
   if (choice_.fixed || step_ <= tolerated * allowed_step(state)) return;
   if (state.step >= last_check_ + static_cast<std::int64_t>(shortest_interval)) reconsider(state);
@@ -98,7 +99,7 @@ void StepController<D>::respect_demand(const State& state) {
 }
 
 template <int D>
-Real StepController<D>::next(const State& state, Real end, Real accurate) {
+Real StepController<D>::next(State& state, Real end, Real accurate) {
   if (state.step >= next_check_) reconsider(state);
   respect_demand(state);
   // What viscosity stops within one of its steps, central differences resolve anyway; not so the

@@ -41,6 +41,26 @@ Real System<D>::steady_after() const {
   return last;
 }
 
+/// Values at its own particles are known to a rank as well.
+template <int D>
+void System<D>::share_steps() {
+  halo.reset();
+  if (ranks().alone() || constraints || !fields.empty() || !carried.empty()) return;
+  std::vector<std::uint8_t> read(mass.size(), 0);
+  for (const auto& term : terms)
+    if (!term->mark_read(read)) return;
+  const OwnItems own = own_rows(size());
+  for (const Body<D>& body : bodies)
+    for (Index A = std::max(own.begin - body.first, 0);
+         A < std::min(own.end - body.first, body.size()); ++A)
+      for (Offset e = at(body.at_particles.start, A); e < at(body.at_particles.start, A + 1); ++e)
+        at(read, body.first + at(body.at_particles.particle, e)) = 1;
+  const auto followed = std::make_shared<Halo>(std::move(read));
+  if (!followed->is_partial()) return;
+  halo = followed;
+  for (auto& term : terms) term->keep_to(halo);
+}
+
 template <int D>
 bool System<D>::viscous() const {
   for (const auto& term : terms)
@@ -68,7 +88,8 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
   const Body<D>& body = body_of(what.particle);
   const Index A = what.particle - body.first;
   const Vec<D>& X = at(body.particles.X(), A);
-  const Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
+  Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
+  if (in_halo()) ranks().hand_out(rank_of_row(size(), what.particle), &u, sizeof u);
   std::string reference, current;
   for (int i = 0; i < D; ++i) {
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
@@ -86,7 +107,9 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
 
 template <int D>
 Report System<D>::add_up(const Motion& motion, Forces force) {
-  clear(force);
+  for_particles([&](Index begin, Index end) {
+    std::fill(force.begin() + begin, force.begin() + end, Lanes::zero());
+  });
   for (Unknown& field : force.fields) clear(field.f);
   Report all;
   for (auto& term : terms) {
@@ -115,16 +138,19 @@ Report System<D>::compute_forces(const Motion& motion, Forces force) {
   Report report = add_up(motion, force);
   if (report.failure) throw StepError(located(*report.failure, motion));
   const Lanes total =
-      parallel_sum(size(), Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
+      sum_over_particles(Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
   for (const Unknown& field : force.fields)
     for (Index A = 0; A < size(); ++A)
       if (!std::isfinite(sum(at(field.f, A) * at(field.f, A))))
         throw StepError(
             located({A, "the force on '" + field.spec.name + "' is not a finite number"}, motion));
   if (std::isfinite(sum(total))) return report;
-  for (Index A = 0; A < size(); ++A)
-    if (!std::isfinite(sum(at(force, A) * at(force, A))))
-      throw StepError(located({A, "the force is not a finite number"}, motion));
+  const OwnItems mine = in_halo() ? own_rows(size()) : OwnItems{0, size()};
+  Index A = mine.begin;
+  while (A < mine.end && std::isfinite(sum(at(force, A) * at(force, A)))) ++A;
+  if (A == mine.end) A = size();
+  if (in_halo()) A = size() - static_cast<Index>(ranks().largest(size() - A));
+  if (A < size()) throw StepError(located({A, "the force is not a finite number"}, motion));
   return report;  // the squares overflowed
 }
 

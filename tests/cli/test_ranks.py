@@ -43,6 +43,29 @@ ROWS = {
     "particles": SHORT_BLOCK.replace("[body.material]", 'integration = "nodal"\n[body.material]'),
     "a viscosity": SHORT_BLOCK.replace("[body.material]", "[body.material]\nviscosity = 10"),
 }
+LONG_DROP = SHORT_DROP.replace('"7.5 nm"', '"15 nm"').replace("core = 3", "core = 8").replace(
+    "layers = 2", "layers = 3") + 'form = "weak"\n'
+SKIN = """
+[[surface]]
+body = "drop"
+law = { type = "gurtin_murdoch", lambda = "1 mN/m", mu = "2 mN/m" }
+[[surface]]
+body = "drop"
+law = { type = "boussinesq_scriven", shear = 1e-13, dilatational = 2e-13 }
+"""
+LONG_BLOCK = SHORT_BLOCK.replace("size = [1, 1, 1]", "size = [4, 1, 1]").replace("[4, 4, 4]",
+                                                                                "[23, 4, 4]")
+# [name] bodies of which a rank needs a part
+LONG = {
+    "a solid": LONG_BLOCK,
+    "a viscous solid": LONG_BLOCK.replace("[body.material]", "[body.material]\nviscosity = 10"),
+    "Gauss points": LONG_BLOCK.replace("[body.material]",
+                                       'integration = "gauss"\ngauss_points = 1\n[body.material]'),
+    "a drop": LONG_DROP,
+    "a drop in a skin": LONG_DROP.replace('form = "weak"', 'form = "curvature"') + SKIN,
+    "two solids": LONG_BLOCK + LONG_BLOCK[LONG_BLOCK.index("[[body]]"):].replace(
+        '"block"', '"other"').replace("[body.material]", "centre = [0, 3, 0]\n[body.material]"),
+}
 PRESSED = SHORT_BLOCK.replace("neo_hookean", "st_venant_kirchhoff").replace(
     "[[body]]", '[[body]]\ninitial_velocity = ["-20*x^2", 0, 0]')
 BENT_SHEET = RELAXING_SHEET.replace('"relax"', '"newton"')
@@ -122,6 +145,29 @@ class SameBits(RanksTest):
             megabytes[count] = float(re.search(r"([\d.]+) MB for the internal force", log)[1])
         self.assertLess(megabytes[4], 0.35 * megabytes[1])
         self.assertRegex(log, r"at most \d+ MB of memory")
+
+    def test_ghosts(self):
+        """Ranks make steps where their rows and sums read the motion, and do not know it elsewhere: it
+        is not a number there."""
+        for name, scene in LONG.items():
+            with self.subTest(name):
+                self.directory = self.directory / name.replace(" ", "_")
+                self.directory.mkdir()
+                self.assert_same_bits((2, 4), self.scene(scene))
+                steps = re.search(r"on (\d+) of (\d+) particles at most, (\d+) of them ghosts",
+                                  self.log("ranks4"))
+                followed, of_all, ghosts = map(int, steps.groups())
+                self.assertLess(followed, 0.8 * of_all)
+                self.assertLess(ghosts, 0.6 * of_all)
+                self.directory = self.directory.parent
+
+    def test_failure_in_the_halo(self):
+        """It is said with the place of the particle, which not all ranks know."""
+        scene = self.scene(PUSHED.replace("[4, 4, 4]", "[15, 2, 2]"))
+        alone = self.call("run", scene, "--output", "alone", code=4)
+        done = self.ranks(4, "run", scene, "--output", "ranks4", code=4)
+        words = [re.search(r"error: (step.*)", run.stderr)[1] for run in (alone, done)]
+        self.assertEqual(*words)
 
     def test_doubtful_law(self):
         """What the law of one rank warns of is said once, with the words of a run that is alone."""

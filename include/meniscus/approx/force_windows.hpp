@@ -23,7 +23,8 @@ class ForceWindows {
 
   /// Calls work(chunk, begin row, end row, window) for each chunk of this rank; window[A] += ... is
   /// allowed for the particles A of those rows. Then adds all windows to `force`, which is the same
-  /// on all ranks before and after, and completes what work has written per chunk.
+  /// on all ranks before and after (while a halo is entered, on those that follow a particle), and
+  /// completes what work has written per chunk.
   template <class F, class... T>
   void accumulate(std::span<NodalVector> force, F&& work, PerChunk<T>&... results) {
     parallel_for(
@@ -41,6 +42,12 @@ class ForceWindows {
       shared_->spread_forces(force);
       if constexpr (sizeof...(T) > 0) shared_->spread_results(results...);
     }
+  }
+
+  /// Of SharedWindows, in a run of several ranks.
+  void mark_read(std::span<std::uint8_t> particles) const { shared_->mark_read(particles); }
+  void keep_to(std::shared_ptr<const Halo> halo, Index first) {
+    shared_->keep_to(std::move(halo), first);
   }
 
   /// All chunk numbers are below this.

@@ -3,6 +3,7 @@
 // does the rows of some chunks and adds up the windows over some particles (scaling note 2).
 #pragma once
 #include "meniscus/core/aligned.hpp"
+#include "meniscus/core/halo.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/core/ranks.hpp"
 
@@ -45,23 +46,33 @@ class SharedWindows {
   void bring_windows(NodalVectors& sums) const {
     windows_->bring(sums.data(), sums.data(), sizeof(NodalVector));
   }
-  /// Forces on all particles that the rows touch.
+  /// Forces on all particles that the rows touch; while a halo is entered, on those it follows.
   void spread_forces(std::span<NodalVector> force) const {
-    particles_->bring(force.data(), force.data(), sizeof(NodalVector));
+    const Exchange& exchange = halo_ && halo_->is_entered() ? *followed_ : *particles_;
+    exchange.bring(force.data(), force.data(), sizeof(NodalVector));
   }
+  /// Marks the particles that the rows of this rank touch, and those over which it adds up windows.
+  void mark_read(std::span<std::uint8_t> particles) const;
+  /// `first`: the number, in the halo, of the first of the particles. All ranks call this.
+  void keep_to(std::shared_ptr<const Halo> halo, Index first);
   template <class... T>
   void spread_results(PerChunk<T>&... results);
 
  private:
   /// Which particles of its window the rows of a chunk touch, [chunk][particle - low].
   using Touched = std::vector<std::vector<bool>>;
+  /// Bits of `touched_`.
+  static constexpr std::uint8_t by_a_rank = 1, by_this_rank = 2;
 
   void find_windows(std::vector<WindowChunk>& chunks, std::span<const Offset> start);
   void divide(const std::vector<WindowChunk>& chunks, Index particles);
   Touched touched(const std::vector<WindowChunk>& chunks, std::span<const Offset> start,
                   std::span<const Index> particle) const;
   void share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched);
-  void share_particles(const std::vector<WindowChunk>& chunks, const Touched& touched);
+  void remember_touched(const std::vector<WindowChunk>& chunks, const Touched& touched);
+  /// Forces of particles for which `is_wanted`, that rows touch and other ranks add up.
+  template <class F>
+  std::unique_ptr<Exchange> exchange_of_forces(F&& is_wanted) const;
   void share_results(const std::vector<WindowChunk>& chunks);
 
   template <class T>
@@ -71,10 +82,13 @@ class SharedWindows {
   std::vector<Index> border_;  // particle at which those of a rank begin, [rank], and their number
   std::vector<WindowChunk> own_, summed_;
   Offset size_ = 0, pairs_ = 0;
-  int numbers_ = 0;           // of chunks are below this
-  std::vector<int> foreign_;  // numbers of the chunks of others
+  int numbers_ = 0;                    // of chunks are below this
+  std::vector<int> foreign_;           // numbers of the chunks of others
+  std::vector<std::uint8_t> touched_;  // by rows of which ranks, [particle]
   std::unique_ptr<Exchange> windows_, particles_, chunks_;
-  std::vector<std::byte> records_;  // results, [chunk number]
+  std::shared_ptr<const Halo> halo_;
+  std::unique_ptr<Exchange> followed_;  // particles of the halo
+  std::vector<std::byte> records_;      // results, [chunk number]
 };
 
 template <class... T>

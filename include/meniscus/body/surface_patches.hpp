@@ -50,6 +50,15 @@ class SurfacePatches {
   void add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
                         std::span<NodalVector> force);
 
+  /// As ForceWindows; every rank follows all places of the surface.
+  void mark_read(std::span<std::uint8_t> particles) const {
+    for (const Index A : rows_.particle) at(particles, A) = 1;
+    windows_.mark_read(particles);
+  }
+  void keep_to(std::shared_ptr<const Halo> halo, Index first) {
+    windows_.keep_to(std::move(halo), first);
+  }
+
   Index point_count() const { return static_cast<Index>(X_.size()); }
   Index patch_count() const { return patches_; }
   Index group_count() const { return (patches_ + 3) / 4; }

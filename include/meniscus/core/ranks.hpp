@@ -25,7 +25,7 @@ class Exchange {
   virtual ~Exchange() = default;
   /// Brings each leaf of this rank the value of its root. `roots` and `leaves` are arrays of values
   /// of that many bytes; they may be the same array if no leaf of it is a root. All ranks call it.
-  virtual void bring(const void* roots, void* leaves, std::size_t bytes_per_value) = 0;
+  virtual void bring(const void* roots, void* leaves, std::size_t bytes_per_value) const = 0;
 };
 
 struct Leaf {

@@ -3,12 +3,14 @@
 // the scene does not name is not in the list and costs nothing.
 #pragma once
 #include "meniscus/core/archive.hpp"
+#include "meniscus/core/halo.hpp"
 #include "meniscus/physics/constraint.hpp"
 #include "meniscus/physics/unknown.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -122,6 +124,13 @@ class ForceTerm {
   /// of a spacing: without an exact tangent it is the difference of the forces over a millionth of
   /// it.
   virtual void add_tangent(const Motion& motion, const Motion& change, Forces force);
+
+  /// Of a run of several ranks: marks the particles whose motion this rank reads in add_force(),
+  /// load_power() and commit(). False: it may be all of them, whatever is marked.
+  virtual bool mark_read(std::span<std::uint8_t>) const { return false; }
+  /// From now on, while the halo is entered, these functions are asked for the forces on the
+  /// particles that it follows, and know the motion of no other. All ranks call this.
+  virtual void keep_to(const std::shared_ptr<const Halo>&) {}
 
   /// The step to `motion` stands: a term with history makes this its past.
   virtual void commit(const Motion&) {}

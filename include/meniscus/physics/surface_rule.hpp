@@ -86,6 +86,14 @@ class SurfaceTerm : public ForceTerm {
     return std::string(L::type_name) + " of the surface of '" + body_.name + "'";
   }
   std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
+  /// Laws read the motion in the loop over rows only.
+  bool mark_read(std::span<std::uint8_t> particles) const override {
+    windows_.mark_read(body_.part(particles));
+    return true;
+  }
+  void keep_to(const std::shared_ptr<const Halo>& halo) override {
+    windows_.keep_to(halo, body_.first);
+  }
   std::size_t bytes() const override { return surface_.bytes() + windows_.bytes(); }
   Offset pairs() const override { return surface_.points.pairs(); }
 

@@ -43,7 +43,11 @@ class Simulation {
   bool finished() const;
 
   const Scene<D>& scene() const { return scene_; }
+  /// In a run of several ranks, between steps, places and velocities may be known to the ranks that
+  /// need them only.
   const State& state() const { return state_; }
+  /// Makes all known to all ranks. All ranks call this.
+  void complete_state() { scene_.system.complete(state_); }
   Real last_step() const { return last_step_; }
   StepController<D>& controller() { return *controller_; }
   const Audit& audit() const { return audit_; }

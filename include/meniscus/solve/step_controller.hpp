@@ -21,7 +21,7 @@ class StepController {
   };
 
   StepController(System<D>& system, Choice choice)
-      : estimator_(system, !choice.implicit_viscosity), choice_(choice) {}
+      : system_(system), estimator_(system, !choice.implicit_viscosity), choice_(choice) {}
 
   /// Estimates the stable step at the start of a run. Throws InputError if a fixed step exceeds it.
   void begin(const State& state);
@@ -30,7 +30,7 @@ class StepController {
   /// with implicit viscosity), unless it is
   /// fixed. The last two are shortened to arrive at `end` exactly. Throws SolveError when the
   /// stable step has collapsed to a millionth of the first.
-  Real next(const State& state, Real end, Real accurate = unbounded);
+  Real next(State& state, Real end, Real accurate = unbounded);
 
   /// A step was rejected: the next ones are not longer than `dt`, until the next estimate.
   void shorten(Real dt) { step_ = std::min(step_, dt); }
@@ -47,11 +47,12 @@ class StepController {
 
  private:
   void choose_step();
-  void reconsider(const State& state);
+  void reconsider(State& state);
   void plan_next_check(const State& state);
   Real allowed_step(const State& state) const;
-  void respect_demand(const State& state);
+  void respect_demand(State& state);
 
+  System<D>& system_;
   StableStepEstimator<D> estimator_;
   Choice choice_;
   StableStep stable_;

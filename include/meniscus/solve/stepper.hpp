@@ -43,6 +43,10 @@ class Stepper {
   /// Whether try_step() may ask for a shorter step.
   virtual bool may_reject_steps() const { return false; }
 
+  /// Whether steps need of the motion what forces and sums over particles need of it
+  /// (System::share_steps()).
+  virtual bool can_be_shared() const { return false; }
+
   /// A step that takes long asks now and then whether to stop, and then throws Interrupted. What
   /// the stepper knows of the past is then to be restored by the caller.
   virtual void stop_when(const std::function<bool()>&) {}

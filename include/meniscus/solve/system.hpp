@@ -22,6 +22,9 @@ struct System {
   std::vector<std::unique_ptr<CarriedField>> carried;  ///< those of them that bodies carry
   std::unique_ptr<Constraints> constraints;            ///< null: no place is prescribed
 
+  /// Of a run of several ranks, in steps that need no more; null: steps are made on all particles.
+  std::shared_ptr<Halo> halo = {};
+
   Index size() const { return static_cast<Index>(mass.size()); }
   /// An unknown field that begins at zero; returns its number in Motion and Forces. One that is
   /// asked for twice is the same field, with the sum of both capacities; throws std::logic_error if
@@ -48,6 +51,29 @@ struct System {
   }
   /// From when on nothing but the motion changes forces and prescribed places.
   Real steady_after() const;
+
+  /// From now on explicit steps are made on what this rank follows, if all terms know what that is
+  /// and some rank needs less than all. All ranks call this, with a complete state.
+  void share_steps();
+  /// Before steps of that kind, and where more is asked for than they know. All ranks call these.
+  void enter_halo(State& state) {
+    if (halo) halo->enter({&state.u, &state.v, &state.force});
+  }
+  void complete(State& state) {
+    if (halo) halo->leave({&state.u, &state.v, &state.force});
+  }
+  bool in_halo() const { return halo && halo->is_entered(); }
+  /// Calls f(begin, end) for all particles, those that are followed in a step.
+  template <class F>
+  void for_particles(F&& f) const {
+    if (in_halo()) return halo->for_particles(f);
+    for_chunks(size(), [&](Index, Index begin, Index end) { f(begin, end); });
+  }
+  /// parallel_sum() over all particles.
+  template <class T, class F>
+  T sum_over_particles(T zero, F&& f) const {
+    return in_halo() ? divided_sum(size(), zero, f) : parallel_sum(size(), zero, f);
+  }
 
   bool viscous() const;
   std::size_t bytes() const;  ///< held by terms and constraints

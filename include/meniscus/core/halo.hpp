@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The particles that a rank follows in the steps of a run: its own and its ghosts, those of other
+// ranks that its rows and sums read (scaling note 2.3).
+#pragma once
+#include "meniscus/core/aligned.hpp"
+#include "meniscus/core/divided.hpp"
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+namespace meniscus {
+
+class Halo {
+ public:
+  /// `read`: which of all particles the rows of this rank read. Its own, for sums over particles,
+  /// are followed anyway. All ranks call this.
+  explicit Halo(std::vector<std::uint8_t> read);
+
+  /// Whether some rank follows fewer than all particles.
+  bool is_partial() const { return partial_; }
+  bool follows(Index A) const { return at(read_, A) != 0; }
+  /// Of particles that are followed.
+  Index size() const { return size_; }
+  /// Those of them that it does not own.
+  Index ghosts() const { return ghosts_; }
+
+  /// From now on only what is followed is right on this rank. The rest of these vectors becomes not
+  /// a number, so that it is seen if somebody reads it.
+  void enter(std::initializer_list<NodalVectors*> motion);
+  /// All ranks know all of these vectors again. All ranks call this.
+  void leave(std::initializer_list<NodalVectors*> motion);
+  /// Between the two.
+  bool is_entered() const { return entered_; }
+
+  /// Calls f(begin, end) on all threads for the particles that are followed, in parts.
+  template <class F>
+  void for_particles(F&& f) const {
+    parallel_for(
+        static_cast<Index>(parts_.size()),
+        [&](Index k) { f(at(parts_, k).begin, at(parts_, k).end); }, 1);
+  }
+
+ private:
+  std::vector<std::uint8_t> read_;
+  std::vector<OwnItems> parts_;
+  Index size_ = 0, ghosts_ = 0;
+  bool partial_ = false, entered_ = false;
+};
+
+}  // namespace meniscus

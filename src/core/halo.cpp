@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of particles that are followed, and the rest brought back.
+#include "meniscus/core/halo.hpp"
+
+#include <limits>
+
+namespace meniscus {
+
+Halo::Halo(std::vector<std::uint8_t> read) : read_(std::move(read)) {
+  const auto n = static_cast<Index>(read_.size());
+  const OwnItems own = own_rows(n);
+  std::fill(read_.begin() + own.begin, read_.begin() + own.end, std::uint8_t{1});
+  constexpr Index longest = 2048;
+  for (Index A = 0; A < n; ++A) {
+    if (!follows(A)) continue;
+    ++size_;
+    if (!parts_.empty() && parts_.back().end == A && A - parts_.back().begin < longest)
+      ++parts_.back().end;
+    else
+      parts_.push_back({A, A + 1});
+  }
+  ghosts_ = size_ - (own.end - own.begin);
+  partial_ = ranks().largest(n - size_) > 0;
+}
+
+void Halo::enter(std::initializer_list<NodalVectors*> motion) {
+  if (entered_) return;
+  entered_ = true;
+  const Lanes unknown(std::numeric_limits<Real>::quiet_NaN());
+  for (NodalVectors* x : motion)
+    for (std::size_t A = 0; A < x->size(); ++A)
+      if (read_[A] == 0) (*x)[A] = unknown;
+}
+
+void Halo::leave(std::initializer_list<NodalVectors*> motion) {
+  if (!entered_) return;
+  entered_ = false;
+  for (NodalVectors* x : motion)
+    complete_rows(static_cast<Index>(x->size()), x->data(), sizeof(NodalVector));
+}
+
+}  // namespace meniscus
