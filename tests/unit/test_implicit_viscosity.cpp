@@ -191,34 +191,36 @@ TEST(ImplicitViscosity, HeldBodiesTakeStepsBeyondTheViscousLimitAndARestartGoesO
   expect_same_motion(run.simulation, again);
 }
 
-/// Dampers of the same strength between particles that follow each other.
-class ChainOfDampers final : public ForceTerm {
+/// A crease in every cell leaves stress points less than 0.001 of their volume, as at the rim of a
+/// drop that spreads far on its first reference.
+TEST(ImplicitViscosity, FindsTheVelocityOfCellsThatNearlyFold) {
+  Scene<2> scene = test::scene_of<2>(
+      "dimension = 2\n[time]\nend = 1\nviscosity = \"implicit\"\n[[body]]\nname = \"drop\"\nshape "
+      "= \"rectangle\"\nsize = [1, 1]\ncells = [24, 24]\ninitial_displacement = "
+      "[\"0.2895/24*cos(24*pi*x)\", \"0\"]\nmaterial = { type = \"newtonian\", density = 1, "
+      "bulk_modulus = 20, viscosity = 1e6 }\n");
+  State state = scene.initial;
+  start(scene.system, state);
+  ImplicitViscosity<2> viscosity(scene.system);
+  viscosity.advance(state, 1e-4);
+  EXPECT_GT(viscosity.mean_iterations(), 300);
+}
+
+/// A force across the velocity, which conjugate gradients do not find in a long step.
+class Gyroscope final : public ForceTerm {
  public:
-  explicit ChainOfDampers(Real strength) : strength_(strength) {}
-  std::string name() const override { return "chain"; }
+  std::string name() const override { return "gyroscope"; }
   bool viscous() const override { return true; }
   Report add_force(const Motion& motion, Forces force) override {
     add_viscous(motion, force);
     return {};
   }
   void add_viscous(const Motion& motion, Forces force) override {
-    for (std::size_t A = 0; A + 1 < motion.v.size(); ++A) {
-      const Lanes f = strength_ * (motion.v[A + 1] - motion.v[A]);
-      force[A] += f;
-      force[A + 1] -= f;
-    }
-  }
-  void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
-    for (std::size_t A = 0; A + 1 < diagonal.size(); ++A) {
-      diagonal[A] += Lanes(strength_);
-      diagonal[A + 1] += Lanes(strength_);
-    }
+    for (std::size_t A = 0; A < force.size(); ++A)
+      force[A] += Lanes(-motion.v[A][1], motion.v[A][0], 0.0, 0.0);
   }
   std::size_t bytes() const override { return 0; }
   Offset pairs() const override { return 0; }
-
- private:
-  Real strength_;
 };
 
 TEST(ImplicitViscosity, AsksForAShorterStepWhereNoVelocityIsFound) {
@@ -228,7 +230,7 @@ TEST(ImplicitViscosity, AsksForAShorterStepWhereNoVelocityIsFound) {
       "\"1e-10*cos(31*y)\"]\n"
       "material = { type = \"neo_hookean\", density = 1, mu = 1e-6, lambda = 1e-6 }\n";
   Scene<2> scene = test::scene_of<2>(text);
-  scene.system.terms.push_back(std::make_unique<ChainOfDampers>(1));
+  scene.system.terms.push_back(std::make_unique<Gyroscope>());
   State state = scene.initial;
   start(scene.system, state);
   ImplicitViscosity<2> viscosity(scene.system);
@@ -239,11 +241,11 @@ TEST(ImplicitViscosity, AsksForAShorterStepWhereNoVelocityIsFound) {
   } catch (const StepError& e) {
     EXPECT_TRUE(e.failure.of_step);
     EXPECT_EQ(e.failure.body, "sheet");
-    EXPECT_NE(e.failure.cause.find("not found within 300 iterations"), std::string::npos)
+    EXPECT_NE(e.failure.cause.find("not found within 2000 iterations"), std::string::npos)
         << e.failure.cause;
   }
   state = before;
-  viscosity.advance(state, 1e-4);
+  viscosity.advance(state, 1e-6);
   EXPECT_GT(viscosity.mean_iterations(), 0);
 }
 
