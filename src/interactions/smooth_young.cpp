@@ -17,11 +17,11 @@ namespace {
 
 /// With t = (g - offset) / range (wetting note 1),
 ///   e = - W (1 - 10 t^3 + 15 t^4 - 6 t^5) for 0 < t < 1, zero beyond;
-///   e = - W + C k |t|^3 / 3 for t < 0: no deeper than the load asks for. C = W or, if that is
-///   more,
-/// half the tension of both surfaces, which presses also where little adheres; where W varies, what
-/// it is at most without complete wetting: the wall is one also where nothing adheres. k = 100, or
-/// more where the offset is short: a surface that falls into the well must not come through.
+///   e = - W + C k |t|^3 / 3 for t < 0: no deeper than the load asks for. C = W or, where that is
+/// more, the tension gamma + min(gamma, gamma_2) - W that is left of both surfaces: it presses also
+/// where little adheres. Where W varies, C is what W is at most without complete wetting: the wall
+/// is one also where nothing adheres. k = 100, or more where the offset is short: a surface that
+/// falls into the well must not come through.
 struct SmoothYoung final : Interaction {
   static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nrange = 0.3\n";
   std::optional<Expression> angle, work, actin;  // as given
@@ -78,8 +78,9 @@ struct SmoothYoung final : Interaction {
     // At least_gap() the core has taken up 1.6 C.
     const Real depth_of_core = 0.75 * law->g0 / law->ell;
     const Real k = std::max(100.0, 4.8 / (depth_of_core * depth_of_core * depth_of_core));
-    const Real gamma = surfaces.gamma.value_or(0), beyond = surfaces.gamma_beyond.value_or(0);
-    law->core = k * std::max(law->W, formulas.constant() ? 0.5 * (gamma + beyond) : 2 * gamma);
+    const Real gamma = surfaces.gamma.value_or(0),
+               left = gamma + std::min(gamma, surfaces.gamma_beyond.value_or(0)) - law->W;
+    law->core = k * std::max(law->W, formulas.constant() ? left : 2 * gamma);
     if (formulas.constant()) return law;
     law->varying = std::make_shared<AdhesionPattern>(pattern);
     law->W = 1;

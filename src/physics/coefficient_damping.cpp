@@ -43,13 +43,13 @@ class CoefficientDamping final : public ForceTerm {
     const Rotation sums = subtract_places(motion);
     const Eigen::Vector3d w = sums.rate();
     Report report;
-    report.heat = sum_over_particles(0.0, [&](Index A) {
+    report.heat = sum_over_particles(halo_, body_.size(), 0.0, [&](Index A) {
       const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
       const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
       at(slip_, A) = at(rate_, A) * s;
       return at(rate_, A) * sum(s * s);
     });
-    if (in_halo()) slips_->bring(slip_.data(), slip_.data(), sizeof(Lanes));
+    if (is_entered(halo_)) slips_->bring(slip_.data(), slip_.data(), sizeof(Lanes));
     const auto own = body_.part(std::span<NodalVector>(force));
     windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* f) {
       for (Index A = begin; A < end; ++A) scatter_value(body_.at_particles, A, at(slip_, A), f);
@@ -85,12 +85,6 @@ class CoefficientDamping final : public ForceTerm {
   Offset pairs() const override { return body_.at_particles.entries(); }
 
  private:
-  bool in_halo() const { return halo_ && halo_->is_entered(); }
-  template <class T, class F>
-  T sum_over_particles(T zero, F&& f) const {
-    return in_halo() ? divided_sum(body_.size(), zero, f) : parallel_sum(body_.size(), zero, f);
-  }
-
   /// Sums of c (|e|^2 I - e e) and c e x d, d = (I - N) v and e = (I - N) x.
   struct Rotation {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
@@ -110,7 +104,7 @@ class CoefficientDamping final : public ForceTerm {
   /// d to slip_, e to offset_. Positions are quadratic fields: (I - N) x = (I - N) u.
   Rotation subtract_places(const Motion& motion) {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    return sum_over_particles(Rotation{}, [&](Index A) {
+    return sum_over_particles(halo_, body_.size(), Rotation{}, [&](Index A) {
       const PointRows<D>& rows = body_.at_particles;
       const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
       at(slip_, A) = d;

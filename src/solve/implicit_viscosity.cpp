@@ -114,7 +114,7 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
   return report;
 }
 
-/// In a shorter step viscosity is less beside the masses. That begins with a diagonal of its own.
+/// A step that is tried again has a diagonal of its own.
 template <int D>
 StepError ImplicitViscosity<D>::not_found(const State& state, Real residual) {
   age_ = longest_age;

@@ -48,7 +48,7 @@ class SharedWindows {
   }
   /// Forces on all particles that the rows touch; while a halo is entered, on those it follows.
   void spread_forces(std::span<NodalVector> force) const {
-    const Exchange& exchange = halo_ && halo_->is_entered() ? *followed_ : *particles_;
+    const Exchange& exchange = is_entered(halo_) ? *followed_ : *particles_;
     exchange.bring(force.data(), force.data(), sizeof(NodalVector));
   }
   /// Marks the particles that the rows of this rank touch, and those over which it adds up windows.

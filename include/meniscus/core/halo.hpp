@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -48,5 +49,16 @@ class Halo {
   Index size_ = 0, ghosts_ = 0;
   bool partial_ = false, entered_ = false;
 };
+
+/// Whether a step is made in a halo; null: there is none.
+inline bool is_entered(const std::shared_ptr<const Halo>& halo) {
+  return halo && halo->is_entered();
+}
+
+/// parallel_sum() over n particles, of which in a halo each rank knows its own.
+template <class T, class F>
+T sum_over_particles(const std::shared_ptr<const Halo>& halo, Index n, T zero, F&& f) {
+  return is_entered(halo) ? divided_sum(n, zero, f) : parallel_sum(n, zero, f);
+}
 
 }  // namespace meniscus

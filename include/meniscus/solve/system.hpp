@@ -62,7 +62,7 @@ struct System {
   void complete(State& state) {
     if (halo) halo->leave({&state.u, &state.v, &state.force});
   }
-  bool in_halo() const { return halo && halo->is_entered(); }
+  bool in_halo() const { return is_entered(halo); }
   /// Calls f(begin, end) for all particles, those that are followed in a step.
   template <class F>
   void for_particles(F&& f) const {
@@ -72,7 +72,7 @@ struct System {
   /// parallel_sum() over all particles.
   template <class T, class F>
   T sum_over_particles(T zero, F&& f) const {
-    return in_halo() ? divided_sum(size(), zero, f) : parallel_sum(size(), zero, f);
+    return meniscus::sum_over_particles(halo, size(), zero, f);
   }
 
   bool viscous() const;
