@@ -32,12 +32,9 @@ class BalancedSurfaceTension final : public TensionForm<D> {
                                  this->displacements(change), -this->gamma_ * correction_,
                                  this->own_part(force));
   }
-  bool mark_read(std::span<std::uint8_t> particles) const override {
-    patches_.mark_read(this->body_.part(particles));
+  bool tell_reads(StepReads& reads) override {
+    patches_.tell_reads(reads, this->body_.first);
     return true;
-  }
-  void keep_to(const std::shared_ptr<const Halo>& halo) override {
-    patches_.keep_to(halo, this->body_.first);
   }
   std::size_t bytes() const override { return patches_.bytes(); }
   Offset pairs() const override { return patches_.pairs(); }

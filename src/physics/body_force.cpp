@@ -26,10 +26,9 @@ class BodyForce final : public ForceTerm {
     return {};
   }
   void add_tangent(const Motion&, const Motion&, Forces) override {}  // the same everywhere
-  bool mark_read(std::span<std::uint8_t> particles) const override {
+  bool tell_reads(StepReads& reads) override {
     const OwnItems own = own_rows(body_.size());
-    const auto part = body_.part(particles);
-    std::fill(part.begin() + own.begin, part.begin() + own.end, std::uint8_t{1});
+    reads.range(body_.first + own.begin, body_.first + own.end);
     return true;
   }
   std::optional<Real> potential(const Motion& motion) override {

@@ -64,6 +64,10 @@ class Cavity final : public ForceTerm {
   std::optional<Real> potential(const Motion& motion) override {
     return vented() ? 0 : stored_energy(motion);
   }
+  bool tell_reads(StepReads& reads) override {
+    surface_.tell_reads(reads);
+    return true;
+  }
   Real steady_after() const override { return vented() ? 0 : filling_.ramp.end; }
   /// Pressure times area.
   Real uncancelled_force(const Motion& motion) const override {

@@ -58,24 +58,12 @@ class CoefficientDamping final : public ForceTerm {
     return report;
   }
 
-  bool mark_read(std::span<std::uint8_t> particles) const override {
-    const auto own = body_.part(particles);
-    windows_.mark_read(own);
-    const OwnItems rows = own_rows(body_.size());
-    const PointRows<D>& values = body_.at_particles;
-    for (Offset e = at(values.start, rows.begin); e < at(values.start, rows.end); ++e)
-      at(own, at(values.particle, e)) = 1;
+  bool tell_reads(StepReads& reads) override {
+    const OwnItems own = own_rows(body_.size());
+    reads.particles(body_.at_particles.of_rows(own.begin, own.end), body_.first);
+    reads.rows(windows_, body_.first);
+    reads.when_shared([this](const auto& halo) { keep_to(halo); });
     return true;
-  }
-  void keep_to(const std::shared_ptr<const Halo>& halo) override {
-    halo_ = halo;
-    windows_.keep_to(halo, body_.first);
-    const OwnItems rows = own_rows(body_.size());
-    std::vector<Leaf> leaves;
-    for (Index A = 0; A < body_.size(); ++A)
-      if (halo->follows(body_.first + A) && (A < rows.begin || A >= rows.end))
-        leaves.push_back({A, rank_of_row(body_.size(), A), A});
-    slips_ = ranks().exchange(body_.size(), leaves);
   }
 
   std::size_t bytes() const override {
@@ -85,6 +73,16 @@ class CoefficientDamping final : public ForceTerm {
   Offset pairs() const override { return body_.at_particles.entries(); }
 
  private:
+  void keep_to(const std::shared_ptr<const Halo>& halo) {
+    halo_ = halo;
+    const OwnItems rows = own_rows(body_.size());
+    std::vector<Leaf> leaves;
+    for (Index A = 0; A < body_.size(); ++A)
+      if (halo->follows(body_.first + A) && (A < rows.begin || A >= rows.end))
+        leaves.push_back({A, rank_of_row(body_.size(), A), A});
+    slips_ = ranks().exchange(body_.size(), leaves);
+  }
+
   /// Sums of c (|e|^2 I - e e) and c e x d, d = (I - N) v and e = (I - N) x.
   struct Rotation {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();

@@ -57,12 +57,9 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
     });
   }
 
-  bool mark_read(std::span<std::uint8_t> particles) const override {
-    windows_.mark_read(body_.part(particles));
+  bool tell_reads(StepReads& reads) override {
+    reads.rows(windows_, body_.first);
     return true;
-  }
-  void keep_to(const std::shared_ptr<const Halo>& halo) override {
-    windows_.keep_to(halo, body_.first);
   }
 
   std::vector<MeasureSource> measures() const override {

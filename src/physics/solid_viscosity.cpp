@@ -21,12 +21,9 @@ class SolidViscosity final : public ForceTerm {
 
   std::string name() const override { return "viscosity of '" + body_.name + "'"; }
   bool viscous() const override { return true; }
-  bool mark_read(std::span<std::uint8_t> particles) const override {
-    windows_.mark_read(body_.part(particles));
+  bool tell_reads(StepReads& reads) override {
+    reads.rows(windows_, body_.first);
     return true;
-  }
-  void keep_to(const std::shared_ptr<const Halo>& halo) override {
-    windows_.keep_to(halo, body_.first);
   }
 
   Report add_force(const Motion& motion, Forces force) override {

@@ -68,6 +68,10 @@ class Spring final : public ForceTerm {
     }
     return energy;
   }
+  bool tell_reads(StepReads& reads) override {
+    reads.particles(springs_.mean.particle, body_.first);
+    return true;
+  }
   Real steady_after() const override { return springs_.ramp.end; }
   bool stops_drift() const override { return true; }
   Real uncancelled_force(const Motion& motion) const override {

@@ -65,6 +65,10 @@ class Traction final : public ForceTerm {
     return -power(motion, motion.u);
   }
   Real load_power(const Motion& motion) override { return power(motion, motion.v); }
+  bool tell_reads(StepReads& reads) override {
+    reads.particles(cells_.mean.particle, body_.first);
+    return true;
+  }
   Real steady_after() const override {
     return means_.change() ? std::numeric_limits<Real>::infinity() : ramp_.end;
   }

@@ -86,6 +86,11 @@ class TriangleSurfaceTension final : public TensionForm<D> {
     scatter(pull, force);
   }
 
+  bool tell_reads(StepReads& reads) override {
+    boundary_.tell_reads(reads, body_.first);
+    return true;
+  }
+
   std::size_t bytes() const override {
     return boundary_.bytes() + boundary_.X.size() * (2 * sizeof(Vec<D>) + sizeof(Lanes));
   }

@@ -45,20 +45,18 @@ Real System<D>::steady_after() const {
 template <int D>
 void System<D>::share_steps() {
   halo.reset();
-  if (ranks().alone() || constraints || !fields.empty() || !carried.empty()) return;
-  std::vector<std::uint8_t> read(mass.size(), 0);
+  if (ranks().alone() || !fields.empty() || !carried.empty()) return;
+  StepReads reads(size());
   for (const auto& term : terms)
-    if (!term->mark_read(read)) return;
+    if (!term->tell_reads(reads)) return;
+  if (constraints) reads.particles(constraints->particles(), 0);
   const OwnItems own = own_rows(size());
-  for (const Body<D>& body : bodies)
-    for (Index A = std::max(own.begin - body.first, 0);
-         A < std::min(own.end - body.first, body.size()); ++A)
-      for (Offset e = at(body.at_particles.start, A); e < at(body.at_particles.start, A + 1); ++e)
-        at(read, body.first + at(body.at_particles.particle, e)) = 1;
-  const auto followed = std::make_shared<Halo>(std::move(read));
-  if (!followed->is_partial()) return;
-  halo = followed;
-  for (auto& term : terms) term->keep_to(halo);
+  for (const Body<D>& body : bodies) {
+    const Index begin = std::max(own.begin - body.first, 0),
+                end = std::min(own.end - body.first, body.size());
+    if (begin < end) reads.particles(body.at_particles.of_rows(begin, end), body.first);
+  }
+  halo = reads.share();
 }
 
 template <int D>

@@ -66,6 +66,66 @@ LONG = {
     "two solids": LONG_BLOCK + LONG_BLOCK[LONG_BLOCK.index("[[body]]"):].replace(
         '"block"', '"other"').replace("[body.material]", "centre = [0, 3, 0]\n[body.material]"),
 }
+LONG["a solid held and loaded"] = LONG_BLOCK + """
+[[held]]
+body = "block"
+face = "x_min"
+displacement = [0, 0, "0.01*sin(20*t)"]
+[[traction]]
+body = "block"
+face = "x_max"
+force = [0, 0, 100]
+[[traction]]
+name = "end"
+body = "block"
+face = "x_max"
+pressure = 30
+[[spring]]
+body = "block"
+face = "x_max"
+stiffness = 100
+"""
+
+
+def thick(cells):
+    return LONG_BLOCK.replace("size = [4, 1, 1]", "size = [1, 1, 1]").replace(
+        "[23, 4, 4]", f"[{cells}, {cells}, {cells}]").replace("end = 0.06", "end = 0.004")
+
+
+THICK_PAIR = thick(14) + thick(5)[thick(5).index("[[body]]"):].replace('"block"', '"other"').replace(
+    "[body.material]", "centre = [0, 0, 1.05]\n[body.material]")
+# [name] bodies with a part that no contact reads
+CONTACTS = {
+    "a wall": thick(12) + """
+[[contact]]
+name = "wall"
+bodies = ["block"]
+epsilon = 100
+sigma0 = 0.05
+beta = 1
+[contact.partner]
+type = "half_space"
+point = [0, 0, -0.55]
+normal = [0, 0, 1]
+displacement = [0, 0, "0.5*t"]
+""",
+    "a pair": THICK_PAIR + """
+[[contact]]
+bodies = ["block", "other"]
+epsilon = 100
+sigma0 = 0.05
+beta = 1
+points = 2
+""",
+    "a law of the gap": THICK_PAIR + """
+[[contact]]
+bodies = ["block", "other"]
+adhesion = 10
+offset = 0.04
+range = 0.2
+points = 2
+""",
+}
 PRESSED = SHORT_BLOCK.replace("neo_hookean", "st_venant_kirchhoff").replace(
     "[[body]]", '[[body]]\ninitial_velocity = ["-20*x^2", 0, 0]')
 BENT_SHEET = RELAXING_SHEET.replace('"relax"', '"newton"')
@@ -159,6 +219,18 @@ class SameBits(RanksTest):
                 followed, of_all, ghosts = map(int, steps.groups())
                 self.assertLess(followed, 0.8 * of_all)
                 self.assertLess(ghosts, 0.6 * of_all)
+                self.directory = self.directory.parent
+
+    def test_contact_in_the_halo(self):
+        """All ranks follow the surfaces in contact, and none the inside of the others."""
+        for name, scene in CONTACTS.items():
+            with self.subTest(name):
+                self.directory = self.directory / name.replace(" ", "_")
+                self.directory.mkdir()
+                self.assert_same_bits((2, 3), self.scene(scene))
+                steps = re.search(r"on (\d+) of (\d+) particles at most", self.log("ranks2"))
+                followed, of_all = map(int, steps.groups())
+                self.assertLess(followed, of_all)
                 self.directory = self.directory.parent
 
     def test_failure_in_the_halo(self):

@@ -105,6 +105,25 @@ TEST(ContactRun, WorkOfAMovingPlateIsBooked) {
   EXPECT_LT(std::abs(run.simulation.audit().balance_error(ledger)), 5e-4);
 }
 
+/// Also in the step in which the plate sets off and its power jumps.
+TEST(ContactRun, EnergyErrorIsOfSecondOrderWhereAPlateSetsOff) {
+  const auto error_with = [](Real step) {
+    SceneRun run("dimension = 2\n[time]\nend = 100\n" + disk("left", "") +
+                 contact("[\"left\"]",
+                         "partner = { type = \"half_space\", point = [0, -1.3], normal = [0, 1], "
+                         "displacement = [0, \"max(0, t - 0.4)\"] }"));
+    run.simulation.begin();
+    State state = run.simulation.state();
+    const Real before = take_ledger(run.scene.system, state).balance();
+    while (state.time < 0.44 - step / 2) advance(run.scene.system, state, step);
+    EXPECT_GT(std::abs(state.books.external_work), 1e-3);
+    return std::abs(take_ledger(run.scene.system, state).balance() - before);
+  };
+  const Real coarse = error_with(4e-3), fine = error_with(2e-3), finest = error_with(1e-3);
+  EXPECT_NEAR(coarse / fine, 4, 0.6);
+  EXPECT_NEAR(fine / finest, 4, 0.3);
+}
+
 TEST(ContactRun, RelaxationNeedsPartnersThatComeToRest) {
   const auto plate_after = [](const std::string& motion) {
     return "dimension = 2\n[time]\nend = 2\nsolver = \"relax\"\n" + disk("left", "") +

@@ -27,6 +27,11 @@ struct PointRows {
 
   Index size() const { return static_cast<Index>(start.size()) - 1; }
   Offset entries() const { return start.back(); }
+  /// Particles of these rows.
+  std::span<const Index> of_rows(Index begin, Index end) const {
+    return std::span(particle).subspan(static_cast<std::size_t>(at(start, begin)),
+                                       static_cast<std::size_t>(at(start, end) - at(start, begin)));
+  }
   /// Bytes of all arrays.
   std::size_t bytes() const;
 };

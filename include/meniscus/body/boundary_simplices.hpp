@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The boundary of a body as flat triangles (2D: edges) between places of its boundary particles.
 #pragma once
-#include "meniscus/approx/force_windows.hpp"
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/approx/step_reads.hpp"
 #include "meniscus/body/body.hpp"
 
 #include <array>
@@ -50,6 +50,11 @@ struct BoundarySimplices {
     std::array<Vec<D>, D> places;
     for (std::size_t k = 0; k < D; ++k) places[k] = at(x, simplex[k]);
     return places;
+  }
+  /// Every rank reads all places, of a body whose particles begin at `first`.
+  void tell_reads(StepReads& reads, Index first) {
+    reads.particles(rows.particle, first);
+    reads.rows(windows, first);
   }
   std::size_t bytes() const {
     return rows.bytes() + windows.bytes() + X.size() * sizeof(Vec<D>) +

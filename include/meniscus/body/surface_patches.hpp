@@ -2,7 +2,7 @@
 // The closed surface of a body as biquadratic (2D: quadratic) patches through places of material
 // points: one surface that has both an area and an enclosed volume.
 #pragma once
-#include "meniscus/approx/force_windows.hpp"
+#include "meniscus/approx/step_reads.hpp"
 #include "meniscus/body/body.hpp"
 #include "meniscus/body/quadratic_patches.hpp"
 #include "meniscus/core/dual.hpp"
@@ -50,13 +50,10 @@ class SurfacePatches {
   void add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
                         std::span<NodalVector> force);
 
-  /// As ForceWindows; every rank follows all places of the surface.
-  void mark_read(std::span<std::uint8_t> particles) const {
-    for (const Index A : rows_.particle) at(particles, A) = 1;
-    windows_.mark_read(particles);
-  }
-  void keep_to(std::shared_ptr<const Halo> halo, Index first) {
-    windows_.keep_to(std::move(halo), first);
+  /// Every rank reads all places of the surface, of a body whose particles begin at `first`.
+  void tell_reads(StepReads& reads, Index first) {
+    reads.particles(rows_.particle, first);
+    reads.rows(windows_, first);
   }
 
   Index point_count() const { return static_cast<Index>(X_.size()); }

@@ -55,6 +55,11 @@ class ClosedSurface {
   const SurfacePoints<D>& reference() const { return reference_; }
   /// The particle with the largest shape function at a point; number in the body.
   Index owner(Index point) const;
+  /// Every rank reads the motion of all points.
+  void tell_reads(StepReads& reads) {
+    reads.particles(rule_.rows.particle, body_.first);
+    reads.rows(windows_, body_.first);
+  }
   std::size_t bytes() const;
   Offset pairs() const { return rule_.pairs(); }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact facets: the surface of a body as flat simplices, and the point of it nearest to a place.
 #pragma once
-#include "meniscus/approx/force_windows.hpp"
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
 
@@ -58,6 +57,12 @@ class ContactFacets {
   const std::array<Index, D>& corners_of(Index facet) const { return at(simplices_, facet); }
   /// force_A += sum over the corners of N_A `pull`, which is [corner].
   void add_force(const std::vector<Vec<D>>& pull, std::span<NodalVector> force);
+
+  /// Every rank reads the motion of all facets.
+  void tell_reads(StepReads& reads) {
+    reads.particles(rows_.particle, body_.first);
+    reads.rows(windows_, body_.first);
+  }
 
   /// Longest edge in the reference.
   Real longest_edge() const;

@@ -134,6 +134,11 @@ class ContactPoints {
                         std::span<const Lanes> dT, std::span<const Lanes> S,
                         std::span<const Lanes> dS, std::span<NodalVector> force);
 
+  /// The particles that move the points, in ascending order, of the body.
+  std::span<const Index> particles() const { return particles_; }
+  /// Every rank reads the motion of all points.
+  void tell_reads(StepReads& reads);
+
   std::size_t bytes() const;
   Offset pairs() const;
 
@@ -144,6 +149,7 @@ class ContactPoints {
                     Clusters clusters);
   bool has_point(Index lane) const { return lane % Lanes::width < points_in(lane / Lanes::width); }
   void build_rows(RowContent content);
+  void list_particles();
   template <class F>
   void take_weights(F&& weight_of);
   void take_inertia();
@@ -185,6 +191,7 @@ class ContactPoints {
   ForceWindows windows_;
   std::unique_ptr<PatchPoints<D>> patches_;   // null: points by shape functions
   std::vector<std::vector<Index>> of_group_;  // [group of patches] points
+  std::vector<Index> particles_;
   Real spacing_ = 0, inertia_ = 0, gain_ = 0;
   AlignedVector<Lanes> X_, reference_;  // [cluster][i]: places, weights in the reference state
   std::vector<std::uint8_t> pushed_;    // [cluster] 1 while its force is added

@@ -2,8 +2,8 @@
 // The one interface of all physical effects. A scene's system is a list of terms; an effect that
 // the scene does not name is not in the list and costs nothing.
 #pragma once
+#include "meniscus/approx/step_reads.hpp"
 #include "meniscus/core/archive.hpp"
-#include "meniscus/core/halo.hpp"
 #include "meniscus/physics/constraint.hpp"
 #include "meniscus/physics/unknown.hpp"
 
@@ -125,12 +125,11 @@ class ForceTerm {
   /// it.
   virtual void add_tangent(const Motion& motion, const Motion& change, Forces force);
 
-  /// Of a run of several ranks: marks the particles whose motion this rank reads in add_force(),
-  /// load_power() and commit(). False: it may be all of them, whatever is marked.
-  virtual bool mark_read(std::span<std::uint8_t>) const { return false; }
-  /// From now on, while the halo is entered, these functions are asked for the forces on the
-  /// particles that it follows, and know the motion of no other. All ranks call this.
-  virtual void keep_to(const std::shared_ptr<const Halo>&) {}
+  /// Of a run of several ranks: says of which particles this rank reads the motion in add_force(),
+  /// load_power() and commit(). While the halo that follows from it is entered, these are asked for
+  /// the forces on the particles that it follows, and know the motion of no other. False: it may be
+  /// that of all, whatever was said. All ranks call this.
+  virtual bool tell_reads(StepReads&) { return false; }
 
   /// The step to `motion` stands: a term with history makes this its past.
   virtual void commit(const Motion&) {}

@@ -47,14 +47,10 @@ class StressPointForce : public ForceTerm {
            kept_.size() * sizeof(Tensor<Lanes>);
   }
   void add_viscous_diagonal(std::span<NodalVector> diagonal) final;
-  bool mark_read(std::span<std::uint8_t> particles) const final {
-    windows_.mark_read(body_.part(particles));
-    if (surface_) surface_->mark_read(body_.part(particles));
+  bool tell_reads(StepReads& reads) final {
+    reads.rows(windows_, body_.first);
+    if (surface_) surface_->tell_reads(reads, body_.first);
     return true;
-  }
-  void keep_to(const std::shared_ptr<const Halo>& halo) final {
-    windows_.keep_to(halo, body_.first);
-    if (surface_) surface_->keep_to(halo, body_.first);
   }
   Offset pairs() const final { return windows_.pairs() + (surface_ ? surface_->pairs() : 0); }
 

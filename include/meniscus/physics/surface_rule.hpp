@@ -87,12 +87,9 @@ class SurfaceTerm : public ForceTerm {
   }
   std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
   /// Laws read the motion in the loop over rows only.
-  bool mark_read(std::span<std::uint8_t> particles) const override {
-    windows_.mark_read(body_.part(particles));
+  bool tell_reads(StepReads& reads) override {
+    reads.rows(windows_, body_.first);
     return true;
-  }
-  void keep_to(const std::shared_ptr<const Halo>& halo) override {
-    windows_.keep_to(halo, body_.first);
   }
   std::size_t bytes() const override { return surface_.bytes() + windows_.bytes(); }
   Offset pairs() const override { return surface_.points.pairs(); }

@@ -23,6 +23,8 @@ class Constraints {
   Constraints(std::vector<std::unique_ptr<Constraint>> all, std::span<const Real> mass);
 
   Index rows() const { return static_cast<Index>(row_.size()); }
+  /// Those that rows touch, in ascending order: of no other is anything read or changed.
+  std::span<const Index> particles() const { return touched_; }
   const std::vector<std::unique_ptr<Constraint>>& all() const { return all_; }
   /// From when on g is constant.
   Real steady_after() const;

@@ -45,13 +45,14 @@ Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> ac
   return std::sqrt(std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3])));
 }
 
-/// Around the coefficients of the velocity of a body.
+/// Around the coefficients of the velocity that points read.
 template <int D>
-Box<D> velocities(const Body<D>& body, const Motion& motion) {
-  Lanes low = at(motion.v, body.first), high = low;
-  for (const NodalVector& v : body.part(motion.v)) {
-    low = min(low, v);
-    high = max(high, v);
+Box<D> velocities(const ContactPoints<D>& points, const Motion& motion) {
+  const auto v = points.body().part(motion.v);
+  Lanes low = at(v, points.particles().front()), high = low;
+  for (const Index A : points.particles()) {
+    low = min(low, at(v, A));
+    high = max(high, at(v, A));
   }
   Box<D> box;
   for (int i = 0; i < D; ++i) {
@@ -61,13 +62,13 @@ Box<D> velocities(const Body<D>& body, const Motion& motion) {
   return box;
 }
 
-/// Around the coefficients of the places of a body.
+/// Around the coefficients of the places that points read.
 template <int D>
-Box<D> places(const Body<D>& body, const Motion& motion) {
-  const auto u = body.part(motion.u);
+Box<D> places(const ContactPoints<D>& points, const Motion& motion) {
+  const auto u = points.body().part(motion.u);
   Box<D> box;
-  for (Index A = 0; A < body.size(); ++A) {
-    Vec<D> d = at(body.particles.X(), A);
+  for (const Index A : points.particles()) {
+    Vec<D> d = at(points.body().particles.X(), A);
     for (int i = 0; i < D; ++i) d[i] += at(u, A)[i];
     box.include(d);
   }
@@ -114,16 +115,16 @@ Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active
 template <int D>
 Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
                   const Motion& motion) {
-  return {distance_between(of_points(places(first.body(), motion), first),
-                           of_points(places(second.body(), motion), second)),
-          farthest_between(of_points(velocities(first.body(), motion), first),
-                           of_points(velocities(second.body(), motion), second))};
+  return {distance_between(of_points(places(first, motion), first),
+                           of_points(places(second, motion), second)),
+          farthest_between(of_points(velocities(first, motion), first),
+                           of_points(velocities(second, motion), second))};
 }
 
 template <int D>
 Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
                   const Motion& motion) {
-  return {distance, farthest_between(of_points(velocities(points.body(), motion), points),
+  return {distance, farthest_between(of_points(velocities(points, motion), points),
                                      Box<D>{velocity, velocity})};
 }
 

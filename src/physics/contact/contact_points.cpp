@@ -119,7 +119,26 @@ void ContactPoints<D>::build_rows(RowContent content) {
   for (Index q = 0, point = 0; q < size(); ++q)
     rule_.rows.start.push_back(at(start, has_point(q) ? ++point : point));
   windows_ = rule_.windows(body_->size());
+  list_particles();
   take_inertia();
+}
+
+template <int D>
+void ContactPoints<D>::list_particles() {
+  std::vector<bool> moves(static_cast<std::size_t>(body_->size()));
+  for (const Index A : (patches_ ? patches_->rows() : rule_.rows).particle)
+    moves[static_cast<std::size_t>(A)] = true;
+  for (Index A = 0; A < body_->size(); ++A)
+    if (moves[static_cast<std::size_t>(A)]) particles_.push_back(A);
+}
+
+template <int D>
+void ContactPoints<D>::tell_reads(StepReads& reads) {
+  reads.particles(particles_, body_->first);
+  if (patches_)
+    patches_->tell_reads(reads, body_->first);
+  else
+    reads.rows(windows_, body_->first);
 }
 
 template <int D>
@@ -185,6 +204,7 @@ ContactPoints<D> ContactPoints<D>::on_patches(const Body<D>& body, Real beta, in
     area.push_back(V.back().norm());
   }
   contact.place_points(X, area, clusters);
+  contact.list_particles();
   contact.take_inertia();
   contact.of_group_.resize(static_cast<std::size_t>(patches.group_count()));
   for (Index q = 0; q < contact.size(); ++q)
@@ -424,7 +444,8 @@ Offset ContactPoints<D>::pairs() const {
 template <int D>
 std::size_t ContactPoints<D>::bytes() const {
   return rule_.bytes() + windows_.bytes() + (X_.size() + reference_.size()) * sizeof(Lanes) +
-         (order_.size() + points_in_.size()) * sizeof(Index) + (patches_ ? patches_->bytes() : 0);
+         (order_.size() + points_in_.size() + particles_.size()) * sizeof(Index) +
+         (patches_ ? patches_->bytes() : 0);
 }
 
 template class ContactPoints<2>;

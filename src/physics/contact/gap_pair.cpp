@@ -76,6 +76,11 @@ class GapPair final : public ForceTerm, public ContactVisits {
   void archive(const Archive& a) override {
     if (law_.pattern()) work_.archive(a, D);
   }
+  bool tell_reads(StepReads& reads) override {
+    first_.tell_reads(reads);
+    second_.tell_reads(reads);
+    return true;
+  }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
   std::optional<std::string> warning(const Motion& motion) const override {

@@ -15,15 +15,16 @@ class MovedSince {
  public:
   void begin(const ContactPoints<D>& points, const Motion& motion) {
     const auto u = points.body().part(motion.u);
-    u_.assign(u.begin(), u.end());
+    u_.clear();
+    for (const Index A : points.particles()) u_.push_back(at(u, A));
   }
   /// Infinite before begin().
   Real farthest(const ContactPoints<D>& points, const Motion& motion) const {
     if (u_.empty()) return unbounded;
     const auto u = points.body().part(motion.u);
     Lanes most = Lanes::zero();
-    for (std::size_t A = 0; A < u_.size(); ++A) {
-      const Lanes change = u[A] - u_[A];
+    for (std::size_t k = 0; k < u_.size(); ++k) {
+      const Lanes change = at(u, points.particles()[k]) - u_[k];
       most = max(most, Lanes(sum(change * change)));
     }
     return points.gain() * std::sqrt(most[0]);
@@ -31,7 +32,7 @@ class MovedSince {
   std::size_t bytes() const { return u_.size() * sizeof(NodalVector); }
 
  private:
-  NodalVectors u_;  // when it began
+  NodalVectors u_;  // when it began, of the particles that move the points
 };
 
 }  // namespace meniscus

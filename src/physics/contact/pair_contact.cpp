@@ -94,6 +94,10 @@ class PairContact final : public ForceTerm, public ContactVisits {
     return stored_energy(motion);
   }
 
+  bool tell_reads(StepReads& reads) override {
+    visits_.tell_reads(reads);
+    return true;
+  }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 

@@ -140,6 +140,12 @@ void PairVisits<D>::bring_others(const Motion& motion, VisitedPair<D>& at_motion
 }
 
 template <int D>
+void PairVisits<D>::tell_reads(StepReads& reads) {
+  for (auto* side : {&first_, &second_})
+    for (ContactPoints<D>& points : *side) points.tell_reads(reads);
+}
+
+template <int D>
 std::size_t PairVisits<D>::bytes() const {
   std::size_t n = list_.bytes() + first_since_.bytes() + second_since_.bytes() + now_.bytes();
   for (std::size_t g = 0; g < grades(); ++g) n += first_[g].bytes() + second_[g].bytes();

@@ -74,6 +74,7 @@ class PairVisits {
     return f(std::as_const(at_motion));
   }
 
+  void tell_reads(StepReads& reads);
   std::size_t bytes() const;
   /// Of points, from both sides.
   Offset point_pairs() const;

@@ -56,6 +56,10 @@ class PatchPoints {
   /// force_A -= what was collected.
   void end_force(std::span<NodalVector> force) { surface_.add_to_particles(-1, gradient_, force); }
 
+  /// Of the nodes.
+  const PointRows<D>& rows() const { return surface_.rows(); }
+  void tell_reads(StepReads& reads, Index first) { surface_.tell_reads(reads, first); }
+
   std::size_t bytes() const {
     return surface_.bytes() + (reference_.size() + gradient_.size()) * sizeof(Lanes);
   }

@@ -13,6 +13,7 @@
 #include "partner_measures.hpp"
 #include "partner_tangent.hpp"
 #include "partner_visits.hpp"
+#include "partner_work.hpp"
 
 namespace meniscus {
 namespace {
@@ -91,8 +92,19 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   Real steady_after() const override { return steady_after_; }
 
   /// The last force was that of this motion.
-  void commit(const Motion& motion) override { effects_.commit(motion.time, sums_); }
-  void archive(const Archive& a) override { effects_.archive(a); }
+  void commit(const Motion& motion) override {
+    effects_.commit(motion.time, sums_);
+    if (pair_.partner.motion.moves())
+      work_.commit(spatial<D>(pair_.shift(motion)), spatial<D>(net_force(layers_)));
+  }
+  void archive(const Archive& a) override {
+    effects_.archive(a);
+    if (pair_.partner.motion.moves()) work_.archive(a, D);
+  }
+  bool tell_reads(StepReads& reads) override {
+    for (ContactPoints<D>& points : pair_.points) points.tell_reads(reads);
+    return true;
+  }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
@@ -148,20 +160,23 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   // Of a force.
   PartnerLayers<D> layers_;
   WallSums sums_;
+  PartnerWork work_;
   ReachList<D> list_;
   std::vector<Index> close_;  // clusters that decide how fast the gap closes
 };
 
-/// The power of the partner, and what the places and velocities of a force mean for the step.
+/// The work of the partner, and what the places and velocities of a force mean for the step.
 template <int D>
 Report RigidContact<D>::report(const Motion& motion) {
   Report report;
   Vec<D> velocity = Vec<D>::Zero();
   if (pair_.partner.motion.moves()) {
     velocity = pair_.velocity(motion);
-    report.external_power = net_force(layers_).dot(velocity);
+    const Eigen::Vector3d shift = spatial<D>(pair_.shift(motion));
+    work_.begin(shift);
+    report.external_work = work_.since_step(shift, spatial<D>(net_force(layers_)));
   }
-  report.external_work = effects_.work(sums_);
+  report.external_work += effects_.work(sums_);
   report.heat = sums_.heat;
   const Interaction& interaction = *pair_.interaction;
   const NearestPoint nearest = nearest_point(layers_);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Marks of the particles that are read, and the halo that follows from them.
+#include "meniscus/approx/step_reads.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+
+void StepReads::rows(ForceWindows& windows, Index first) {
+  windows.mark_read(std::span(read_).subspan(static_cast<std::size_t>(first)));
+  when_shared([&windows, first](const SharedHalo& halo) { windows.keep_to(halo, first); });
+}
+
+void StepReads::particles(std::span<const Index> numbers, Index first) {
+  for (const Index A : numbers) at(read_, first + A) = 1;
+}
+
+void StepReads::range(Index begin, Index end) {
+  std::fill(read_.begin() + begin, read_.begin() + end, std::uint8_t{1});
+}
+
+void StepReads::when_shared(std::function<void(const SharedHalo&)> learn) {
+  learners_.push_back(std::move(learn));
+}
+
+std::shared_ptr<Halo> StepReads::share() {
+  const auto halo = std::make_shared<Halo>(std::move(read_));
+  if (!halo->is_partial()) return nullptr;
+  for (const auto& learn : learners_) learn(halo);
+  return halo;
+}
+
+}  // namespace meniscus
