@@ -26,6 +26,7 @@ void StepReads::when_shared(std::function<void(const SharedHalo&)> learn) {
 std::shared_ptr<Halo> StepReads::share() {
   const auto halo = std::make_shared<Halo>(std::move(read_));
   if (!halo->is_partial()) return nullptr;
+  halo->keep(std::move(kept_));
   for (const auto& learn : learners_) learn(halo);
   return halo;
 }

@@ -27,16 +27,22 @@ void Halo::enter(std::initializer_list<NodalVectors*> motion) {
   if (entered_) return;
   entered_ = true;
   const Lanes unknown(std::numeric_limits<Real>::quiet_NaN());
-  for (NodalVectors* x : motion)
-    for (std::size_t A = 0; A < x->size(); ++A)
-      if (read_[A] == 0) (*x)[A] = unknown;
+  const auto forget = [&](NodalVectors& x) {
+    for (std::size_t A = 0; A < x.size(); ++A)
+      if (read_[A] == 0) x[A] = unknown;
+  };
+  for (NodalVectors* x : motion) forget(*x);
+  for (NodalVectors* x : kept_) forget(*x);
 }
 
 void Halo::leave(std::initializer_list<NodalVectors*> motion) {
   if (!entered_) return;
   entered_ = false;
-  for (NodalVectors* x : motion)
-    complete_rows(static_cast<Index>(x->size()), x->data(), sizeof(NodalVector));
+  const auto complete = [](NodalVectors& x) {
+    complete_rows(static_cast<Index>(x.size()), x.data(), sizeof(NodalVector));
+  };
+  for (NodalVectors* x : motion) complete(*x);
+  for (NodalVectors* x : kept_) complete(*x);
 }
 
 }  // namespace meniscus

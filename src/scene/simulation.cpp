@@ -93,7 +93,8 @@ void Simulation<D>::make_stepper(bool implicit_viscosity) {
                  .at(time.solver)
                  .make(scene_.system, stepper_choice(scene_, implicit_viscosity));
   scene_.system.halo.reset();
-  if (stepper_->can_be_shared()) scene_.system.share_steps();
+  StepReads reads(scene_.system.size());
+  if (stepper_->tell_reads(reads)) scene_.system.share_steps(std::move(reads));
 }
 
 /// By the present state, where the scene leaves it open.

@@ -35,7 +35,10 @@ class Dynamics final : public Stepper<D> {
                  [&](const State& after) { resolution_.judge(system_, after, dt); });
   }
   bool may_reject_steps() const override { return true; }
-  bool can_be_shared() const override { return !viscosity_; }
+  bool tell_reads(StepReads& reads) override {
+    if (viscosity_) viscosity_->tell_reads(reads);
+    return true;
+  }
   std::string effort() const override {
     return viscosity_ ? fmt::format("{:.2f} iterations of the viscosity per step",
                                     viscosity_->mean_iterations())

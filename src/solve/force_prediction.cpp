@@ -2,7 +2,6 @@
 // Forces predicted by least squares.
 #include "meniscus/solve/force_prediction.hpp"
 
-#include "meniscus/core/parallel.hpp"
 #include "meniscus/solve/state.hpp"
 
 #include <algorithm>
@@ -55,8 +54,9 @@ ForcePrediction::ForcePrediction(std::size_t particles) {
 }
 
 /// b. A difference that is nearly a combination of the others, or unknown, has none.
-Eigen::Vector3d ForcePrediction::best(const std::vector<Real>& mass) const {
-  const Products all = parallel_sum(static_cast<Index>(mass.size()), Products{}, [&](Index A) {
+Eigen::Vector3d ForcePrediction::best(const std::vector<Real>& mass, const SharedHalo& halo) const {
+  const auto n = static_cast<Index>(mass.size());
+  const Products all = sum_over_particles(halo, n, Products{}, [&](Index A) {
     const auto d = differences(at(f_[1], A), at(f_[2], A), at(f_[3], A));
     const Lanes missing = at(f_[0], A) - at(f_[1], A);
     Products p;
@@ -81,13 +81,16 @@ Eigen::Vector3d ForcePrediction::best(const std::vector<Real>& mass) const {
 }
 
 void ForcePrediction::predict(const NodalVectors& now, Real dt, const std::vector<Real>& mass,
-                              NodalVectors& next) {
+                              NodalVectors& next, const SharedHalo& halo) {
   constexpr Real considerably = 1.3;
-  f_[0] = now;
+  const auto n = static_cast<Index>(now.size());
+  for_particles(halo, n, [&](Index begin, Index end) {
+    std::copy(now.begin() + begin, now.begin() + end, f_[0].begin() + begin);
+  });
   tried_dt_ = dt;
   if (dt > considerably * dt_ || dt < dt_ / considerably) known_ = 0;
-  const Eigen::Vector3d b = best(mass);
-  for_chunks(static_cast<Index>(now.size()), [&](Index, Index begin, Index end) {
+  const Eigen::Vector3d b = best(mass, halo);
+  for_particles(halo, n, [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       const auto d = differences(at(f_[0], A), at(f_[1], A), at(f_[2], A));
       at(next, A) = at(now, A) + b[0] * d[0] + b[1] * d[1] + b[2] * d[2];
@@ -99,6 +102,10 @@ void ForcePrediction::step_stands() {
   std::rotate(f_.begin(), f_.end() - 1, f_.end());
   known_ = std::min<std::int64_t>(known_ + 1, order);
   dt_ = tried_dt_;
+}
+
+void ForcePrediction::tell_reads(StepReads& reads) {
+  for (NodalVectors& f : f_) reads.keeps(f);
 }
 
 void ForcePrediction::archive(const Archive& a, int components) {

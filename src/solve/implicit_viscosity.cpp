@@ -22,6 +22,32 @@ constexpr int most_iterations = 2000;
 /// Steps until the diagonal is computed again, which costs about as much as a force.
 constexpr std::int64_t longest_age = 20;
 
+/// Where the coefficient of a particle is.
+template <int D>
+Eigen::Vector3d place(const Body<D>& body, const State& state, Index A) {
+  Eigen::Vector3d x = spatial(at(state.u, A));
+  x.head<D>() += at(body.particles.X(), A - body.first);
+  return x;
+}
+
+/// Sums of m, m x and r of a body.
+struct Moments {
+  Real mass = 0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), momentum = Eigen::Vector3d::Zero();
+  friend Moments operator+(const Moments& a, const Moments& b) {
+    return {a.mass + b.mass, a.centre + b.centre, a.momentum + b.momentum};
+  }
+};
+
+/// Sums of the inertia about its centre, and of the moment of r.
+struct Rotation {
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  friend Rotation operator+(const Rotation& a, const Rotation& b) {
+    return {a.inertia + b.inertia, a.momentum + b.momentum};
+  }
+};
+
 }  // namespace
 
 template <int D>
@@ -41,11 +67,16 @@ void ImplicitViscosity<D>::advance(State& state, Real dt) {
   leapfrog::drift(system_, state, dt);
   system_.constrain(state, dt);
   system_.arrive(state, dt);
-  half_ = state.v;
+  system_.for_particles([&](Index begin, Index end) {
+    std::copy(state.v.begin() + begin, state.v.begin() + end, half_.begin() + begin);
+  });
   // The guess of v_n+1, by the predicted force.
   NodalVectors& predicted = r_;
-  prediction_.predict(state.force, dt, system_.mass, predicted);
-  leapfrog::kick(state.v, predicted, system_.mass, dt / 2);
+  prediction_.predict(state.force, dt, system_.mass, predicted, system_.halo);
+  system_.for_particles([&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(state.v, A) += (dt / 2 / at(system_.mass, A)) * at(predicted, A);
+  });
   if (system_.constraints) system_.constraints->prescribe(half_, state.time, dt, state.v);
   Report report;
   try {
@@ -72,24 +103,23 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
   Report report = system_.compute_forces(state.motion(), state.forces());
   if (age_ >= longest_age) renew_diagonal();
   ++age_;
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(r_, A) =
           at(system_.mass, A) * (at(half_, A) - at(state.v, A)) + dt / 2 * at(state.force, A);
       at(e_, A) = at(Ce_, A) = Lanes::zero();
     }
   });
-  const Real motion = parallel_sum(system_.size(), 0.0, [&](Index A) {
-    return at(system_.mass, A) * sum(at(half_, A) * at(half_, A));
-  });
+  const Real motion = system_.sum_over_particles(
+      0.0, [&](Index A) { return at(system_.mass, A) * sum(at(half_, A) * at(half_, A)); });
   Real rz = precondition(dt);
   p_ = z_;
   for (int k = 0; !(rz <= tolerance * tolerance * motion); ++k) {  // also not a number
     if (k == most_iterations) throw not_found(state, std::sqrt(rz / motion));
     const Real a = rz / apply(state, dt);
-    for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    system_.for_particles([&](Index begin, Index end) {
       for (Index A = begin; A < end; ++A) {
-        const Lanes change = a * at(p_, A), resisted = a * at(q_, A);
+        const Lanes change = a * at(p_, A), resisted = -a * at(q_, A);
         at(e_, A) += change;
         at(Ce_, A) += resisted;
         at(r_, A) -= at(system_.mass, A) * change + dt / 2 * resisted;
@@ -97,14 +127,15 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
     });
     const Real before = rz;
     rz = precondition(dt);
-    for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    system_.for_particles([&](Index begin, Index end) {
       for (Index A = begin; A < end; ++A) at(p_, A) = at(z_, A) + (rz / before) * at(p_, A);
     });
     ++iterations_;
   }
   // (v + e) . C (v + e) - v . C v, C symmetric
-  report.heat += 2 * dot(state.v, Ce_) + dot(e_, Ce_);
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  report.heat += system_.sum_over_particles(
+      0.0, [&](Index A) { return sum((2 * at(state.v, A) + at(e_, A)) * at(Ce_, A)); });
+  system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(state.v, A) += at(e_, A);
       at(state.force, A) -= at(Ce_, A);
@@ -118,6 +149,9 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
 template <int D>
 StepError ImplicitViscosity<D>::not_found(const State& state, Real residual) {
   age_ = longest_age;
+  if (system_.in_halo())
+    for (NodalVectors* x : {&r_, &z_})
+      complete_rows(system_.size(), x->data(), sizeof(NodalVector));
   Index worst = 0;
   for (Index A = 0; A < system_.size(); ++A)
     if (sum(at(r_, A) * at(z_, A)) > sum(at(r_, worst) * at(z_, worst))) worst = A;
@@ -130,7 +164,9 @@ StepError ImplicitViscosity<D>::not_found(const State& state, Real residual) {
 
 template <int D>
 void ImplicitViscosity<D>::renew_diagonal() {
-  std::fill(diagonal_.begin(), diagonal_.end(), Lanes::zero());
+  system_.for_particles([&](Index begin, Index end) {
+    std::fill(diagonal_.begin() + begin, diagonal_.begin() + end, Lanes::zero());
+  });
   for (auto& term : system_.terms)
     if (term->viscous()) term->add_viscous_diagonal(diagonal_);
   age_ = 0;
@@ -139,24 +175,32 @@ void ImplicitViscosity<D>::renew_diagonal() {
 template <int D>
 Real ImplicitViscosity<D>::precondition(Real dt) {
   if (system_.constraints) system_.constraints->balance(r_, lambda_);
-  const Real rz = parallel_sum(system_.size(), 0.0, [&](Index A) {
-    const Lanes& r = at(r_, A);
-    at(z_, A) = r / (at(system_.mass, A) + dt / 2 * at(diagonal_, A));
-    return sum(r * at(z_, A));
+  system_.for_particles([&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(z_, A) = at(r_, A) / (at(system_.mass, A) + dt / 2 * at(diagonal_, A));
   });
+  const Real rz =
+      system_.sum_over_particles(0.0, [&](Index A) { return sum(at(r_, A) * at(z_, A)); });
   if (system_.constraints) system_.constraints->project(z_);
   return rz;
 }
 
 template <int D>
 Real ImplicitViscosity<D>::apply(const State& state, Real dt) {
-  std::fill(q_.begin(), q_.end(), Lanes::zero());
+  system_.for_particles([&](Index begin, Index end) {
+    std::fill(q_.begin() + begin, q_.begin() + end, Lanes::zero());
+  });
   for (auto& term : system_.terms)
     if (term->viscous()) term->add_viscous({state.time, state.u, p_, state.fields}, q_);
-  return parallel_sum(system_.size(), 0.0, [&](Index A) {
-    at(q_, A) = -1.0 * at(q_, A);
-    return sum(at(p_, A) * (at(system_.mass, A) * at(p_, A) + dt / 2 * at(q_, A)));
+  return system_.sum_over_particles(0.0, [&](Index A) {
+    return sum(at(p_, A) * (at(system_.mass, A) * at(p_, A) - dt / 2 * at(q_, A)));
   });
+}
+
+template <int D>
+void ImplicitViscosity<D>::tell_reads(StepReads& reads) {
+  reads.keeps(diagonal_);
+  prediction_.tell_reads(reads);
 }
 
 /// The residual of each body is taken by the rigid motion with the momenta that it stands for.
@@ -166,33 +210,38 @@ template <int D>
 void ImplicitViscosity<D>::add_missing_rigid_motion(State& state) const {
   for (const Body<D>& body : system_.bodies) {
     if (system_.constraints && system_.constraints->hold_any(body.first, body.size())) continue;
-    Real mass = 0;
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero(), momentum = centre, angular = centre;
-    const auto place = [&](Index A) {
-      Eigen::Vector3d x = spatial(at(state.u, body.first + A));
-      x.head<D>() += at(body.particles.X(), A);
-      return x;
-    };
-    for (Index A = 0; A < body.size(); ++A) {
-      mass += at(system_.mass, body.first + A);
-      centre += at(system_.mass, body.first + A) * place(A);
-      momentum += spatial(at(r_, body.first + A));
-    }
-    centre /= mass;
-    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-    for (Index A = 0; A < body.size(); ++A) {
-      const Eigen::Vector3d y = place(A) - centre;
-      inertia += at(system_.mass, body.first + A) *
-                 (y.squaredNorm() * Eigen::Matrix3d::Identity() - y * y.transpose());
-      angular += cross(y, spatial(at(r_, body.first + A)));
-    }
-    const Eigen::Vector3d velocity = momentum / mass, spin = inverse<3>(inertia) * angular;
-    for (Index A = 0; A < body.size(); ++A) {
-      const Eigen::Vector3d v = velocity + cross(spin, place(A) - centre);
-      Lanes& own = at(state.v, body.first + A);
-      for (int i = 0; i < D; ++i) own.set(i, own[i] + v[i]);
-    }
+    const RigidVelocity missing = missing_motion(body, state);
+    system_.for_particles([&](Index begin, Index end) {
+      for (Index A = std::max(begin, body.first); A < std::min(end, body.first + body.size());
+           ++A) {
+        const Eigen::Vector3d v =
+            missing.velocity + cross(missing.spin, place(body, state, A) - missing.centre);
+        Lanes& own = at(state.v, A);
+        for (int i = 0; i < D; ++i) own.set(i, own[i] + v[i]);
+      }
+    });
   }
+}
+
+template <int D>
+typename ImplicitViscosity<D>::RigidVelocity ImplicitViscosity<D>::missing_motion(
+    const Body<D>& body, const State& state) const {
+  const auto sum_over_body = [&](auto zero, auto&& f) {
+    return sum_over_part(system_.halo, system_.size(), {body.first, body.first + body.size()}, zero,
+                         f);
+  };
+  const Moments all = sum_over_body(Moments{}, [&](Index A) {
+    const Real m = at(system_.mass, A);
+    return Moments{m, m * place(body, state, A), spatial(at(r_, A))};
+  });
+  const Eigen::Vector3d centre = all.centre / all.mass;
+  const Rotation about = sum_over_body(Rotation{}, [&](Index A) {
+    const Eigen::Vector3d y = place(body, state, A) - centre;
+    return Rotation{
+        at(system_.mass, A) * (y.squaredNorm() * Eigen::Matrix3d::Identity() - y * y.transpose()),
+        cross(y, spatial(at(r_, A)))};
+  });
+  return {centre, all.momentum / all.mass, inverse<3>(about.inertia) * about.momentum};
 }
 
 template <int D>

@@ -34,7 +34,7 @@ constexpr Real damping_ratio = 0.6;
 
 template <int D>
 Real kinetic_energy(const System<D>& system, const State& state) {
-  return parallel_sum(system.size(), 0.0, [&](Index A) {
+  return system.sum_over_particles(0.0, [&](Index A) {
     return 0.5 * at(system.mass, A) * sum(at(state.v, A) * at(state.v, A));
   });
 }
@@ -102,8 +102,10 @@ void Relaxation<D>::step(State& state, Real dt) {
     take_up(state);
     starts_ = false;
   }
-  last_u_ = state.u;
-  last_force_ = state.force;
+  system_.for_particles([&](Index begin, Index end) {
+    std::copy(state.u.begin() + begin, state.u.begin() + end, last_u_.begin() + begin);
+    std::copy(state.force.begin() + begin, state.force.begin() + end, last_force_.begin() + begin);
+  });
   if (inertia_)
     glide(state, dt);
   else
@@ -140,7 +142,7 @@ void Relaxation<D>::damp(State& state, Real dt) {
   const Real omega = change_since(last_u_, last_force_, state).omega;
   const Real factor = std::exp(-2 * damping_ratio * omega * dt);
   state.books.dissipated += (1 - factor * factor) * energy_of_motion(state);
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(state.v, A) *= factor;
   });
   if (inertia_) {
@@ -169,11 +171,12 @@ void Relaxation<D>::open_window(const State& state, Real length) {
 }
 
 template <int D>
-void Relaxation<D>::judge(const State& state, Real dt) {
+void Relaxation<D>::judge(State& state, Real dt) {
   const Real fewest_steps = inertia_ ? 8 : 40;
   const Real elapsed = state.time - window_begin_;
   const bool ramps_ended = window_begin_ < steady_after() && state.time >= steady_after();
   if (!ramps_ended && elapsed < std::max(window_length_, fewest_steps * dt) * (1 - 1e-9)) return;
+  system_.complete(state);
   const Change change = judged_window(state);
   const Real quarter = change.omega > 0 ? std::numbers::pi / (2 * change.omega) : 2 * elapsed;
   // A window that was much too short for the mode it has shown says nothing.
@@ -232,7 +235,7 @@ template <class U, class F>
 typename Relaxation<D>::Change Relaxation<D>::change_of(U&& du_of, F&& df_of,
                                                         const NodalVectors& impulse,
                                                         const State& state) const {
-  const Lanes sums = parallel_sum(system_.size(), Lanes::zero(), [&](Index A) {
+  const Lanes sums = system_.sum_over_particles(Lanes::zero(), [&](Index A) {
     const Lanes du = du_of(A);
     if (inertia_)
       return Lanes(-sum(du * df_of(A)), sum(du * at(impulse, A)), sum(du * at(state.force, A)),

@@ -43,10 +43,9 @@ Real System<D>::steady_after() const {
 
 /// Values at its own particles are known to a rank as well.
 template <int D>
-void System<D>::share_steps() {
+void System<D>::share_steps(StepReads reads) {
   halo.reset();
   if (ranks().alone() || !fields.empty() || !carried.empty()) return;
-  StepReads reads(size());
   for (const auto& term : terms)
     if (!term->tell_reads(reads)) return;
   if (constraints) reads.particles(constraints->particles(), 0);

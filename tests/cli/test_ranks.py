@@ -66,6 +66,10 @@ LONG = {
     "two solids": LONG_BLOCK + LONG_BLOCK[LONG_BLOCK.index("[[body]]"):].replace(
         '"block"', '"other"').replace("[body.material]", "centre = [0, 3, 0]\n[body.material]"),
 }
+LONG["implicit viscosity"] = LONG_DROP.replace("[time]", '[time]\nviscosity = "implicit"')
+RELAXING_BLOCK = LONG_BLOCK[:LONG_BLOCK.index("[[body_force]]")].replace(
+    "[time]\nend = 0.06", '[time]\nsolver = "relax"\nend = 20').replace(
+        "[[body]]", '[[body]]\ninitial_displacement = [0, 0, "0.02*x^2"]')
 LONG["a solid held and loaded"] = LONG_BLOCK + """
 [[held]]
 body = "block"
@@ -94,8 +98,11 @@ def thick(cells):
 
 THICK_PAIR = thick(14) + thick(5)[thick(5).index("[[body]]"):].replace('"block"', '"other"').replace(
     "[body.material]", "centre = [0, 0, 1.05]\n[body.material]")
-# [name] bodies with a part that no contact reads
-CONTACTS = {
+TWO_DROPS = LONG["implicit viscosity"] + LONG_DROP[LONG_DROP.index("[[body]]"):].replace(
+    '"drop"', '"far"').replace("core = 8", 'centre = ["20 nm", 0, 0]\ncore = 7')
+# [name] bodies of which every rank needs most, but not all
+MOST = {
+    "two drops": TWO_DROPS,
     "a wall": thick(12) + """
 [[contact]]
 name = "wall"
@@ -214,16 +221,19 @@ class SameBits(RanksTest):
                 self.directory = self.directory / name.replace(" ", "_")
                 self.directory.mkdir()
                 self.assert_same_bits((2, 4), self.scene(scene))
-                steps = re.search(r"on (\d+) of (\d+) particles at most, (\d+) of them ghosts",
-                                  self.log("ranks4"))
-                followed, of_all, ghosts = map(int, steps.groups())
-                self.assertLess(followed, 0.8 * of_all)
-                self.assertLess(ghosts, 0.6 * of_all)
+                self.assert_follows_a_part("ranks4")
                 self.directory = self.directory.parent
 
-    def test_contact_in_the_halo(self):
-        """All ranks follow the surfaces in contact, and none the inside of the others."""
-        for name, scene in CONTACTS.items():
+    def assert_follows_a_part(self, output):
+        steps = re.search(r"on (\d+) of (\d+) particles at most, (\d+) of them ghosts",
+                          self.log(output))
+        followed, of_all, ghosts = map(int, steps.groups())
+        self.assertLess(followed, 0.8 * of_all)
+        self.assertLess(ghosts, 0.6 * of_all)
+
+    def test_ghosts_of_several_bodies(self):
+        """All ranks follow the surfaces in contact and a part of each body."""
+        for name, scene in MOST.items():
             with self.subTest(name):
                 self.directory = self.directory / name.replace(" ", "_")
                 self.directory.mkdir()
@@ -255,6 +265,8 @@ class SameBits(RanksTest):
 
     def test_relaxation(self):
         self.assert_same_bits((2,), self.scene(RELAXING_SHEET), "--until", "0.05")
+        self.assert_same_bits((4,), self.scene(RELAXING_BLOCK), "--overwrite", "--until", "0.2")
+        self.assert_follows_a_part("ranks4")
 
     def test_newton(self):
         self.assert_same_bits((2,), self.scene(BENT_SHEET))

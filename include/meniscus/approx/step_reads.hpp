@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a rank reads of the motion in a step: each term of a system says its part, and from all of
-// them follows which particles the rank follows (scaling note 2.3).
+// What a rank reads of the motion in a step: the stepper and each term of a system say their part,
+// and from all of them follows which particles the rank follows (scaling note 2.3).
 #pragma once
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/core/halo.hpp"
@@ -26,6 +26,8 @@ class StepReads {
   void particles(std::span<const Index> numbers, Index first);
   /// Those from begin to end.
   void range(Index begin, Index end);
+  /// A vector over all particles that steps keep up: of those that are followed.
+  void keeps(NodalVectors& vector) { kept_.push_back(&vector); }
   /// Is told the halo when it is made. What it is given stays until then.
   void when_shared(std::function<void(const SharedHalo&)> learn);
 
@@ -34,6 +36,7 @@ class StepReads {
 
  private:
   std::vector<std::uint8_t> read_;  // [particle]
+  std::vector<NodalVectors*> kept_;
   std::vector<std::function<void(const SharedHalo&)>> learners_;
 };
 

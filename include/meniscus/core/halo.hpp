@@ -5,6 +5,7 @@
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/divided.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
@@ -27,8 +28,11 @@ class Halo {
   /// Those of them that it does not own.
   Index ghosts() const { return ghosts_; }
 
-  /// From now on only what is followed is right on this rank. The rest of these vectors becomes not
-  /// a number, so that it is seen if somebody reads it.
+  /// Vectors over all particles that steps keep up, beside the motion.
+  void keep(std::vector<NodalVectors*> kept) { kept_ = std::move(kept); }
+
+  /// From now on only what is followed is right on this rank. The rest of the motion and of what is
+  /// kept becomes not a number, so that it is seen if somebody reads it.
   void enter(std::initializer_list<NodalVectors*> motion);
   /// All ranks know all of these vectors again. All ranks call this.
   void leave(std::initializer_list<NodalVectors*> motion);
@@ -46,6 +50,7 @@ class Halo {
  private:
   std::vector<std::uint8_t> read_;
   std::vector<OwnItems> parts_;
+  std::vector<NodalVectors*> kept_;
   Index size_ = 0, ghosts_ = 0;
   bool partial_ = false, entered_ = false;
 };
@@ -55,10 +60,38 @@ inline bool is_entered(const std::shared_ptr<const Halo>& halo) {
   return halo && halo->is_entered();
 }
 
+/// Calls f(begin, end) on all threads for n particles, in parts; in a halo for those it follows.
+template <class F>
+void for_particles(const std::shared_ptr<const Halo>& halo, Index n, F&& f) {
+  if (is_entered(halo)) return halo->for_particles(f);
+  for_chunks(n, [&](Index, Index begin, Index end) { f(begin, end); });
+}
+
 /// parallel_sum() over n particles, of which in a halo each rank knows its own.
 template <class T, class F>
 T sum_over_particles(const std::shared_ptr<const Halo>& halo, Index n, T zero, F&& f) {
   return is_entered(halo) ? divided_sum(n, zero, f) : parallel_sum(n, zero, f);
+}
+
+/// The same over some of n particles, in the chunks of all: of other bodies nothing is read.
+template <class T, class F>
+T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, OwnItems part, T zero, F&& f) {
+  const int chunks = chunk_count(n);
+  const OwnItems own = is_entered(halo) ? own_items(chunks) : OwnItems{0, chunks};
+  PerChunk<T> partial(chunks, zero);
+  parallel_for(
+      own.end - own.begin,
+      [&](Index k) {
+        const Index c = own.begin + k, end = std::min(chunk_begin(n, c + 1), part.end);
+        T s = zero;
+        for (Index i = std::max(chunk_begin(n, c), part.begin); i < end; ++i) s = s + f(i);
+        at(partial, c) = s;
+      },
+      1);
+  if (is_entered(halo)) complete_items(chunks, partial.begin(), sizeof(T));
+  T total = zero;
+  for (const T& p : partial) total = total + p;
+  return total;
 }
 
 }  // namespace meniscus

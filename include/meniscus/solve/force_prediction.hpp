@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The forces of the step to come, from those of the steps before.
 #pragma once
-#include "meniscus/core/aligned.hpp"
+#include "meniscus/approx/step_reads.hpp"
 #include "meniscus/core/archive.hpp"
 
 #include <array>
@@ -18,15 +18,19 @@ class ForcePrediction {
  public:
   explicit ForcePrediction(std::size_t particles);
 
-  /// f_n+1, after a step of dt, to `next` by `now`, f_n. This becomes a force of the past with
-  /// step_stands() only.
-  void predict(const NodalVectors& now, Real dt, const std::vector<Real>& mass, NodalVectors& next);
+  using SharedHalo = std::shared_ptr<const Halo>;
+
+  /// f_n+1, after a step of dt, to `next` by `now`, f_n, of the particles that are followed. This
+  /// becomes a force of the past with step_stands() only.
+  void predict(const NodalVectors& now, Real dt, const std::vector<Real>& mass, NodalVectors& next,
+               const SharedHalo& halo = {});
   void step_stands();
+  void tell_reads(StepReads& reads);
   void archive(const Archive& a, int components);
 
  private:
   static constexpr int order = 3;
-  Eigen::Vector3d best(const std::vector<Real>& mass) const;
+  Eigen::Vector3d best(const std::vector<Real>& mass, const SharedHalo& halo) const;
 
   std::array<NodalVectors, order + 1> f_;  // f_n, f_n-1, f_n-2, f_n-3
   std::int64_t known_ = 0;                 // of those before f_n

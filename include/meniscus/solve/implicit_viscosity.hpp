@@ -27,6 +27,8 @@ class ImplicitViscosity {
   /// As meniscus::advance; also throws StepError `of_step` where no velocity is found.
   void advance(State& state, Real dt);
 
+  void tell_reads(StepReads& reads);
+
   /// Of all steps of this object so far, per step.
   Real mean_iterations() const {
     return steps_ > 0 ? static_cast<Real>(iterations_) / static_cast<Real>(steps_) : 0;
@@ -39,9 +41,14 @@ class ImplicitViscosity {
   void renew_diagonal();
   /// z = (M + dt/2 diagonal)^-1 r, of what faces that are held leave free; returns r.z.
   Real precondition(Real dt);
-  /// q = C p; returns p . (M p + dt/2 q).
+  /// q = - C p; returns p . (M p - dt/2 q).
   Real apply(const State& state, Real dt);
   void add_missing_rigid_motion(State& state) const;
+  /// That takes the residual of a body away.
+  struct RigidVelocity {
+    Eigen::Vector3d centre, velocity, spin;
+  };
+  RigidVelocity missing_motion(const Body<D>& body, const State& state) const;
 
   System<D>& system_;
   ForcePrediction prediction_;

@@ -41,6 +41,8 @@ class Relaxation final : public Stepper<D> {
   /// Begins to observe.
   void begin(const State& state) override;
   bool chooses_step() const override { return inertia_ != nullptr; }
+  /// Its measures look at all particles at the ends of windows only.
+  bool tell_reads(StepReads&) override { return !inertia_; }
   Real longest_step(const State& state) override;
   void step(State& state, Real dt) override;
   /// Whether the bodies are at rest.
@@ -70,7 +72,7 @@ class Relaxation final : public Stepper<D> {
   /// the state at the end of a window.
   void damp(State& state, Real dt);
   void open_window(const State& state, Real length);
-  void judge(const State& state, Real dt);
+  void judge(State& state, Real dt);
   bool pulled(const State& state) const;
   struct Change {
     Real omega;  ///< sqrt(- du.df / du.M du); 0 if there is no such frequency

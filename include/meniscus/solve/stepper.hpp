@@ -43,9 +43,9 @@ class Stepper {
   /// Whether try_step() may ask for a shorter step.
   virtual bool may_reject_steps() const { return false; }
 
-  /// Whether steps need of the motion what forces and sums over particles need of it
-  /// (System::share_steps()).
-  virtual bool can_be_shared() const { return false; }
+  /// Of a run of several ranks: says what step() reads of the motion beside what forces and sums
+  /// over all particles read (System::share_steps()). False: it may be that of all particles.
+  virtual bool tell_reads(StepReads&) { return false; }
 
   /// A step that takes long asks now and then whether to stop, and then throws Interrupted. What
   /// the stepper knows of the past is then to be restored by the caller.

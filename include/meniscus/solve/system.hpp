@@ -52,9 +52,9 @@ struct System {
   /// From when on nothing but the motion changes forces and prescribed places.
   Real steady_after() const;
 
-  /// From now on explicit steps are made on what this rank follows, if all terms know what that is
-  /// and some rank needs less than all. All ranks call this, with a complete state.
-  void share_steps();
+  /// From now on steps are made on what this rank follows, if all terms know what that is and some
+  /// rank needs less than all. `reads`: of the stepper. All ranks call this, with a complete state.
+  void share_steps(StepReads reads);
   /// Before steps of that kind, and where more is asked for than they know. All ranks call these.
   void enter_halo(State& state) {
     if (halo) halo->enter({&state.u, &state.v, &state.force});
@@ -66,8 +66,7 @@ struct System {
   /// Calls f(begin, end) for all particles, those that are followed in a step.
   template <class F>
   void for_particles(F&& f) const {
-    if (in_halo()) return halo->for_particles(f);
-    for_chunks(size(), [&](Index, Index begin, Index end) { f(begin, end); });
+    meniscus::for_particles(halo, size(), f);
   }
   /// parallel_sum() over all particles.
   template <class T, class F>
