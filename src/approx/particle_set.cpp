@@ -149,22 +149,6 @@ void ParticleSet<D>::candidates(const std::array<Vec<D>, 4>& x,
   find(centre, radius * (1 + 1e-12), FourPoints<D>(points), found);
 }
 
-template <int D>
-void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
-                 std::vector<Candidate<D>>& near, std::vector<std::size_t>& number) {
-  const FourPoints<D> four(points);
-  near.resize(candidates.size());
-  number.resize(candidates.size());
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < candidates.size(); ++k) {  // without a branch: it would be a guess
-    near[kept] = candidates[k];
-    number[kept] = k;
-    kept += four(candidates[k].X, candidates[k].support);
-  }
-  near.resize(kept);
-  number.resize(kept);
-}
-
 /// quality[q] for the numbers q of points, of which those that follow each other are often near
 /// each other and are then done together.
 template <int D>
@@ -244,10 +228,6 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
                        "other side of the cavity"));
 }
 
-template void select_near(const std::array<Vec<2>, 4>&, std::span<const Candidate<2>>,
-                          std::vector<Candidate<2>>&, std::vector<std::size_t>&);
-template void select_near(const std::array<Vec<3>, 4>&, std::span<const Candidate<3>>,
-                          std::vector<Candidate<3>>&, std::vector<std::size_t>&);
 template class ParticleSet<2>;
 template class ParticleSet<3>;
 

@@ -16,10 +16,10 @@ constexpr Real rounding = 1e-12;
 constexpr Real most_missing = 0.01;
 
 /// sum += w f(arm) for all monomials f.
-template <int D, int degree, class Sum>
-void add_monomials(Real w, const Vec<D>& arm, Sum& sum) {
+template <int D, int degree, class Weight, std::size_t count>
+void add_monomials(const Weight& w, const Vec<D>& arm, std::array<Weight, count>& sum) {
   constexpr Monomials<D, degree> table;
-  std::array<Real, std::tuple_size_v<Sum>> f;
+  std::array<Weight, count> f;
   f[0] = w;
   sum[0] += w;
   unroll<f.size() - 1>([&](auto k) {
@@ -167,7 +167,7 @@ Real NodalCells<D>::missing_of_volume(Index node, Sharing sharing, CellSamples<D
   Real radius = 0;
   for (std::size_t q = 0; q < samples.volume_X.size(); ++q) {
     const Vec<D> arm = samples.volume_X[q] - at(centroid_, node);
-    add_monomials<D, 2>(-samples.volume_w[q], arm, missing);
+    add_monomials<D, 2, Real>(-samples.volume_w[q], arm, missing);
     radius = std::max(radius, arm.norm());
   }
   missing[0] += V;
@@ -227,9 +227,11 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
   facet.end = samples.facet_X.size();
   facet.centre /= static_cast<Real>(facet.end - facet.begin);
 
-  for (auto& of_K : facet.missing) of_K.fill(0);
-  const auto add = [&](const Vec<D>& X, const Vec<D>& dA) {
-    for (int K = 0; K < D; ++K) add_monomials<D, 3>(dA[K], X - facet.centre, at(facet.missing, K));
+  std::array<Lanes, std::tuple_size_v<typename CellSamples<D>::template Missing<3>>> missing;
+  missing.fill(Lanes::zero());
+  const auto add = [&](const Vec<D>& X, const Vec<D>& dA) {  // a lane per component
+    add_monomials<D, 3>(Lanes(dA[0], dA[1], D == 3 ? dA[D - 1] : 0.0, 0.0), X - facet.centre,
+                        missing);
   };
   Real area = 0, radius = 0;
   for (std::size_t q = facet.begin; q < facet.end; ++q) {
@@ -253,6 +255,8 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
       integrate(map.table().inner(part.corner, part.k), part.k, -corner_sign(part.corner, part.k));
     }
   }
+  for (int K = 0; K < D; ++K)
+    for (std::size_t m = 0; m < missing.size(); ++m) at(facet.missing, K)[m] = missing[m][K];
   Real most = 0;
   for (const auto& of_K : facet.missing) most = std::max(most, largest<D, 3>(of_K, area, radius));
   facet.exact = most <= rounding;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Supports of particles and the deficiency monitor.
+#include "meniscus/approx/near_candidates.hpp"
 #include "meniscus/approx/particle_set.hpp"
 #include "meniscus/core/error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "support.hpp"
 
@@ -148,4 +150,33 @@ TEST(ParticleSet, TwoParticlesInOnePlaceAreNoHarm) {
 }
 
 }  // namespace
+/// Whatever their number, and however many of them were there before.
+TEST(NearCandidates, AreThoseThatReachOneOfFourPoints) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> anywhere(-1, 1), support(0.2, 0.8);
+  NearCandidates<3> near;
+  for (const std::size_t count : {0, 1, 3, 50, 4, 7}) {
+    std::vector<Candidate<3>> all;
+    for (std::size_t k = 0; k < count; ++k)
+      all.push_back({static_cast<Index>(100 + k),
+                     support(random),
+                     {anywhere(random), anywhere(random), anywhere(random)}});
+    near.begin(all);
+    for (int batch = 0; batch < 5; ++batch) {
+      std::array<Vec<3>, 4> points;
+      for (Vec<3>& x : points) x = {anywhere(random), anywhere(random), anywhere(random)};
+      near.select(points);
+      std::vector<Index> expected;
+      for (std::size_t k = 0; k < count; ++k)
+        if (std::any_of(points.begin(), points.end(),
+                        [&](const Vec<3>& x) { return (x - all[k].X).norm() < all[k].support; }))
+          expected.push_back(static_cast<Index>(k));
+      EXPECT_EQ(std::vector<Index>(near.numbers().begin(), near.numbers().end()), expected);
+      ASSERT_EQ(near.near().size(), expected.size());
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        EXPECT_EQ(near.near()[k].particle, 100 + expected[k]);
+    }
+  }
+}
+
 }  // namespace meniscus::test_particle_set

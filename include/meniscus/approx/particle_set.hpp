@@ -111,12 +111,6 @@ class ParticleSet {
   std::optional<Pressed> pressed_;
 };
 
-/// The candidates whose support reaches one of the four kernel places, and their numbers in
-/// `candidates`.
-template <int D>
-void select_near(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
-                 std::vector<Candidate<D>>& near, std::vector<std::size_t>& number);
-
 extern template class ParticleSet<2>;
 extern template class ParticleSet<3>;
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Distances of four points from four candidates at a time.
+#include "meniscus/approx/near_candidates.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+
+template <int D>
+void NearCandidates<D>::begin(std::span<const Candidate<D>> candidates) {
+  constexpr Real nowhere = -1;  // what no square is below
+  all_ = candidates;
+  const std::size_t fours = (all_.size() + Lanes::width - 1) / Lanes::width;
+  if (near_.size() < fours * Lanes::width) {
+    near_.resize(fours * Lanes::width);
+    numbers_.resize(near_.size());
+    place_.resize(fours * D);
+    square_.resize(fours);
+  }
+  for (std::size_t k = 0; k < fours * Lanes::width; ++k) {
+    const Candidate<D>& candidate = all_[std::min(k, all_.size() - 1)];
+    const std::size_t four = k / Lanes::width;
+    const int lane = static_cast<int>(k % Lanes::width);
+    for (int i = 0; i < D; ++i)
+      place_[four * D + static_cast<std::size_t>(i)].set(lane, candidate.X[i]);
+    square_[four].set(
+        lane, k < all_.size() ? candidate.support * candidate.support * (1 + 1e-12) : nowhere);
+  }
+}
+
+template <int D>
+void NearCandidates<D>::select(const std::array<Vec<D>, 4>& points) {
+  const std::size_t fours = (all_.size() + Lanes::width - 1) / Lanes::width;
+  std::size_t count = 0;
+  for (std::size_t four = 0; four < fours; ++four) {
+    Lanes::Mask reaches{};
+    for (const Vec<D>& x : points) {
+      Lanes square = Lanes::zero();
+      for (int i = 0; i < D; ++i) {
+        const Lanes away = place_[four * D + static_cast<std::size_t>(i)] - x[i];
+        square += away * away;
+      }
+      reaches |= square.v <= square_[four].v;
+    }
+    for (int lane = 0; lane < Lanes::width; ++lane) {  // without a branch: it would be a guess
+      numbers_[count] = static_cast<Index>(four) * Lanes::width + lane;
+      count += reaches[lane] != 0;
+    }
+  }
+  count_ = count;
+  for (std::size_t k = 0; k < count; ++k) near_[k] = all_[static_cast<std::size_t>(numbers_[k])];
+}
+
+template class NearCandidates<2>;
+template class NearCandidates<3>;
+
+}  // namespace meniscus

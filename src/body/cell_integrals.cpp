@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Integrals over the samples of cells and facets, and what these miss of polynomials.
+#include "cell_integrals.hpp"
+
+#include "meniscus/approx/near_candidates.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace meniscus {
+namespace {
+
+/// sum_k += sum_q weight_q N_k(x_q) for all candidates k. Points come in fours that are close
+/// together; candidates that reach none of the four are left out.
+template <int D, class Weight, class Sum>
+void add_integrals(const Body<D>& body, std::span<const Vec<D>> points,
+                   std::span<const Weight> weight, NearCandidates<D>& candidates,
+                   std::vector<Sum>& integral) {
+  thread_local ReproducingKernel<D> kernel(body.particles.window());  // keeps its buffers
+  kernel.use(body.particles.window());
+  for (std::size_t q = 0; q < points.size(); q += 4) {
+    std::array<Vec<D>, 4> batch;  // the last point fills up, with weight zero
+    std::array<Weight, 4> batch_weight{};
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      batch[lane] = points[std::min(q + lane, points.size() - 1)];
+      if (q + lane < points.size()) batch_weight[lane] = weight[q + lane];
+    }
+    const auto places = body.particles.kernel_places(batch);
+    candidates.select(places);
+    kernel.evaluate(places, candidates.near(), Derivatives::none);
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      body.particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane],
+                                     body.name);
+    const auto numbers = candidates.numbers();
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      at(integral, numbers[k]).add(kernel.value(k), batch_weight);
+  }
+}
+
+/// Functions of a batch: moments 0 and 1 of n_K.
+template <int D>
+constexpr std::size_t functional_count = D*(1 + D);
+
+/// Adds what the samples miss of the integrals of polynomials, by functions that reproduce it: to
+/// the volume and to facets, four at a time (RKPM note 5.6).
+template <int D>
+class MissingMoments {
+ public:
+  MissingMoments(const Body<D>& body, Index cell, const CellSamples<D>& samples)
+      : body_(body), cell_(cell), samples_(samples) {
+    if (!samples.volume_exact) parts_.push_back(-1);
+    for (std::size_t f = 0; f < samples.facets.size(); ++f)
+      if (!samples.facets[f].exact) parts_.push_back(static_cast<int>(f));
+  }
+
+  void add(NearCandidates<D>& candidates, std::vector<VolumeIntegral>& volume,
+           std::vector<std::vector<Flux<D>>>& facets) {
+    for (std::size_t first = 0; first < parts_.size(); first += 4)
+      add_four(std::span(parts_).subspan(first, std::min<std::size_t>(4, parts_.size() - first)),
+               candidates, volume, facets);
+  }
+
+ private:
+  using Kernel = ReproducingKernel<D>;
+  static constexpr int volume_part = -1;
+
+  const Vec<D>& centre(int part) const {
+    return part == volume_part ? body_.cells.centroid(cell_) : at(samples_.facets, part).centre;
+  }
+
+  void add_four(std::span<const int> parts, NearCandidates<D>& candidates,
+                std::vector<VolumeIntegral>& volume, std::vector<std::vector<Flux<D>>>& facets) {
+    thread_local Kernel kernel(body_.particles.window());
+    kernel.use(body_.particles.window());
+    std::array<Vec<D>, 4> centres;
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      centres[lane] = centre(parts[std::min(lane, parts.size() - 1)]);
+    const auto places = body_.particles.kernel_places(centres);
+    candidates.select(places);
+    kernel.evaluate(places, candidates.near(), Derivatives::none);
+    std::array<typename Kernel::BasisVector, functional_count<D>> right;
+    for (auto& b : right) b.fill(Lanes::zero());
+    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+      body_.particles.require_quality(kernel.quality()[static_cast<int>(lane)], centres[lane],
+                                      body_.name);
+      fill(parts[lane], kernel.scale(), static_cast<int>(lane), right);
+    }
+    kernel.evaluate_functionals(right);
+    const auto numbers = candidates.numbers();
+    for (std::size_t lane = 0; lane < parts.size(); ++lane)
+      for (std::size_t k = 0; k < numbers.size(); ++k) {
+        const auto amount = [&](std::size_t j) {
+          return kernel.functional(k, j)[static_cast<int>(lane)];
+        };
+        if (parts[lane] == volume_part) {
+          at(volume, numbers[k]).value += amount(0);
+          continue;
+        }
+        Flux<D>& flux = at(at(facets, parts[lane]), numbers[k]);
+        for (std::size_t K = 0; K < D; ++K) {
+          Lanes more = Lanes::zero();
+          for (std::size_t o = 0; o <= D; ++o)
+            more.set(static_cast<int>(o), amount(K * (D + 1) + o));
+          flux.moment[K] += more;
+        }
+      }
+  }
+
+  /// Right-hand sides of one lane.
+  void fill(int part, Real H, int lane,
+            std::array<typename Kernel::BasisVector, functional_count<D>>& right) const {
+    if (part == volume_part) {
+      set(samples_.volume_missing, H, lane, right[0]);
+      return;
+    }
+    static constexpr auto multiple = monomial_multiples<D, 2>();
+    for (std::size_t K = 0; K < D; ++K) {
+      const auto& missing = at(samples_.facets, part).missing[K];
+      typename CellSamples<D>::template Missing<2> moment;
+      std::copy_n(missing.begin(), moment.size(), moment.begin());
+      set(moment, H, lane, right[K * (D + 1)]);
+      for (std::size_t Q = 0; Q < D; ++Q) {
+        for (std::size_t m = 0; m < moment.size(); ++m) moment[m] = at(missing, multiple[m][Q]);
+        set(moment, H, lane, right[K * (D + 1) + 1 + Q]);
+      }
+    }
+  }
+
+  /// Moments of X - centre as those of its kernel place over H.
+  void set(const typename CellSamples<D>::template Missing<2>& moment, Real H, int lane,
+           typename Kernel::BasisVector& b) const {
+    Mat<D> T = body_.particles.pressed() ? *body_.particles.pressed() : Mat<D>::Identity();
+    T /= H;
+    Vec<D> first;
+    Mat<D> second;
+    for (int i = 0; i < D; ++i) {
+      first[i] = at(moment, 1 + i);
+      for (int j = 0; j < D; ++j) second(i, j) = at(moment, 1 + D + hessian_index(D, i, j));
+    }
+    first = T * first;
+    second = T * second * T.transpose();
+    b[0].set(lane, moment[0]);
+    for (int i = 0; i < D; ++i) {
+      at(b, 1 + i).set(lane, first[i]);
+      for (int j = i; j < D; ++j) at(b, 1 + D + hessian_index(D, i, j)).set(lane, second(i, j));
+    }
+  }
+
+  const Body<D>& body_;
+  Index cell_;
+  const CellSamples<D>& samples_;
+  std::vector<int> parts_;  // facets, or the volume
+};
+
+/// Fluxes through the facets with these points.
+template <int D>
+void integrate_fluxes(const Body<D>& body, std::span<const Vec<D>> X, std::span<const Vec<D>> dA,
+                      const Vec<D>& centre, NearCandidates<D>& candidates,
+                      std::vector<Flux<D>>& flux) {
+  thread_local std::vector<Flux<D>> weight;
+  weight.clear();
+  for (std::size_t q = 0; q < X.size(); ++q) weight.emplace_back(dA[q], X[q] - centre);
+  flux.assign(candidates.all().size(), {});
+  add_integrals<D, Flux<D>>(body, X, weight, candidates, flux);
+}
+
+/// The integrals through a facet that are not zero, for the cell on its other side.
+template <int D>
+void pack_shared(const typename CellSamples<D>::SharedFacet& facet,
+                 std::span<const Candidate<D>> candidates, std::span<const Flux<D>> flux,
+                 SharedFlux<D>& packed) {
+  packed.neighbor = facet.neighbor;
+  packed.centre = facet.centre;
+  packed.particle.clear();
+  packed.flux.clear();
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (flux[k].is_zero()) continue;
+    packed.particle.push_back(candidates[k].particle);
+    packed.flux.push_back(flux[k]);
+  }
+}
+
+/// Integrals over the samples of a cell, its volume and facets.
+template <int D>
+void integrate_samples(const Body<D>& body, Index cell, const CellSamples<D>& samples,
+                       OwnItems block, NearCandidates<D>& candidates, CellIntegrals<D>& own) {
+  own.volume.assign(own.candidates.size(), {});
+  add_integrals<D, Real>(body, samples.volume_X, samples.volume_w, candidates, own.volume);
+  thread_local std::vector<std::vector<Flux<D>>> facets;
+  facets.resize(samples.facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto& facet = samples.facets[f];
+    const std::size_t count = facet.end - facet.begin;
+    integrate_fluxes<D>(body, std::span(samples.facet_X).subspan(facet.begin, count),
+                        std::span(samples.facet_dA).subspan(facet.begin, count), facet.centre,
+                        candidates, facets[f]);
+  }
+  MissingMoments<D>(body, cell, samples).add(candidates, own.volume, facets);
+
+  std::size_t shared = 0;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto& facet = samples.facets[f];
+    const Lanes arm = Flux<D>::with_zero(facet.centre - body.cells.centroid(cell));
+    for (std::size_t k = 0; k < own.candidates.size(); ++k)
+      own.flux[k].add_moved(facets[f][k], arm, 1);
+    if (facet.neighbor < cell || facet.neighbor >= block.end) continue;
+    if (shared == own.shared.size()) own.shared.emplace_back();
+    pack_shared<D>(facet, own.candidates, facets[f], own.shared[shared++]);
+  }
+  own.shared.resize(shared);
+}
+
+template <int D>
+Real reach(std::span<const Vec<D>> points, const Vec<D>& centre) {
+  Real radius = 0;
+  for (const Vec<D>& x : points) radius = std::max(radius, (x - centre).norm());
+  return radius * (1 + 1e-12);
+}
+
+/// What a nodal cell is integrated with.
+template <int D>
+struct SampledCell {
+  CellSamples<D> samples;
+  CellQuadrature<D> boundary;
+  Real reach;  ///< of all points from the centroid
+};
+
+/// `first`: that of the cells whose integrals are computed along with this one's.
+template <int D>
+void sample(const Body<D>& body, Index cell, Index first, SampledCell<D>& sampled) {
+  body.cells.sample(cell, first, body.particles, sampled.samples);
+  body.cells.boundary_points(cell, sampled.boundary);
+  const Vec<D>& centroid = body.cells.centroid(cell);
+  sampled.reach = std::max({reach<D>(sampled.samples.volume_X, centroid),
+                            reach<D>(sampled.samples.facet_X, centroid),
+                            reach<D>(sampled.boundary.facet_X, centroid)});
+}
+
+/// The end of the group that begins with the first of these cells, and the mean of its centroids.
+template <int D>
+std::pair<Index, Vec<D>> group_of(const Body<D>& body, OwnItems cells) {
+  const Vec<D>& first = body.cells.centroid(cells.begin);
+  const Real near = at(body.particles.support(), cells.begin);
+  Vec<D> sum = first;
+  Index end = cells.begin + 1;
+  for (; end < cells.end; ++end) {
+    const Vec<D>& centroid = body.cells.centroid(end);
+    if ((centroid - first).squaredNorm() > near * near) break;
+    sum += centroid;
+  }
+  return {end, sum / (end - cells.begin)};
+}
+
+}  // namespace
+
+template <int D>
+void integrate_cells(const Body<D>& body, OwnItems cells, OwnItems block,
+                     std::span<CellIntegrals<D>> own) {
+  thread_local std::array<SampledCell<D>, most_in_group> sampled;
+  thread_local std::vector<Candidate<D>> around;
+  thread_local NearCandidates<D> near;
+  for (Index begin = cells.begin, end; begin < cells.end; begin = end) {
+    Vec<D> centre;
+    std::tie(end, centre) = group_of(body, {begin, cells.end});
+    Real radius = 0;
+    for (Index cell = begin; cell < end; ++cell) {
+      sample(body, cell, block.begin, at(sampled, cell - begin));
+      radius = std::max(
+          radius, (body.cells.centroid(cell) - centre).norm() + at(sampled, cell - begin).reach);
+    }
+    body.particles.candidates(centre, radius * (1 + 1e-12), around);
+    for (Index cell = begin; cell < end; ++cell) {
+      const auto& [samples, boundary, reach] = at(sampled, cell - begin);
+      CellIntegrals<D>& of_cell = at(own, cell - block.begin);
+      const Vec<D>& centroid = body.cells.centroid(cell);
+      body.particles.candidates(centroid, reach, around, of_cell.candidates);
+      near.begin(of_cell.candidates);
+      integrate_fluxes<D>(body, boundary.facet_X, boundary.facet_dA, centroid, near, of_cell.flux);
+      integrate_samples<D>(body, cell, samples, block, near, of_cell);
+    }
+  }
+}
+
+#define MENISCUS_INSTANTIATE(D) \
+  template void integrate_cells(const Body<D>&, OwnItems, OwnItems, std::span<CellIntegrals<D>>);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus
