@@ -243,13 +243,15 @@ class SameBits(RanksTest):
                 self.assertLess(followed, of_all)
                 self.directory = self.directory.parent
 
-    def test_failure_in_the_halo(self):
-        """It is said with the place of the particle, which not all ranks know."""
-        scene = self.scene(PUSHED.replace("[4, 4, 4]", "[15, 2, 2]"))
-        alone = self.call("run", scene, "--output", "alone", code=4)
-        done = self.ranks(4, "run", scene, "--output", "ranks4", code=4)
-        words = [re.search(r"error: (step.*)", run.stderr)[1] for run in (alone, done)]
-        self.assertEqual(*words)
+    def test_failures_in_the_halo(self):
+        """They are said with the place of the particle, which not all ranks know."""
+        thrown = MOST["a wall"].replace("[[body]]", "[[body]]\ninitial_velocity = [0, 0, -300]")
+        for scene in (PUSHED.replace("[4, 4, 4]", "[15, 2, 2]"), thrown):
+            path = self.scene(scene)
+            alone = self.call("run", path, "--output", "alone", "--overwrite", code=4)
+            done = self.ranks(3, "run", path, "--output", "ranks3", "--overwrite", code=4)
+            words = [re.search(r"error: (step.*)", run.stderr)[1] for run in (alone, done)]
+            self.assertEqual(*words)
 
     def test_doubtful_law(self):
         """What the law of one rank warns of is said once, with the words of a run that is alone."""
