@@ -17,15 +17,17 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "flush_order.hpp"
 #include "hdf5_file.hpp"
 
 namespace meniscus::hdf5 {
 namespace {
 
 constexpr herr_t done = 0;
+constexpr haddr_t page = 4096;  ///< of the system, or a part of one
 
 /// Leaves the reason where HDF5, and so the messages of hdf5::check(), look for it.
 herr_t push_error(const char* what) {
@@ -44,45 +46,6 @@ int write_all(int file, haddr_t address, std::string_view bytes) {
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
   return 0;
-}
-
-/// A change of what is already on the disk.
-struct Change {
-  H5FD_mem_t kind;
-  haddr_t address;
-  std::string bytes;
-
-  haddr_t end() const { return address + bytes.size(); }
-  bool covers(const Change& other) const {
-    return address <= other.address && other.end() <= end();
-  }
-  /// Place in the order of a flush.
-  std::tuple<int, int> rank() const {
-    switch (kind) {
-      case H5FD_MEM_DRAW:
-        return {0, 0};
-      case H5FD_MEM_SUPER:
-        return {1, 0};
-      case H5FD_MEM_LHEAP:
-      case H5FD_MEM_GHEAP:
-        return {2, 0};
-      case H5FD_MEM_BTREE: {
-        // Nodes of an index begin with "TREE", type, level (0 for leaves); then come group entries.
-        if (!std::string_view(bytes).starts_with("TREE") || bytes.size() < 6) return {4, 0};
-        return {3, -static_cast<unsigned char>(bytes[5])};
-      }
-      default:
-        return {5, 0};
-    }
-  }
-};
-
-bool overlap(std::vector<const Change*> changes) {
-  std::sort(changes.begin(), changes.end(),
-            [](const Change* a, const Change* b) { return a->address < b->address; });
-  return std::adjacent_find(changes.begin(), changes.end(), [](const Change* a, const Change* b) {
-           return b->address < a->end();
-         }) != changes.end();
 }
 
 /// A set of addresses, as intervals [begin, end) that neither overlap nor touch.
@@ -116,22 +79,44 @@ struct OrderedFile : H5FD_t {
   struct stat identity {};
   haddr_t end_of_addresses = 0;  ///< what HDF5 has given out
   haddr_t end_of_file = 0;       ///< on the disk
-  Extents flushed;               ///< what the file on the disk may refer to
-  Extents fresh;                 ///< what was written beside it since the last flush
-  std::vector<Change> changes;   ///< in the order in which they came
-  int error = 0;                 ///< errno of the first write that failed
+  haddr_t next = 0;              ///< behind all that was ever given out: no place is given twice
+  haddr_t room_begin = 0, room_end = 0;  ///< left in the page of metadata
+  haddr_t scratch_begin = 0;             ///< a page for copies during a flush
+  Extents flushed;                       ///< what the file on the disk may refer to
+  Extents fresh;                         ///< what was written beside it since the last flush
+  std::vector<Change> changes;           ///< in the order in which they came
+  int error = 0;                         ///< errno of the first write that failed
+
+  /// Metadata within one page, in which a killed process has written all of it or nothing; no place
+  /// is given twice, so that what is new can be written before what was there is given up.
+  haddr_t allocate(H5FD_mem_t kind, haddr_t size) {
+    if (scratch_begin == 0) scratch_begin = new_page();
+    if (kind == H5FD_MEM_DRAW || size > page) {
+      next = std::max(next, end_of_addresses);
+      end_of_addresses = next + size;
+      return std::exchange(next, end_of_addresses);
+    }
+    if (size > room_end - room_begin) {
+      room_begin = new_page();
+      room_end = room_begin + page;
+    }
+    return std::exchange(room_begin, room_begin + size);
+  }
+
+  haddr_t new_page() {
+    const haddr_t begin = (std::max(next, end_of_addresses) + page - 1) / page * page;
+    end_of_addresses = next = begin + page;
+    return begin;
+  }
 
   void write(H5FD_mem_t kind, haddr_t address, std::string_view bytes) {
     Change change{kind, address, std::string(bytes)};
-    // Nothing on the disk refers to this place: HDF5 gives out addresses in blocks, so that such
-    // places are also between those in use, not only at the end.
     const bool unused = !flushed.meet(address, change.end()) &&
                         std::none_of(changes.begin(), changes.end(), [&](const Change& earlier) {
                           return earlier.address < change.end() && address < earlier.end();
                         });
-    if (!error && unused) {
-      end_of_file = std::max(end_of_file, change.end());
-      error = write_all(descriptor, address, bytes);
+    if (!error && unused && kind != H5FD_MEM_BTREE) {
+      put(address, bytes);
       if (!error) {
         fresh.add(address, change.end());
         return;
@@ -141,17 +126,29 @@ struct OrderedFile : H5FD_t {
     changes.push_back(std::move(change));
   }
 
-  herr_t read(haddr_t address, std::size_t size, char* buffer) const {
+  void put(haddr_t address, std::string_view bytes) {
+    end_of_file = std::max(end_of_file, address + bytes.size());
+    error = write_all(descriptor, address, bytes);
+  }
+
+  /// 0, or the number of the error. Behind the end, as what is given out and not written, are
+  /// zeros.
+  int get(haddr_t address, std::size_t size, char* buffer) const {
     std::size_t got = 0;
     while (got < size) {
       const ssize_t n =
           pread(descriptor, buffer + got, size - got, static_cast<off_t>(address + got));
       if (n < 0 && errno == EINTR) continue;
-      if (n < 0) return push_error("read");
+      if (n < 0) return errno;
       if (n == 0) break;
       got += static_cast<std::size_t>(n);
     }
-    std::memset(buffer + got, 0, size - got);  // allocated, not written yet
+    std::memset(buffer + got, 0, size - got);
+    return 0;
+  }
+
+  herr_t read(haddr_t address, std::size_t size, char* buffer) const {
+    if (get(address, size, buffer) != 0) return push_error("read");
     for (const Change& change : changes) {
       const haddr_t begin = std::max(address, change.address);
       const haddr_t end = std::min(address + size, change.end());
@@ -163,14 +160,21 @@ struct OrderedFile : H5FD_t {
   }
 
   void flush() {
-    std::vector<const Change*> order;
-    for (const Change& change : changes) order.push_back(&change);
-    // Of two changes of the same bytes the later one counts: then the order is not ours to choose.
-    if (!overlap(order))
-      std::stable_sort(order.begin(), order.end(),
-                       [](const Change* a, const Change* b) { return a->rank() < b->rank(); });
-    for (const Change* change : order)
-      if (!error) error = write_all(descriptor, change->address, change->bytes);
+    if (end_of_file < end_of_addresses) resize();
+    haddr_t scratch = scratch_begin;
+    const FileOnDisk on_disk{
+        [this](haddr_t address, std::size_t size) {
+          std::string bytes(size, 0);
+          if (const int failed = get(address, size, bytes.data())) error = failed;
+          return bytes;
+        },
+        [this](haddr_t begin, haddr_t end) { return flushed.meet(begin, end); },
+        [this, &scratch](std::size_t size) {
+          if (scratch_begin == 0 || scratch + size > scratch_begin + page) return HADDR_UNDEF;
+          return std::exchange(scratch, scratch + size);
+        }};
+    for (const Change& change : flush_order(changes, on_disk))
+      if (!error) put(change.address, change.bytes);
     if (error) return;
     for (const Change& change : changes) flushed.add(change.address, change.end());
     changes.clear();
@@ -231,9 +235,7 @@ int compare(const H5FD_t* a, const H5FD_t* b) {
 }
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
-  if (flags)
-    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA |
-             H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  if (flags) *flags = H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
   return done;
 }
 
@@ -250,6 +252,9 @@ H5FD_class_t driver_class() {
   c.close = close_file;
   c.cmp = compare;
   c.query = query;
+  c.alloc = [](H5FD_t* f, H5FD_mem_t kind, hid_t, hsize_t size) {
+    return self(f).allocate(kind, size);
+  };
   c.get_eoa = [](const H5FD_t* f, H5FD_mem_t) { return self(f).end_of_addresses; };
   c.set_eoa = [](H5FD_t* f, H5FD_mem_t, haddr_t end) {
     self(f).end_of_addresses = end;

@@ -3,10 +3,11 @@
 //
 // HDF5 adds a frame by writing new structures and changing a few old ones (group index, superblock,
 // array sizes), in an order of its own; a file whose writer is killed among these changes does not
-// open. This driver sends everything that lies where nothing was at the last flush straight to the
-// disk, since nothing refers to it there, and keeps all other changes in memory. A flush then makes
-// them in an order in which each one is harmless without the next: raw data, superblock (end of
-// file), names, index nodes from the root down, group entries, object headers.
+// open. This driver gives out no place twice, and metadata only within pages of the system, which a
+// killed process has written whole or not at all. It sends everything that lies where nothing was
+// at the last flush straight to the disk, since nothing refers to it there, and keeps all other
+// changes in memory. A flush makes them in an order in which each one is harmless without the next
+// (flush_order.hpp).
 //
 // HDF5 does not stand a write that fails (it crashes when the file is closed). The driver therefore
 // never reports one: it notes the reason, leaves the file as it was at the last flush, and keeps in

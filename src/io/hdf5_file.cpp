@@ -182,6 +182,8 @@ File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
   const Handle access = access_properties();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), "prepare HDF5");
   check(H5Pset_userblock(creation, user_block), "prepare HDF5");
+  // The driver gives out places; those that were given up are not used again.
+  check(H5Pset_file_space_strategy(creation, H5F_FSPACE_STRATEGY_NONE, false, 1), "prepare HDF5");
   // A new file in any case: what is written is not to follow a link of that name.
   std::error_code ignored;
   std::filesystem::remove(path, ignored);

@@ -291,8 +291,11 @@ class ResultFile::Writer {
       sidecars_.add_frame(path_.filename().string(), frames_++, time, *layout_);
     }
     dropped_frames_ = stored - frames_;
-    for (std::int64_t k = frames_; k < stored; ++k) steps.remove(fmt::format("{}", k));
-    file_.flush();
+    while (stored >
+           frames_) {  // the last first, each for itself: frames are 0, 1, ... at any moment
+      steps.remove(fmt::format("{}", --stored));
+      file_.flush();
+    }
     if (layout_) vtkhdf::announce(root, frames_);
     file_.flush();
     sidecars_.write();

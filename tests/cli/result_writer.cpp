@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a run whose numbers are known, for check_results.py and kill_writer.py:
-//   result_writer DIR FRAMES float32|float64 COMPRESSION
-// A line "frame k" on stdout says that frame k is safe.
+// Writes a run whose numbers are known, for check_results.py, kill_writer.py and every_kill.py:
+//   result_writer DIR FRAMES float32|float64 COMPRESSION [LAST]
+// With LAST a run that is there is continued behind the frame LAST, without history and
+// checkpoints. A line "frame k" on stdout says that frame k is safe.
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/history.hpp"
 #include "meniscus/io/result_file.hpp"
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +45,8 @@ BodyReference body(const std::string& name, std::span<const Real> X, std::span<c
 }
 
 void write_run(const std::string& path, std::int64_t frames, const ResultOptions& options) {
-  const RunDirectory directory(path, ExistingRun::replace);
+  const bool continuing = options.continue_after.has_value();
+  const RunDirectory directory(path, continuing ? ExistingRun::keep : ExistingRun::replace);
   const Provenance source = provenance("result_writer", "dimension = 3\n# \xce\xb3 = 0.0728 N/m\n");
   const auto X = values(0, particles, 3), volume = values(0, particles, 1);
   const std::span<const Real> all_X = X, all_volume = volume;
@@ -52,9 +55,14 @@ void write_run(const std::string& path, std::int64_t frames, const ResultOptions
       body("drop", all_X.first(3 * first_body), all_volume.first(first_body), cells[0]),
       body("wall", all_X.subspan(3 * first_body), all_volume.subspan(first_body), cells[1])};
   ResultFile result(directory, source, bodies, options);
-  HistoryWriter history(directory.history_file(), {{"time", "s"}, {"kinetic_energy", "J"}});
-  CheckpointWriter checkpoints(directory, source);
-  for (std::int64_t k = 0; k < frames; ++k) {
+  std::optional<HistoryWriter> history;
+  std::optional<CheckpointWriter> checkpoints;
+  if (!continuing) {
+    history.emplace(directory.history_file(),
+                    std::vector<HistoryColumn>{{"time", "s"}, {"kinetic_energy", "J"}});
+    checkpoints.emplace(directory, source);
+  }
+  for (std::int64_t k = result.frames(); k < frames; ++k) {
     const auto one = values(k, particles, 1), two = values(k, particles, 2),
                three = values(k, particles, 3), six = values(k, particles, 6),
                nine = values(k, particles, 9);
@@ -67,9 +75,9 @@ void write_run(const std::string& path, std::int64_t frames, const ResultOptions
                                   {"strain", 6, "1", six},
                                   {"stress", 9, "Pa", nine}};
     const Real time = 0.5 * static_cast<Real>(k);
-    history.write(std::vector<Real>{time, 1.0 / 3.0});
+    if (history) history->write(std::vector<Real>{time, 1.0 / 3.0});
     result.write_frame(10 * k, time, fields, &state);
-    if (k % 4 == 3) checkpoints.write(10 * k, time, state);
+    if (checkpoints && k % 4 == 3) checkpoints->write(10 * k, time, state);
     std::printf("frame %lld\n", static_cast<long long>(k));
     std::fflush(stdout);
   }
@@ -78,11 +86,12 @@ void write_run(const std::string& path, std::int64_t frames, const ResultOptions
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) return 2;
+  if (argc != 5 && argc != 6) return 2;
   ResultOptions options;
   options.precision = std::string(argv[3]) == "float32" ? ResultOptions::Precision::float32
                                                         : ResultOptions::Precision::float64;
   options.compression = std::atoi(argv[4]);
+  if (argc == 6) options.continue_after = 10 * std::atoll(argv[5]);
   try {
     write_run(argv[1], std::atoll(argv[2]), options);
   } catch (const std::exception& failure) {
