@@ -130,13 +130,16 @@ void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
                                 std::span<const Candidate<D>> around,
                                 std::vector<Candidate<D>>& found) const {
   const Ball<D> ball{kernel_place(centre), pressed_ ? pressed_->growth * radius : radius};
-  found.resize(around.size());
+  thread_local std::vector<Index> numbers;
+  numbers.resize(std::max(numbers.size(), around.size()));
   std::size_t kept = 0;
-  for (const Candidate<D>& candidate : around) {  // without a branch: it would be a guess
-    found[kept] = candidate;
-    kept += ball(candidate.X, candidate.support);
+  for (std::size_t k = 0; k < around.size(); ++k) {  // without a branch: it would be a guess
+    numbers[kept] = static_cast<Index>(k);
+    kept += ball(around[k].X, around[k].support);
   }
-  found.resize(kept);
+  found.clear();
+  found.reserve(kept);
+  for (std::size_t k = 0; k < kept; ++k) found.push_back(at(around, numbers[k]));
 }
 
 template <int D>

@@ -42,8 +42,8 @@ struct CellRule {
   std::vector<Offset> start{0};         ///< [cell + 1]
   std::vector<Offset> double_start{0};  ///< [cell + 1]: entries in double of the cells before
   std::vector<Index> particle;          ///< [entry]; of a row, those in double first
-  AlignedVector<Lanes> coefficient;     ///< [entry in double][K]: (a_AK, B_AK0, B_AK1, B_AK2)
-  AlignedVector<SingleLanes> rounded;   ///< [entry in single precision][K]: likewise
+  UnsetVector<Lanes> coefficient;       ///< [entry in double][K]: (a_AK, B_AK0, B_AK1, B_AK2)
+  UnsetVector<SingleLanes> rounded;     ///< [entry in single precision][K]: likewise
   AlignedVector<Lanes> point;           ///< [cell][M]: xi_qM, a lane per stress point q
   std::vector<Real> volume;             ///< [cell]
 

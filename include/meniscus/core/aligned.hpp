@@ -4,6 +4,7 @@
 #include "meniscus/core/simd.hpp"
 
 #include <cstddef>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -35,9 +36,29 @@ struct CacheLineAllocator {
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
+/// Leaves new elements as the memory is: who makes them writes them.
+template <class T>
+struct UnsetAllocator : CacheLineAllocator<T> {
+  UnsetAllocator() = default;
+  template <class U>
+  UnsetAllocator(const UnsetAllocator<U>&) {}
+  template <class U>
+  void construct(U* p) {
+    ::new (static_cast<void*>(p)) U;
+  }
+  template <class U>
+  bool operator==(const UnsetAllocator<U>&) const {
+    return true;
+  }
+};
+
+/// A long vector that is filled by all threads.
+template <class T>
+using UnsetVector = std::vector<T, UnsetAllocator<T>>;
+
 /// Resizes a vector, quickly where that much is reserved.
 template <class T>
-void grow(AlignedVector<T>& v, std::size_t size) {
+void grow(UnsetVector<T>& v, std::size_t size) {
   if (size > v.size() && size <= v.capacity())
     take_pages(v.data() + v.size(), (size - v.size()) * sizeof(T));
   v.resize(size);
