@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "flush_order.hpp"
 #include "hdf5_file.hpp"
+#include "hdf5_flush_order.hpp"
 
 namespace meniscus::hdf5 {
 namespace {

@@ -7,7 +7,7 @@
 // killed process has written whole or not at all. It sends everything that lies where nothing was
 // at the last flush straight to the disk, since nothing refers to it there, and keeps all other
 // changes in memory. A flush makes them in an order in which each one is harmless without the next
-// (flush_order.hpp).
+// (hdf5_flush_order.hpp).
 //
 // HDF5 does not stand a write that fails (it crashes when the file is closed). The driver therefore
 // never reports one: it notes the reason, leaves the file as it was at the last flush, and keeps in
