@@ -73,7 +73,7 @@ struct Heap {
 
 Heap heap_at(haddr_t address, const auto& read) {
   Heap heap{read(address, Heap::prefix_size), {}};
-  heap.data = read(heap.data_address(), number(heap.prefix, 8));
+  if (Heap::begins(heap.prefix)) heap.data = read(heap.data_address(), number(heap.prefix, 8));
   return heap;
 }
 
