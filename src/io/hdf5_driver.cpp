@@ -149,13 +149,7 @@ struct OrderedFile : H5FD_t {
 
   herr_t read(haddr_t address, std::size_t size, char* buffer) const {
     if (get(address, size, buffer) != 0) return push_error("read");
-    for (const Change& change : changes) {
-      const haddr_t begin = std::max(address, change.address);
-      const haddr_t end = std::min(address + size, change.end());
-      if (begin < end)
-        std::memcpy(buffer + (begin - address), change.bytes.data() + (begin - change.address),
-                    end - begin);
-    }
+    overlay(changes, address, {buffer, size});
     return done;
   }
 

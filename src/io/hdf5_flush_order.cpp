@@ -29,20 +29,6 @@ bool overlap(Changes changes) {
          }) != changes.end();
 }
 
-/// What is on the disk, with the changes over it.
-std::string changed(const FileOnDisk& file, const Changes& changes, haddr_t address,
-                    std::size_t size) {
-  std::string bytes = file.read(address, size);
-  for (const Change* change : changes) {
-    const haddr_t begin = std::max(address, change->address);
-    const haddr_t end = std::min(address + size, change->end());
-    if (begin < end)
-      std::memcpy(bytes.data() + (begin - address),
-                  change->bytes.data() + (begin - change->address), end - begin);
-  }
-  return bytes;
-}
-
 /// The names of a group: a prefix with the place of the first free block, and data, in which a free
 /// block begins with the place of the next one and its own size.
 struct Heap {
@@ -79,15 +65,19 @@ Heap heap_at(haddr_t address, const auto& read) {
 
 /// Heaps that have got names; those that have lost some go to `after`, to be written when nothing
 /// refers to the names any more.
-void order_heaps(const Changes& changes, const FileOnDisk& file, Order& order, Order& after) {
-  const auto now = [&](haddr_t at, std::size_t size) { return file.read(at, size); };
-  const auto then = [&](haddr_t at, std::size_t size) { return changed(file, changes, at, size); };
-  for (const Change* change : changes) {
+void order_heaps(const Changes& heaps, const Order& changes, const FileOnDisk& file, Order& order,
+                 Order& after) {
+  const auto then = [&](haddr_t at, std::size_t size) {
+    std::string bytes = file.read(at, size);
+    overlay(changes, at, bytes);
+    return bytes;
+  };
+  for (const Change* change : heaps) {
     if (!Heap::begins(change->bytes)) {
       after.push_back(*change);  // data, which most often the heap has brought before
       continue;
     }
-    const Heap heap = heap_at(change->address, then), before = heap_at(change->address, now);
+    const Heap heap = heap_at(change->address, then), before = heap_at(change->address, file.read);
     const haddr_t data = heap.data_address();
     Order& to = heap.bytes_of_names() < before.bytes_of_names() ? after : order;
     // Names and free blocks take each other's places; meanwhile the heap has no free blocks.
@@ -176,6 +166,16 @@ bool is_chunk_node(std::string_view bytes) {
 
 }  // namespace
 
+void overlay(const Order& changes, haddr_t address, std::span<char> bytes) {
+  for (const Change& change : changes) {
+    const haddr_t begin = std::max(address, change.address);
+    const haddr_t end = std::min(address + bytes.size(), change.end());
+    if (begin < end)
+      std::memcpy(bytes.data() + (begin - address), change.bytes.data() + (begin - change.address),
+                  end - begin);
+  }
+}
+
 Order flush_order(const Order& changes, const FileOnDisk& file) {
   Changes all, raw, super, heaps, chunks, groups, others;
   for (const Change& change : changes) {
@@ -196,7 +196,7 @@ Order flush_order(const Order& changes, const FileOnDisk& file) {
   };
   append(raw);
   append(super);
-  order_heaps(heaps, file, order, after);
+  order_heaps(heaps, changes, file, order, after);
   // A split node of a tree of chunks gives half of its chunks to a new one: the parent refers to
   // that before the node loses them, and who reads finds chunks from above.
   const auto level = [](const Change* node) { return static_cast<unsigned char>(node->bytes[5]); };

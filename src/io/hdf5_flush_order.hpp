@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Change {
     return address <= other.address && other.end() <= end();
   }
 };
+
+/// Puts into the bytes from `address` on what changes have of them, the later over the earlier.
+void overlay(const std::vector<Change>& changes, haddr_t address, std::span<char> bytes);
 
 /// What the order has to know of the file.
 struct FileOnDisk {

@@ -291,8 +291,8 @@ class ResultFile::Writer {
       sidecars_.add_frame(path_.filename().string(), frames_++, time, *layout_);
     }
     dropped_frames_ = stored - frames_;
-    while (stored >
-           frames_) {  // the last first, each for itself: frames are 0, 1, ... at any moment
+    // The last first, each for itself: at any moment there are frames 0, 1, ... without a gap.
+    while (stored > frames_) {
       steps.remove(fmt::format("{}", --stored));
       file_.flush();
     }

@@ -36,9 +36,9 @@ def events(record):
 class Image:
     """run.h5 as it is on the disk, from when it has its name."""
 
-    def __init__(self, content=b""):
-        self.content = bytearray(content)
-        self.named = bool(content)
+    def __init__(self):
+        self.content = bytearray()
+        self.named = False
         self.kept = self.frames = self.states = 0
 
     def apply(self, verb, number, data):

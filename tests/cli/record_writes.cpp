@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records every change of a file: linked into result_writer, it takes the place of the C library's
 // pwrite, ftruncate and rename and writes what they did to the file that RECORD_WRITES names.
-// Each record is a line: "write INODE OFFSET SIZE" and SIZE bytes, "truncate INODE SIZE", "rename
-// INODE NAME".
+// Each record is a line: "write INODE OFFSET SIZE", followed by SIZE bytes and the end of a line,
+// "truncate INODE SIZE" or "rename INODE NAME".
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -30,21 +30,13 @@ extern "C" {
 ssize_t pwrite(int file, const void* bytes, size_t size, off_t offset) {
   std::fprintf(record(), "write %lu %ld %zu\n", inode(file), offset, size);
   std::fwrite(bytes, 1, size, record());
-  std::fputc(10, record());
+  std::fputc('\n', record());
   return syscall(SYS_pwrite64, file, bytes, size, offset);
-}
-
-ssize_t pwrite64(int file, const void* bytes, size_t size, off64_t offset) {
-  return pwrite(file, bytes, size, offset);
 }
 
 int ftruncate(int file, off_t size) noexcept {
   std::fprintf(record(), "truncate %lu %ld\n", inode(file), size);
   return static_cast<int>(syscall(SYS_ftruncate, file, size));
-}
-
-int ftruncate64(int file, off64_t size) noexcept {
-  return ftruncate(file, size);
 }
 
 int rename(const char* from, const char* to) noexcept {
