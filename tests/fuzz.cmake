@@ -7,9 +7,8 @@ endif()
 set(MENISCUS_FUZZ_SECONDS 25 CACHE STRING "Seconds of each fuzz test")
 
 set(src ${PROJECT_SOURCE_DIR}/src)
-file(GLOB fuzzed CONFIGURE_DEPENDS ${src}/core/*.cpp)
-foreach(name checkpoint files hdf5_array hdf5_attribute hdf5_driver hdf5_file info meta provenance
-    run_directory)
+file(GLOB fuzzed CONFIGURE_DEPENDS ${src}/core/*.cpp ${src}/io/hdf5*.cpp)
+foreach(name checkpoint files info meta provenance run_directory)
   list(APPEND fuzzed ${src}/io/${name}.cpp)
 endforeach()
 add_library(meniscus_fuzzed OBJECT ${fuzzed})
