@@ -81,9 +81,8 @@ void StepController<D>::reconsider(State& state) {
 template <int D>
 Real StepController<D>::allowed_step(const State& state) const {
   const Real come = std::max(0.0, state.demand.stiffness - known_stiffness_);
-  const Real k = stable_.stiffness * stable_.stiffness + come, c = stable_.viscosity;
-  const Real stable =
-      come > 0 ? std::min(4 / (c + std::sqrt(c * c + 4 * k)), stable_.of_fields) : stable_.dt;
+  const ModeRates now{stable_.stiffness * stable_.stiffness + come, stable_.viscosity};
+  const Real stable = come > 0 ? std::min(now.longest_step(), stable_.of_fields) : stable_.dt;
   return std::min(choice_.safety * stable, state.demand.longest);
 }
 

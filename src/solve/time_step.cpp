@@ -5,6 +5,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meniscus {
@@ -14,6 +15,9 @@ constexpr int most_iterations = 300;
 /// A response that differs by more of M p anywhere is another one: about three times this share of
 /// the largest rates.
 constexpr Real same_response = 5e-3;
+/// Trial displacements / the spacing: so small that differences are derivatives; where forces jump,
+/// wider and wider.
+constexpr Real smallest_trial = 1e-6, widest_trial = 1e-2, wider = 100;
 
 /// The limit falls from iteration to iteration, in the end as a geometric series: what is left of
 /// it is subtracted.
@@ -63,7 +67,7 @@ void StableStep::archive(const Archive& a) {
   a("stiffness", stiffness, dimension::rate);
   a("viscosity", viscosity, dimension::rate);
   a("of_fields", of_fields, dimension::time);
-  const Real limit = 4 / (viscosity + std::sqrt(viscosity * viscosity + 4 * stiffness * stiffness));
+  const Real limit = ModeRates{stiffness * stiffness, viscosity}.longest_step();
   require_saved(stiffness >= 0 && viscosity >= 0 && of_fields > 0 && dt > 0 &&
                     dt <= std::min(limit * (1 + 1e-9), of_fields),
                 a, "stable/dt");
@@ -73,7 +77,11 @@ template <int D>
 StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
     : system_(system),
       viscous_counts_(viscous),
+      may_jump_(std::any_of(
+          system.terms.begin(), system.terms.end(),
+          [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
       spacing_(unbounded),
+      trial_size_(smallest_trial),
       critical_(system.mass),
       mode_(rough_mode(system.size(), D)),
       trial_force_(mode_.size()),
@@ -99,18 +107,17 @@ void StableStepEstimator<D>::archive(const Archive& a) {
                         system_.fields[k].spec.components);
 }
 
-/// K w by a change of the places, small against the spacing, so that the difference is a
-/// derivative.
+/// K w by a change of the places of at most `size` spacings.
 template <int D>
-void StableStepEstimator<D>::find_stiff_forces(const State& state, TrialMode& trial) {
-  const Real du = 1e-6 * spacing_ / largest(trial.w);
+void StableStepEstimator<D>::find_stiff_forces(const State& state, Real size, TrialMode& trial) {
+  const Real du = size * spacing_ / largest(trial.w);
   force_change(state, trial.w, du, 0, du, trial.Kw);
 }
 
 /// C w by a velocity that displaces as much in the time 1 / `rate` of the mode (any, if that is 0).
 template <int D>
 void StableStepEstimator<D>::find_viscous_forces(const State& state, Real rate, TrialMode& trial) {
-  const Real dv = 1e-6 * spacing_ / largest(trial.w) * (rate > 0 ? rate : 1);
+  const Real dv = smallest_trial * spacing_ / largest(trial.w) * (rate > 0 ? rate : 1);
   force_change(state, trial.w, 0, dv, dv, trial.Cw);
 }
 
@@ -163,7 +170,7 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
     TrialMode& trial = critical_.trial;
     const Real size = largest(trial.w);
     if (!(size > 0) || !std::isfinite(size)) break;
-    find_stiff_forces(state, trial);
+    find_stiff_forces(state, trial_size_, trial);
     if (viscous)
       find_viscous_forces(state, std::sqrt(std::abs(critical_.rates(trial).stiffness)), trial);
     best.evaluations += viscous ? 2 : 1;
@@ -171,7 +178,7 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
 
     const ModeRates found = critical_.rates(critical_.mode);
     const Real k = std::abs(found.stiffness), c = std::max(0.0, found.viscosity);
-    const Real limit = 4 / (c + std::sqrt(c * c + 4 * k));
+    const Real limit = ModeRates{k, c}.longest_step();
     if (!std::isfinite(limit)) break;
     if (iteration == 0 && std::abs(limit - mode_limit_) < FallingLimit::tolerance * limit) {
       // The responses differ elsewhere.
@@ -188,6 +195,37 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
   }
   if (!critical_.mode.w.empty()) mode_ = critical_.mode.w;
   return best;
+}
+
+/// A limit that is shorter than `doubtful` is looked for again if it is that of a jump.
+template <int D>
+StableStep StableStepEstimator<D>::limit_without_jumps(const State& state, Real doubtful) {
+  if (!may_jump_) return limit_of_motion(state);
+  const NodalVectors start = mode_;
+  StableStep best = limit_of_motion(state);
+  while (best.dt < doubtful && trial_size_ < widest_trial && !is_smooth(state, best)) {
+    trial_size_ *= wider;
+    mode_ = start;
+    mode_limit_ = 0;
+    const int spent = best.evaluations;
+    best = limit_of_motion(state);
+    best.evaluations += spent;
+  }
+  trial_size_ = smallest_trial;
+  return best;
+}
+
+/// Whether the mode found last is about as stiff over a wider change of the places.
+template <int D>
+bool StableStepEstimator<D>::is_smooth(const State& state, StableStep& found) {
+  constexpr Real about = 1.5;
+  TrialMode& trial = critical_.trial;
+  trial.w = mode_;
+  if (!(largest(trial.w) > 0)) return true;
+  find_stiff_forces(state, wider * trial_size_, trial);
+  ++found.evaluations;
+  const Real k = std::abs(critical_.rates(trial).stiffness);
+  return !(ModeRates{k, found.viscosity}.longest_step() > about * found.dt);
 }
 
 /// With the mode found last and, as long, the change of the responses.
@@ -211,7 +249,7 @@ void StableStepEstimator<D>::find_response(const State& state, NodalVectors& res
   NodalVectors& rough = trial_force_;
   make_rough(rough, D);
   if (system_.constraints) system_.constraints->project(rough);
-  const Real dt = response_step_, size = 1e-6 * spacing_ / largest(rough) / (dt * dt / 4);
+  const Real dt = response_step_, size = smallest_trial * spacing_ / largest(rough) / (dt * dt / 4);
   const bool viscous = viscous_counts_ && system_.viscous();
   force_change(state, rough, size * dt * dt / 4, viscous ? size * dt / 2 : 0, size, response);
 }
@@ -247,7 +285,7 @@ template <int D>
 StableStep StableStepEstimator<D>::estimate(const State& state) {
   find_base_forces(state);
   mode_limit_ = 0;
-  const StableStep found = limit_from_base(state);
+  const StableStep found = limit_from_base(state, unbounded);
   if (state.fields.empty()) know_response(state, found.dt);
   return found;
 }
@@ -269,18 +307,19 @@ StableStep StableStepEstimator<D>::estimate_again(const State& state, const Stab
     return same;
   }
   std::swap(known_response_, response_);
-  const StableStep found = limit_from_base(state);
+  constexpr Real collapsed = 0.5;  // in the time from one estimate to the next
+  const StableStep found = limit_from_base(state, collapsed * before.dt);
   if (std::abs(found.dt - response_step_) > 0.1 * response_step_) know_response(state, found.dt);
   return found;
 }
 
 template <int D>
-StableStep StableStepEstimator<D>::limit_from_base(const State& state) {
+StableStep StableStepEstimator<D>::limit_from_base(const State& state, Real doubtful) {
   // Every iteration lengthens the mode a little: in a long run it would overflow.
   const Real length = std::sqrt(dot(mode_, mode_));
   for (NodalVector& w : mode_) w /= length;
   if (system_.constraints) system_.constraints->project(mode_);
-  StableStep best = limit_of_motion(state);
+  StableStep best = limit_without_jumps(state, doubtful);
   if (!system_.carried.empty())
     for (std::size_t k = 0; k < trial_.size(); ++k) trial_[k].x = state.fields[k].x;
   for (std::size_t k = 0; k < field_modes_.size(); ++k)

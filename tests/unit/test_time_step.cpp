@@ -188,6 +188,45 @@ TEST(StableStep, IsNotThatOfBeforeWhereAResponseIsNoNumber) {
   EXPECT_THROW(estimator.estimate_again(one.state, found), SolveError);
 }
 
+/// A wedge of two slopes under each of two particles.
+class Ridge final : public ForceTerm {
+ public:
+  std::string name() const override { return "ridge"; }
+  Report add_force(const Motion& motion, Forces force) override {
+    for (const std::size_t A : {3U, 7U}) force[A] += Lanes(motion.u[A][0] > 0 ? -slope : slope);
+    return {};
+  }
+  bool may_reject_steps() const override { return may_jump; }
+  std::size_t bytes() const override { return 0; }
+  Offset pairs() const override { return 0; }
+
+  Real slope = 0;
+  bool may_jump = true;
+};
+
+TEST(StableStep, IsNotThatOfAJumpOfTheForce) {
+  OneBody<3> one(test::ball(2, 1), "neo_hookean");
+  const Real exact = exact_limit(one);
+  auto added = std::make_unique<Ridge>();
+  Ridge& ridge = *added;
+  one.system.terms.push_back(std::move(added));
+  StableStepEstimator<3> estimator(one.system);
+  start(one.system, one.state);
+  const StableStep smooth = estimator.estimate(one.state);
+  EXPECT_NEAR(smooth.dt, exact, 0.01 * exact);
+  ridge.slope = 1e-3;
+  start(one.system, one.state);
+  const Real again = estimator.estimate_again(one.state, smooth).dt,
+             anew = StableStepEstimator<3>(one.system).estimate(one.state).dt;
+  for (const Real found : {again, anew}) {  // what is left of the jump shortens it a little
+    EXPECT_LT(found, 1.01 * exact);
+    EXPECT_GT(found, 0.95 * exact);
+  }
+  // Of a term that does not say so all that is seen is its stiffness.
+  ridge.may_jump = false;
+  EXPECT_LT(StableStepEstimator<3>(one.system).estimate(one.state).dt, 0.1 * exact);
+}
+
 TEST(StableStep, FindsAModeFarFromTheOneItHad) {
   // A bar that is thinned at its left end, where its critical mode is, and then more and more at
   // its right end. Far from the critical mode nothing of it is seen.

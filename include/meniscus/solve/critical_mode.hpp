@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/core/aligned.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace meniscus {
@@ -16,6 +17,12 @@ struct TrialMode {
 /// k = w.Kw / w.Mw and c = w.Cw / w.Mw of a mode.
 struct ModeRates {
   Real stiffness = 0, viscosity = 0;
+
+  /// Of central differences with a lagged viscous force: 2/omega without viscosity, 2/c without
+  /// stiffness.
+  Real longest_step() const {
+    return 4 / (viscosity + std::sqrt(viscosity * viscosity + 4 * stiffness));
+  }
 };
 
 /// Conjugate gradients for the greatest eigenvalue of A = dt^2/4 K + dt/2 C against the masses

@@ -9,8 +9,7 @@ namespace meniscus {
 
 /// With K the stiffness, C the viscous matrix and M the lumped masses, central differences with a
 /// lagged viscous force are stable if dt^2/4 K + dt/2 C < M. For the mode w that is the first to
-/// break this, k = w.Kw / w.Mw and c = w.Cw / w.Mw give dt = 4 / (c + sqrt(c^2 + 4 k)): 2/omega
-/// without viscosity, 2/c without stiffness.
+/// break this, k = w.Kw / w.Mw and c = w.Cw / w.Mw give dt = 4 / (c + sqrt(c^2 + 4 k)).
 struct StableStep {
   Real dt = 0;          ///< the limit
   Real stiffness = 0;   ///< omega = sqrt(k) of the critical mode, 1/time
@@ -24,7 +23,10 @@ struct StableStep {
 /// Finds the critical mode of the motion by conjugate gradients, and those of other unknowns by
 /// power iteration, on differences of the force, starting with the mode found before: a new
 /// estimate of a slowly changing body takes a few evaluations. Whether it changes is seen from the
-/// response to a rough displacement and velocity, which takes one.
+/// response to a rough displacement and velocity, which takes one. Forces that jump, as that of a
+/// contact point above the edge of two facets, are as stiff as the change of places is small, but
+/// do not make steps unstable: where a term may do so, a step that comes out short is looked for
+/// with changes so large that the jump does not count.
 template <int D>
 class StableStepEstimator {
  public:
@@ -45,13 +47,15 @@ class StableStepEstimator {
 
  private:
   void find_base_forces(const State& state);
-  StableStep limit_from_base(const State& state);
+  StableStep limit_from_base(const State& state, Real doubtful);
+  StableStep limit_without_jumps(const State& state, Real doubtful);
   StableStep limit_of_motion(const State& state);
+  bool is_smooth(const State& state, StableStep& found);
   void find_response(const State& state, NodalVectors& response);
   void know_response(const State& state, Real dt);
   bool responds_as_before() const;
   void start_where_it_changed();
-  void find_stiff_forces(const State& state, TrialMode& trial);
+  void find_stiff_forces(const State& state, Real share, TrialMode& trial);
   void find_viscous_forces(const State& state, Real rate, TrialMode& trial);
   void force_change(const State& state, const NodalVectors& w, Real du, Real dv, Real size,
                     NodalVectors& result);
@@ -63,7 +67,9 @@ class StableStepEstimator {
 
   System<D>& system_;
   bool viscous_counts_;
-  Real spacing_;  ///< smallest particle distance: scale of the trial displacements
+  bool may_jump_;    ///< forces of some term
+  Real spacing_;     ///< smallest particle distance
+  Real trial_size_;  ///< of the trial displacements, part of the spacing
   CriticalMode critical_;
   NodalVectors mode_, u_, v_, base_, trial_force_;
   Real mode_limit_ = 0;  ///< by the quotient of mode_, when that was found; 0: not yet
