@@ -201,11 +201,11 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
 template <int D>
 StableStep StableStepEstimator<D>::limit_without_jumps(const State& state, Real doubtful) {
   if (!may_jump_) return limit_of_motion(state);
-  const NodalVectors start = mode_;
+  start_ = mode_;
   StableStep best = limit_of_motion(state);
   while (best.dt < doubtful && trial_size_ < widest_trial && !is_smooth(state, best)) {
     trial_size_ *= wider;
-    mode_ = start;
+    mode_ = start_;
     mode_limit_ = 0;
     const int spent = best.evaluations;
     best = limit_of_motion(state);

@@ -73,6 +73,14 @@ hid_t space_of(Recipe& recipe) {
   return H5Screate_simple(static_cast<int>(rank), size, nullptr);
 }
 
+/// Of which HDF5 would hold all bytes to write it.
+bool is_bulky(hid_t type, hid_t space) {
+  constexpr double most = 1 << 20;
+  return static_cast<double>(H5Sget_simple_extent_npoints(space)) *
+             static_cast<double>(H5Tget_size(type)) >
+         most;
+}
+
 void put(hid_t group, Recipe& recipe) {
   const char* name = recipe.one_of(names);
   const unsigned what = recipe.next() % 8;
@@ -85,7 +93,8 @@ void put(hid_t group, Recipe& recipe) {
   const hid_t type = type_of(recipe), space = space_of(recipe);
   if (what < 6) {
     H5Adelete(group, name);
-    H5Aclose(H5Acreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
+    if (!is_bulky(type, space))
+      H5Aclose(H5Acreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
   } else {
     const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     const hsize_t chunk[] = {1000, 1, 1};

@@ -71,7 +71,7 @@ class StableStepEstimator {
   Real spacing_;     ///< smallest particle distance
   Real trial_size_;  ///< of the trial displacements, part of the spacing
   CriticalMode critical_;
-  NodalVectors mode_, u_, v_, base_, trial_force_;
+  NodalVectors mode_, start_, u_, v_, base_, trial_force_;
   Real mode_limit_ = 0;  ///< by the quotient of mode_, when that was found; 0: not yet
   // (dt^2/4 K + dt/2 C) p of a rough p, to be compared with M p: when the mode was looked for last,
   // and after estimate_again() now or, where the mode was looked for, before.
