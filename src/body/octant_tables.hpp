@@ -169,21 +169,22 @@ class SimplexTable {
   std::vector<Side> begin_, end_;
 };
 
-/// Few points of the parts: three Gauss points per direction of the nodal cell. Where a cell beyond
-/// the particle continues it, one of them is at the particle, shared, and one further out; at the
-/// boundary of the body the part has all three. Or two Gauss points of the part's own in each
-/// direction.
+/// Few points of the parts. Facets between nodal cells: two Gauss points per direction, of which
+/// the part has one where a cell beyond the particle continues it. Volumes: three per direction, of
+/// which one is at the particle, shared, and one further out; at the boundary of the body the part
+/// has all three; hexahedra that are continued in all directions: the 14 points of Irons (1971),
+/// exact up to the fifth degree as well. Or two Gauss points of the part's own in each direction.
 template <int D>
 class SampleTable {
  public:
   /// Where in direction k: 0 at the particle, otherwise a number per distance from it.
   using Places = std::array<int, D>;
-  static constexpr int distances = 5;
+  static constexpr int distances = 4;
   /// The kind of parts with points of their own.
   static constexpr unsigned apart = 1 << D;
   struct Point {
     TabulatedPoint<D> at;
-    Places places;  ///< `distances` - 1 in the direction that is at its end
+    Places places;
   };
   using Points = std::vector<Point>;
   struct Facet {
@@ -221,26 +222,28 @@ class SampleTable {
     return corner * static_cast<int>(apart + 1) + static_cast<int>(kind);
   }
 
-  /// With direction `between` at its end.
-  static Points points(bool simplex, int corner, unsigned kind, int between) {
-    struct Abscissa {
-      int place;
-      Real t;  ///< -1 at the particle, 1 at the end
-      Real w;
-    };
-    const Real g = std::sqrt(0.6), two = std::sqrt(1. / 3);
-    const std::vector<Abscissa> continued{{0, -1, 8. / 9}, {1, 2 * g - 1, 10. / 9}},
-        alone{{1, -g, 5. / 9}, {2, 0, 8. / 9}, {3, g, 5. / 9}}, own{{1, -two, 1}, {2, two, 1}},
-        end{{distances - 1, 1, 1}};
+  struct Abscissa {
+    int place;
+    Real t;  ///< -1 at the particle, 1 at the end
+    Real w;
+  };
+  struct Product {
+    Vec<D> t;
+    Real w;
+    Places places;
+  };
+
+  static std::vector<Product> tensor_points(unsigned kind, int between) {
+    const Real three = std::sqrt(0.6), two = std::sqrt(1. / 3);
+    const std::vector<Abscissa> all_of_three{
+        {1, -three, 5. / 9}, {2, 0, 8. / 9}, {3, three, 5. / 9}},
+        half_of_three{{0, -1, 8. / 9}, {1, 2 * three - 1, 10. / 9}},
+        own_two{{1, -two, 1}, {2, two, 1}}, half_of_two{{1, 2 * two - 1, 2}}, end{{1, 1, 1}};
     const auto along = [&](int k) -> const std::vector<Abscissa>& {
       if (k == between) return end;
-      if (kind == apart) return own;
-      return (kind >> k) & 1 ? alone : continued;
-    };
-    struct Product {
-      Vec<D> t;
-      Real w;
-      Places places;
+      if (kind == apart) return own_two;
+      if ((kind >> k) & 1) return all_of_three;
+      return D == 3 && between >= 0 ? half_of_two : half_of_three;
     };
     std::vector<Product> products{{Vec<D>::Zero(), 1, {}}};
     for (int k = 0; k < D; ++k) {
@@ -254,6 +257,28 @@ class SampleTable {
         }
       products = longer;
     }
+    return products;
+  }
+
+  /// In one octant: the point towards the corner, and those on the axes, which four octants share.
+  static std::vector<Product> irons_points() {
+    const Real corner = std::sqrt(19. / 33), axis = std::sqrt(19. / 30);
+    Product towards_corner{Vec<D>::Constant(2 * corner - 1), 8 * 121. / 361, {}};
+    towards_corner.places.fill(1);
+    std::vector<Product> products{towards_corner};
+    for (int k = 0; k < D; ++k) {
+      Product p{Vec<D>::Constant(-1), 8 * 80. / 361, {}};
+      p.t[k] = 2 * axis - 1;
+      meniscus::at(p.places, k) = 2;
+      products.push_back(p);
+    }
+    return products;
+  }
+
+  /// With direction `between` at its end; -1: of the volume.
+  static Points points(bool simplex, int corner, unsigned kind, int between) {
+    const bool irons = D == 3 && !simplex && kind == 0 && between < 0;
+    const std::vector<Product> products = irons ? irons_points() : tensor_points(kind, between);
     Points points;
     for (const Product& p : products) {
       if (simplex) {

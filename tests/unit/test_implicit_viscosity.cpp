@@ -197,7 +197,7 @@ TEST(ImplicitViscosity, FindsTheVelocityOfCellsThatNearlyFold) {
   Scene<2> scene = test::scene_of<2>(
       "dimension = 2\n[time]\nend = 1\nviscosity = \"implicit\"\n[[body]]\nname = \"drop\"\nshape "
       "= \"rectangle\"\nsize = [1, 1]\ncells = [24, 24]\ninitial_displacement = "
-      "[\"0.2895/24*cos(24*pi*x)\", \"0\"]\nmaterial = { type = \"newtonian\", density = 1, "
+      "[\"0.288/24*cos(24*pi*x)\", \"0\"]\nmaterial = { type = \"newtonian\", density = 1, "
       "bulk_modulus = 20, viscosity = 1e6 }\n");
   State state = scene.initial;
   start(scene.system, state);

@@ -35,10 +35,10 @@ struct CellQuadrature {
 };
 
 /// Few points for the integrals of smooth functions over one nodal cell and over the facets between
-/// it and other nodal cells: three per direction, in equal parallelepipeds Gauss points; two per
-/// direction of each octant where octants are unequal or long beside the supports. What sums over
-/// them miss of the integrals of polynomials goes with them (RKPM note 5.6). Reused from node to
-/// node.
+/// it and other nodal cells: as many as are exact up to the fifth degree in equal parallelepipeds,
+/// and to the third in their facets; two per direction of each octant where octants are unequal or
+/// long beside the supports. What sums over them miss of the integrals of polynomials goes with
+/// them (RKPM note 5.6). Reused from node to node.
 template <int D>
 struct CellSamples {
   /// Integral minus sum, for the monomials of X - centre up to `degree`.
