@@ -132,15 +132,44 @@ void find_rows(const Ordered& A, std::vector<Front>& fronts) {
       front.below.push_back(i);
     };
     for (Index j = front.first; j < front.last; ++j) A.for_column(j, include);
-    for (const Index child : front.children) {
-      front.height = std::max(front.height, at(fronts, child).height + 1);
+    for (const Index child : front.children)
       for (const Index i : at(fronts, child).below) include(i);
-    }
     std::sort(front.below.begin(), front.below.end());
     if (front.below.empty()) continue;
     front.parent = at(front_of, front.below.front());
     at(fronts, front.parent).children.push_back(f);
   }
+}
+
+std::vector<std::vector<FrontRange>> stages_of(std::span<const Front> fronts) {
+  constexpr Offset worth_threads = 100'000;  // entries
+  constexpr Offset subtrees = 64;
+  const auto n = static_cast<Index>(fronts.size());
+  std::vector<Offset> work(fronts.size());  // of the subtree
+  std::vector<Index> first(fronts.size());  // likewise
+  Offset all = 0;
+  for (Index f = 0; f < n; ++f) {
+    const Front& front = at(fronts, f);
+    const Offset own = Offset{front.width()} * front.size();
+    all += own;
+    at(work, f) = own;
+    at(first, f) = front.children.empty() ? f : at(first, front.children.front());
+    for (const Index child : front.children) at(work, f) += at(work, child);
+  }
+  if (all < worth_threads) return {{{0, n}}};
+  std::vector<std::vector<FrontRange>> stages(1);
+  std::vector<std::size_t> stage(fronts.size(), 0);
+  for (Index f = 0; f < n; ++f) {
+    const Front& front = at(fronts, f);
+    const bool whole = at(work, f) * subtrees <= all;
+    if (whole && front.parent >= 0 && at(work, front.parent) * subtrees <= all) continue;
+    if (!whole)
+      for (const Index child : front.children)
+        at(stage, f) = std::max(at(stage, f), at(stage, child) + 1);
+    stages.resize(std::max(stages.size(), at(stage, f) + 1));
+    stages[at(stage, f)].push_back({whole ? at(first, f) : f, f + 1});
+  }
+  return stages;
 }
 
 }  // namespace
@@ -154,6 +183,7 @@ Elimination plan_elimination(std::span<const Index> start, std::span<const Index
   const std::vector<Index> parent = parents(A);
   result.fronts = fronts_of(parent, counts(A, parent));
   find_rows(A, result.fronts);
+  result.stages = stages_of(result.fronts);
   return result;
 }
 

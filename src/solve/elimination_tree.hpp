@@ -15,15 +15,23 @@ struct Front {
   std::vector<Index> below;  ///< rows from `last` on, ascending
   Index parent = -1;         ///< front of the first of them; -1: there are none
   std::vector<Index> children;
-  int height = 0;  ///< above the farthest front without children
 
   Index width() const { return last - first; }
   Index size() const { return width() + static_cast<Index>(below.size()); }
 };
 
+/// Fronts [first, last): a subtree, or one front.
+struct FrontRange {
+  Index first, last;
+};
+
 struct Elimination {
   std::vector<Index> order;   ///< [place] row of the matrix; each after what its rows depend on
-  std::vector<Front> fronts;  ///< children before parents
+  std::vector<Front> fronts;  ///< children before parents, subtree by subtree
+  /// Ranges of a stage do not depend on each other, but on those of the stages before: many
+  /// subtrees of about the same work, then the fronts above them from height to height. One range
+  /// if there is little work.
+  std::vector<std::vector<FrontRange>> stages;
 };
 
 /// Of the symmetric matrix with these columns of rows, both triangles given. `order` [place] is

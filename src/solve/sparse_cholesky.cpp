@@ -74,16 +74,32 @@ struct SparseCholesky::Factors {
     Eigen::VectorXd pivots;
   };
 
+  /// What fronts take from the rows below them, one after the other.
+  template <class Vector>
+  struct Solution {
+    AlignedVector<Vector> x;  // in the order of the factors
+    AlignedVector<Vector> taken;
+  };
+
   Elimination plan;
   std::vector<OfFront> of;  // [front]
   Eigen::VectorXd scale;
-  NodalVectors vectors;         // of a solution, in the order of the factors
-  AlignedVector<Real> numbers;  // likewise
+  std::vector<Offset> taken_by;            // [front] its first place in `taken`
+  std::vector<Offset> sources_of, source;  // [row] places in `taken`, those of later fronts last
+  Solution<Lanes> vectors;
+  Solution<Real> numbers;
 
   void compute(const Sparse& A);
   void compute_front(const Sparse& A, Index f, std::vector<Dense>& left);
+  void find_sources();
+  template <class Work>
+  void for_stage(const std::vector<FrontRange>& stage, Work&& work) const;
   template <class Vector>
-  void solve(AlignedVector<Vector>& x) const;
+  void solve(std::span<Vector> b, Solution<Vector>& solution) const;
+  template <class Vector>
+  void eliminate_from(Index f, Solution<Vector>& solution) const;
+  template <class Vector>
+  void substitute(Index f, AlignedVector<Vector>& x) const;
 };
 
 /// Eliminates a front; what is left of its rows below goes to left[f].
@@ -121,19 +137,36 @@ void SparseCholesky::Factors::compute_front(const Sparse& A, Index f, std::vecto
   rest.triangularView<Eigen::Lower>() -= below * scaled.transpose();
 }
 
+/// On all threads work(range); what depends on nothing else in the stage.
+template <class Work>
+void SparseCholesky::Factors::for_stage(const std::vector<FrontRange>& stage, Work&& work) const {
+  if (stage.size() == 1) return work(stage.front());
+  parallel_for(
+      static_cast<Index>(stage.size()), [&](Index k) { work(at(stage, k)); }, 1);
+}
+
 void SparseCholesky::Factors::compute(const Sparse& A) {
   of.assign(plan.fronts.size(), {});
   std::vector<Dense> left(plan.fronts.size());
-  std::vector<std::vector<Index>> by_height;
-  for (Index f = 0; f < static_cast<Index>(plan.fronts.size()); ++f) {
-    const auto height = static_cast<std::size_t>(at(plan.fronts, f).height);
-    by_height.resize(std::max(by_height.size(), height + 1));
-    by_height[height].push_back(f);
+  for (const std::vector<FrontRange>& stage : plan.stages)
+    for_stage(stage, [&](FrontRange range) {
+      for (Index f = range.first; f < range.last; ++f) compute_front(A, f, left);
+    });
+}
+
+void SparseCholesky::Factors::find_sources() {
+  taken_by.assign(1, 0);
+  sources_of.assign(plan.order.size() + 1, 0);
+  for (const Front& front : plan.fronts) {
+    taken_by.push_back(taken_by.back() + static_cast<Offset>(front.below.size()));
+    for (const Index row : front.below) ++at(sources_of, row + 1);
   }
-  for (const std::vector<Index>& fronts : by_height)
-    parallel_for(
-        static_cast<Index>(fronts.size()), [&](Index k) { compute_front(A, at(fronts, k), left); },
-        1);
+  for (std::size_t row = 1; row < sources_of.size(); ++row) sources_of[row] += sources_of[row - 1];
+  std::vector<Offset> next(sources_of.begin(), sources_of.end() - 1);
+  source.resize(static_cast<std::size_t>(taken_by.back()));
+  Offset place = 0;
+  for (const Front& front : plan.fronts)
+    for (const Index row : front.below) at(source, at(next, row)++) = place++;
 }
 
 SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries,
@@ -149,6 +182,7 @@ SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries,
   Sparse permuted(n, n);
   permuted = A.twistedBy(to_place);
   factors_->compute(permuted);
+  factors_->find_sources();
 }
 
 SparseCholesky::~SparseCholesky() = default;
@@ -162,58 +196,70 @@ SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
   return least;
 }
 
-/// x in the order of the factors.
+/// x = L^-1 x for the rows of the front, and what they take from those below.
 template <class Vector>
-void SparseCholesky::Factors::solve(AlignedVector<Vector>& x) const {
+void SparseCholesky::Factors::eliminate_from(Index f, Solution<Vector>& solution) const {
+  const Front& front = at(plan.fronts, f);
+  const Index width = front.width(), size = front.size();
+  Vector* x = solution.x.data() + front.first;
+  Vector* taken = solution.taken.data() + at(taken_by, f) - width;
+  for (Index k = 0; k < width; ++k)
+    for (Offset e = at(sources_of, front.first + k); e < at(sources_of, front.first + k + 1); ++e)
+      x[k] -= at(solution.taken, at(source, e));
+  for (Index i = width; i < size; ++i) taken[i] = Vector(0.0);
+  for (Index k = 0; k < width; ++k) {
+    const Vector known = x[k];
+    const Real* L = &at(of, f).L(0, k);
+    for (Index i = k + 1; i < width; ++i) x[i] -= L[i] * known;
+    for (Index i = width; i < size; ++i) taken[i] += L[i] * known;
+  }
+}
+
+/// x = L^-t D^-1 x for the rows of the front.
+template <class Vector>
+void SparseCholesky::Factors::substitute(Index f, AlignedVector<Vector>& x) const {
   thread_local AlignedVector<Vector> below;
-  for (std::size_t f = 0; f < of.size(); ++f) {
-    const Front& front = plan.fronts[f];
-    const Index width = front.width(), size = front.size();
-    below.assign(front.below.size(), Vector(0.0));
-    for (Index k = 0; k < width; ++k) {
-      const Vector known = at(x, front.first + k);
-      const Real* L = &of[f].L(0, k);
-      for (Index i = k + 1; i < width; ++i) at(x, front.first + i) -= L[i] * known;
-      for (Index i = width; i < size; ++i) at(below, i - width) += L[i] * known;
+  const Front& front = at(plan.fronts, f);
+  const Index width = front.width(), size = front.size();
+  below.resize(front.below.size());
+  for (std::size_t i = 0; i < below.size(); ++i) below[i] = at(x, front.below[i]);
+  for (Index k = width - 1; k >= 0; --k) {
+    const Real* L = &at(of, f).L(0, k);
+    Vector even = at(x, front.first + k) / at(of, f).pivots[k], odd(0.0);  // hide the latency
+    Index i = width;
+    for (; i + 1 < size; i += 2) {
+      even -= L[i] * at(below, i - width);
+      odd -= L[i + 1] * at(below, i + 1 - width);
     }
-    for (std::size_t i = 0; i < below.size(); ++i) at(x, front.below[i]) -= below[i];
+    if (i < size) even -= L[i] * at(below, i - width);
+    for (i = k + 1; i < width; ++i) odd -= L[i] * at(x, front.first + i);
+    at(x, front.first + k) = even + odd;
   }
-  for (std::size_t f = of.size(); f-- > 0;) {
-    const Front& front = plan.fronts[f];
-    const Index width = front.width(), size = front.size();
-    below.resize(front.below.size());
-    for (std::size_t i = 0; i < below.size(); ++i) below[i] = at(x, front.below[i]);
-    for (Index k = width - 1; k >= 0; --k) {
-      const Real* L = &of[f].L(0, k);
-      Vector even = at(x, front.first + k) / of[f].pivots[k], odd(0.0);  // hide the latency
-      Index i = width;
-      for (; i + 1 < size; i += 2) {
-        even -= L[i] * at(below, i - width);
-        odd -= L[i + 1] * at(below, i + 1 - width);
-      }
-      if (i < size) even -= L[i] * at(below, i - width);
-      for (i = k + 1; i < width; ++i) odd -= L[i] * at(x, front.first + i);
-      at(x, front.first + k) = even + odd;
-    }
-  }
+}
+
+template <class Vector>
+void SparseCholesky::Factors::solve(std::span<Vector> b, Solution<Vector>& solution) const {
+  AlignedVector<Vector>& x = solution.x;
+  x.resize(b.size());
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = scale[plan.order[k]] * at(b, plan.order[k]);
+  solution.taken.resize(source.size());
+  for (const std::vector<FrontRange>& stage : plan.stages)
+    for_stage(stage, [&](FrontRange range) {
+      for (Index f = range.first; f < range.last; ++f) eliminate_from(f, solution);
+    });
+  for (std::size_t k = plan.stages.size(); k-- > 0;)
+    for_stage(plan.stages[k], [&](FrontRange range) {
+      for (Index f = range.last; f-- > range.first;) substitute(f, x);
+    });
+  for (std::size_t k = 0; k < x.size(); ++k) at(b, plan.order[k]) = scale[plan.order[k]] * x[k];
 }
 
 void SparseCholesky::solve(std::vector<Real>& b) const {
-  AlignedVector<Real>& x = factors_->numbers;
-  const std::vector<Index>& order = factors_->plan.order;
-  x.resize(b.size());
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] = factors_->scale[order[k]] * at(b, order[k]);
-  factors_->solve(x);
-  for (std::size_t k = 0; k < x.size(); ++k) at(b, order[k]) = factors_->scale[order[k]] * x[k];
+  factors_->solve(std::span(b), factors_->numbers);
 }
 
 void SparseCholesky::solve(std::span<NodalVector> b) const {
-  NodalVectors& x = factors_->vectors;
-  const std::vector<Index>& order = factors_->plan.order;
-  x.resize(b.size());
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] = factors_->scale[order[k]] * at(b, order[k]);
-  factors_->solve(x);
-  for (std::size_t k = 0; k < x.size(); ++k) at(b, order[k]) = factors_->scale[order[k]] * x[k];
+  factors_->solve(b, factors_->vectors);
 }
 
 std::size_t SparseCholesky::bytes() const {
