@@ -2,11 +2,14 @@
 // Curved boundary cells: distances of the exact surface from the middles of edges and facets.
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/parallel.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace meniscus {
 
@@ -53,15 +56,25 @@ template <int D>
 EdgeDeviations<D> edge_deviations(const Geometry<D>& geometry) {
   EdgeDeviations<D> deviations;
   const auto edges = facet_edges<D>();
+  struct New {
+    typename EdgeDeviations<D>::value_type* of;
+    const Facet<D>* facet;
+    Vec<D - 1> middle;
+  };
+  std::vector<New> all;
   for (const auto& facet : geometry.grid.facets)
     for (const auto& edge : edges) {
       const Index a = at(facet.nodes, edge.corners[0]), b = at(facet.nodes, edge.corners[1]);
       if (a == b) continue;  // of a triangle
       const auto [place, is_new] = deviations.try_emplace(edge_nodes(a, b), Vec<D>::Zero());
-      if (!is_new) continue;
-      const Vec<D>&A = at(geometry.grid.X, a), &B = at(geometry.grid.X, b);
-      place->second = surface_point(geometry, facet, edge.middle) - 0.5 * (A + B);
+      if (is_new) all.push_back({&*place, &facet, edge.middle});
     }
+  parallel_for(static_cast<Index>(all.size()), [&](Index k) {
+    const auto& [of, facet, middle] = at(all, k);
+    auto& [nodes, deviation] = *of;
+    const Vec<D>&A = at(geometry.grid.X, nodes.first), &B = at(geometry.grid.X, nodes.second);
+    deviation = surface_point(geometry, *facet, middle) - 0.5 * (A + B);
+  });
   std::erase_if(deviations, [&](const auto& edge) {
     const auto& [nodes, deviation] = edge;
     const Vec<D> line = at(geometry.grid.X, nodes.first) - at(geometry.grid.X, nodes.second);
@@ -132,18 +145,37 @@ void curve_boundary(Geometry<D>& geometry) {
   for (const auto& [nodes, deviation] : deviations)
     at(at_curved_edge, nodes.first) = at(at_curved_edge, nodes.second) = 1;
 
-  grid.bulge_of.assign(grid.cells.size(), -1);
+  struct AtBoundary {
+    Index cell;
+    std::span<const Facet<D>> facets;
+    Bulge<D> bulge = {};
+  };
+  std::vector<AtBoundary> cells;
   auto facet = grid.facets.begin();  // facets are ordered by cell
   for (Index e = 0; e < grid.cell_count(); ++e) {
-    const bool simplex = is_simplex<D>(at(grid.cells, e));
-    Bulge<D> bulge = simplex ? bulge_of_simplex<D>(at(grid.cells, e), deviations, at_curved_edge)
-                             : bulge_of_edges<D>(at(grid.cells, e), deviations, at_curved_edge);
-    for (; facet != grid.facets.end() && facet->cell == e; ++facet)
-      if constexpr (D == 3)
-        if (!simplex) add_facet(geometry, *facet, bulge);
-    if (!bulge.curved) continue;
-    at(grid.bulge_of, e) = static_cast<Index>(grid.bulges.size());
-    grid.bulges.push_back(bulge);
+    const auto first = facet;
+    while (facet != grid.facets.end() && facet->cell == e) ++facet;
+    const auto& cell = at(grid.cells, e);
+    if (facet != first ||
+        std::any_of(cell.begin(), cell.end(), [&](Index A) { return at(at_curved_edge, A) != 0; }))
+      cells.push_back({e, {first, facet}});
+  }
+  parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
+    auto& [e, facets, bulge] = at(cells, k);
+    const auto& cell = at(grid.cells, e);
+    const bool simplex = is_simplex<D>(cell);
+    bulge = simplex ? bulge_of_simplex<D>(cell, deviations, at_curved_edge)
+                    : bulge_of_edges<D>(cell, deviations, at_curved_edge);
+    if constexpr (D == 3)
+      if (!simplex)
+        for (const Facet<3>& of_cell : facets) add_facet(geometry, of_cell, bulge);
+  });
+
+  grid.bulge_of.assign(grid.cells.size(), -1);
+  for (const AtBoundary& at_boundary : cells) {
+    if (!at_boundary.bulge.curved) continue;
+    at(grid.bulge_of, at_boundary.cell) = static_cast<Index>(grid.bulges.size());
+    grid.bulges.push_back(at_boundary.bulge);
   }
   if (grid.bulges.empty()) grid.bulge_of.clear();
 }

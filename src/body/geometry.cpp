@@ -3,6 +3,7 @@
 #include "meniscus/body/geometry.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
 
 #include <fmt/core.h>
 
@@ -58,6 +59,14 @@ void find_patches_beyond(Grid<3>& grid) {
   }
 }
 
+template <int D>
+void move_nodes(const SmoothMap<D>& map, Grid<D>& grid) {
+  parallel_for(static_cast<Index>(grid.X.size()), [&](Index A) {
+    Vec<D>& X = at(grid.X, A);
+    X = map(X).x;
+  });
+}
+
 }  // namespace
 
 template <int D>
@@ -68,7 +77,7 @@ Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bo
   if constexpr (D == 3) find_patches_beyond(unit);
   auto surface = std::make_shared<MappedPatches<D>>(unit.X, std::move(patches), smooth, map);
   Geometry<D> geometry{std::move(unit), std::move(surface)};
-  for (auto& X : geometry.grid.X) X = map(X).x;
+  move_nodes(map, geometry.grid);
   curve_boundary(geometry);
   check_jacobians(geometry.grid, "the shape");
   return geometry;
@@ -76,7 +85,7 @@ Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bo
 
 template <int D>
 Geometry<D> apply_map(const SmoothMap<D>& map, Geometry<D> geometry) {
-  for (auto& X : geometry.grid.X) X = map(X).x;
+  move_nodes(map, geometry.grid);
   geometry.surface = geometry.surface->mapped(map, geometry.grid);
   curve_boundary(geometry);
   check_jacobians(geometry.grid, "the map");

@@ -164,11 +164,12 @@ std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell) {
 
 template <int D>
 void check_jacobians(const Grid<D>& grid, const std::string& cause) {
-  for (Index e = 0; e < grid.cell_count(); ++e)
+  parallel_for(grid.cell_count(), [&](Index e) {
     if (const auto fold = find_fold(grid, e))
       throw InputError(
           fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive",
                       cause, e, place<D>(fold->X), determinant<D>(fold->J)));
+  });
 }
 
 template <int D>

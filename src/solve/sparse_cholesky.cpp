@@ -9,34 +9,87 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <numeric>
+#include <span>
+#include <utility>
 
 #include "elimination_tree.hpp"
 
 namespace meniscus {
 namespace {
 
-using Sparse = Eigen::SparseMatrix<Real>;
 using Dense = Eigen::MatrixXd;
 
+/// A symmetric matrix, rows ascending in each column.
+struct Columns {
+  std::vector<Index> start, row;
+  std::vector<Real> value;
+};
+
 /// The matrix with a diagonal of one, by `scale` from both sides.
-Sparse scaled_sum(Index n, const std::vector<MatrixEntry>& entries, Eigen::VectorXd& scale) {
+Columns scaled_sum(Index n, const std::vector<MatrixEntry>& entries, Eigen::VectorXd& scale) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
-  for (const MatrixEntry& e : entries)
+  Columns A{std::vector<Index>(static_cast<std::size_t>(n) + 1, 0), {}, {}};
+  for (const MatrixEntry& e : entries) {
     if (e.row == e.column) diagonal[e.row] += e.value;
+    ++at(A.start, e.column + 1);
+  }
   scale = diagonal.cwiseSqrt().cwiseInverse();
-  std::vector<Eigen::Triplet<Real>> scaled;
-  scaled.reserve(entries.size());
-  for (const MatrixEntry& e : entries)
-    scaled.emplace_back(e.row, e.column, e.value * scale[e.row] * scale[e.column]);
-  Sparse A(n, n);
-  A.setFromTriplets(scaled.begin(), scaled.end());
+  std::partial_sum(A.start.begin(), A.start.end(), A.start.begin());
+  A.row.resize(entries.size());
+  A.value.resize(entries.size());
+  std::vector<Index> next(A.start.begin(), A.start.end() - 1);
+  for (const MatrixEntry& e : entries) {
+    const Index k = at(next, e.column)++;
+    at(A.row, k) = e.row;
+    at(A.value, k) = e.value * scale[e.row] * scale[e.column];
+  }
+
+  std::vector<Index> count(static_cast<std::size_t>(n));
+  for_chunks(n, [&](Index, Index begin, Index end) {
+    std::vector<Index> place(static_cast<std::size_t>(n), -1);  // [row] in the sums of the column
+    std::vector<std::pair<Index, Real>> sums;
+    for (Index j = begin; j < end; ++j) {
+      sums.clear();
+      for (Index k = at(A.start, j); k < at(A.start, j + 1); ++k) {
+        Index& found = at(place, at(A.row, k));
+        if (found < 0) {
+          found = static_cast<Index>(sums.size());
+          sums.emplace_back(at(A.row, k), 0);
+        }
+        at(sums, found).second += at(A.value, k);
+      }
+      for (const auto& [row, value] : sums) at(place, row) = -1;
+      std::sort(sums.begin(), sums.end());
+      at(count, j) = static_cast<Index>(sums.size());
+      Index k = at(A.start, j);
+      for (const auto& [row, value] : sums) {
+        at(A.row, k) = row;
+        at(A.value, k++) = value;
+      }
+    }
+  });
+  Index end = 0;
+  for (Index j = 0; j < n; ++j) {
+    const Index begin = std::exchange(at(A.start, j), end);
+    for (Index k = begin; k < begin + at(count, j); ++k, ++end) {
+      at(A.row, end) = at(A.row, k);
+      at(A.value, end) = at(A.value, k);
+    }
+  }
+  A.start.back() = end;
+  A.row.resize(static_cast<std::size_t>(end));
+  A.value.resize(static_cast<std::size_t>(end));
   return A;
 }
 
 /// order[place] = row
-std::vector<Index> by_minimum_degree(const Sparse& A) {
+std::vector<Index> by_minimum_degree(const Columns& A) {
+  const auto n = static_cast<Eigen::Index>(A.start.size()) - 1;
+  const Eigen::SparseMatrix<Real> matrix = Eigen::Map<const Eigen::SparseMatrix<Real>>(
+      n, n, static_cast<Eigen::Index>(A.row.size()), A.start.data(), A.row.data(), A.value.data());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(A, order);
+  Eigen::AMDOrdering<int>()(matrix, order);
   return {order.indices().begin(), order.indices().end()};
 }
 
@@ -89,8 +142,9 @@ struct SparseCholesky::Factors {
   Solution<Lanes> vectors;
   Solution<Real> numbers;
 
-  void compute(const Sparse& A);
-  void compute_front(const Sparse& A, Index f, std::vector<Dense>& left);
+  void compute(const Columns& A);
+  void compute_front(const Columns& A, std::span<const Index> place, Index f,
+                     std::vector<Dense>& left);
   void find_sources();
   template <class Work>
   void for_stage(const std::vector<FrontRange>& stage, Work&& work) const;
@@ -102,8 +156,10 @@ struct SparseCholesky::Factors {
   void substitute(Index f, AlignedVector<Vector>& x) const;
 };
 
-/// Eliminates a front; what is left of its rows below goes to left[f].
-void SparseCholesky::Factors::compute_front(const Sparse& A, Index f, std::vector<Dense>& left) {
+/// Eliminates a front; what is left of its rows below goes to left[f]. `place` is the inverse of
+/// the order.
+void SparseCholesky::Factors::compute_front(const Columns& A, std::span<const Index> place, Index f,
+                                            std::vector<Dense>& left) {
   thread_local std::vector<Index> number;  // [place] row of the front; those of others mean nothing
   number.resize(std::max(number.size(), plan.order.size()));
   const Front& front = at(plan.fronts, f);
@@ -116,9 +172,12 @@ void SparseCholesky::Factors::compute_front(const Sparse& A, Index f, std::vecto
   Dense& rest = at(left, f);
   L = Dense::Zero(front.size(), width);
   rest = Dense::Zero(front.size() - width, front.size() - width);
-  for (Index j = front.first; j < front.last; ++j)
-    for (Sparse::InnerIterator e(A, j); e; ++e)
-      if (e.row() >= j) L(at(number, static_cast<Index>(e.row())), j - front.first) += e.value();
+  for (Index j = front.first; j < front.last; ++j) {
+    const Index column = at(plan.order, j);
+    for (Index e = at(A.start, column); e < at(A.start, column + 1); ++e)
+      if (const Index i = at(place, at(A.row, e)); i >= j)
+        L(at(number, i), j - front.first) += at(A.value, e);
+  }
   for (const Index child : front.children) {
     Dense& from = at(left, child);
     const std::vector<Index>& rows = at(plan.fronts, child).below;
@@ -145,12 +204,14 @@ void SparseCholesky::Factors::for_stage(const std::vector<FrontRange>& stage, Wo
       static_cast<Index>(stage.size()), [&](Index k) { work(at(stage, k)); }, 1);
 }
 
-void SparseCholesky::Factors::compute(const Sparse& A) {
+void SparseCholesky::Factors::compute(const Columns& A) {
+  std::vector<Index> place(plan.order.size());
+  for (std::size_t k = 0; k < place.size(); ++k) at(place, plan.order[k]) = static_cast<Index>(k);
   of.assign(plan.fronts.size(), {});
   std::vector<Dense> left(plan.fronts.size());
   for (const std::vector<FrontRange>& stage : plan.stages)
     for_stage(stage, [&](FrontRange range) {
-      for (Index f = range.first; f < range.last; ++f) compute_front(A, f, left);
+      for (Index f = range.first; f < range.last; ++f) compute_front(A, place, f, left);
     });
 }
 
@@ -172,16 +233,10 @@ void SparseCholesky::Factors::find_sources() {
 SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries,
                                std::vector<Index> order)
     : factors_(std::make_unique<Factors>()) {
-  const Sparse A = scaled_sum(n, entries, factors_->scale);
+  const Columns A = scaled_sum(n, entries, factors_->scale);
   if (order.empty()) order = by_minimum_degree(A);
-  factors_->plan =
-      plan_elimination({A.outerIndexPtr(), static_cast<std::size_t>(n) + 1},
-                       {A.innerIndexPtr(), static_cast<std::size_t>(A.nonZeros())}, order);
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> to_place(n);
-  for (Index k = 0; k < n; ++k) to_place.indices()[at(factors_->plan.order, k)] = k;
-  Sparse permuted(n, n);
-  permuted = A.twistedBy(to_place);
-  factors_->compute(permuted);
+  factors_->plan = plan_elimination(A.start, A.row, order);
+  factors_->compute(A);
   factors_->find_sources();
 }
 

@@ -6,6 +6,8 @@
 #include <omp.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace meniscus::test_parallel {
 namespace {
@@ -38,6 +40,25 @@ TEST(Chunks, SumsHaveTheSameBitsForAnyThreads) {
   omp_set_num_threads(before);
   // sum of sin i = sin(n/2) sin((n - 1)/2) / sin(1/2)
   EXPECT_NEAR(one, std::sin(n / 2.0) * std::sin((n - 1) / 2.0) / std::sin(0.5), 1e-9);
+}
+
+TEST(Loops, ThrowWhatTheLeastIndexThrewForAnyThreads) {
+  const int before = omp_get_max_threads();
+  for (const int threads : {1, 2, 4}) {
+    omp_set_num_threads(threads);
+    try {
+      parallel_for(
+          1000,
+          [](Index i) {
+            if (i >= 313) throw std::runtime_error(std::to_string(i));
+          },
+          1);
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& e) {
+      EXPECT_STREQ(e.what(), "313");
+    }
+  }
+  omp_set_num_threads(before);
 }
 
 }  // namespace

@@ -25,18 +25,22 @@ inline Index chunk_begin(Index n, int c) {
   return static_cast<Index>(static_cast<Offset>(n) * c / chunk_count(n));
 }
 
-/// Calls f(i) for i in [0, n) on all threads, `grain` neighbouring i at a time. The first exception
-/// is rethrown afterwards (one that leaves an OpenMP region would end the program).
+/// Calls f(i) for i in [0, n) on all threads, `grain` neighbouring i at a time. The exception of
+/// the least i is rethrown afterwards (one that leaves an OpenMP region would end the program).
 template <class F>
 void parallel_for(Index n, F&& f, [[maybe_unused]] int grain = 64) {
   std::exception_ptr failure;
+  [[maybe_unused]] Index failed = n;
 #pragma omp parallel for schedule(dynamic, grain)
   for (Index i = 0; i < n; ++i) {
     try {
       f(i);
     } catch (...) {
 #pragma omp critical(meniscus_parallel_for)
-      if (!failure) failure = std::current_exception();
+      if (i < failed) {
+        failed = i;
+        failure = std::current_exception();
+      }
     }
   }
   if (failure) std::rethrow_exception(failure);
