@@ -123,25 +123,35 @@ void ContactFacets<D>::sample(Places& places) const {
 template <int D>
 typename ContactFacets<D>::Foot ContactFacets<D>::foot(const Places& places, const Vec<D>& x,
                                                        std::span<const Index> facets) const {
-  Foot best;
-  best.normal.setZero();
-  // Most facets of a list are farther than the nearest one so far by their spheres alone.
+  // Most facets of a list are farther than the nearest middle by their spheres alone.
   constexpr Real round_off = 1e-12;
   constexpr int middle = Lanes::width - 1;  // of the samples
-  for (const Index facet : facets) {
-    Real square = 0;
+  thread_local std::vector<Real> square;    // of the distances of the middles
+  square.resize(facets.size());
+  Real least = unbounded;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    Real sum = 0;
     for (int i = 0; i < D; ++i) {
-      const Real away = x[i] - at(places.samples, facet * D + i)[middle];
-      square += away * away;
+      const Real away = x[i] - at(places.samples, facets[f] * D + i)[middle];
+      sum += away * away;
     }
-    const Real beyond = best.distance + at(places.radius, facet);
-    if (square > beyond * beyond * (1 + round_off)) continue;
+    square[f] = sum;
+    least = std::min(least, sum);
+  }
+  Foot best;
+  best.normal.setZero();
+  Real farthest = std::sqrt(least);
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const Index facet = facets[f];
+    const Real beyond = farthest + at(places.radius, facet);
+    if (square[f] > beyond * beyond * (1 + round_off)) continue;
     const std::array<Vec<D>, D> corner = corners(places.corner, facet);
     const std::array<Real, D> share = nearest_on(x, corner);
     Vec<D> way = x;
     for (std::size_t k = 0; k < D; ++k) way -= share[k] * corner[k];
     const Real distance = way.norm();
     if (distance < best.distance) best = {facet, distance, way / distance, share};
+    farthest = std::min(farthest, distance);
   }
   return best;
 }
