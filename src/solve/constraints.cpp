@@ -26,7 +26,9 @@ void for_each_of(Index n, F&& f) {
 }  // namespace
 
 Constraints::Constraints(std::vector<std::unique_ptr<Constraint>> all, std::span<const Real> mass)
-    : all_(std::move(all)), mass_(mass.begin(), mass.end()), factors_((list_rows(), factors())) {
+    : all_(std::move(all)),
+      mass_(mass.begin(), mass.end()),
+      factors_((list_rows(), alike_ = count_alike(), factors())) {
   require_independent();
   for (auto* scratch :
        {&a_, &b_, &before_, &after_, &g_, &rate_, &acceleration_, &ahead_, &behind_})
@@ -63,6 +65,22 @@ void Constraints::list_rows() {
   }
 }
 
+/// The rows of each place, if those of all are along the same directions, at right angles to each
+/// other; otherwise 1.
+Index Constraints::count_alike() const {
+  const Index places = static_cast<Index>(start_.size()) - 1, n = rows() / places;
+  if (n * places != rows() || n > Lanes::width) return 1;
+  for (Index r = 0; r < rows(); ++r) {
+    const Row& row = at(row_, r);
+    if (row.place != r / n) return 1;
+    for (Index s = 0; s < n; ++s) {
+      const Lanes other = at(row_, s).direction, change = row.direction - other;
+      if ((s == r % n ? sum(change * change) : sum(row.direction * other)) != 0) return 1;
+    }
+  }
+  return n;
+}
+
 /// Two places with a particle in common meet in S by sum_A weight weight / m_A, times the cosine of
 /// the directions of their rows.
 SparseCholesky Constraints::factors() const {
@@ -72,6 +90,12 @@ SparseCholesky Constraints::factors() const {
       for (Offset j = at(touched_start_, t); j < at(touched_start_, t + 1); ++j)
         of_places[{at(touched_place_, i), at(touched_place_, j)}] +=
             at(touched_weight_, i) * at(touched_weight_, j) / at(mass_, at(touched_, t));
+  if (alike_ > 1) {
+    std::vector<MatrixEntry> of_one;
+    for (const auto& [places, value] : of_places)
+      of_one.push_back({places.first, places.second, value});
+    return {rows() / alike_, of_one};
+  }
   std::vector<std::vector<Index>> rows_of(start_.size() - 1);
   for (Index r = 0; r < rows(); ++r) at(rows_of, at(row_, r).place).push_back(r);
   std::vector<MatrixEntry> entries;
@@ -86,8 +110,9 @@ SparseCholesky Constraints::factors() const {
 
 void Constraints::require_independent() const {
   constexpr Real round_off = 1e-12;
-  const auto least = factors_.smallest_pivot();
+  auto least = factors_.smallest_pivot();
   if (least.value > round_off) return;
+  least.row *= alike_;
   const Constraint* of = nullptr;
   for (const auto& one : all_)
     if (one->first <= least.row) of = one.get();
@@ -154,6 +179,14 @@ void Constraints::add_transposed(const std::vector<Real>& lambda, Real factor,
 void Constraints::add_over_mass(const std::vector<Real>& lambda, Real factor,
                                 std::span<NodalVector> w) const {
   scatter<true>(lambda, factor, w);
+}
+
+void Constraints::solve(std::vector<Real>& b) const {
+  if (alike_ == 1) return factors_.solve(b);
+  std::fill(at_place_.begin(), at_place_.end(), Lanes::zero());
+  for (Index r = 0; r < rows(); ++r) at(at_place_, r / alike_).set(r % alike_, at(b, r));
+  factors_.solve(std::span(at_place_));
+  for (Index r = 0; r < rows(); ++r) at(b, r) = at(at_place_, r / alike_)[r % alike_];
 }
 
 void Constraints::project(std::span<NodalVector> w) {

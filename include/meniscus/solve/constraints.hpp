@@ -40,7 +40,7 @@ class Constraints {
   /// w += factor M^-1 C^T lambda
   void add_over_mass(const std::vector<Real>& lambda, Real factor, std::span<NodalVector> w) const;
   /// b becomes S^-1 b.
-  void solve(std::vector<Real>& b) const { factors_.solve(b); }
+  void solve(std::vector<Real>& b) const;
   /// w -= M^-1 C^T S^-1 C w: what is left is free, C w = 0.
   void project(std::span<NodalVector> w);
 
@@ -76,6 +76,7 @@ class Constraints {
     Lanes direction;
   };
   void list_rows();
+  Index count_alike() const;
   SparseCholesky factors() const;
   void require_independent() const;
   /// C, applied to f / m if `over_mass`.
@@ -91,6 +92,8 @@ class Constraints {
   std::vector<std::unique_ptr<Constraint>> all_;
   std::vector<Real> mass_;
   std::vector<Row> row_;
+  Index alike_ =
+      1;  ///< rows of a place for which S is the same, and has no others: one after the other
   std::vector<Offset> start_{0};  // of the places of all
   std::vector<Index> particle_;
   std::vector<Real> weight_;
