@@ -55,7 +55,7 @@ class StableStepEstimator {
   void know_response(const State& state, Real dt);
   bool responds_as_before() const;
   void start_where_it_changed();
-  void find_stiff_forces(const State& state, Real share, TrialMode& trial);
+  void find_stiff_forces(const State& state, Real size, TrialMode& trial);
   void find_viscous_forces(const State& state, Real rate, TrialMode& trial);
   void force_change(const State& state, const NodalVectors& w, Real du, Real dv, Real size,
                     NodalVectors& result);
