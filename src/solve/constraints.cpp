@@ -65,8 +65,7 @@ void Constraints::list_rows() {
   }
 }
 
-/// The rows of each place, if those of all are along the same directions, at right angles to each
-/// other; otherwise 1.
+/// S couples rows at right angles not at all, and the places of each direction alike.
 Index Constraints::count_alike() const {
   const Index places = static_cast<Index>(start_.size()) - 1, n = rows() / places;
   if (n * places != rows() || n > Lanes::width) return 1;

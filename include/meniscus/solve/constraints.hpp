@@ -92,8 +92,9 @@ class Constraints {
   std::vector<std::unique_ptr<Constraint>> all_;
   std::vector<Real> mass_;
   std::vector<Row> row_;
-  Index alike_ =
-      1;  ///< rows of a place for which S is the same, and has no others: one after the other
+  /// Rows that share the factors of S: those of a place, if all places have rows along the same
+  /// directions, at right angles to each other; otherwise 1.
+  Index alike_ = 1;
   std::vector<Offset> start_{0};  // of the places of all
   std::vector<Index> particle_;
   std::vector<Real> weight_;
