@@ -11,7 +11,9 @@ namespace meniscus {
 SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Offset> start,
                              std::span<const Index> particle, Index particles) {
   find_windows(chunks, start);
-  divide(chunks, particles);
+  // As all rows of the body, whoever does these: what a rank adds up it has to follow.
+  for (int rank = 0; rank <= ranks().size(); ++rank) border_.push_back(first_row(particles, rank));
+  numbers_ = chunks.empty() ? 0 : chunks.back().number + 1;
   const Touched of_chunks = touched(chunks, start, particle);
   share_windows(chunks, of_chunks);
   remember_touched(chunks, of_chunks);
@@ -41,22 +43,6 @@ void SharedWindows::find_windows(std::vector<WindowChunk>& chunks, std::span<con
     chunk.high = found.high;
     pairs_ += found.pairs;
   }
-}
-
-/// Particles half-way between what the chunks on both sides reach.
-void SharedWindows::divide(const std::vector<WindowChunk>& chunks, Index particles) {
-  const int size = ranks().size();
-  const auto count = static_cast<Index>(chunks.size());
-  border_.push_back(0);
-  Index end = 0;
-  for (int rank = 0; rank < size; ++rank) {
-    while (end < count && at(rank_, end) == rank) ++end;
-    const Index middle = rank + 1 == size || end == count ? particles
-                         : end == 0                       ? 0
-                                    : (at(chunks, end).low + at(chunks, end - 1).high) / 2;
-    border_.push_back(std::clamp(middle, border_.back(), particles));
-  }
-  numbers_ = count > 0 ? chunks.back().number + 1 : 0;
 }
 
 SharedWindows::Touched SharedWindows::touched(const std::vector<WindowChunk>& chunks,
@@ -135,11 +121,14 @@ std::unique_ptr<Exchange> SharedWindows::exchange_of_forces(F&& is_wanted) const
   return ranks().exchange(border_.back(), leaves);
 }
 
-void SharedWindows::mark_read(std::span<std::uint8_t> particles) const {
-  const int me = ranks().rank();
+void SharedWindows::mark_touched(std::span<std::uint8_t> particles) const {
   for (Index A = 0; A < border_.back(); ++A)
-    if ((at(touched_, A) & by_this_rank) != 0 || (A >= at(border_, me) && A < at(border_, me + 1)))
-      at(particles, A) = 1;
+    if ((at(touched_, A) & by_this_rank) != 0) at(particles, A) = 1;
+}
+
+void SharedWindows::mark_summed(std::span<std::uint8_t> particles) const {
+  const int me = ranks().rank();
+  for (Index A = at(border_, me); A < at(border_, me + 1); ++A) at(particles, A) = 1;
 }
 
 void SharedWindows::keep_to(std::shared_ptr<const Halo> halo, Index first) {

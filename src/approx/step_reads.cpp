@@ -7,7 +7,12 @@
 namespace meniscus {
 
 void StepReads::rows(ForceWindows& windows, Index first) {
-  windows.mark_read(std::span(read_).subspan(static_cast<std::size_t>(first)));
+  windows.mark_touched(std::span(read_).subspan(static_cast<std::size_t>(first)));
+  sums(windows, first);
+}
+
+void StepReads::sums(ForceWindows& windows, Index first) {
+  windows.mark_summed(std::span(read_).subspan(static_cast<std::size_t>(first)));
   when_shared([&windows, first](const SharedHalo& halo) { windows.keep_to(halo, first); });
 }
 
@@ -23,8 +28,8 @@ void StepReads::when_shared(std::function<void(const SharedHalo&)> learn) {
   learners_.push_back(std::move(learn));
 }
 
-std::shared_ptr<Halo> StepReads::share() {
-  const auto halo = std::make_shared<Halo>(std::move(read_));
+std::shared_ptr<Halo> StepReads::share(ParticleOwners owners) {
+  const auto halo = std::make_shared<Halo>(std::move(read_), std::move(owners));
   if (!halo->is_partial()) return nullptr;
   halo->keep(std::move(kept_));
   for (const auto& learn : learners_) learn(halo);

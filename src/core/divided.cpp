@@ -11,10 +11,6 @@ Index first_item(Index n, int rank) {
   return static_cast<Index>(static_cast<Offset>(n) * rank / ranks().size());
 }
 
-Index first_row(Index n, int rank) {
-  return chunk_begin(n, first_item(chunk_count(n), rank));
-}
-
 Exchange& exchange_of(Index n) {
   constexpr std::size_t most = 64;  // lists of contacts have ever new lengths
   static std::map<Index, std::unique_ptr<Exchange>> known;
@@ -33,6 +29,10 @@ Exchange& exchange_of(Index n) {
 
 OwnItems own_items(Index n) {
   return {first_item(n, ranks().rank()), first_item(n, ranks().rank() + 1)};
+}
+
+Index first_row(Index n, int rank) {
+  return chunk_begin(n, first_item(chunk_count(n), rank));
 }
 
 int rank_of_item(Index n, Index item) {

@@ -6,10 +6,14 @@
 
 namespace meniscus {
 
-Halo::Halo(std::vector<std::uint8_t> read) : read_(std::move(read)) {
-  const auto n = static_cast<Index>(read_.size());
-  const OwnItems own = own_rows(n);
-  std::fill(read_.begin() + own.begin, read_.begin() + own.end, std::uint8_t{1});
+Halo::Halo(std::vector<std::uint8_t> read, ParticleOwners owners)
+    : read_(std::move(read)), owners_(std::move(owners)) {
+  const Index n = owners_.particles();
+  Index own = 0;
+  for (const OwnItems part : owners_.own()) {
+    std::fill(read_.begin() + part.begin, read_.begin() + part.end, std::uint8_t{1});
+    own += part.end - part.begin;
+  }
   constexpr Index longest = 2048;
   for (Index A = 0; A < n; ++A) {
     if (!follows(A)) continue;
@@ -19,7 +23,7 @@ Halo::Halo(std::vector<std::uint8_t> read) : read_(std::move(read)) {
     else
       parts_.push_back({A, A + 1});
   }
-  ghosts_ = size_ - (own.end - own.begin);
+  ghosts_ = size_ - own;
   partial_ = ranks().largest(n - size_) > 0;
 }
 
@@ -38,9 +42,7 @@ void Halo::enter(std::initializer_list<NodalVectors*> motion) {
 void Halo::leave(std::initializer_list<NodalVectors*> motion) {
   if (!entered_) return;
   entered_ = false;
-  const auto complete = [](NodalVectors& x) {
-    complete_rows(static_cast<Index>(x.size()), x.data(), sizeof(NodalVector));
-  };
+  const auto complete = [&](NodalVectors& x) { owners_.complete(x.data(), sizeof(NodalVector)); };
   for (NodalVectors* x : motion) complete(*x);
   for (NodalVectors* x : kept_) complete(*x);
 }

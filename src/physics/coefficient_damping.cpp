@@ -43,7 +43,7 @@ class CoefficientDamping final : public ForceTerm {
     const Rotation sums = subtract_places(motion);
     const Eigen::Vector3d w = sums.rate();
     Report report;
-    report.heat = sum_over_particles(halo_, body_.size(), 0.0, [&](Index A) {
+    report.heat = sum_over_rows(0.0, [&](Index A) {
       const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
       const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
       at(slip_, A) = at(rate_, A) * s;
@@ -99,10 +99,17 @@ class CoefficientDamping final : public ForceTerm {
     }
   };
 
+  /// Over the particles of the body, by the rows of each.
+  template <class T, class F>
+  T sum_over_rows(T zero, F&& f) const {
+    const Index n = body_.size();
+    return is_entered(halo_) ? divided_sum(n, zero, f) : parallel_sum(n, zero, f);
+  }
+
   /// d to slip_, e to offset_. Positions are quadratic fields: (I - N) x = (I - N) u.
   Rotation subtract_places(const Motion& motion) {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    return sum_over_particles(halo_, body_.size(), Rotation{}, [&](Index A) {
+    return sum_over_rows(Rotation{}, [&](Index A) {
       const PointRows<D>& rows = body_.at_particles;
       const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
       at(slip_, A) = d;

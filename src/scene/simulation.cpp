@@ -92,6 +92,12 @@ void Simulation<D>::make_stepper(bool implicit_viscosity) {
   stepper_ = Registry<StepperEntry>::all()
                  .at(time.solver)
                  .make(scene_.system, stepper_choice(scene_, implicit_viscosity));
+  share_steps();
+}
+
+/// Between ranks, as far as stepper and terms know what they read. All ranks know the state.
+template <int D>
+void Simulation<D>::share_steps() {
   scene_.system.halo.reset();
   StepReads reads(scene_.system.size());
   if (stepper_->tell_reads(reads)) scene_.system.share_steps(std::move(reads));
@@ -147,10 +153,22 @@ bool Simulation<D>::finished() const {
   return state_.time >= scene_.time.end || stepper_->arrived() || stepper_->blocked();
 }
 
+/// Where ranks come to need more than they follow, again with the state that all of them know.
+template <int D>
+void Simulation<D>::step(Real dt) {
+  try {
+    step_or_halve(dt);
+  } catch (const HaloOutgrown&) {
+    state_ = before_;
+    complete_state();
+    step_or_halve(dt);
+  }
+}
+
 /// A step of dt or, if that is rejected, of a half of it, and so on. What no step is short enough
 /// for, as a blow, is taken as it is.
 template <int D>
-void Simulation<D>::step(Real dt) {
+void Simulation<D>::step_or_halve(Real dt) {
   constexpr int most_halvings = 6;
   keep(scene_.system, state_, before_);
   for (int halvings = 0;; ++halvings) {
@@ -185,6 +203,10 @@ void Simulation<D>::advance() {
     state_.energies_asked =
         !stepper_->implicit() &&  // whose last forces need not be those of the state it finds
         scene_.output.record_due(state_.time, state_.time + last_step_, scene_.time.end);
+    if (scene_.system.reads_changed()) {
+      complete_state();
+      share_steps();
+    }
     scene_.system.enter_halo(state_);
     if (keeps_state_before_)
       step(last_step_);

@@ -151,7 +151,7 @@ StepError ImplicitViscosity<D>::not_found(const State& state, Real residual) {
   age_ = longest_age;
   if (system_.in_halo())
     for (NodalVectors* x : {&r_, &z_})
-      complete_rows(system_.size(), x->data(), sizeof(NodalVector));
+      system_.halo->owners().complete(x->data(), sizeof(NodalVector));
   Index worst = 0;
   for (Index A = 0; A < system_.size(); ++A)
     if (sum(at(r_, A) * at(z_, A)) > sum(at(r_, worst) * at(z_, worst))) worst = A;

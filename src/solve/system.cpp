@@ -49,13 +49,22 @@ void System<D>::share_steps(StepReads reads) {
   for (const auto& term : terms)
     if (!term->tell_reads(reads)) return;
   if (constraints) reads.particles(constraints->particles(), 0);
-  const OwnItems own = own_rows(size());
-  for (const Body<D>& body : bodies) {
-    const Index begin = std::max(own.begin - body.first, 0),
-                end = std::min(own.end - body.first, body.size());
-    if (begin < end) reads.particles(body.at_particles.of_rows(begin, end), body.first);
-  }
-  halo = reads.share();
+  std::vector<Index> first;
+  for (const Body<D>& body : bodies) first.push_back(body.first);
+  ParticleOwners owners(size(), first);
+  for (const OwnItems own : owners.own())
+    for (const Body<D>& body : bodies) {
+      const Index begin = std::max(own.begin - body.first, 0),
+                  end = std::min(own.end - body.first, body.size());
+      if (begin < end) reads.particles(body.at_particles.of_rows(begin, end), body.first);
+    }
+  halo = reads.share(std::move(owners));
+}
+
+template <int D>
+bool System<D>::reads_changed() const {
+  return std::any_of(terms.begin(), terms.end(),
+                     [](const auto& term) { return term->reads_changed(); });
 }
 
 template <int D>
@@ -86,7 +95,7 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
   const Index A = what.particle - body.first;
   const Vec<D>& X = at(body.particles.X(), A);
   Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
-  if (in_halo()) ranks().hand_out(rank_of_row(size(), what.particle), &u, sizeof u);
+  if (in_halo()) ranks().hand_out(halo->owners().owner(what.particle), &u, sizeof u);
   std::string reference, current;
   for (int i = 0; i < D; ++i) {
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
@@ -142,13 +151,23 @@ Report System<D>::compute_forces(const Motion& motion, Forces force) {
         throw StepError(
             located({A, "the force on '" + field.spec.name + "' is not a finite number"}, motion));
   if (std::isfinite(sum(total))) return report;
-  const OwnItems mine = in_halo() ? own_rows(size()) : OwnItems{0, size()};
-  Index A = mine.begin;
-  while (A < mine.end && std::isfinite(sum(at(force, A) * at(force, A)))) ++A;
-  if (A == mine.end) A = size();
-  if (in_halo()) A = size() - static_cast<Index>(ranks().largest(size() - A));
-  if (A < size()) throw StepError(located({A, "the force is not a finite number"}, motion));
+  if (const Index A = first_not_finite(force); A < size())
+    throw StepError(located({A, "the force is not a finite number"}, motion));
   return report;  // the squares overflowed
+}
+
+/// Particle; the number of all where there is none.
+template <int D>
+Index System<D>::first_not_finite(std::span<const NodalVector> force) const {
+  const auto first_in = [&](OwnItems part) {
+    Index A = part.begin;
+    while (A < part.end && std::isfinite(sum(at(force, A) * at(force, A)))) ++A;
+    return A < part.end ? A : size();
+  };
+  if (!in_halo()) return first_in({0, size()});
+  Index first = size();
+  for (const OwnItems part : halo->owners().own()) first = std::min(first, first_in(part));
+  return size() - static_cast<Index>(ranks().largest(size() - first));
 }
 
 template struct System<2>;

@@ -100,6 +100,18 @@ THICK_PAIR = thick(14) + thick(5)[thick(5).index("[[body]]"):].replace('"block"'
     "[body.material]", "centre = [0, 0, 1.05]\n[body.material]")
 TWO_DROPS = LONG["implicit viscosity"] + LONG_DROP[LONG_DROP.index("[[body]]"):].replace(
     '"drop"', '"far"').replace("core = 8", 'centre = ["20 nm", 0, 0]\ncore = 7')
+# Bars fly at each other from beyond the reach of their contact, meet with their ends and part.
+BAR = LONG_BLOCK[:LONG_BLOCK.index("[[body_force]]")]
+MEETING_BARS = BAR.replace("end = 0.06", "end = 0.12") + BAR[BAR.index("[[body]]"):].replace(
+    '"block"', '"other"').replace(
+        "[body.material]", "centre = [4.4, 0, 0]\ninitial_velocity = [-6, 0, 0]\n[body.material]") + """
+[[contact]]
+bodies = ["block", "other"]
+epsilon = 2e6
+sigma0 = 0.05
+beta = 1
+points = 2
+"""
 # [name] bodies of which every rank needs most, but not all
 MOST = {
     "two drops": TWO_DROPS,
@@ -242,6 +254,13 @@ class SameBits(RanksTest):
                 followed, of_all = map(int, steps.groups())
                 self.assertLess(followed, of_all)
                 self.directory = self.directory.parent
+
+    def test_parts_that_meet(self):
+        """Of surfaces in contact ranks follow what is near the other one, which comes to be more in
+        the middle of steps: those are made again."""
+        self.assert_same_bits((2, 4), self.scene(MEETING_BARS))
+        for count in (2, 4):
+            self.assert_follows_a_part(f"ranks{count}")
 
     def test_failures_in_the_halo(self):
         """They are said with the place of the particle, which not all ranks know."""

@@ -45,7 +45,8 @@ class ForceWindows {
   }
 
   /// Of SharedWindows, in a run of several ranks.
-  void mark_read(std::span<std::uint8_t> particles) const { shared_->mark_read(particles); }
+  void mark_touched(std::span<std::uint8_t> particles) const { shared_->mark_touched(particles); }
+  void mark_summed(std::span<std::uint8_t> particles) const { shared_->mark_summed(particles); }
   void keep_to(std::shared_ptr<const Halo> halo, Index first) {
     shared_->keep_to(std::move(halo), first);
   }

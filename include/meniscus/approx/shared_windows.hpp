@@ -51,8 +51,10 @@ class SharedWindows {
     const Exchange& exchange = is_entered(halo_) ? *followed_ : *particles_;
     exchange.bring(force.data(), force.data(), sizeof(NodalVector));
   }
-  /// Marks the particles that the rows of this rank touch, and those over which it adds up windows.
-  void mark_read(std::span<std::uint8_t> particles) const;
+  /// Marks the particles that the rows of this rank touch.
+  void mark_touched(std::span<std::uint8_t> particles) const;
+  /// Marks those over which it adds up windows.
+  void mark_summed(std::span<std::uint8_t> particles) const;
   /// `first`: the number, in the halo, of the first of the particles. All ranks call this.
   void keep_to(std::shared_ptr<const Halo> halo, Index first);
   template <class... T>
@@ -65,7 +67,6 @@ class SharedWindows {
   static constexpr std::uint8_t by_a_rank = 1, by_this_rank = 2;
 
   void find_windows(std::vector<WindowChunk>& chunks, std::span<const Offset> start);
-  void divide(const std::vector<WindowChunk>& chunks, Index particles);
   Touched touched(const std::vector<WindowChunk>& chunks, std::span<const Offset> start,
                   std::span<const Index> particle) const;
   void share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched);

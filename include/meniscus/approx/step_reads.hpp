@@ -22,6 +22,8 @@ class StepReads {
   /// The particles that the rows of this rank touch, and those over which it adds up windows. Both
   /// are numbered from `first` on. The windows know the halo once it is made.
   void rows(ForceWindows& windows, Index first);
+  /// The latter alone, where rows are given what they scatter.
+  void sums(ForceWindows& windows, Index first);
   /// These particles, counted from `first` on: as a rule the same on all ranks.
   void particles(std::span<const Index> numbers, Index first);
   /// Those from begin to end.
@@ -32,7 +34,7 @@ class StepReads {
   void when_shared(std::function<void(const SharedHalo&)> learn);
 
   /// Null: every rank reads all. All ranks call this, with what they read in the same order.
-  std::shared_ptr<Halo> share();
+  std::shared_ptr<Halo> share(ParticleOwners owners);
 
  private:
   std::vector<std::uint8_t> read_;  // [particle]

@@ -53,8 +53,10 @@ class SurfacePatches {
   /// Every rank reads all places of the surface, of a body whose particles begin at `first`.
   void tell_reads(StepReads& reads, Index first) {
     reads.particles(rows_.particle, first);
-    reads.rows(windows_, first);
+    tell_sums(reads, first);
   }
+  /// Of add_to_particles() alone.
+  void tell_sums(StepReads& reads, Index first) { reads.sums(windows_, first); }
 
   Index point_count() const { return static_cast<Index>(X_.size()); }
   Index patch_count() const { return patches_; }

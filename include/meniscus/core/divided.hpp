@@ -17,12 +17,22 @@ OwnItems own_items(Index n);
 int rank_of_item(Index n, Index item);
 /// The rows of the chunks of this rank, of n rows.
 OwnItems own_rows(Index n);
+/// With which those of a rank begin; of the number of ranks: n.
+Index first_row(Index n, int rank);
 /// The rank whose rows have a row of n.
 int rank_of_row(Index n, Index row);
 /// Brings values of so many bytes, [row], of the rows of the others.
 void complete_rows(Index n, void* values, std::size_t bytes_per_value);
 /// Brings values of so many bytes, [item], of the others.
 void complete_items(Index n, void* values, std::size_t bytes_per_value);
+
+/// What each rank says, [rank].
+template <class T>
+std::vector<T> said_by_ranks(const T& mine) {
+  std::vector<T> all(static_cast<std::size_t>(ranks().size()), mine);
+  complete_items(ranks().size(), all.data(), sizeof(T));
+  return all;
+}
 
 /// Calls f(k) for the items k of this rank out of n; what record(k) then says of each, a copy of
 /// memory, is handed to others by take(k, record).

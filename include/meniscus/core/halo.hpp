@@ -3,7 +3,7 @@
 // ranks that its rows and sums read (scaling note 2.3).
 #pragma once
 #include "meniscus/core/aligned.hpp"
-#include "meniscus/core/divided.hpp"
+#include "meniscus/core/particle_owners.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -18,11 +18,12 @@ class Halo {
  public:
   /// `read`: which of all particles the rows of this rank read. Its own, for sums over particles,
   /// are followed anyway. All ranks call this.
-  explicit Halo(std::vector<std::uint8_t> read);
+  Halo(std::vector<std::uint8_t> read, ParticleOwners owners);
 
   /// Whether some rank follows fewer than all particles.
   bool is_partial() const { return partial_; }
   bool follows(Index A) const { return at(read_, A) != 0; }
+  const ParticleOwners& owners() const { return owners_; }
   /// Of particles that are followed.
   Index size() const { return size_; }
   /// Those of them that it does not own.
@@ -51,9 +52,14 @@ class Halo {
   std::vector<std::uint8_t> read_;
   std::vector<OwnItems> parts_;
   std::vector<NodalVectors*> kept_;
+  ParticleOwners owners_;
   Index size_ = 0, ghosts_ = 0;
   bool partial_ = false, entered_ = false;
 };
+
+/// Thrown on all ranks where a step in a halo comes to need the motion of more than that: it has to
+/// be taken back, and made again when all ranks know the state.
+struct HaloOutgrown {};
 
 /// Whether a step is made in a halo; null: there is none.
 inline bool is_entered(const std::shared_ptr<const Halo>& halo) {
@@ -67,31 +73,32 @@ void for_particles(const std::shared_ptr<const Halo>& halo, Index n, F&& f) {
   for_chunks(n, [&](Index, Index begin, Index end) { f(begin, end); });
 }
 
-/// parallel_sum() over n particles, of which in a halo each rank knows its own.
-template <class T, class F>
-T sum_over_particles(const std::shared_ptr<const Halo>& halo, Index n, T zero, F&& f) {
-  return is_entered(halo) ? divided_sum(n, zero, f) : parallel_sum(n, zero, f);
-}
-
-/// The same over some of n particles, in the chunks of all: of other bodies nothing is read.
+/// Sum over some of n particles, in the chunks of all; in a halo each rank looks at its own.
 template <class T, class F>
 T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, OwnItems part, T zero, F&& f) {
   const int chunks = chunk_count(n);
-  const OwnItems own = is_entered(halo) ? own_items(chunks) : OwnItems{0, chunks};
+  const ParticleOwners* owners = is_entered(halo) ? &halo->owners() : nullptr;
   PerChunk<T> partial(chunks, zero);
   parallel_for(
-      own.end - own.begin,
+      owners ? static_cast<Index>(owners->own_chunks().size()) : chunks,
       [&](Index k) {
-        const Index c = own.begin + k, end = std::min(chunk_begin(n, c + 1), part.end);
+        const Index c = owners ? at(owners->own_chunks(), k) : k;
+        const Index end = std::min(chunk_begin(n, c + 1), part.end);
         T s = zero;
         for (Index i = std::max(chunk_begin(n, c), part.begin); i < end; ++i) s = s + f(i);
         at(partial, c) = s;
       },
       1);
-  if (is_entered(halo)) complete_items(chunks, partial.begin(), sizeof(T));
+  if (owners) owners->complete_chunks(partial.begin(), sizeof(T));
   T total = zero;
   for (const T& p : partial) total = total + p;
   return total;
+}
+
+/// parallel_sum() over n particles, of which in a halo each rank knows its own.
+template <class T, class F>
+T sum_over_particles(const std::shared_ptr<const Halo>& halo, Index n, T zero, F&& f) {
+  return is_entered(halo) ? sum_over_part(halo, n, {0, n}, zero, f) : parallel_sum(n, zero, f);
 }
 
 }  // namespace meniscus

@@ -136,8 +136,20 @@ class ContactPoints {
 
   /// The particles that move the points, in ascending order, of the body.
   std::span<const Index> particles() const { return particles_; }
-  /// Every rank reads the motion of all points.
+  /// Calls f(k) for those of them, particles()[k], that this rank looks at to find the largest of
+  /// something over all: in a halo its own, else all.
+  template <class F>
+  void for_own_particles(F&& f) const {
+    if (in_halo())
+      for (const Index k : own_particles_) f(k);
+    else
+      for (Index k = 0; k < static_cast<Index>(particles_.size()); ++k) f(k);
+  }
+  bool in_halo() const { return is_entered(halo_); }
+  bool follows_all() const { return !in_halo() || told_all_; }
+  /// Every rank reads the motion of all points, or of these clusters.
   void tell_reads(StepReads& reads);
+  void tell_reads(StepReads& reads, std::span<const Index> clusters);
 
   std::size_t bytes() const;
   Offset pairs() const;
@@ -150,6 +162,7 @@ class ContactPoints {
   bool has_point(Index lane) const { return lane % Lanes::width < points_in(lane / Lanes::width); }
   void build_rows(RowContent content);
   void list_particles();
+  void tell_sums(StepReads& reads);
   template <class F>
   void take_weights(F&& weight_of);
   void take_inertia();
@@ -192,6 +205,9 @@ class ContactPoints {
   std::unique_ptr<PatchPoints<D>> patches_;   // null: points by shape functions
   std::vector<std::vector<Index>> of_group_;  // [group of patches] points
   std::vector<Index> particles_;
+  std::shared_ptr<const Halo> halo_;
+  std::vector<Index> own_particles_;  // in the halo, numbers in particles_
+  bool told_all_ = false;             // when reads were told last
   Real spacing_ = 0, inertia_ = 0, gain_ = 0;
   AlignedVector<Lanes> X_, reference_;  // [cluster][i]: places, weights in the reference state
   std::vector<std::uint8_t> pushed_;    // [cluster] 1 while its force is added

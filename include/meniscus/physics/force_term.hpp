@@ -130,6 +130,10 @@ class ForceTerm {
   /// the forces on the particles that it follows, and know the motion of no other. False: it may be
   /// that of all, whatever was said. All ranks call this.
   virtual bool tell_reads(StepReads&) { return false; }
+  /// Whether it would say something else by now: what is near to what has changed. A term that
+  /// needs more than it said in the middle of a step throws HaloOutgrown on all ranks, if
+  /// may_reject_steps().
+  virtual bool reads_changed() const { return false; }
 
   /// The step to `motion` stands: a term with history makes this its past.
   virtual void commit(const Motion&) {}

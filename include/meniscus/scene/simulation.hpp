@@ -68,11 +68,13 @@ class Simulation {
   void archive(const Archive& a);
   /// Makes the stepper and its step control. Throws InputError as the stepper does.
   void make_stepper(bool implicit_viscosity);
+  void share_steps();
   void choose_viscosity();
   void archive_viscosity(const Archive& a);
   void archive_terms(const Archive& a);
   void archive_references(const Archive& a) const;
   void step(Real dt);
+  void step_or_halve(Real dt);
   void refuse_impossible_states() const;
   void refuse_impossible_surfaces() const;
   [[noreturn]] void give_up(StepFailure failure);

@@ -55,6 +55,8 @@ struct System {
   /// From now on steps are made on what this rank follows, if all terms know what that is and some
   /// rank needs less than all. `reads`: of the stepper. All ranks call this, with a complete state.
   void share_steps(StepReads reads);
+  /// Whether a term has come to read other particles than when steps were shared.
+  bool reads_changed() const;
   /// Before steps of that kind, and where more is asked for than they know. All ranks call these.
   void enter_halo(State& state) {
     if (halo) halo->enter({&state.u, &state.v, &state.force});
@@ -92,6 +94,9 @@ struct System {
   StepFailure located(const Failure& failure, const Motion& motion) const;
   /// The body that holds a particle.
   const Body<D>& body_of(Index particle) const;
+
+ private:
+  Index first_not_finite(std::span<const NodalVector> force) const;
 };
 
 }  // namespace meniscus

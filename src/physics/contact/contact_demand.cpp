@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meniscus {
@@ -49,11 +50,12 @@ Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> ac
 template <int D>
 Box<D> velocities(const ContactPoints<D>& points, const Motion& motion) {
   const auto v = points.body().part(motion.v);
-  Lanes low = at(v, points.particles().front()), high = low;
-  for (const Index A : points.particles()) {
-    low = min(low, at(v, A));
-    high = max(high, at(v, A));
-  }
+  Lanes low(unbounded), high(-unbounded);
+  points.for_own_particles([&](Index k) {
+    const Lanes& of_particle = at(v, at(points.particles(), k));
+    low = min(low, of_particle);
+    high = max(high, of_particle);
+  });
   Box<D> box;
   for (int i = 0; i < D; ++i) {
     box.low[i] = low[i];
@@ -67,12 +69,25 @@ template <int D>
 Box<D> places(const ContactPoints<D>& points, const Motion& motion) {
   const auto u = points.body().part(motion.u);
   Box<D> box;
-  for (const Index A : points.particles()) {
+  points.for_own_particles([&](Index k) {
+    const Index A = at(points.particles(), k);
     Vec<D> d = at(points.body().particles.X(), A);
     for (int i = 0; i < D; ++i) d[i] += at(u, A)[i];
     box.include(d);
-  }
+  });
   return box;
+}
+
+/// Around all that the points read: in a halo of what each rank has looked at.
+template <int D, std::size_t n>
+std::array<Box<D>, n> of_all(const ContactPoints<D>& points, std::array<Box<D>, n> boxes) {
+  if (!points.in_halo()) return boxes;
+  for (const std::array<Box<D>, n>& of_rank : said_by_ranks(boxes))
+    for (std::size_t k = 0; k < n; ++k) {
+      boxes[k].low = boxes[k].low.cwiseMin(of_rank[k].low);
+      boxes[k].high = boxes[k].high.cwiseMax(of_rank[k].high);
+    }
+  return boxes;
 }
 
 /// Holds sum_A N_A c_A at all contact points, where all coefficients c_A are in the box: from its
@@ -115,17 +130,18 @@ Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active
 template <int D>
 Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
                   const Motion& motion) {
-  return {distance_between(of_points(places(first, motion), first),
-                           of_points(places(second, motion), second)),
-          farthest_between(of_points(velocities(first, motion), first),
-                           of_points(velocities(second, motion), second))};
+  const auto [x, y, v, w] =
+      of_all(first, std::array{places(first, motion), places(second, motion),
+                               velocities(first, motion), velocities(second, motion)});
+  return {distance_between(of_points(x, first), of_points(y, second)),
+          farthest_between(of_points(v, first), of_points(w, second))};
 }
 
 template <int D>
 Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
                   const Motion& motion) {
-  return {distance, farthest_between(of_points(velocities(points, motion), points),
-                                     Box<D>{velocity, velocity})};
+  const auto [v] = of_all(points, std::array{velocities(points, motion)});
+  return {distance, farthest_between(of_points(v, points), Box<D>{velocity, velocity})};
 }
 
 StepDemand approach_demand(const Approach& approach, Real range) {

@@ -134,11 +134,35 @@ void ContactPoints<D>::list_particles() {
 
 template <int D>
 void ContactPoints<D>::tell_reads(StepReads& reads) {
+  told_all_ = true;
   reads.particles(particles_, body_->first);
+  tell_sums(reads);
+}
+
+template <int D>
+void ContactPoints<D>::tell_reads(StepReads& reads, std::span<const Index> clusters) {
+  std::vector<Index> moving;
+  for (const Index c : clusters)
+    for (Index lane = 0; lane < points_in(c); ++lane)
+      for_shape_functions(c * Lanes::width + lane, [&](Index A, Real) { moving.push_back(A); });
+  told_all_ = false;
+  reads.particles(moving, body_->first);
+  tell_sums(reads);
+}
+
+template <int D>
+void ContactPoints<D>::tell_sums(StepReads& reads) {
   if (patches_)
-    patches_->tell_reads(reads, body_->first);
+    patches_->tell_sums(reads, body_->first);
   else
-    reads.rows(windows_, body_->first);
+    reads.sums(windows_, body_->first);
+  reads.when_shared([this](const auto& halo) {
+    halo_ = halo;
+    own_particles_.clear();
+    for (Index k = 0; k < static_cast<Index>(particles_.size()); ++k)
+      if (halo->owners().owner(body_->first + at(particles_, k)) == ranks().rank())
+        own_particles_.push_back(k);
+  });
 }
 
 template <int D>

@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/physics/contact_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meniscus {
@@ -18,16 +19,19 @@ class MovedSince {
     u_.clear();
     for (const Index A : points.particles()) u_.push_back(at(u, A));
   }
-  /// Infinite before begin().
+  /// Infinite before begin(). In a halo all ranks call this.
   Real farthest(const ContactPoints<D>& points, const Motion& motion) const {
     if (u_.empty()) return unbounded;
     const auto u = points.body().part(motion.u);
     Lanes most = Lanes::zero();
-    for (std::size_t k = 0; k < u_.size(); ++k) {
-      const Lanes change = at(u, points.particles()[k]) - u_[k];
+    points.for_own_particles([&](Index k) {
+      const Lanes change = at(u, at(points.particles(), k)) - at(u_, k);
       most = max(most, Lanes(sum(change * change)));
-    }
-    return points.gain() * std::sqrt(most[0]);
+    });
+    Real square = most[0];
+    if (points.in_halo())
+      for (const Real of_rank : said_by_ranks(square)) square = std::max(square, of_rank);
+    return points.gain() * std::sqrt(square);
   }
   std::size_t bytes() const { return u_.size() * sizeof(NodalVector); }
 

@@ -98,6 +98,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
     visits_.tell_reads(reads);
     return true;
   }
+  bool reads_changed() const override { return visits_.reads_changed(); }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 

@@ -98,6 +98,8 @@ template <int D>
 void PairVisits<D>::visit(const Motion& motion) {
   if (holds(motion)) {
     move_listed(motion, now_);
+  } else if (first_.back().in_halo()) {
+    throw HaloOutgrown();
   } else {
     make_list(motion, list_, now_);
     first_since_.begin(first_.back(), motion);
@@ -141,8 +143,27 @@ void PairVisits<D>::bring_others(const Motion& motion, VisitedPair<D>& at_motion
 
 template <int D>
 void PairVisits<D>::tell_reads(StepReads& reads) {
-  for (auto* side : {&first_, &second_})
-    for (ContactPoints<D>& points : *side) points.tell_reads(reads);
+  told_list_ = list_.builds();
+  if (told_list_ == 0) {
+    for (auto* side : {&first_, &second_})
+      for (ContactPoints<D>& points : *side) points.tell_reads(reads);
+  } else {
+    tell_reads(reads, first_, list_.of_first().active);
+    tell_reads(reads, second_, list_.of_second().active);
+  }
+}
+
+/// Of all grades, by the clusters of the coarsest points.
+template <int D>
+void PairVisits<D>::tell_reads(StepReads& reads, GradedPoints<D>& side,
+                               std::span<const Index> listed) const {
+  for (ContactPoints<D>& points : side) {
+    const Index each = points.clusters() / side.back().clusters();
+    std::vector<Index> clusters;
+    for (const Index c : listed)
+      for (Index k = 0; k < each; ++k) clusters.push_back(c * each + k);
+    points.tell_reads(reads, clusters);
+  }
 }
 
 template <int D>

@@ -74,13 +74,17 @@ class PairVisits {
     return f(std::as_const(at_motion));
   }
 
+  /// The points of the list, once there is one.
   void tell_reads(StepReads& reads);
+  /// Whether there is another list since then.
+  bool reads_changed() const { return told_list_ && list_.builds() != *told_list_; }
   std::size_t bytes() const;
   /// Of points, from both sides.
   Offset point_pairs() const;
 
  private:
   VisitedPair<D> at_rest() const;
+  void tell_reads(StepReads& reads, GradedPoints<D>& side, std::span<const Index> listed) const;
   bool holds(const Motion& motion) const;
   void move_listed(const Motion& motion, VisitedPair<D>& at_motion) const;
   void make_list(const Motion& motion, ContactList<D>& list, VisitedPair<D>& at_motion) const;
@@ -92,6 +96,7 @@ class PairVisits {
   ContactList<D> list_;                       // of the coarsest points
   MovedSince<D> first_since_, second_since_;  // that was made
   VisitedPair<D> now_;
+  std::optional<std::int64_t> told_list_;  // number of builds
 };
 
 }  // namespace meniscus

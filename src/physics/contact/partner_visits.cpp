@@ -15,6 +15,7 @@ void choose_within_reach(const BodyAndPartner<D>& pair, const Motion& motion, Re
   const ContactPoints<D>& points = pair.finest();
   const Vec<D> shift = pair.shift(motion);
   if (list.holds(points, motion, shift)) return;
+  if (points.in_halo()) throw HaloOutgrown();
   take_distances(pair, points, motion, layer);
   list.begin(points, motion, shift);
   layer.visited.clear();
@@ -64,8 +65,9 @@ void find_near(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayer
     any_near = any_near || !layer.near.empty();
   }
   // Distances of points beyond reach are those of when the list was made.
-  if (!any_near && pair.interaction->ends())
-    take_distances(pair, pair.finest(), motion, layers.front());
+  if (any_near || !pair.interaction->ends()) return;
+  if (!pair.finest().follows_all()) throw HaloOutgrown();
+  take_distances(pair, pair.finest(), motion, layers.front());
 }
 
 template <int D>

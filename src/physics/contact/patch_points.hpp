@@ -58,7 +58,7 @@ class PatchPoints {
 
   /// Of the nodes.
   const PointRows<D>& rows() const { return surface_.rows(); }
-  void tell_reads(StepReads& reads, Index first) { surface_.tell_reads(reads, first); }
+  void tell_sums(StepReads& reads, Index first) { surface_.tell_sums(reads, first); }
 
   std::size_t bytes() const {
     return surface_.bytes() + (reference_.size() + gradient_.size()) * sizeof(Lanes);

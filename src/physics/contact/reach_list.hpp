@@ -21,7 +21,10 @@ class ReachList {
   void begin(const ContactPoints<D>& points, const Motion& motion, const Vec<D>& shift) {
     since_.begin(points, motion);
     shift_ = shift;
+    ++times_;
   }
+  /// How often that was.
+  std::int64_t times() const { return times_; }
   Real distance() const { return 2 * range_; }
   std::size_t bytes() const { return since_.bytes(); }
 
@@ -29,6 +32,7 @@ class ReachList {
   Real range_;
   MovedSince<D> since_;  // it was made
   Vec<D> shift_ = Vec<D>::Zero();
+  std::int64_t times_ = 0;
 };
 
 }  // namespace meniscus

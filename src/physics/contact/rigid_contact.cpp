@@ -102,9 +102,14 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     if (pair_.partner.motion.moves()) work_.archive(a, D);
   }
   bool tell_reads(StepReads& reads) override {
-    for (ContactPoints<D>& points : pair_.points) points.tell_reads(reads);
+    told_ = visited_parts();
+    if (told_->touches)
+      pair_.points.front().tell_reads(reads, layers_.front().visited);
+    else
+      for (ContactPoints<D>& points : pair_.points) points.tell_reads(reads);
     return true;
   }
+  bool reads_changed() const override { return told_ && *told_ != visited_parts(); }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
@@ -147,6 +152,16 @@ class RigidContact final : public ForceTerm, public ContactVisits {
       n += static_cast<Offset>(layer.visited.size()) * Lanes::width;
     return n;
   }
+  /// Of an interaction that ends, a list of the clusters that may feel the partner, of which there
+  /// are some that do; where there are none, the distances of all points are asked for.
+  struct VisitedParts {
+    std::int64_t list;
+    bool touches;
+    bool operator==(const VisitedParts&) const = default;
+  };
+  VisitedParts visited_parts() const {
+    return {list_.times(), pair_.interaction->ends() && !layers_.front().near.empty()};
+  }
   Report report(const Motion& motion);
   Failure describe_overlap(const NearestPoint& nearest) const;
   Real closing_speed_of(std::size_t grade, Real within, const Vec<D>& velocity,
@@ -162,7 +177,8 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   WallSums sums_;
   PartnerWork work_;
   ReachList<D> list_;
-  std::vector<Index> close_;  // clusters that decide how fast the gap closes
+  std::optional<VisitedParts> told_;  // when ranks shared steps
+  std::vector<Index> close_;          // clusters that decide how fast the gap closes
 };
 
 /// The work of the partner, and what the places and velocities of a force mean for the step.

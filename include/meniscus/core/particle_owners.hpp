@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which rank looks at which particles of all bodies, in sums over them and for the others.
+#pragma once
+#include "meniscus/core/divided.hpp"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace meniscus {
+
+/// Of each body a rank owns the part that it also has of rows as many as the body has particles
+/// (own_rows()), as far as the chunks of sums over all particles allow: each of them has one owner.
+class ParticleOwners {
+ public:
+  /// Of n particles; `first`: those with which bodies begin, in ascending order. All ranks call
+  /// this.
+  ParticleOwners(Index n, std::span<const Index> first);
+
+  Index particles() const { return n_; }
+  int owner(Index A) const;
+  /// Neighbouring particles of this rank, in ascending order.
+  std::span<const OwnItems> own() const { return own_; }
+  /// Chunks of sums over all particles.
+  std::span<const Index> own_chunks() const { return own_chunks_; }
+
+  // Bring what their owners have of so many bytes, [chunk] and [particle]. All ranks call these.
+  void complete_chunks(void* values, std::size_t bytes_per_value) const;
+  void complete(void* values, std::size_t bytes_per_value) const;
+
+ private:
+  struct Run {
+    OwnItems particles;
+    int owner;
+  };
+
+  Index n_;
+  std::vector<Run> runs_;
+  std::vector<OwnItems> own_;
+  std::vector<Index> own_chunks_;
+  std::unique_ptr<Exchange> chunks_;
+};
+
+}  // namespace meniscus
