@@ -36,7 +36,6 @@ void StepController<D>::plan_next_check(const State& state) {
       std::min(std::max(interval_, shortest_interval), static_cast<Real>(choice_.check_every));
   last_check_ = state.step;
   next_check_ = state.step + static_cast<std::int64_t>(interval_);
-  rejected_ = false;
   known_stiffness_ = state.demand.stiffness;
 }
 
@@ -54,14 +53,11 @@ template <int D>
 void StepController<D>::reconsider(State& state) {
   system_.complete(state);
   const Real before = stable_.dt;
-  const bool rejected = rejected_;
   stable_ = estimator_.estimate_again(state, stable_);
   // So long that the limit changes by 2 % between estimates (with implicit viscosity, where it
-  // falls with every step of a drop that spreads, by 4 %), and at most 1.7 times as long as before.
-  const Real tolerated = choice_.implicit_viscosity ? 0.04 : 0.02, longer = rejected ? 1 : 1.7;
-  const Real change = std::abs(std::log(stable_.dt / before));
-  const Real steps = static_cast<Real>(state.step - last_check_);
-  interval_ = std::min(longer * interval_, change > 0 ? steps * tolerated / change : unbounded);
+  // falls with every step of a drop that spreads, by 4 %), and at most 1.5 times as long as before.
+  const Real tolerated = choice_.implicit_viscosity ? 0.04 : 0.02, slowest = tolerated / 1.5;
+  interval_ *= tolerated / std::max(slowest, std::abs(std::log(stable_.dt / before)));
   plan_next_check(state);
   if (stable_.dt < 1e-6 * first_limit_)
     throw estimator_.failure(fmt::format("the stable time step has collapsed from {:.3g} to {:.3g}",
@@ -77,15 +73,7 @@ void StepController<D>::reconsider(State& state) {
   }
   // Small changes are left alone: every change of step disturbs the energy balance a little.
   const Real wanted = std::min(choice_.safety * stable_.dt, state.demand.longest);
-  const bool too_short = step_ < 0.9 * wanted && !rejected;
-  if (step_ > std::min(1.02 * wanted, stable_.dt) || too_short) step_ = wanted;
-}
-
-template <int D>
-void StepController<D>::shorten(Real dt) {
-  step_ = std::min(step_, dt);
-  rejected_ = true;
-  next_check_ = std::min(next_check_, last_check_ + static_cast<std::int64_t>(shortest_interval));
+  if (step_ > std::min(1.02 * wanted, stable_.dt) || step_ < 0.9 * wanted) step_ = wanted;
 }
 
 /// The longest step now: safety x the stable step with the stiffness that came since the estimate,
@@ -133,7 +121,6 @@ void StepController<D>::archive(const Archive& a) {
   a("next_check", next_check_);
   a("last_check", last_check_);
   a("known_stiffness", known_stiffness_, {0, -2, 0});
-  a("rejected", rejected_);
   a("warned", warned_);
   std::optional<Real> fixed = choice_.fixed;
   Real safety = choice_.safety;

@@ -357,34 +357,5 @@ TEST(StepController, ArrivesExactlyAndRefusesAboveTheLimit) {
   }
 }
 
-/// Between estimates far apart the limit may fall: a rejected step is a sign of it.
-TEST(StepController, AsksWhereAStepWasRejected) {
-  OneBody<3> one(test::ball(3, 2), "neo_hookean", "density = 1\nmu = 1\nlambda = 1\n");
-  StepController<3> controller(one.system, {std::nullopt, 0.9, 100});
-  start(one.system, one.state);
-  controller.begin(one.state);
-  const Real limit = controller.stable().dt;
-  const auto next_at = [&](std::int64_t step) {
-    one.state.step = step;
-    return controller.next(one.state, 1e9);
-  };
-  for (std::int64_t step = 1; step <= 300; ++step) next_at(step);
-  one.state.u =
-      test::field_on<3>(one.body(), [](const Vec<3>& X) { return Vec<3>(-0.3 * X[0], 0, 0); });
-  start(one.system, one.state);
-  next_at(301);
-  EXPECT_EQ(controller.stable().dt, limit);
-  controller.shorten(0.2 * limit);
-  EXPECT_EQ(next_at(302), 0.2 * limit);
-  const Real pressed = controller.stable().dt;
-  const Real anew = StableStepEstimator<3>(one.system).estimate(one.state).dt;
-  EXPECT_GT(std::abs(pressed - limit), 0.02 * limit);
-  EXPECT_NEAR(pressed, anew, 0.01 * anew);
-  // What a contact needed to begin with is needed for a while.
-  EXPECT_EQ(next_at(303), 0.2 * limit);
-  EXPECT_EQ(next_at(402), 0.9 * controller.stable().dt);
-  EXPECT_NEAR(controller.stable().dt, anew, 0.01 * anew);
-}
-
 }  // namespace
 }  // namespace meniscus::test_time_step

@@ -32,10 +32,8 @@ class StepController {
   /// stable step has collapsed to a millionth of the first.
   Real next(State& state, Real end, Real accurate = unbounded);
 
-  /// A step was rejected, and one of `dt` taken instead: the next ones are not longer, until the
-  /// estimate that is due. An early one, five steps after the last at least, tells whether the
-  /// stable step has fallen.
-  void shorten(Real dt);
+  /// A step was rejected: the next ones are not longer than `dt`, until the next estimate.
+  void shorten(Real dt) { step_ = std::min(step_, dt); }
 
   const StableStep& stable() const { return stable_; }
   /// The step that stability and terms allow.
@@ -59,8 +57,7 @@ class StepController {
   Choice choice_;
   StableStep stable_;
   Real step_ = 0, first_limit_ = 0;
-  Real interval_ = 0;      ///< steps from one estimate to the next
-  bool rejected_ = false;  ///< a step since the last estimate
+  Real interval_ = 0;  ///< steps from one estimate to the next
   std::int64_t next_check_ = 0, last_check_ = 0;
   Real known_stiffness_ = 0;  ///< demanded when the stable step was estimated, so part of it
   bool warned_ = false;
