@@ -9,8 +9,9 @@
 
 namespace meniscus {
 
-/// Of each body a rank owns the part that it also has of rows as many as the body has particles
-/// (own_rows()), as far as the chunks of sums over all particles allow: each of them has one owner.
+/// The chunks of sums over all particles, each with one owner: the rank that has the row in the
+/// middle of the chunk if the body has a row for each particle (own_rows()). So of each body a rank
+/// owns about the part over which it also adds up windows.
 class ParticleOwners {
  public:
   /// Of n particles; `first`: those with which bodies begin, in ascending order. All ranks call
