@@ -13,7 +13,7 @@ constexpr Index group_size = 4;  // points of one batch of ReproducingKernel; th
 
 /// Room for `entries` more of them.
 template <int D>
-void grow(PointRows<D>& rows, std::size_t entries, RowContent content) {
+void make_room(PointRows<D>& rows, std::size_t entries, RowContent content) {
   const std::size_t size = rows.particle.size() + entries;
   rows.particle.resize(size);
   if (content.value) rows.value.resize(size);
@@ -26,7 +26,7 @@ void append_row(PointRows<D>& rows, const std::vector<Candidate<D>>& candidates,
                 const auto& kernel, int lane) {
   std::size_t e = rows.particle.size(), reaching = 0;
   for (std::size_t k = 0; k < candidates.size(); ++k) reaching += kernel.reaches(k, lane);
-  grow(rows, reaching, content);
+  make_room(rows, reaching, content);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (!kernel.reaches(k, lane)) continue;
     rows.particle[e] = candidates[k].particle;
@@ -109,16 +109,24 @@ void reserve(PointRows<D>& rows, std::span<const PointRows<D>> some, Real times,
 }
 
 template <int D>
-void append_rows(PointRows<D>& rows, const PointRows<D>& more) {
-  const auto append = [](auto& all, const auto& some) {
-    all.insert(all.end(), some.begin(), some.end());
+void append_rows(PointRows<D>& rows, std::span<const PointRows<D>> parts, RowContent content) {
+  std::vector<std::size_t> first{rows.particle.size()};  // [part] entries before it
+  for (const PointRows<D>& part : parts) {
+    const Offset base = rows.start.back();
+    for (std::size_t q = 1; q < part.start.size(); ++q) rows.start.push_back(base + part.start[q]);
+    first.push_back(first.back() + part.particle.size());
+  }
+  const auto append = [&](auto array, std::size_t components) {
+    grow(rows.*array, first.back() * components);
+    parallel_for(static_cast<Index>(parts.size()), [&](Index k) {
+      const auto& some = at(parts, k).*array;
+      std::copy(some.begin(), some.end(), (rows.*array).data() + at(first, k) * components);
+    });
   };
-  const Offset base = rows.start.back();
-  for (std::size_t q = 1; q < more.start.size(); ++q) rows.start.push_back(base + more.start[q]);
-  append(rows.particle, more.particle);
-  append(rows.value, more.value);
-  append(rows.gradient, more.gradient);
-  append(rows.hessian, more.hessian);
+  append(&PointRows<D>::particle, 1);
+  if (content.value) append(&PointRows<D>::value, 1);
+  if (content.gradient) append(&PointRows<D>::gradient, D);
+  if (content.hessian) append(&PointRows<D>::hessian, static_cast<std::size_t>(hessian_count(D)));
 }
 
 }  // namespace
@@ -150,7 +158,7 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
         },
         1);
     if (begin == 0) reserve<D>(rows, part, static_cast<Real>(groups) / count, content);
-    for (Index k = 0; k < count; ++k) append_rows(rows, at(part, k));
+    append_rows<D>(rows, std::span(part).first(static_cast<std::size_t>(count)), content);
   }
   return rows;
 }

@@ -172,6 +172,7 @@ void curve_boundary(Geometry<D>& geometry) {
   });
 
   grid.bulge_of.assign(grid.cells.size(), -1);
+  grid.bulges.reserve(cells.size());
   for (const AtBoundary& at_boundary : cells) {
     if (!at_boundary.bulge.curved) continue;
     at(grid.bulge_of, at_boundary.cell) = static_cast<Index>(grid.bulges.size());

@@ -25,10 +25,11 @@ namespace {
 /// Entries of `factor` times the integral of grad v . grad v with trilinear (2D: bilinear)
 /// elements, two Gauss points per direction.
 template <int D>
-void add_laplacian(const Grid<D>& grid, Real factor, std::vector<MatrixEntry>& entries) {
+UnsetVector<MatrixEntry> laplacian(const Grid<D>& grid, Real factor) {
   constexpr int corners_of_cell = 1 << D, of_cell = corners_of_cell * corners_of_cell;
-  const std::size_t first = entries.size();
-  entries.resize(first + grid.cells.size() * of_cell);
+  UnsetVector<MatrixEntry> entries;
+  entries.reserve(grid.cells.size() * of_cell + grid.X.size());  // and a diagonal
+  grow(entries, grid.cells.size() * of_cell);
   parallel_for(static_cast<Index>(grid.cells.size()), [&](Index c) {
     const auto& cell = at(grid.cells, c);
     const auto corners = grid.corner_points(cell);
@@ -45,11 +46,12 @@ void add_laplacian(const Grid<D>& grid, Real factor, std::vector<MatrixEntry>& e
         for (int b = 0; b < corners_of_cell; ++b)
           at(at(K, a), b) += weight * at(g, a).dot(at(g, b));
     }
-    MatrixEntry* entry = entries.data() + first + static_cast<std::size_t>(c) * of_cell;
+    MatrixEntry* entry = entries.data() + static_cast<std::size_t>(c) * of_cell;
     for (int a = 0; a < corners_of_cell; ++a)
       for (int b = 0; b < corners_of_cell; ++b)
         *entry++ = {at(cell, a), at(cell, b), at(at(K, a), b)};
   });
+  return entries;
 }
 
 template <int D>
@@ -72,44 +74,36 @@ Real extent_of(const Body<D>& body) {
   return box_around<D>(body.particles.X()).extent().maxCoeff();
 }
 
-/// Values at the particles by rows, or their transpose.
-struct Transform {
-  std::vector<Offset> start{0};
-  std::vector<Index> column;
-  std::vector<Real> value;
-
-  Lanes row(Index A, const NodalVector* field) const {
-    Lanes even = Lanes::zero(), odd = even;  // two chains hide the latency
-    Offset e = at(start, A);
-    const Offset end = at(start, A + 1);
-    for (; e + 1 < end; e += 2) {
-      even += at(value, e) * field[at(column, e)];
-      odd += at(value, e + 1) * field[at(column, e + 1)];
-    }
-    if (e < end) even += at(value, e) * field[at(column, e)];
-    return even + odd;
-  }
-};
-
+/// The value of row A of a field.
 template <int D>
-Transform transform_of(const PointRows<D>& rows) {
-  return {rows.start, rows.particle, {rows.value.begin(), rows.value.end()}};
+Lanes value_of_row(const PointRows<D>& rows, Index A, const NodalVector* field) {
+  Lanes even = Lanes::zero(), odd = even;  // two chains hide the latency
+  Offset e = at(rows.start, A);
+  const Offset end = at(rows.start, A + 1);
+  for (; e + 1 < end; e += 2) {
+    even += at(rows.value, e) * field[at(rows.particle, e)];
+    odd += at(rows.value, e + 1) * field[at(rows.particle, e + 1)];
+  }
+  if (e < end) even += at(rows.value, e) * field[at(rows.particle, e)];
+  return even + odd;
 }
 
-Transform transpose_of(const Transform& T) {
-  Transform t;
-  const std::size_t n = T.start.size() - 1;
+/// Of the values at the particles.
+template <int D>
+PointRows<D> transpose_of(const PointRows<D>& rows) {
+  PointRows<D> t;
+  const std::size_t n = rows.start.size() - 1;
   t.start.assign(n + 1, 0);
-  for (const Index A : T.column) ++at(t.start, A + 1);
+  for (const Index A : rows.particle) ++at(t.start, A + 1);
   for (std::size_t A = 0; A < n; ++A) t.start[A + 1] += t.start[A];
-  t.column.resize(T.column.size());
-  t.value.resize(T.value.size());
+  grow(t.particle, rows.particle.size());
+  grow(t.value, rows.particle.size());
   std::vector<Offset> next(t.start.begin(), t.start.end() - 1);
   for (Index row = 0; row < static_cast<Index>(n); ++row)
-    for (Offset e = at(T.start, row); e < at(T.start, row + 1); ++e) {
-      Offset& to = at(next, at(T.column, e));
-      at(t.column, to) = row;
-      at(t.value, to++) = at(T.value, e);
+    for (Offset e = at(rows.start, row); e < at(rows.start, row + 1); ++e) {
+      Offset& to = at(next, at(rows.particle, e));
+      at(t.particle, to) = row;
+      at(t.value, to++) = at(rows.value, e);
     }
   return t;
 }
@@ -122,17 +116,16 @@ class ElasticInertia<D>::OfBody {
   OfBody(const System<D>& system, const Body<D>& body)
       : first_(static_cast<std::size_t>(body.first)),
         size_(body.size()),
-        to_places_(transform_of(body.at_particles)),
+        to_places_(body.at_particles),
         from_places_(transpose_of(to_places_)) {
     Real mass = 0;
     for (const Real m : body.part(std::span<const Real>(system.mass))) mass += m;
     const Real k = 2 * std::numbers::pi / extent_of(body);
-    std::vector<MatrixEntry> entries;
-    add_laplacian(body.geometry.grid, 0.5 * mass / volume(body.geometry.grid) / (k * k), entries);
+    const Grid<D>& grid = body.geometry.grid;
+    UnsetVector<MatrixEntry> entries = laplacian(grid, 0.5 * mass / volume(grid) / (k * k));
     for (Index A = 0; A < size_; ++A)
       entries.push_back({A, A, 0.5 * at(system.mass, body.first + A)});
-    factors_ =
-        std::make_unique<SparseCholesky>(size_, entries, nested_dissection(body.geometry.grid));
+    factors_ = std::make_unique<SparseCholesky>(size_, entries, nested_dissection(grid));
     residual_.resize(static_cast<std::size_t>(size_));
     way_ = image_ = x_ = residual_;
   }
@@ -149,7 +142,7 @@ class ElasticInertia<D>::OfBody {
   /// x becomes a polynomial of T, about T^-1, times x: Chebyshev's iteration for eigenvalues of T
   /// in [0.05, 1.1]. Those below it, of coefficients that hardly move places, are taken for about
   /// it.
-  void divide_by(const Transform& T) {
+  void divide_by(const PointRows<D>& T) {
     constexpr int degree = 8;
     constexpr Real low = 0.05, high = 1.1, middle = (high + low) / 2, half = (high - low) / 2;
     for_chunks(size_, [&](Index, Index begin, Index end) {
@@ -164,7 +157,7 @@ class ElasticInertia<D>::OfBody {
                  added = 2 * next / half;
       rho = next;
       for_chunks(size_, [&](Index, Index begin, Index end) {
-        for (Index A = begin; A < end; ++A) at(image_, A) = T.row(A, way_.data());
+        for (Index A = begin; A < end; ++A) at(image_, A) = value_of_row(T, A, way_.data());
       });
       for_chunks(size_, [&](Index, Index begin, Index end) {
         for (Index A = begin; A < end; ++A) {
@@ -178,7 +171,8 @@ class ElasticInertia<D>::OfBody {
 
   std::size_t first_;
   Index size_;
-  Transform to_places_, from_places_;
+  const PointRows<D>& to_places_;
+  PointRows<D> from_places_;
   std::unique_ptr<SparseCholesky> factors_;
   NodalVectors residual_, way_, image_, x_;
 };

@@ -22,12 +22,13 @@ using Dense = Eigen::MatrixXd;
 
 /// A symmetric matrix, rows ascending in each column.
 struct Columns {
-  std::vector<Index> start, row;
-  std::vector<Real> value;
+  std::vector<Index> start;
+  UnsetVector<Index> row;
+  UnsetVector<Real> value;
 };
 
 /// The matrix with a diagonal of one, by `scale` from both sides.
-Columns scaled_sum(Index n, const std::vector<MatrixEntry>& entries, Eigen::VectorXd& scale) {
+Columns scaled_sum(Index n, std::span<const MatrixEntry> entries, Eigen::VectorXd& scale) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
   Columns A{std::vector<Index>(static_cast<std::size_t>(n) + 1, 0), {}, {}};
   for (const MatrixEntry& e : entries) {
@@ -36,8 +37,8 @@ Columns scaled_sum(Index n, const std::vector<MatrixEntry>& entries, Eigen::Vect
   }
   scale = diagonal.cwiseSqrt().cwiseInverse();
   std::partial_sum(A.start.begin(), A.start.end(), A.start.begin());
-  A.row.resize(entries.size());
-  A.value.resize(entries.size());
+  grow(A.row, entries.size());
+  grow(A.value, entries.size());
   std::vector<Index> next(A.start.begin(), A.start.end() - 1);
   for (const MatrixEntry& e : entries) {
     const Index k = at(next, e.column)++;
@@ -230,7 +231,7 @@ void SparseCholesky::Factors::find_sources() {
     for (const Index row : front.below) at(source, at(next, row)++) = place++;
 }
 
-SparseCholesky::SparseCholesky(Index n, const std::vector<MatrixEntry>& entries,
+SparseCholesky::SparseCholesky(Index n, std::span<const MatrixEntry> entries,
                                std::vector<Index> order)
     : factors_(std::make_unique<Factors>()) {
   const Columns A = scaled_sum(n, entries, factors_->scale);

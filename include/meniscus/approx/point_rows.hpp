@@ -20,10 +20,10 @@ struct RowContent {
 template <int D>
 struct PointRows {
   std::vector<Offset> start{0};  ///< [point + 1]
-  std::vector<Index> particle;   ///< [entry], ascending within a row
-  AlignedVector<Real> value;     ///< [entry]
-  AlignedVector<Real> gradient;  ///< [entry][i]
-  AlignedVector<Real> hessian;   ///< [entry][ij]
+  UnsetVector<Index> particle;   ///< [entry], ascending within a row
+  UnsetVector<Real> value;       ///< [entry]
+  UnsetVector<Real> gradient;    ///< [entry][i]
+  UnsetVector<Real> hessian;     ///< [entry][ij]
 
   Index size() const { return static_cast<Index>(start.size()) - 1; }
   Offset entries() const { return start.back(); }

@@ -56,9 +56,10 @@ struct UnsetAllocator : CacheLineAllocator<T> {
 template <class T>
 using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 
-/// Resizes a vector, quickly where that much is reserved.
+/// Resizes a vector, quickly where it is empty or that much is reserved.
 template <class T>
 void grow(UnsetVector<T>& v, std::size_t size) {
+  if (v.empty()) v.reserve(size);
   if (size > v.size() && size <= v.capacity())
     take_pages(v.data() + v.size(), (size - v.size()) * sizeof(T));
   v.resize(size);

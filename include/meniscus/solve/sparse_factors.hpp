@@ -20,7 +20,7 @@ class SparseCholesky {
   /// Of the n x n matrix with the sums of `entries`, both triangles given. Its diagonal is scaled
   /// to one first. Rows are eliminated in `order` (order[new] = old), but for rows that do not
   /// depend on each other; by minimum degree if empty.
-  SparseCholesky(Index n, const std::vector<MatrixEntry>& entries, std::vector<Index> order = {});
+  SparseCholesky(Index n, std::span<const MatrixEntry> entries, std::vector<Index> order = {});
   ~SparseCholesky();
 
   /// The smallest pivot of the scaled matrix and its row: about round-off if that row depends on

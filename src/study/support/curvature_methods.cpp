@@ -79,7 +79,7 @@ template <int D>
 struct NodalGradients {
   std::array<NodalVectors, D> column;
 
-  void fill(const PointRows<D>& rows, const std::vector<Index>& particles, const Lanes* d) {
+  void fill(const PointRows<D>& rows, std::span<const Index> particles, const Lanes* d) {
     parallel_for(rows.size(), [&](Index q) {
       const auto columns = gradient_at(rows, q, d);
       for (int K = 0; K < D; ++K) at(at(column, K), at(particles, q)) = at(columns, K);
