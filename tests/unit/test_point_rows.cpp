@@ -160,6 +160,31 @@ TEST(PointRows, AreSortedAndCompressed) {
   EXPECT_EQ(rows.entries(), static_cast<Offset>(rows.particle.size()));
 }
 
+TEST(PointRows, AreThoseOfEachPointHoweverManyThereAre) {
+  const auto body = test::body_of<3>(test::ball(4, 2));
+  const auto X = body->particles.X();
+  std::vector<Vec<3>> often;  // so many that they are put together in several blocks
+  while (often.size() < 10000) often.insert(often.end(), X.begin(), X.end());
+  const PointRows<3> once = build_point_rows<3>(body->particles, X, everything, "body"),
+                     rows = build_point_rows<3>(body->particles, often, everything, "body");
+  ASSERT_EQ(rows.size(), static_cast<Index>(often.size()));
+  for (Index q = 0; q < rows.size(); ++q) {
+    const Offset first = at(once.start, q % once.size()), begin = at(rows.start, q);
+    const Offset length = at(once.start, q % once.size() + 1) - first;
+    ASSERT_EQ(at(rows.start, q + 1) - begin, length);
+    for (Offset e = 0; e < length; ++e) {
+      ASSERT_EQ(at(rows.particle, begin + e), at(once.particle, first + e));
+      ASSERT_NEAR(at(rows.value, begin + e), at(once.value, first + e), 1e-12);
+      for (int i = 0; i < 3; ++i)
+        ASSERT_NEAR(at(rows.gradient, 3 * (begin + e) + i), at(once.gradient, 3 * (first + e) + i),
+                    1e-10);
+      for (int ij = 0; ij < 6; ++ij)
+        ASSERT_NEAR(at(rows.hessian, 6 * (begin + e) + ij), at(once.hessian, 6 * (first + e) + ij),
+                    1e-8);
+    }
+  }
+}
+
 TEST(PointRows, HoldOnlyWhatWasAskedFor) {
   const auto body = test::body_of<3>(test::ball(4, 1));
   const auto X = body->particles.X();
