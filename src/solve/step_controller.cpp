@@ -55,8 +55,10 @@ void StepController<D>::reconsider(State& state) {
   const Real before = stable_.dt;
   stable_ = estimator_.estimate_again(state, stable_);
   // So long that the limit changes by 2 % between estimates (with implicit viscosity, where it
-  // falls with every step of a drop that spreads, by 4 %), and at most 1.5 times as long as before.
-  const Real tolerated = choice_.implicit_viscosity ? 0.04 : 0.02, slowest = tolerated / 1.5;
+  // falls with every step of a drop that spreads, by 4 %), and at most 1.5 times as long as before,
+  // or twice where nothing has changed.
+  const Real tolerated = choice_.implicit_viscosity ? 0.04 : 0.02,
+             slowest = tolerated / (stable_.steady ? 2 : 1.5);
   interval_ *= tolerated / std::max(slowest, std::abs(std::log(stable_.dt / before)));
   plan_next_check(state);
   if (stable_.dt < 1e-6 * first_limit_)

@@ -261,10 +261,10 @@ void StableStepEstimator<D>::know_response(const State& state, Real dt) {
 }
 
 template <int D>
-bool StableStepEstimator<D>::responds_as_before() const {
+bool StableStepEstimator<D>::responds_as_before(Real tolerated) const {
   const Index others = parallel_sum(system_.size(), Index{0}, [&](Index A) {
     const Lanes change = (1 / at(system_.mass, A)) * (at(response_, A) - at(known_response_, A));
-    return Index{!(sum(change * change) < same_response * same_response)};  // also not a number
+    return Index{!(sum(change * change) < tolerated * tolerated)};  // also not a number
   });
   return others == 0;
 }
@@ -301,9 +301,10 @@ StableStep StableStepEstimator<D>::estimate_again(const State& state, const Stab
     v_ = state.v;
   }
   find_response(state, response_);
-  if (responds_as_before()) {
+  if (responds_as_before(same_response)) {
     StableStep same = before;
     same.evaluations = 1;
+    same.steady = responds_as_before(0.1 * same_response);
     return same;
   }
   std::swap(known_response_, response_);

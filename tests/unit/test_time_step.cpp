@@ -150,6 +150,13 @@ TEST(StableStep, IsLookedForAgainWhereItsModeHasChanged) {
   EXPECT_GT(first.evaluations, 4);
   EXPECT_EQ(same.evaluations, 1);
   EXPECT_NEAR(same.dt, first.dt, 1e-6 * first.dt);
+  EXPECT_TRUE(same.steady);
+  one.state.u =
+      test::field_on<3>(one.body(), [](const Vec<3>& X) { return Vec<3>(-1e-3 * X[0], 0, 0); });
+  start(one.system, one.state);
+  const StableStep hardly = estimator.estimate_again(one.state, same);
+  EXPECT_EQ(hardly.evaluations, 1);
+  EXPECT_FALSE(hardly.steady);
   one.state.u =
       test::field_on<3>(one.body(), [](const Vec<3>& X) { return Vec<3>(-0.3 * X[0], 0, 0); });
   start(one.system, one.state);
@@ -158,6 +165,51 @@ TEST(StableStep, IsLookedForAgainWhereItsModeHasChanged) {
   EXPECT_GT(std::abs(pressed.dt - first.dt), 0.02 * first.dt);
   const StableStep anew = StableStepEstimator<3>(one.system).estimate(one.state);
   EXPECT_NEAR(pressed.dt, anew.dt, 0.01 * anew.dt);
+}
+
+/// Has no force, but knows how often it was asked.
+class Counter final : public ForceTerm {
+ public:
+  explicit Counter(int& calls) : calls_(calls) {}
+  std::string name() const override { return "counter"; }
+  Report add_force(const Motion&, Forces) override {
+    ++calls_;
+    return {};
+  }
+  std::size_t bytes() const override { return 0; }
+  Offset pairs() const override { return 0; }
+
+ private:
+  int& calls_;
+};
+
+/// The steps up to `last` before which the stable step is estimated again, of a body that does not
+/// deform but at `pressed_at`.
+std::vector<std::int64_t> steps_of_estimates(std::int64_t last, std::int64_t pressed_at) {
+  OneBody<3> one(test::ball(3, 2), "neo_hookean", "density = 1\nmu = 1\nlambda = 1\n");
+  int calls = 0;
+  one.system.terms.push_back(std::make_unique<Counter>(calls));
+  StepController<3> controller(one.system, {.fixed = {}, .safety = 0.9});
+  start(one.system, one.state);
+  controller.begin(one.state);
+  std::vector<std::int64_t> steps;
+  for (one.state.step = 1; one.state.step <= last; ++one.state.step) {
+    if (one.state.step == pressed_at) {
+      one.state.u =
+          test::field_on<3>(one.body(), [](const Vec<3>& X) { return Vec<3>(-1e-3 * X[0], 0, 0); });
+      start(one.system, one.state);
+    }
+    const int before = calls;
+    controller.next(one.state, 1e9);
+    if (calls > before) steps.push_back(one.state.step);
+  }
+  return steps;
+}
+
+TEST(StepController, AsksTwiceAsFarApartWhereNothingChanges) {
+  EXPECT_EQ(steps_of_estimates(400, -1), (std::vector<std::int64_t>{5, 15, 35, 75, 155, 255, 355}));
+  // A change that does not show in the limit: half as far again as before.
+  EXPECT_EQ(steps_of_estimates(150, 12), (std::vector<std::int64_t>{5, 15, 30, 52, 85, 135}));
 }
 
 /// No number on particle 3 once it is broken.

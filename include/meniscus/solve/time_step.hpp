@@ -15,6 +15,7 @@ struct StableStep {
   Real stiffness = 0;   ///< omega = sqrt(k) of the critical mode, 1/time
   Real viscosity = 0;   ///< c of the critical mode, 1/time
   int evaluations = 0;  ///< force evaluations spent
+  bool steady = false;  ///< no response has changed by a tenth of what shows since it was found
   Real of_fields = std::numeric_limits<Real>::max();  ///< the limit of the other unknown fields
 
   void archive(const Archive& a);
@@ -53,7 +54,7 @@ class StableStepEstimator {
   bool is_smooth(const State& state, StableStep& found);
   void find_response(const State& state, NodalVectors& response);
   void know_response(const State& state, Real dt);
-  bool responds_as_before() const;
+  bool responds_as_before(Real tolerated) const;
   void start_where_it_changed();
   void find_stiff_forces(const State& state, Real size, TrialMode& trial);
   void find_viscous_forces(const State& state, Real rate, TrialMode& trial);
