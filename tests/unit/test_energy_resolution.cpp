@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The step resolves the exchange of energy after a sudden release, and leaves smooth motion alone.
+#include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/solve/energy_resolution.hpp"
 
@@ -102,6 +103,21 @@ TEST(EnergyResolution, IsThatOfAnOscillator) {
   EXPECT_EQ(resolution.longest_step(oscillator.system, oscillator.state), 0);
   oscillator.at_phase(1e-3);
   EXPECT_NEAR(resolution.longest_step(oscillator.system, oscillator.state), 0.8 * step, 1e-5);
+}
+
+TEST(EnergyResolution, RejectsAStepThatDisturbsTheBalanceByMoreThanItMay) {
+  constexpr Real eta = 5e-3;
+  Oscillator oscillator;
+  EnergyResolution<2> resolution;
+  oscillator.at_phase(0);
+  resolution.longest_step(oscillator.system, oscillator.state);
+  // S = f^2/m comes from nothing, as where J comes close to 0.
+  constexpr Real f = 5, S = f * f / Oscillator::m;
+  const Real E = Oscillator::m / 2 * sum(oscillator.state.v[0] * oscillator.state.v[0]);
+  oscillator.state.force[0].set(0, f);
+  const Real dt = std::sqrt(8 * eta * E / S);
+  EXPECT_NO_THROW(resolution.judge(oscillator.system, oscillator.state, 0.99 * dt));
+  EXPECT_THROW(resolution.judge(oscillator.system, oscillator.state, 1.01 * dt), StepError);
 }
 
 TEST(EnergyResolution, LetsABodyGoInShortSteps) {
