@@ -11,14 +11,25 @@ namespace {
 
 constexpr Index group_size = 4;  // points of one batch of ReproducingKernel; they share a search
 
-/// Room for `entries` more of them.
+/// Calls f(array, numbers of an entry) for the arrays of entries that rows of this content have.
+template <int D, class F>
+void for_arrays(RowContent content, F&& f) {
+  f(&PointRows<D>::particle, std::size_t{1});
+  if (content.value) f(&PointRows<D>::value, std::size_t{1});
+  if (content.gradient) f(&PointRows<D>::gradient, std::size_t{D});
+  if (content.hessian) f(&PointRows<D>::hessian, static_cast<std::size_t>(hessian_count(D)));
+}
+
+/// So many, altogether.
 template <int D>
-void make_room(PointRows<D>& rows, std::size_t entries, RowContent content) {
-  const std::size_t size = rows.particle.size() + entries;
-  rows.particle.resize(size);
-  if (content.value) rows.value.resize(size);
-  if (content.gradient) rows.gradient.resize(size * D);
-  if (content.hessian) rows.hessian.resize(size * static_cast<std::size_t>(hessian_count(D)));
+void resize(PointRows<D>& rows, std::size_t entries, RowContent content) {
+  for_arrays<D>(content,
+                [&](auto array, std::size_t numbers) { (rows.*array).resize(entries * numbers); });
+}
+template <int D>
+void reserve(PointRows<D>& rows, std::size_t entries, RowContent content) {
+  for_arrays<D>(content,
+                [&](auto array, std::size_t numbers) { (rows.*array).reserve(entries * numbers); });
 }
 
 template <int D>
@@ -26,7 +37,7 @@ void append_row(PointRows<D>& rows, const std::vector<Candidate<D>>& candidates,
                 const auto& kernel, int lane) {
   std::size_t e = rows.particle.size(), reaching = 0;
   for (std::size_t k = 0; k < candidates.size(); ++k) reaching += kernel.reaches(k, lane);
-  make_room(rows, reaching, content);
+  resize(rows, e + reaching, content);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (!kernel.reaches(k, lane)) continue;
     rows.particle[e] = candidates[k].particle;
@@ -80,12 +91,7 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   kernel.evaluate(particles.kernel_places(batch), candidates, order);
 
   PointRows<D> rows;
-  rows.particle.reserve(candidates.size() * points.size());
-  rows.value.reserve(content.value ? candidates.size() * points.size() : 0);
-  rows.gradient.reserve(content.gradient ? D * candidates.size() * points.size() : 0);
-  rows.hessian.reserve(content.hessian ? static_cast<std::size_t>(hessian_count(D)) *
-                                             candidates.size() * points.size()
-                                       : 0);
+  reserve(rows, candidates.size() * points.size(), content);
   for (std::size_t lane = 0; lane < points.size(); ++lane) {
     particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane], body, least);
     append_row(rows, candidates, content, kernel, static_cast<int>(lane));
@@ -102,10 +108,7 @@ void reserve(PointRows<D>& rows, std::span<const PointRows<D>> some, Real times,
   std::size_t entries = 0;
   for (const PointRows<D>& part : some) entries += part.particle.size();
   if (times > 1) entries = static_cast<std::size_t>(2 * times * static_cast<Real>(entries));
-  rows.particle.reserve(entries);
-  rows.value.reserve(content.value ? entries : 0);
-  rows.gradient.reserve(content.gradient ? entries * D : 0);
-  rows.hessian.reserve(content.hessian ? entries * static_cast<std::size_t>(hessian_count(D)) : 0);
+  reserve(rows, entries, content);
 }
 
 template <int D>
@@ -116,25 +119,23 @@ void append_rows(PointRows<D>& rows, std::span<const PointRows<D>> parts, RowCon
     for (std::size_t q = 1; q < part.start.size(); ++q) rows.start.push_back(base + part.start[q]);
     first.push_back(first.back() + part.particle.size());
   }
-  const auto append = [&](auto array, std::size_t components) {
-    grow(rows.*array, first.back() * components);
+  for_arrays<D>(content, [&](auto array, std::size_t numbers) {
+    grow(rows.*array, first.back() * numbers);
     parallel_for(static_cast<Index>(parts.size()), [&](Index k) {
       const auto& some = at(parts, k).*array;
-      std::copy(some.begin(), some.end(), (rows.*array).data() + at(first, k) * components);
+      std::copy(some.begin(), some.end(), (rows.*array).data() + at(first, k) * numbers);
     });
-  };
-  append(&PointRows<D>::particle, 1);
-  if (content.value) append(&PointRows<D>::value, 1);
-  if (content.gradient) append(&PointRows<D>::gradient, D);
-  if (content.hessian) append(&PointRows<D>::hessian, static_cast<std::size_t>(hessian_count(D)));
+  });
 }
 
 }  // namespace
 
 template <int D>
 std::size_t PointRows<D>::bytes() const {
-  return start.size() * sizeof(Offset) + particle.size() * sizeof(Index) +
-         (value.size() + gradient.size() + hessian.size()) * sizeof(Real);
+  std::size_t sum = start.size() * sizeof(Offset);
+  for_arrays<D>({.value = true, .gradient = true, .hessian = true},
+                [&](auto array, std::size_t) { sum += std::span(this->*array).size_bytes(); });
+  return sum;
 }
 
 template <int D, int Degree>

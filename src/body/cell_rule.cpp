@@ -201,9 +201,10 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
   rule.start.resize(static_cast<std::size_t>(cells.begin) + 1, 0);
   rule.double_start.resize(rule.start.size(), 0);
   reserve_entries(body, cells, precision, rule);
-  constexpr Index block = 512;  // what rows are made of takes several times their memory
+  // What rows are made of takes several times their memory, rows before they are packed twice.
+  constexpr Index block = 512, packed_at_once = 64;
   std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, body.size())));
-  std::vector<CellRow<D>> rows(integrals.size());
+  std::vector<CellRow<D>> rows(static_cast<std::size_t>(packed_at_once));
   for (Index begin = cells.begin / block * block; begin < cells.end; begin += block) {
     const Index first = std::max(begin, cells.begin), end = std::min(begin + block, cells.end);
     parallel_for((end - begin + most_in_group - 1) / most_in_group,
@@ -213,17 +214,20 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
                                       {begin, begin + block}, integrals);
                  },
                  1);
-    parallel_for(
-        end - first,
-        [&](Index k) {
-          assemble_row<D>(body, first + k, integrals, begin, at(rows, k));
-          order_row(body, first + k, precision, at(rows, k));
-        },
-        4);
-    for (Index k = 0; k < end - first; ++k)
-      for (const auto& entry : at(rows, k).entries)
-        shape_integral.add(entry.particle, entry.integral);
-    pack<D>(std::span(rows).first(static_cast<std::size_t>(end - first)), rule);
+    for (Index next = first; next < end; next += packed_at_once) {
+      const Index count = std::min(packed_at_once, end - next);
+      parallel_for(
+          count,
+          [&](Index k) {
+            assemble_row<D>(body, next + k, integrals, begin, at(rows, k));
+            order_row(body, next + k, precision, at(rows, k));
+          },
+          4);
+      for (Index k = 0; k < count; ++k)
+        for (const auto& entry : at(rows, k).entries)
+          shape_integral.add(entry.particle, entry.integral);
+      pack<D>(std::span(rows).first(static_cast<std::size_t>(count)), rule);
+    }
   }
 }
 

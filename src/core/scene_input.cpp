@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -28,10 +29,13 @@ std::string file_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(std::generic_category().message(errno));
   constexpr std::size_t most = 10'000'000;
-  std::string content(most + 1, '\0');
-  file.read(content.data(), static_cast<std::streamsize>(content.size()));
+  std::string content;
+  std::array<char, 65536> piece;
+  while (file && content.size() <= most) {
+    file.read(piece.data(), piece.size());
+    content.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+  }
   if (file.bad()) refuse("reading failed");
-  content.resize(static_cast<std::size_t>(file.gcount()));
   if (content.size() > most)
     throw InputError(fmt::format("{}:1:1: the file is larger than a scene can be, 10 MB", path));
   return content;

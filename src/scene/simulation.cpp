@@ -54,19 +54,19 @@ void keep(const System<D>& system, State& state, State& copy) {
   for (std::size_t k = 0; k < large.size(); ++k) {
     at(of_state, k) = std::move(state.*at(large, k));
     at(of_copy, k) = std::move(copy.*at(large, k));
+    at(of_copy, k).resize(at(of_state, k).size());
   }
   copy = state;
   copy.energies.reserve(state.energies.capacity());
   for (std::size_t k = 0; k < large.size(); ++k) {
     state.*at(large, k) = std::move(at(of_state, k));
     copy.*at(large, k) = std::move(at(of_copy, k));
-    const NodalVectors& from = state.*at(large, k);
-    NodalVectors& to = copy.*at(large, k);
-    to.resize(from.size());
-    system.for_particles([&](Index begin, Index end) {
-      std::copy(from.begin() + begin, from.begin() + end, to.begin() + begin);
-    });
   }
+  system.for_particles([&](Index begin, Index end) {
+    for (const auto vector : large)
+      std::copy((state.*vector).begin() + begin, (state.*vector).begin() + end,
+                (copy.*vector).begin() + begin);
+  });
 }
 
 }  // namespace

@@ -63,12 +63,13 @@ Real EnergyResolution<D>::longest_step(const System<D>& system, const State& sta
 
 template <int D>
 void EnergyResolution<D>::judge(const System<D>& system, const State& state, Real dt) {
+  constexpr Real considerably = 1.5;
   judged_ = sums(system, state);
   const Sums& all = judged_;
   // A load that sets bodies in motion all at once does so in a step of any length.
   const bool set_in_motion = all.kinetic > 4 * energy_;
   const Real disturbance = dt * dt / 8 * std::abs(all.S - S_);
-  if (time_ < 0 || set_in_motion || disturbance <= eta(system) * energy_) return;
+  if (time_ < 0 || set_in_motion || disturbance <= considerably * eta(system) * energy_) return;
   StepFailure failure;
   failure.cause =
       fmt::format("the step disturbs the balance of energy by {:.2g} of the energy in motion",

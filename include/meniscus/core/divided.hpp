@@ -9,9 +9,7 @@
 namespace meniscus {
 
 /// The items that this rank does of n, a neighbouring part.
-struct OwnItems {
-  Index begin, end;
-};
+using OwnItems = ItemRange;
 OwnItems own_items(Index n);
 /// The rank that does an item of n.
 int rank_of_item(Index n, Index item);
@@ -68,22 +66,12 @@ void for_all_in_order(Index n, Make&& make, Use&& use) {
 /// parallel_sum() with the same bits, of which each rank does some chunks.
 template <class T, class F>
 T divided_sum(Index n, T zero, F&& f) {
-  const int chunks = chunk_count(n);
-  PerChunk<T> partial(chunks, zero);
-  const OwnItems own = own_items(chunks);
-  parallel_for(
-      own.end - own.begin,
-      [&](Index k) {
-        const Index c = own.begin + k;
-        T s = zero;
-        for (Index i = chunk_begin(n, c); i < chunk_begin(n, c + 1); ++i) s = s + f(i);
-        at(partial, c) = s;
-      },
-      1);
-  if (!ranks().alone()) complete_items(chunks, partial.begin(), sizeof(T));
-  T total = zero;
-  for (const T& p : partial) total = total + p;
-  return total;
+  const OwnItems own = own_items(chunk_count(n));
+  return sum_by_chunks(
+      n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; },
+      [&](T* sums) {
+        if (!ranks().alone()) complete_items(chunk_count(n), sums, sizeof(T));
+      });
 }
 
 }  // namespace meniscus

@@ -75,24 +75,14 @@ void for_particles(const std::shared_ptr<const Halo>& halo, Index n, F&& f) {
 
 /// Sum over some of n particles, in the chunks of all; in a halo each rank looks at its own.
 template <class T, class F>
-T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, OwnItems part, T zero, F&& f) {
-  const int chunks = chunk_count(n);
+T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, ItemRange part, T zero, F&& f) {
   const ParticleOwners* owners = is_entered(halo) ? &halo->owners() : nullptr;
-  PerChunk<T> partial(chunks, zero);
-  parallel_for(
-      owners ? static_cast<Index>(owners->own_chunks().size()) : chunks,
-      [&](Index k) {
-        const Index c = owners ? at(owners->own_chunks(), k) : k;
-        const Index end = std::min(chunk_begin(n, c + 1), part.end);
-        T s = zero;
-        for (Index i = std::max(chunk_begin(n, c), part.begin); i < end; ++i) s = s + f(i);
-        at(partial, c) = s;
-      },
-      1);
-  if (owners) owners->complete_chunks(partial.begin(), sizeof(T));
-  T total = zero;
-  for (const T& p : partial) total = total + p;
-  return total;
+  return sum_by_chunks(
+      n, part, zero, f, owners ? static_cast<Index>(owners->own_chunks().size()) : chunk_count(n),
+      [&](Index k) { return owners ? at(owners->own_chunks(), k) : k; },
+      [&](T* sums) {
+        if (owners) owners->complete_chunks(sums, sizeof(T));
+      });
 }
 
 /// parallel_sum() over n particles, of which in a halo each rank knows its own.

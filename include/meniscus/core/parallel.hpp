@@ -25,13 +25,14 @@ inline Index chunk_begin(Index n, int c) {
   return static_cast<Index>(static_cast<Offset>(n) * c / chunk_count(n));
 }
 
-/// Calls f(i) for i in [0, n) on all threads, `grain` neighbouring i at a time. The exception of
-/// the least i is rethrown afterwards (one that leaves an OpenMP region would end the program).
+/// Calls f(i) for i in [0, n) on all threads, `grain` neighbouring i at a time; what one thread
+/// would do wakes no other. The exception of the least i is rethrown afterwards (one that leaves an
+/// OpenMP region would end the program).
 template <class F>
 void parallel_for(Index n, F&& f, [[maybe_unused]] int grain = 64) {
   std::exception_ptr failure;
   [[maybe_unused]] Index failed = n;
-#pragma omp parallel for schedule(dynamic, grain)
+#pragma omp parallel for schedule(dynamic, grain) if (n > grain)
   for (Index i = 0; i < n; ++i) {
     try {
       f(i);
@@ -70,18 +71,37 @@ class PerChunk {
   alignas(T) std::byte memory_[most_chunks * sizeof(T)];
 };
 
-/// Sum of f(i) over [0, n), added in the order of the chunks.
-template <class T, class F>
-T parallel_sum(Index n, T zero, F&& f) {
+/// Items begin to end - 1.
+struct ItemRange {
+  Index begin, end;
+};
+
+/// Sum of f(i) over some items of n, added in the order of the chunks of n. Here `count` of them
+/// are added up, those with the numbers chunk(k); complete(sums) brings the sums of the others.
+template <class T, class F, class Chunk, class Complete>
+T sum_by_chunks(Index n, ItemRange items, T zero, F&& f, Index count, Chunk&& chunk,
+                Complete&& complete) {
   PerChunk<T> partial(chunk_count(n), zero);
-  for_chunks(n, [&](Index c, Index begin, Index end) {
-    T s = zero;
-    for (Index i = begin; i < end; ++i) s = s + f(i);
-    at(partial, c) = s;
-  });
+  parallel_for(
+      count,
+      [&](Index k) {
+        const Index c = chunk(k), end = std::min(chunk_begin(n, c + 1), items.end);
+        T s = zero;
+        for (Index i = std::max(chunk_begin(n, c), items.begin); i < end; ++i) s = s + f(i);
+        at(partial, c) = s;
+      },
+      1);
+  complete(partial.begin());
   T total = zero;
   for (const T& p : partial) total = total + p;
   return total;
+}
+
+/// Sum of f(i) over [0, n), added in the order of the chunks.
+template <class T, class F>
+T parallel_sum(Index n, T zero, F&& f) {
+  return sum_by_chunks(
+      n, {0, n}, zero, f, chunk_count(n), [](Index k) { return k; }, [](T*) {});
 }
 
 }  // namespace meniscus

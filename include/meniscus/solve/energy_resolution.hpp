@@ -18,8 +18,8 @@ class EnergyResolution {
   /// yet, and it grows from nothing where a body is let go from rest: the caller needs a least
   /// step.
   Real longest_step(const System<D>& system, const State& state);
-  /// Throws StepError `of_step` if the step of dt to `state` disturbed the balance by more than it
-  /// may: forces have come that nothing announced.
+  /// Throws StepError `of_step` if the step of dt to `state` disturbed the balance by considerably
+  /// more than it may: forces have come that nothing announced.
   void judge(const System<D>& system, const State& state, Real dt);
 
   void archive(const Archive& a);
