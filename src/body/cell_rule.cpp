@@ -201,7 +201,7 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
   rule.start.resize(static_cast<std::size_t>(cells.begin) + 1, 0);
   rule.double_start.resize(rule.start.size(), 0);
   reserve_entries(body, cells, precision, rule);
-  // What rows are made of takes several times their memory, rows before they are packed twice.
+  // What rows are made of takes several times their memory; rows that are not packed yet, twice.
   constexpr Index block = 512, packed_at_once = 64;
   std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, body.size())));
   std::vector<CellRow<D>> rows(static_cast<std::size_t>(packed_at_once));
