@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line of the studies, a program of its own: `meniscus study` hands over to it.
 #include "meniscus/app/commands.hpp"
+#include "meniscus/app/large_pages.hpp"
 #include "meniscus/app/print.hpp"
 #include "meniscus/io/provenance.hpp"
 
@@ -32,7 +33,10 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? exit_ok : exit_usage;
   }
-  if (!list) return run_study(request);
+  if (!list) {
+    begin_with_large_pages(argv);
+    return run_study(request);
+  }
   list_studies();
   require_printed();
   return exit_ok;

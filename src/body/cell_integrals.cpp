@@ -173,6 +173,10 @@ void pack_shared(const typename CellSamples<D>::SharedFacet& facet,
   packed.centre = facet.centre;
   packed.particle.clear();
   packed.flux.clear();
+  const auto count = std::count_if(flux.begin(), flux.end(),
+                                   [](const Flux<D>& through) { return !through.is_zero(); });
+  packed.particle.reserve(static_cast<std::size_t>(count));
+  packed.flux.reserve(static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (flux[k].is_zero()) continue;
     packed.particle.push_back(candidates[k].particle);

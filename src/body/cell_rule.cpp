@@ -159,29 +159,41 @@ void pack(std::span<const CellRow<D>> rows, CellRule<D>& rule) {
   rule.particle.resize(static_cast<std::size_t>(rule.start.back()));
   grow(rule.coefficient, static_cast<std::size_t>(rule.double_start.back()) * D);
   grow(rule.rounded, static_cast<std::size_t>(rule.start.back() - rule.double_start.back()) * D);
-  parallel_for(static_cast<Index>(rows.size()), [&](Index k) {
-    const CellRow<D>& row = rows[static_cast<std::size_t>(k)];
-    const Offset start = at(rule.start, first + static_cast<std::size_t>(k)),
-                 double_start = at(rule.double_start, first + static_cast<std::size_t>(k));
-    std::copy(row.particle.begin(), row.particle.end(), rule.particle.begin() + start);
-    Lanes* g = rule.coefficient.data() + double_start * D;
-    SingleLanes* r = rule.rounded.data() + (start - double_start) * D;
-    for (std::size_t e = 0; e < row.particle.size(); ++e)
-      for (const Lanes& x : row.gradient[e])
-        if (e < row.exact)
-          *g++ = x;
-        else
-          *r++ = SingleLanes::rounded(x);
-  });
+  parallel_for(
+      static_cast<Index>(rows.size()),
+      [&](Index k) {
+        const CellRow<D>& row = rows[static_cast<std::size_t>(k)];
+        const Offset start = at(rule.start, first + static_cast<std::size_t>(k)),
+                     double_start = at(rule.double_start, first + static_cast<std::size_t>(k));
+        std::copy(row.particle.begin(), row.particle.end(), rule.particle.begin() + start);
+        Lanes* g = rule.coefficient.data() + double_start * D;
+        SingleLanes* r = rule.rounded.data() + (start - double_start) * D;
+        for (std::size_t e = 0; e < row.particle.size(); ++e)
+          for (const Lanes& x : row.gradient[e])
+            if (e < row.exact)
+              *g++ = x;
+            else
+              *r++ = SingleLanes::rounded(x);
+      },
+      8);
+}
+
+/// Has the system fill the pages of the next elements of an array, as far as they are reserved.
+template <class T>
+void take_pages_of_next(UnsetVector<T>& v, std::size_t count) {
+  take_pages(v.data() + v.size(), std::min(count, v.capacity() - v.size()) * sizeof(T));
 }
 
 /// Volumes and stress points of all cells: little beside their rows.
 template <int D>
 void list_points(const Body<D>& body, CellRule<D>& rule) {
-  for (Index cell = 0; cell < body.size(); ++cell) {
-    rule.volume.push_back(body.cells.volume(cell));
-    for (const Lanes& xi : stress_points<D>(body.cells.covariance(cell))) rule.point.push_back(xi);
-  }
+  rule.volume.resize(static_cast<std::size_t>(body.size()));
+  rule.point.resize(rule.volume.size() * D);
+  parallel_for(body.size(), [&](Index cell) {
+    at(rule.volume, cell) = body.cells.volume(cell);
+    const auto xi = stress_points<D>(body.cells.covariance(cell));
+    std::copy(xi.begin(), xi.end(), rule.point.begin() + cell * D);
+  });
 }
 
 /// Makes the rows of all other cells empty.
@@ -205,11 +217,24 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
   constexpr Index block = 512, packed_at_once = 64;
   std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, body.size())));
   std::vector<CellRow<D>> rows(static_cast<std::size_t>(packed_at_once));
+  // By the rows of the block before; of the first, its share of what is reserved.
+  const auto share = [&](std::size_t reserved) {
+    return reserved * static_cast<std::size_t>(block) /
+           static_cast<std::size_t>(std::max(block, cells.end - cells.begin));
+  };
+  std::array<std::size_t, 2> taken{share(rule.coefficient.capacity()),
+                                   share(rule.rounded.capacity())};
   for (Index begin = cells.begin / block * block; begin < cells.end; begin += block) {
     const Index first = std::max(begin, cells.begin), end = std::min(begin + block, cells.end);
-    parallel_for((end - begin + most_in_group - 1) / most_in_group,
-                 [&](Index group) {
-                   const Index from = begin + group * most_in_group;
+    const std::array<std::size_t, 2> filled{rule.coefficient.size(), rule.rounded.size()};
+    parallel_for((end - begin + most_in_group - 1) / most_in_group + 1,
+                 [&](Index item) {
+                   if (item == 0) {
+                     take_pages_of_next(rule.coefficient, taken[0]);
+                     take_pages_of_next(rule.rounded, taken[1]);
+                     return;
+                   }
+                   const Index from = begin + (item - 1) * most_in_group;
                    integrate_cells<D>(body, {from, std::min(end, from + most_in_group)},
                                       {begin, begin + block}, integrals);
                  },
@@ -228,6 +253,7 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
           shape_integral.add(entry.particle, entry.integral);
       pack<D>(std::span(rows).first(static_cast<std::size_t>(count)), rule);
     }
+    taken = {rule.coefficient.size() - filled[0], rule.rounded.size() - filled[1]};
   }
 }
 

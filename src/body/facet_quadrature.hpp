@@ -4,6 +4,7 @@
 #include "meniscus/body/gauss.hpp"
 #include "meniscus/body/surface.hpp"
 #include "meniscus/core/dense.hpp"
+#include "meniscus/core/parallel.hpp"
 
 namespace meniscus {
 
@@ -16,15 +17,13 @@ Vec<D> area_normal(const Eigen::Matrix<Real, D, D - 1>& tangents) {
     return Vec<2>(tangents(1, 0), -tangents(0, 0));
 }
 
+/// A point of a surface, as one of SurfacePoints.
 template <int D>
-void append(SurfacePoints<D>& points, const Vec<D>& X, const Vec<D>& N, const Mat<D>& grad_N,
-            Real area, Index facet) {
-  points.X.push_back(X);
-  points.N.push_back(N);
-  points.grad_N.push_back(grad_N);
-  points.area.push_back(area);
-  points.facet.push_back(facet);
-}
+struct FacetPoint {
+  Vec<D> X, N;
+  Mat<D> grad_N;
+  Real area;
+};
 
 template <int D>
 using FacetCorners = std::array<Vec<D>, (1 << (D - 1))>;
@@ -36,15 +35,29 @@ FacetCorners<D> facet_corners(const Facet<D>& facet, const std::vector<Vec<D>>& 
   return corners;
 }
 
-/// Calls f(facet number, xi, weight) for the Gauss points of every facet that is wanted; returns
-/// points per facet.
+/// The FacetPoints f(facet, xi, weight) of k Gauss points per direction of every facet that is
+/// wanted. `f` is called on all threads.
 template <int D, class Wanted, class F>
-int for_facet_points(const Grid<D>& grid, int k, Wanted&& wanted, F&& f) {
+SurfacePoints<D> points_of_facets(const Grid<D>& grid, int k, Wanted&& wanted, F&& f) {
   const TensorRule<D - 1> rule = tensor_rule<D - 1>(k);
+  SurfacePoints<D> points;
+  points.per_facet = static_cast<int>(rule.x.size());
   for (std::size_t i = 0; i < grid.facets.size(); ++i)
-    for (std::size_t q = 0; wanted(grid.facets[i]) && q < rule.x.size(); ++q)
-      f(static_cast<Index>(i), rule.x[q], rule.w[q]);
-  return static_cast<int>(rule.x.size());
+    if (wanted(grid.facets[i]))
+      points.facet.insert(points.facet.end(), rule.x.size(), static_cast<Index>(i));
+  points.X.resize(points.facet.size());
+  points.N.resize(points.facet.size());
+  points.grad_N.resize(points.facet.size());
+  points.area.resize(points.facet.size());
+  parallel_for(static_cast<Index>(points.facet.size()), [&](Index p) {
+    const auto q = static_cast<std::size_t>(p % points.per_facet);
+    const FacetPoint<D> point = f(at(grid.facets, at(points.facet, p)), rule.x[q], rule.w[q]);
+    at(points.X, p) = point.X;
+    at(points.N, p) = point.N;
+    at(points.grad_N, p) = point.grad_N;
+    at(points.area, p) = point.area;
+  });
+  return points;
 }
 
 }  // namespace meniscus

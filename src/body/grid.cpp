@@ -4,6 +4,7 @@
 
 #include "meniscus/body/gauss.hpp"
 #include "meniscus/body/simplex.hpp"
+#include "meniscus/core/buckets.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
@@ -45,18 +46,23 @@ std::string place(const Vec<D>& X) {
                 : fmt::format("({:g}, {:g}, {:g})", X[0], X[1], X[D - 1]);
 }
 
-/// Nodes of a side around it. Of a collapsed cell, one that is a triangle has three, one that is no
-/// side of the simplex less than D.
+/// Nodes of a side around it. Of a collapsed cell, one that is a triangle has three, the last one
+/// twice; one that is no side of the simplex has less than D.
 template <int D>
-std::vector<Index> side_nodes(const typename Grid<D>::Cell& cell, int side) {
-  const auto local = side_corners<D>(side);
-  std::vector<Index> nodes;
-  for (std::size_t a = 0; a < local.size(); ++a) {
-    const Index node = at(cell, at(local, a ^ (a >> 1)));
-    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+struct SideNodes {
+  std::array<Index, (1 << (D - 1))> node;
+  int count = 0;  ///< of different ones
+
+  SideNodes(const typename Grid<D>::Cell& cell, int side) {
+    const auto local = side_corners<D>(side);
+    const auto end = [&] { return node.begin() + count; };
+    for (std::size_t a = 0; a < local.size(); ++a) {
+      const Index next = at(cell, at(local, a ^ (a >> 1)));
+      if (std::find(node.begin(), end(), next) == end()) at(node, count++) = next;
+    }
+    std::fill(end(), node.end(), at(node, count - 1));
   }
-  return nodes;
-}
+};
 
 /// The map of a cell, whatever its kind.
 template <int D>
@@ -82,45 +88,56 @@ void for_gauss_points(const Grid<D>& grid, Index cell, const TensorRule<D>& rule
 template <int D>
 void find_boundary(Grid<D>& grid) {
   struct Side {
-    std::array<Index, (1 << (D - 1))> key;  // ascending nodes; of a triangle -1 first
+    std::array<Index, (1 << (D - 1))> nodes;  // ascending; of a triangle the last one twice
     Index cell;
     int side;
     auto operator<=>(const Side&) const = default;
   };
+  constexpr Index sides_per_cell = 2 * D;
   std::vector<Side> sides;
-  for (Index e = 0; e < grid.cell_count(); ++e)
-    for (int side = 0; side < 2 * D; ++side) {
-      const std::vector<Index> nodes = side_nodes<D>(at(grid.cells, e), side);
-      if (nodes.size() < D) continue;
-      Side s{{}, e, side};
-      s.key.fill(-1);
-      std::copy(nodes.begin(), nodes.end(), s.key.begin());
-      std::sort(s.key.begin(), s.key.end());
-      sides.push_back(s);
+  const std::vector<Offset> begin = sort_into_buckets<Offset>(
+      static_cast<Index>(grid.X.size()),
+      [&](auto&& f) {
+        for (Index e = 0; e < grid.cell_count(); ++e)
+          for (int side = 0; side < sides_per_cell; ++side) {
+            auto [nodes, count] = SideNodes<D>(at(grid.cells, e), side);
+            if (count < D) continue;
+            std::sort(nodes.begin(), nodes.begin() + count);
+            std::fill(nodes.begin() + count, nodes.end(), at(nodes, count - 1));
+            f(nodes.front(), Side{nodes, e, side});
+          }
+      },
+      [&](Offset count) { sides.resize(static_cast<std::size_t>(count)); },
+      [&](Offset k, const Side& side) { at(sides, k) = side; });
+
+  std::vector<char> is_facet(grid.cells.size() * sides_per_cell, 0);
+  parallel_for(static_cast<Index>(grid.X.size()), [&](Index node) {
+    const auto of_node =
+        std::span(sides).subspan(static_cast<std::size_t>(at(begin, node)),
+                                 static_cast<std::size_t>(at(begin, node + 1) - at(begin, node)));
+    std::sort(of_node.begin(), of_node.end());
+    for (std::size_t i = 0, end; i < of_node.size(); i = end) {
+      const auto& [nodes, cell, side] = of_node[i];
+      end = i + 1;
+      while (end < of_node.size() && of_node[end].nodes == nodes) ++end;
+      if (end - i > 2)
+        throw InputError(
+            fmt::format("the grid is not conforming: cells {}, {} and {} share one side", cell,
+                        of_node[i + 1].cell, of_node[i + 2].cell));
+      if (end - i == 1) at(is_facet, cell * sides_per_cell + side) = 1;
     }
-  std::sort(sides.begin(), sides.end());
+  });
 
   grid.facets.clear();
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].key == sides[i].key) ++end;
-    if (end - i > 2)
-      throw InputError(fmt::format("the grid is not conforming: cells {}, {} and {} share one side",
-                                   sides[i].cell, sides[i + 1].cell, sides[i + 2].cell));
-    if (end - i == 1) {
-      Facet<D> facet;
-      facet.cell = sides[i].cell;
-      facet.side = sides[i].side;
-      std::vector<Index> nodes = side_nodes<D>(at(grid.cells, facet.cell), facet.side);
-      nodes.resize(facet.nodes.size(), nodes.back());  // a b c c of a triangle
-      for (std::size_t a = 0; a < nodes.size(); ++a) facet.nodes[a] = nodes[a ^ (a >> 1)];
-      grid.facets.push_back(facet);
-    }
-    i = end;
+  for (std::size_t k = 0; k < is_facet.size(); ++k) {
+    if (!is_facet[k]) continue;
+    Facet<D> facet;
+    facet.cell = static_cast<Index>(k) / sides_per_cell;
+    facet.side = static_cast<int>(k) % sides_per_cell;
+    const auto nodes = SideNodes<D>(at(grid.cells, facet.cell), facet.side).node;
+    for (std::size_t a = 0; a < nodes.size(); ++a) facet.nodes[a] = nodes[a ^ (a >> 1)];
+    grid.facets.push_back(facet);
   }
-  std::sort(grid.facets.begin(), grid.facets.end(), [](const Facet<D>& a, const Facet<D>& b) {
-    return std::pair(a.cell, a.side) < std::pair(b.cell, b.side);
-  });
 }
 
 namespace {
@@ -175,21 +192,20 @@ void check_jacobians(const Grid<D>& grid, const std::string& cause) {
 template <int D>
 NodeCells cells_of_nodes(const Grid<D>& grid) {
   NodeCells result;
-  result.row.assign(grid.X.size() + 1, 0);
   // The corners of a collapsed cell are nodes once each.
   const auto is_node_of = [](const typename Grid<D>::Cell& cell, int a) {
     return !is_simplex<D>(cell) || at(simplex_corners<D>(), simplex_corner<D>(a)) == a;
   };
-  for (const auto& cell : grid.cells)
-    for (int a = 0; a < Grid<D>::corners; ++a)
-      if (is_node_of(cell, a)) ++at(result.row, at(cell, a) + 1);
-  std::partial_sum(result.row.begin(), result.row.end(), result.row.begin());
-  result.entry.resize(static_cast<std::size_t>(result.row.back()));
-  std::vector<Offset> next(result.row.begin(), result.row.end() - 1);
-  for (Index e = 0; e < grid.cell_count(); ++e)
-    for (int a = 0; a < Grid<D>::corners; ++a)
-      if (is_node_of(at(grid.cells, e), a))
-        at(result.entry, at(next, at(at(grid.cells, e), a))++) = {e, a};
+  result.row = sort_into_buckets<Offset>(
+      static_cast<Index>(grid.X.size()),
+      [&](auto&& f) {
+        for (Index e = 0; e < grid.cell_count(); ++e)
+          for (int a = 0; a < Grid<D>::corners; ++a)
+            if (const auto& cell = at(grid.cells, e); is_node_of(cell, a))
+              f(at(cell, a), NodeCells::Entry{e, a});
+      },
+      [&](Offset count) { result.entry.resize(static_cast<std::size_t>(count)); },
+      [&](Offset k, const NodeCells::Entry& entry) { at(result.entry, k) = entry; });
   return result;
 }
 

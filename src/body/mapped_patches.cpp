@@ -85,19 +85,18 @@ MappedPatches<D>::MappedPatches(std::vector<Vec<D>> unit_X, std::vector<SurfaceP
 
 template <int D>
 SurfacePoints<D> MappedPatches<D>::points(const Grid<D>& grid, int k, SurfacePart part) const {
-  SurfacePoints<D> points;
-  points.exact = true;
   const auto wanted = [&](const Facet<D>& facet) {
     return part == SurfacePart::whole ||
            at(patches_, facet.patch).inner() == (part == SurfacePart::inner);
   };
-  points.per_facet = for_facet_points(grid, k, wanted, [&](Index i, const auto& xi, Real w) {
-    const Facet<D>& facet = at(grid.facets, i);
+  const auto at_place = [&](const Facet<D>& facet, const Vec<D - 1>& xi, Real w) {
     const CellPoint<D, D - 1> p = blended(*this, facet, xi);
     const auto foot = at(patches_, facet.patch).project(p.X);
     const Real area = area_normal<D>(foot.derivative * p.J).norm();
-    append<D>(points, foot.X, foot.N, foot.grad_N, w * area, i);
-  });
+    return FacetPoint<D>{foot.X, foot.N, foot.grad_N, w * area};
+  };
+  SurfacePoints<D> points = points_of_facets(grid, k, wanted, at_place);
+  points.exact = true;
   deform(points, map_);
   return points;
 }

@@ -67,18 +67,18 @@ std::vector<Vec<D>> QuadraticSurface<D>::of(const Facet<D>& facet) const {
 
 template <int D>
 SurfacePoints<D> QuadraticSurface<D>::points(const Grid<D>& grid, int k, SurfacePart part) const {
-  SurfacePoints<D> points;
-  points.exact = true;
   const auto wanted = [&](const Facet<D>& facet) {
     const bool inner = !inner_.empty() && at(inner_, facet.patch);
     return part == SurfacePart::whole || inner == (part == SurfacePart::inner);
   };
-  points.per_facet = for_facet_points(grid, k, wanted, [&](Index i, const auto& xi, Real w) {
-    const std::vector<Vec<D>> x = of(at(grid.facets, i));
+  const auto at_place = [&](const Facet<D>& facet, const Vec<D - 1>& xi, Real w) {
+    const std::vector<Vec<D>> x = of(facet);
     const auto place = patch_place<D>(PatchFunctions<D>(xi), own_points<D>(), x);
     const Vec<D> normal = area_normal<D>(place.J), N = normal.normalized();
-    append<D>(points, place.X, N, normal_gradient<D>(x, xi, place.J, N), w * normal.norm(), i);
-  });
+    return FacetPoint<D>{place.X, N, normal_gradient<D>(x, xi, place.J, N), w * normal.norm()};
+  };
+  SurfacePoints<D> points = points_of_facets(grid, k, wanted, at_place);
+  points.exact = true;
   return points;
 }
 

@@ -236,18 +236,18 @@ typename RecoveredSurface<D>::Place RecoveredSurface<D>::blended(const Grid<D>& 
 
 template <int D>
 SurfacePoints<D> RecoveredSurface<D>::points(const Grid<D>& grid, int k, SurfacePart part) const {
-  SurfacePoints<D> points;
-  points.exact = true;
   const auto wanted = [&](const Facet<D>& facet) {
     return part == SurfacePart::whole ||
            around(facet.nodes[0]).inner == (part == SurfacePart::inner);
   };
-  points.per_facet = for_facet_points(grid, k, wanted, [&](Index i, const auto& xi, Real w) {
-    const Place place = blended(grid, at(grid.facets, i), xi);
+  const auto at_place = [&](const Facet<D>& facet, const Vec<D - 1>& xi, Real w) {
+    const Place place = blended(grid, facet, xi);
     const Vec<D> normal = area_normal<D>(place.J), N = normal.normalized();
     const Mat<D> along = Mat<D>::Identity() - N * N.transpose();
-    append<D>(points, place.X, N, along * place.grad_N * along, w * normal.norm(), i);
-  });
+    return FacetPoint<D>{place.X, N, along * place.grad_N * along, w * normal.norm()};
+  };
+  SurfacePoints<D> points = points_of_facets(grid, k, wanted, at_place);
+  points.exact = true;
   return points;
 }
 

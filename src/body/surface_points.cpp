@@ -11,14 +11,12 @@ namespace meniscus {
 
 template <int D>
 SurfacePoints<D> facet_points(const Grid<D>& grid, int k) {
-  SurfacePoints<D> points;
   const auto every = [](const Facet<D>&) { return true; };
-  points.per_facet = for_facet_points(grid, k, every, [&](Index i, const Vec<D - 1>& xi, Real w) {
-    const auto p = multilinear<D, D - 1>(facet_corners(at(grid.facets, i), grid.X), xi);
+  return points_of_facets(grid, k, every, [&](const Facet<D>& facet, const Vec<D - 1>& xi, Real w) {
+    const auto p = multilinear<D, D - 1>(facet_corners(facet, grid.X), xi);
     const Vec<D> normal = area_normal<D>(p.J);
-    append<D>(points, p.X, normal.normalized(), Mat<D>::Zero(), w * normal.norm(), i);
+    return FacetPoint<D>{p.X, normal.normalized(), Mat<D>::Zero(), w * normal.norm()};
   });
-  return points;
 }
 
 template <int D>

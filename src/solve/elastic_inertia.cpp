@@ -12,6 +12,7 @@
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/core/parallel.hpp"
+#include "meniscus/solve/least_spacing.hpp"
 #include "meniscus/solve/nested_dissection.hpp"
 #include "meniscus/solve/sparse_factors.hpp"
 
@@ -194,7 +195,7 @@ void ElasticInertia<D>::solve(const NodalVectors& r, NodalVectors& z) const {
 
 template <int D>
 ElasticStep<D>::ElasticStep(System<D>& system, Real safety)
-    : system_(system), safety_(safety), spacing_(unbounded) {
+    : system_(system), safety_(safety), spacing_(least_spacing(system.bodies)) {
   const auto n = static_cast<std::size_t>(system.size());
   mode_.resize(n);
   momentum_ = trial_ = force_ = mode_;
@@ -202,10 +203,6 @@ ElasticStep<D>::ElasticStep(System<D>& system, Real safety)
   for (Index A = 0; A < system.size(); ++A)
     at(momentum_, A) =
         Lanes(std::sin(12.9898 * A), std::sin(78.233 * A), D == 3 ? std::sin(37.719 * A) : 0.0, 0);
-  for (const Body<D>& body : system.bodies)
-    for (Index A = 0; A < body.size(); ++A)
-      spacing_ = std::min(
-          spacing_, body.particles.search().distance_of_nearest(at(body.particles.X(), A), 2));
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
+#include "meniscus/solve/least_spacing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,17 +81,13 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
       may_jump_(std::any_of(
           system.terms.begin(), system.terms.end(),
           [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
-      spacing_(unbounded),
+      spacing_(least_spacing(system.bodies)),
       trial_size_(smallest_trial),
       critical_(system.mass),
       mode_(rough_mode(system.size(), D)),
       trial_force_(mode_.size()),
       known_response_(mode_.size(), Lanes::zero()),
       response_(mode_.size()) {
-  for (const Body<D>& body : system.bodies)
-    for (Index A = 0; A < body.size(); ++A)
-      spacing_ = std::min(
-          spacing_, body.particles.search().distance_of_nearest(at(body.particles.X(), A), 2));
   for (const Unknown& field : system.fields)
     field_modes_.push_back(rough_mode(system.size(), field.spec.components));
 }

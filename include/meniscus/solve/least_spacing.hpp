@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The smallest distance between two particles of a body.
+#pragma once
+#include "meniscus/body/body.hpp"
+
+#include <deque>
+
+namespace meniscus {
+
+/// Of all bodies, in their references; length.
+template <int D>
+Real least_spacing(const std::deque<Body<D>>& bodies);
+
+}  // namespace meniscus
