@@ -110,7 +110,8 @@ def measure(program, text, folder):
     done = subprocess.run(
         ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}",
          program, "run", folder / "scene.toml", "--output", folder / "out", "--overwrite", "-q"],
-        env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True,
+        # With its settings of libraries the program would begin anew, which valgrind does not follow.
+        env=dict(os.environ, OMP_NUM_THREADS="1", GLIBC_TUNABLES="", OMP_WAIT_POLICY="passive"), capture_output=True, text=True,
     )  # fmt: skip
     if done.returncode:
         sys.exit(f"the program failed under callgrind:\n{done.stdout}{done.stderr}")

@@ -4,7 +4,7 @@
 #include "meniscus/app/documents.hpp"
 #include "meniscus/app/hand_over.hpp"
 #include "meniscus/app/interruption.hpp"
-#include "meniscus/app/large_pages.hpp"
+#include "meniscus/app/library_settings.hpp"
 #include "meniscus/app/manual.hpp"
 #include "meniscus/app/print.hpp"
 #include "meniscus/app/rank_process.hpp"
@@ -295,7 +295,7 @@ int dispatch(int argc, char** argv) {
                : exit_usage;
   }
   if (run_command->parsed() || check_command->parsed() || sweep_command->parsed())
-    begin_with_large_pages(argv);
+    begin_with_settings(argv);
   if (run_command->parsed()) return run_with_ranks(request, argv);
   if (check_command->parsed()) check(request);
   if (study_command->parsed()) hand_over_to_studies(argv);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line of the studies, a program of its own: `meniscus study` hands over to it.
 #include "meniscus/app/commands.hpp"
-#include "meniscus/app/large_pages.hpp"
+#include "meniscus/app/library_settings.hpp"
 #include "meniscus/app/print.hpp"
 #include "meniscus/io/provenance.hpp"
 
@@ -34,7 +34,7 @@ int dispatch(int argc, char** argv) {
     return app.exit(e) == 0 ? exit_ok : exit_usage;
   }
   if (!list) {
-    begin_with_large_pages(argv);
+    begin_with_settings(argv);
     return run_study(request);
   }
   list_studies();

@@ -2,11 +2,11 @@
 // Curved boundary cells: distances of the exact surface from the middles of edges and facets.
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/body/surface_points.hpp"
+#include "meniscus/core/buckets.hpp"
 #include "meniscus/core/parallel.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,15 +14,6 @@
 namespace meniscus {
 
 namespace {
-
-using EdgeNodes = std::pair<Index, Index>;  // ascending
-
-template <int D>
-using EdgeDeviations = std::map<EdgeNodes, Vec<D>>;
-
-EdgeNodes edge_nodes(Index a, Index b) {
-  return {std::min(a, b), std::max(a, b)};
-}
 
 /// An edge of the reference facet: its ends and its middle. In 2D it is the facet.
 template <int D>
@@ -53,35 +44,73 @@ bool is_rounding(Real deviation, Real length) {
 
 /// Exact middles minus straight ones of the boundary edges that are curved.
 template <int D>
-EdgeDeviations<D> edge_deviations(const Geometry<D>& geometry) {
-  EdgeDeviations<D> deviations;
-  const auto edges = facet_edges<D>();
-  struct New {
-    typename EdgeDeviations<D>::value_type* of;
+class EdgeDeviations {
+ public:
+  explicit EdgeDeviations(const Geometry<D>& geometry) {
+    const Grid<D>& grid = geometry.grid;
+    const auto edges = facet_edges<D>();
+    begin_ = sort_into_buckets<Offset>(
+        static_cast<Index>(grid.X.size()),
+        [&](auto&& f) {
+          for (const auto& facet : grid.facets)
+            for (const auto& edge : edges) {
+              const auto [a, b] =
+                  std::minmax({at(facet.nodes, edge.corners[0]), at(facet.nodes, edge.corners[1])});
+              if (a != b) f(a, Edge{b, &facet, edge.middle});  // equal: of a triangle
+            }
+        },
+        [&](Offset count) { edges_.resize(static_cast<std::size_t>(count)); },
+        [&](Offset k, const Edge& edge) { at(edges_, k) = edge; });
+    parallel_for(static_cast<Index>(grid.X.size()), [&](Index a) {
+      const std::span<Edge> from_a = at_node(a);
+      for (Edge& edge : from_a) {
+        // Of the facets that share it the first says where it is.
+        if (&edge != &*std::find_if(from_a.begin(), from_a.end(),
+                                    [&](const Edge& first) { return first.end == edge.end; }))
+          continue;
+        const Vec<D>&A = at(grid.X, a), &B = at(grid.X, edge.end);
+        edge.deviation = surface_point(geometry, *edge.facet, edge.middle) - 0.5 * (A + B);
+        edge.curved = !is_rounding(edge.deviation.norm(), (A - B).norm());
+      }
+    });
+  }
+
+  /// Of the edge between two nodes, nullptr if it is straight or not on the boundary.
+  const Vec<D>* find(Index a, Index b) const {
+    for (const Edge& edge : at_node(std::min(a, b)))
+      if (edge.curved && edge.end == std::max(a, b)) return &edge.deviation;
+    return nullptr;
+  }
+
+  /// [node] is it an end of a curved edge?
+  std::vector<char> ends() const {
+    std::vector<char> is_end(begin_.size() - 1, 0);
+    for (Index a = 0; a < static_cast<Index>(is_end.size()); ++a)
+      for (const Edge& edge : at_node(a))
+        if (edge.curved) at(is_end, a) = at(is_end, edge.end) = 1;
+    return is_end;
+  }
+
+ private:
+  /// Kept at its node of lower number, once for each facet that has it; `curved` for one of these.
+  struct Edge {
+    Index end;
     const Facet<D>* facet;
     Vec<D - 1> middle;
+    Vec<D> deviation = Vec<D>::Zero();
+    bool curved = false;
   };
-  std::vector<New> all;
-  for (const auto& facet : geometry.grid.facets)
-    for (const auto& edge : edges) {
-      const Index a = at(facet.nodes, edge.corners[0]), b = at(facet.nodes, edge.corners[1]);
-      if (a == b) continue;  // of a triangle
-      const auto [place, is_new] = deviations.try_emplace(edge_nodes(a, b), Vec<D>::Zero());
-      if (is_new) all.push_back({&*place, &facet, edge.middle});
-    }
-  parallel_for(static_cast<Index>(all.size()), [&](Index k) {
-    const auto& [of, facet, middle] = at(all, k);
-    auto& [nodes, deviation] = *of;
-    const Vec<D>&A = at(geometry.grid.X, nodes.first), &B = at(geometry.grid.X, nodes.second);
-    deviation = surface_point(geometry, *facet, middle) - 0.5 * (A + B);
-  });
-  std::erase_if(deviations, [&](const auto& edge) {
-    const auto& [nodes, deviation] = edge;
-    const Vec<D> line = at(geometry.grid.X, nodes.first) - at(geometry.grid.X, nodes.second);
-    return is_rounding(deviation.norm(), line.norm());
-  });
-  return deviations;
-}
+
+  std::span<const Edge> at_node(Index a) const {
+    return {edges_.data() + at(begin_, a), edges_.data() + at(begin_, a + 1)};
+  }
+  std::span<Edge> at_node(Index a) {
+    return {edges_.data() + at(begin_, a), edges_.data() + at(begin_, a + 1)};
+  }
+
+  std::vector<Offset> begin_;  // [node]
+  std::vector<Edge> edges_;
+};
 
 /// Its columns are those of edge_functions().
 template <int D>
@@ -93,8 +122,8 @@ Bulge<D> bulge_of_simplex(const typename Grid<D>::Cell& cell, const EdgeDeviatio
     const Index a = at(cell, at(simplex_corners<D>(), i)),
                 b = at(cell, at(simplex_corners<D>(), j));
     if (at(at_curved_edge, a) && at(at_curved_edge, b))
-      if (const auto found = deviations.find(edge_nodes(a, b)); found != deviations.end()) {
-        bulge.deviation.col(e) = found->second;
+      if (const Vec<D>* deviation = deviations.find(a, b)) {
+        bulge.deviation.col(e) = *deviation;
         bulge.curved = (1u << D) - 1;
       }
     ++e;
@@ -111,8 +140,7 @@ Bulge<D> bulge_of_edges(const typename Grid<D>::Cell& cell, const EdgeDeviations
     if (std::popcount(along) != 1) continue;
     const Index a = at(cell, upper), b = at(cell, upper | along);
     if (!at(at_curved_edge, a) || !at(at_curved_edge, b)) continue;
-    const auto found = deviations.find(edge_nodes(a, b));
-    if (found != deviations.end()) bulge.add(m, found->second);
+    if (const Vec<D>* deviation = deviations.find(a, b)) bulge.add(m, *deviation);
   }
   return bulge;
 }
@@ -140,10 +168,8 @@ template <int D>
 void curve_boundary(Geometry<D>& geometry) {
   Grid<D>& grid = geometry.grid;
   grid.bulges.clear();
-  const EdgeDeviations<D> deviations = edge_deviations(geometry);
-  std::vector<char> at_curved_edge(grid.X.size(), 0);
-  for (const auto& [nodes, deviation] : deviations)
-    at(at_curved_edge, nodes.first) = at(at_curved_edge, nodes.second) = 1;
+  const EdgeDeviations<D> deviations(geometry);
+  const std::vector<char> at_curved_edge = deviations.ends();
 
   struct AtBoundary {
     Index cell;

@@ -9,6 +9,7 @@
 
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/box.hpp"
+#include "meniscus/core/buckets.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/core/parallel.hpp"
@@ -75,37 +76,30 @@ Real extent_of(const Body<D>& body) {
   return box_around<D>(body.particles.X()).extent().maxCoeff();
 }
 
-/// The value of row A of a field.
-template <int D>
-Lanes value_of_row(const PointRows<D>& rows, Index A, const NodalVector* field) {
-  Lanes even = Lanes::zero(), odd = even;  // two chains hide the latency
-  Offset e = at(rows.start, A);
-  const Offset end = at(rows.start, A + 1);
-  for (; e + 1 < end; e += 2) {
-    even += at(rows.value, e) * field[at(rows.particle, e)];
-    odd += at(rows.value, e + 1) * field[at(rows.particle, e + 1)];
-  }
-  if (e < end) even += at(rows.value, e) * field[at(rows.particle, e)];
-  return even + odd;
-}
-
 /// Of the values at the particles.
 template <int D>
 PointRows<D> transpose_of(const PointRows<D>& rows) {
+  struct Entry {
+    Index row;
+    Real value;
+  };
+  const auto n = static_cast<Index>(rows.start.size()) - 1;
   PointRows<D> t;
-  const std::size_t n = rows.start.size() - 1;
-  t.start.assign(n + 1, 0);
-  for (const Index A : rows.particle) ++at(t.start, A + 1);
-  for (std::size_t A = 0; A < n; ++A) t.start[A + 1] += t.start[A];
-  grow(t.particle, rows.particle.size());
-  grow(t.value, rows.particle.size());
-  std::vector<Offset> next(t.start.begin(), t.start.end() - 1);
-  for (Index row = 0; row < static_cast<Index>(n); ++row)
-    for (Offset e = at(rows.start, row); e < at(rows.start, row + 1); ++e) {
-      Offset& to = at(next, at(rows.particle, e));
-      at(t.particle, to) = row;
-      at(t.value, to++) = at(rows.value, e);
-    }
+  t.start = sort_into_buckets<Offset>(
+      n,
+      [&](auto&& f) {
+        for (Index row = 0; row < n; ++row)
+          for (Offset e = at(rows.start, row); e < at(rows.start, row + 1); ++e)
+            f(at(rows.particle, e), Entry{row, at(rows.value, e)});
+      },
+      [&](Offset count) {
+        grow(t.particle, static_cast<std::size_t>(count));
+        grow(t.value, static_cast<std::size_t>(count));
+      },
+      [&](Offset k, const Entry& entry) {
+        at(t.particle, k) = entry.row;
+        at(t.value, k) = entry.value;
+      });
   return t;
 }
 
@@ -158,7 +152,7 @@ class ElasticInertia<D>::OfBody {
                  added = 2 * next / half;
       rho = next;
       for_chunks(size_, [&](Index, Index begin, Index end) {
-        for (Index A = begin; A < end; ++A) at(image_, A) = value_of_row(T, A, way_.data());
+        for (Index A = begin; A < end; ++A) at(image_, A) = value_at(T, A, way_.data());
       });
       for_chunks(size_, [&](Index, Index begin, Index end) {
         for (Index A = begin; A < end; ++A) {

@@ -219,5 +219,31 @@ printf '%s\\n' "${{COMPREPLY[@]}}" """
             self.assertIn("--max-walltime H:M:S", re.sub(".\b", "", done.stdout))
 
 
+class LibrarySettings(ProgramTest):
+    VARIABLES = ("GLIBC_TUNABLES", "GOMP_SPINCOUNT", "OMP_WAIT_POLICY")
+
+    def settings_of_a_run(self, **given):
+        """Name of the process and VARIABLES of a run that is started with the given ones."""
+        environment = {key: value for key, value in program.ENVIRONMENT.items() if key not in self.VARIABLES} | given
+        process = subprocess.Popen([program.PROGRAM, "run", self.scene(BLOCK), "--set", "time.end=1e9"],
+                                   cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment)
+        self.addCleanup(process.__exit__, None, None, None)
+        self.addCleanup(process.kill)
+        for _ in range(1000):  # until it computes
+            if (self.directory / "results/scene/run.h5").exists():
+                break
+            time.sleep(0.02)
+        shutil.rmtree(self.directory / "results")
+        of_process = Path(f"/proc/{process.pid}")
+        values = dict(entry.split("=", 1) for entry in (of_process / "environ").read_text().split("\0") if "=" in entry)
+        return (of_process / "comm").read_text().strip(), *map(values.get, self.VARIABLES)
+
+    def test_a_run_has_its_own_unless_told_otherwise(self):
+        name, pages = Path(program.PROGRAM).name[:15], "glibc.malloc.hugetlb=1"
+        self.assertEqual(self.settings_of_a_run(), (name, pages, "1000", None))
+        self.assertEqual(self.settings_of_a_run(GLIBC_TUNABLES="", GOMP_SPINCOUNT="5"), (name, "", "5", None))
+        self.assertEqual(self.settings_of_a_run(OMP_WAIT_POLICY="active"), (name, pages, None, "active"))
+
+
 if __name__ == "__main__":
     program.main()

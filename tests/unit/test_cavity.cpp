@@ -170,6 +170,32 @@ TEST(Cavity, GapIsTheDistanceOfTheFaces) {
   EXPECT_NEAR(measure(*term, "cavity_gap", flattened(0.4)), 0.9, 0.03);  // facets are coarse
 }
 
+TEST(Cavity, GapIsFoundWhereverTheFacesComeNear) {
+  SphereShell s;
+  s.radius = 1;
+  s.thickness = 0.25;
+  s.spacing = 0.2;
+  const auto body = test::body_of<3>(s.geometry());
+  const auto term = cavity<3>(*body, SurfacePart::inner, {}, 3);
+  // A dent r(angle) of the inner radius R; the opposite face stays. Along the normal of the dent
+  // the width is (R + r) r / (r^2 + r'^2)^(1/2), least on its flank.
+  constexpr Real R = 0.75, depth = 0.3, square = 0.6;
+  Real width = unbounded;
+  for (Real angle = 0; angle < 1; angle += 1e-3) {
+    const Real there = depth * std::exp(-(2 - 2 * std::cos(angle)) / square), r = R * (1 - there),
+               slope = R * there * 2 * std::sin(angle) / square;
+    width = std::min(width, (R + r) * r / std::hypot(r, slope));
+  }
+  for (int dent = 0; dent < 12; ++dent) {
+    const Vec<3> way =
+        Vec<3>(std::cos(2.4 * dent), std::sin(2.4 * dent), 0.15 * dent - 0.9).normalized();
+    const NodalVectors u = test::field_on<3>(*body, [&](const Vec<3>& X) {
+      return Vec<3>(-depth * std::exp(-(X.normalized() - way).squaredNorm() / square) * X);
+    });
+    EXPECT_NEAR(measure(*term, "cavity_gap", u), width, 0.02) << way.transpose();
+  }
+}
+
 TEST(Cavity, SolidBodyHasNoInnerSurface) {
   const auto body = test::body_of<3>(test::ball(3, 2));
   EXPECT_THROW(cavity<3>(*body, SurfacePart::inner, {}, 3), InputError);

@@ -4,6 +4,7 @@
 #include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/solve/central_difference.hpp"
+#include "meniscus/solve/least_spacing.hpp"
 #include "meniscus/solve/step_controller.hpp"
 #include "meniscus/solve/time_step.hpp"
 
@@ -375,6 +376,22 @@ void expect_step_of_damping(const Geometry<D>& geometry) {
 TEST(StableStep, CoversStrongDampingOfCoefficients) {
   expect_step_of_damping<2>(test::disk(4, 2));
   expect_step_of_damping<3>(test::ball(2, 1));
+}
+
+TEST(LeastSpacing, IsThatOfTheClosestPairOfABody) {
+  std::deque<Body<3>> bodies;
+  for (const Real jitter : {0.1, 0.3}) {
+    Geometry<3> geometry = test::brick<3>({5, 4, 3}, jitter);
+    ParticleSet<3> particles(geometry.grid.X, test::Support<3>{}, Window::cubic_spline);
+    bodies.emplace_back("brick", std::move(geometry), std::move(particles));
+  }
+  Real least = unbounded;
+  for (const Body<3>& body : bodies)
+    for (Index A = 0; A < body.size(); ++A)
+      for (Index B = 0; B < A; ++B)
+        least = std::min(least, (at(body.particles.X(), A) - at(body.particles.X(), B)).norm());
+  EXPECT_LT(least, 0.8);
+  EXPECT_DOUBLE_EQ(least_spacing(bodies), least);
 }
 
 TEST(StepController, ArrivesExactlyAndRefusesAboveTheLimit) {
