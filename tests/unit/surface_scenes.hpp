@@ -40,7 +40,7 @@ Real stretch_without_power(Scene<D>& scene) {
   const auto power = [&](Real v) {
     NodalVectors force = still;
     scene.system.add_up({0, sum_of(still, v - 1, X), still}, force);
-    return dot(force, X);
+    return test::dot(force, X);
   };
   Real before = 0.99, v = 1.01, last = power(before);
   for (int k = 0; k < 30 && std::abs(v - before) > 1e-13; ++k) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies that are referred anew: what stays to the last bit, to round-off, or with which order.
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/remap/nodal_values.hpp"
 #include "meniscus/scene/epochs.hpp"
 
@@ -75,9 +76,6 @@ Real largest_change(const NodalVectors& a, const NodalVectors& b) {
   for (std::size_t A = 0; A < a.size(); ++A)
     largest = std::max(largest, std::sqrt(sum((a[A] - b[A]) * (a[A] - b[A]))));
   return largest;
-}
-Real largest(const NodalVectors& a) {
-  return largest_change(a, NodalVectors(a.size(), Lanes::zero()));
 }
 
 template <int D>
