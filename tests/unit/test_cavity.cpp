@@ -31,6 +31,15 @@ Geometry<3> bent_shell() {
   return geometry;
 }
 
+/// Of outer radius 1 and inner radius 0.75.
+Geometry<3> sphere_shell(Real spacing) {
+  SphereShell s;
+  s.radius = 1;
+  s.thickness = 0.25;
+  s.spacing = spacing;
+  return s.geometry();
+}
+
 Real measure(const ForceTerm& term, const std::string& name, const NodalVectors& u, Real time = 0) {
   const NodalVectors v = test::zeros(u);
   for (const MeasureSource& m : term.measures())
@@ -157,11 +166,7 @@ TEST(Cavity, FacesThatTouchAreAFailure) {
 }
 
 TEST(Cavity, GapIsTheDistanceOfTheFaces) {
-  SphereShell s;
-  s.radius = 1;
-  s.thickness = 0.25;
-  s.spacing = 0.4;
-  const auto body = test::body_of<3>(s.geometry());
+  const auto body = test::body_of<3>(sphere_shell(0.4));
   const auto term = cavity<3>(*body, SurfacePart::inner, {}, 3);
   const auto flattened = [&](Real share) {
     return test::field_on<3>(*body, [&](const Vec<3>& X) { return Vec<3>(0, 0, -share * X[2]); });
@@ -171,11 +176,7 @@ TEST(Cavity, GapIsTheDistanceOfTheFaces) {
 }
 
 TEST(Cavity, GapIsFoundWhereverTheFacesComeNear) {
-  SphereShell s;
-  s.radius = 1;
-  s.thickness = 0.25;
-  s.spacing = 0.2;
-  const auto body = test::body_of<3>(s.geometry());
+  const auto body = test::body_of<3>(sphere_shell(0.2));
   const auto term = cavity<3>(*body, SurfacePart::inner, {}, 3);
   // A dent r(angle) of the inner radius R; the opposite face stays. Along the normal of the dent
   // the width is (R + r) r / (r^2 + r'^2)^(1/2), least on its flank.

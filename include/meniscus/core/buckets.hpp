@@ -8,10 +8,10 @@
 
 namespace meniscus {
 
-/// Sorts items by the bucket they belong to; in a bucket they keep their order. `visit(f)` calls
-/// f(bucket, item) for every item, and does so twice; then `make_room(count)` is called, and
-/// `put(k, item)`, k the place of each. Returns the places at which buckets 0 .. count begin, and
-/// behind them the number of items.
+/// Sorts items by the bucket they belong to, 0 .. count - 1; in a bucket they keep their order.
+/// `visit(f)` is called twice and calls f(bucket, item) for every item, in the same order;
+/// in between, `make_room` is told the number of items, and `put(k, item)` then the place k of
+/// each. Returns the places at which the buckets begin, and behind them the number of items.
 template <class Place, class Visit, class MakeRoom, class Put>
 std::vector<Place> sort_into_buckets(Index count, Visit&& visit, MakeRoom&& make_room, Put&& put) {
   std::vector<Place> begin(static_cast<std::size_t>(count) + 1, 0);
