@@ -26,7 +26,7 @@ void begin_with_settings(char** argv) {
              sets_waiting = !is_set(waiting) && !is_set("OMP_WAIT_POLICY");
   if (!sets_memory && !sets_waiting) return;
   if (sets_memory) setenv(memory, "glibc.malloc.hugetlb=1", 1);
-  if (sets_waiting) setenv(waiting, "1000", 1);
+  if (sets_waiting) setenv(waiting, "5000", 1);
   // By its name, which the system lists processes by. If this comes back, nothing is set.
   std::error_code error;
   execv(std::filesystem::read_symlink("/proc/self/exe", error).c_str(), argv);

@@ -13,7 +13,7 @@ namespace {
 void mix(NodalVectors& a, Real factor_of_a, const NodalVectors& b, Real factor) {
   if (b.empty()) return;
   a.resize(b.size(), Lanes::zero());
-  for_chunks(static_cast<Index>(a.size()), [&](Index, Index begin, Index end) {
+  sweep(static_cast<Index>(a.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(a, A) = factor_of_a * at(a, A) + factor * at(b, A);
   });
 }
@@ -57,7 +57,7 @@ void CriticalMode::propose_trial(Real dt) {
   const ModeRates q = rates(mode);
   const Real lambda = dt * dt / 4 * q.stiffness + dt / 2 * q.viscosity;
   trial.w.resize(mode.w.size());
-  for_chunks(static_cast<Index>(mode.w.size()), [&](Index, Index begin, Index end) {
+  sweep(static_cast<Index>(mode.w.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A)
       at(trial.w, A) = (1 / at(mass_, A)) * force(mode, dt, A) - lambda * at(mode.w, A);
   });

@@ -140,7 +140,7 @@ class ElasticInertia<D>::OfBody {
   void divide_by(const PointRows<D>& T) {
     constexpr int degree = 8;
     constexpr Real low = 0.05, high = 1.1, middle = (high + low) / 2, half = (high - low) / 2;
-    for_chunks(size_, [&](Index, Index begin, Index end) {
+    sweep(size_, [&](Index begin, Index end) {
       for (Index A = begin; A < end; ++A) {
         at(residual_, A) = at(x_, A);
         at(x_, A) = at(way_, A) = (1 / middle) * at(x_, A);
@@ -154,7 +154,7 @@ class ElasticInertia<D>::OfBody {
       for_chunks(size_, [&](Index, Index begin, Index end) {
         for (Index A = begin; A < end; ++A) at(image_, A) = value_at(T, A, way_.data());
       });
-      for_chunks(size_, [&](Index, Index begin, Index end) {
+      sweep(size_, [&](Index begin, Index end) {
         for (Index A = begin; A < end; ++A) {
           at(residual_, A) -= at(image_, A);
           at(way_, A) = carried * at(way_, A) + added * at(residual_, A);
@@ -212,7 +212,7 @@ void ElasticStep<D>::iterate(const ElasticInertia<D>& inertia, const State& stat
     add(trial_, h, mode_);
     system_.add_up({state.time, trial_, still, state.fields}, {force_, {}});
     ++evaluations_;
-    for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    sweep(system_.size(), [&](Index begin, Index end) {
       for (Index A = begin; A < end; ++A)
         at(momentum_, A) = (1 / h) * (at(state.force, A) - at(force_, A));
     });

@@ -44,7 +44,7 @@ void HeldPreconditioner<D>::add_response(std::vector<Real>& b, NodalVectors& u) 
   Eigen::Map<Eigen::VectorXd> lambda(b.data(), constraints_->rows());
   lambda = factors_.solve(lambda).eval();
   const Index rows = constraints_->rows();
-  for_chunks(static_cast<Index>(u.size()), [&](Index, Index begin, Index end) {
+  sweep(static_cast<Index>(u.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A)
       for (Index r = 0; r < rows; ++r)
         at(u, A) += at(b, r) * at(Y_, static_cast<Offset>(A) * rows + r);

@@ -24,7 +24,7 @@ void ImplicitEuler<D>::begin(Real time, const NodalVectors& u, Real tau) {
 template <int D>
 Real ImplicitEuler<D>::add_force(const NodalVectors& u, NodalVectors& force) {
   NodalVectors velocity(u.size());
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(w_, A) = at(u, A) - at(u_, A);
       at(velocity, A) = at(w_, A) / tau_;
@@ -34,7 +34,7 @@ Real ImplicitEuler<D>::add_force(const NodalVectors& u, NodalVectors& force) {
   // As tangents, which do not ask for the places of the last force.
   for (auto& term : system_.terms)
     if (term->viscous()) term->add_tangent({time_, u_, still_}, {time_, still_, velocity}, Rw_);
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(force, A) += at(Rw_, A);
   });
   return -0.5 *
@@ -49,7 +49,7 @@ void ImplicitEuler<D>::look_back() {
 
 template <int D>
 void ImplicitEuler<D>::add_change(const NodalVectors& w, NodalVectors& force) {
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(w_, A) = at(w, A) / tau_;
       at(force, A) -= (at(system_.mass, A) / tau_) * at(w_, A);

@@ -8,7 +8,7 @@ namespace meniscus::leapfrog {
 
 /// v += dt f / m, of a vector over all particles
 inline void kick(NodalVectors& v, const NodalVectors& f, const std::vector<Real>& mass, Real dt) {
-  for_chunks(static_cast<Index>(v.size()), [&](Index, Index begin, Index end) {
+  sweep(static_cast<Index>(v.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(v, A) += (dt / at(mass, A)) * at(f, A);
   });
 }

@@ -100,7 +100,7 @@ template <int D>
 Real NewtonMethod<D>::apply(Real time, const NodalVectors& u) {
   // Terms without an exact tangent take differences over a part of the change.
   const Real scale = spacing_ / largest(p_);
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(scaled_, A) = scale * at(p_, A);
       at(q_, A) = Lanes::zero();
@@ -109,7 +109,7 @@ Real NewtonMethod<D>::apply(Real time, const NodalVectors& u) {
   for (auto& term : system_.terms)
     term->add_tangent({time, u, still_}, {time, scaled_, still_}, q_);
   if (step_) step_->add_change(scaled_, q_);
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(q_, A) = (-1 / scale) * at(q_, A);
   });
   free_.remove_from(q_);
@@ -155,7 +155,7 @@ typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const 
     const Real b = rz / before;
     beside.push_back(std::sqrt(b) / a);
     carried = b / a;
-    for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+    sweep(system_.size(), [&](Index begin, Index end) {
       for (Index A = begin; A < end; ++A) at(p_, A) = at(z_, A) + b * at(p_, A);
     });
   }

@@ -117,7 +117,7 @@ template <int D>
 void Relaxation<D>::glide(State& state, Real dt) {
   add(momentum_, dt / 2, state.force);
   add(state.v, dt / 2, acceleration_);
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(impulse_, A) = dt * at(momentum_, A);
       at(window_impulse_, A) += at(impulse_, A);

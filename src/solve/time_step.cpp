@@ -125,7 +125,7 @@ void StableStepEstimator<D>::force_change(const State& state, const NodalVectors
   u_.resize(w.size());
   v_.resize(w.size());
   result.resize(w.size());
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(u_, A) = at(state.u, A) + du * at(w, A);
       at(v_, A) = viscous_counts_ ? at(state.v, A) + dv * at(w, A) : Lanes::zero();
@@ -137,7 +137,7 @@ void StableStepEstimator<D>::force_change(const State& state, const NodalVectors
     fields = trial_;
   }
   system_.add_up({state.time, u_, v_, fields}, {result, trial_});
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(result, A) = (1 / size) * (at(base_, A) - at(result, A));
   });
 }
@@ -229,12 +229,12 @@ bool StableStepEstimator<D>::is_smooth(const State& state, StableStep& found) {
 template <int D>
 void StableStepEstimator<D>::start_where_it_changed() {
   NodalVectors& change = trial_force_;
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A)
       at(change, A) = (1 / at(system_.mass, A)) * (at(known_response_, A) - at(response_, A));
   });
   const Real scale = std::sqrt(dot(mode_, mode_) / dot(change, change));
-  for_chunks(system_.size(), [&](Index, Index begin, Index end) {
+  sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(mode_, A) += scale * at(change, A);
   });
   if (system_.constraints) system_.constraints->project(mode_);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 namespace meniscus::scaling_study {
 namespace {
@@ -46,19 +47,27 @@ class Threads {
 /// s per step with one thread and with two.
 using StepTimes = std::array<double, 2>;
 
-/// Of each the fastest of rounds in turns: others may use the machine.
+/// Of each the median over steps that are made in turns: others may use the machine.
 StepTimes seconds_per_step(Simulation<3>& simulation, Index particles) {
-  const int steps = std::max(2, 100000 / particles);
-  StepTimes fastest{unbounded, unbounded};
-  for (int round = 0; round < 5; ++round)
+  constexpr int in_a_row = 10;
+  const int rounds = std::max(3, 100000 / particles);
+  std::array<std::vector<double>, 2> times;
+  for (int round = 0; round < rounds; ++round)
     for (int number = 1; number <= 2; ++number) {
       const Threads threads(number);
-      const Stopwatch time;
-      for (int k = 0; k < steps; ++k) simulation.advance();
-      double& best = at(fastest, number - 1);
-      best = std::min(best, time.seconds() / steps);
+      for (int k = 0; k < in_a_row; ++k) {
+        const Stopwatch time;
+        simulation.advance();
+        at(times, number - 1).push_back(time.seconds());
+      }
     }
-  return fastest;
+  StepTimes medians{};
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const auto middle = times[k].begin() + in_a_row * rounds / 2;
+    std::nth_element(times[k].begin(), middle, times[k].end());
+    medians[k] = *middle;
+  }
+  return medians;
 }
 
 struct Measured {

@@ -240,7 +240,7 @@ class LibrarySettings(ProgramTest):
 
     def test_a_run_has_its_own_unless_told_otherwise(self):
         name, pages = Path(program.PROGRAM).name[:15], "glibc.malloc.hugetlb=1"
-        self.assertEqual(self.settings_of_a_run(), (name, pages, "1000", None))
+        self.assertEqual(self.settings_of_a_run(), (name, pages, "5000", None))
         self.assertEqual(self.settings_of_a_run(GLIBC_TUNABLES="", GOMP_SPINCOUNT="5"), (name, "", "5", None))
         self.assertEqual(self.settings_of_a_run(OMP_WAIT_POLICY="active"), (name, pages, None, "active"))
 

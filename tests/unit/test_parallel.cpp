@@ -44,6 +44,22 @@ TEST(Chunks, SumsHaveTheSameBitsForAnyThreads) {
   EXPECT_NEAR(one, std::sin(n / 2.0) * std::sin((n - 1) / 2.0) / std::sin(0.5), 1e-9);
 }
 
+TEST(Sweeps, OverFewRowsWakeNoThread) {
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(3);
+  const auto threads_of_sweep = [](Index n) {
+    int threads = 0;
+    sweep(n, [&](Index begin, Index) {
+      if (begin == 0) threads = omp_get_num_threads();
+    });
+    return threads;
+  };
+  EXPECT_EQ(threads_of_sweep(16), 1);
+  EXPECT_EQ(threads_of_sweep(4096), 1);
+  EXPECT_EQ(threads_of_sweep(4097), 3);
+  omp_set_num_threads(before);
+}
+
 TEST(Loops, ThrowWhatTheLeastIndexThrewForAnyThreads) {
   const int before = omp_get_max_threads();
   for (const int threads : {1, 2, 4}) {

@@ -67,7 +67,7 @@ void for_all_in_order(Index n, Make&& make, Use&& use) {
 template <class T, class F>
 T divided_sum(Index n, T zero, F&& f) {
   const OwnItems own = own_items(chunk_count(n));
-  return sum_by_chunks(
+  return sum_by_chunks<Cost::much>(
       n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; },
       [&](T* sums) {
         if (!ranks().alone()) complete_items(chunk_count(n), sums, sizeof(T));

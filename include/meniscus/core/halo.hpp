@@ -43,9 +43,8 @@ class Halo {
   /// Calls f(begin, end) on all threads for the particles that are followed, in parts.
   template <class F>
   void for_particles(F&& f) const {
-    parallel_for(
-        static_cast<Index>(parts_.size()),
-        [&](Index k) { f(at(parts_, k).begin, at(parts_, k).end); }, 1);
+    for_parts<Cost::little>(static_cast<Index>(parts_.size()), size_,
+                            [&](Index k) { f(at(parts_, k).begin, at(parts_, k).end); });
   }
 
  private:
@@ -70,14 +69,14 @@ inline bool is_entered(const std::shared_ptr<const Halo>& halo) {
 template <class F>
 void for_particles(const std::shared_ptr<const Halo>& halo, Index n, F&& f) {
   if (is_entered(halo)) return halo->for_particles(f);
-  for_chunks(n, [&](Index, Index begin, Index end) { f(begin, end); });
+  sweep(n, f);
 }
 
 /// Sum over some of n particles, in the chunks of all; in a halo each rank looks at its own.
 template <class T, class F>
 T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, ItemRange part, T zero, F&& f) {
   const ParticleOwners* owners = is_entered(halo) ? &halo->owners() : nullptr;
-  return sum_by_chunks(
+  return sum_by_chunks<Cost::little>(
       n, part, zero, f, owners ? static_cast<Index>(owners->own_chunks().size()) : chunk_count(n),
       [&](Index k) { return owners ? at(owners->own_chunks(), k) : k; },
       [&](T* sums) {
@@ -88,7 +87,8 @@ T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, ItemRange part
 /// parallel_sum() over n particles, of which in a halo each rank knows its own.
 template <class T, class F>
 T sum_over_particles(const std::shared_ptr<const Halo>& halo, Index n, T zero, F&& f) {
-  return is_entered(halo) ? sum_over_part(halo, n, {0, n}, zero, f) : parallel_sum(n, zero, f);
+  return is_entered(halo) ? sum_over_part(halo, n, {0, n}, zero, f)
+                          : parallel_sum<Cost::little>(n, zero, f);
 }
 
 }  // namespace meniscus

@@ -12,20 +12,20 @@ namespace meniscus {
 
 /// sum_A a_A . b_A
 inline Real dot(const NodalVectors& a, const NodalVectors& b) {
-  return parallel_sum(static_cast<Index>(a.size()), 0.0,
-                      [&](Index A) { return sum(at(a, A) * at(b, A)); });
+  return parallel_sum<Cost::little>(static_cast<Index>(a.size()), 0.0,
+                                    [&](Index A) { return sum(at(a, A) * at(b, A)); });
 }
 
 /// x += a w
 inline void add(NodalVectors& x, Real a, const NodalVectors& w) {
-  for_chunks(static_cast<Index>(x.size()), [&](Index, Index begin, Index end) {
+  sweep(static_cast<Index>(x.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(x, A) += a * at(w, A);
   });
 }
 
 /// a = 0
 inline void clear(std::span<NodalVector> a) {
-  for_chunks(static_cast<Index>(a.size()), [&](Index, Index begin, Index end) {
+  sweep(static_cast<Index>(a.size()), [&](Index begin, Index end) {
     std::fill(a.begin() + begin, a.begin() + end, Lanes::zero());
   });
 }
@@ -33,7 +33,7 @@ inline void clear(std::span<NodalVector> a) {
 /// to = from
 inline void copy(const NodalVectors& from, NodalVectors& to) {
   to.resize(from.size());
-  for_chunks(static_cast<Index>(to.size()), [&](Index, Index begin, Index end) {
+  sweep(static_cast<Index>(to.size()), [&](Index begin, Index end) {
     std::copy(from.begin() + begin, from.begin() + end, to.begin() + begin);
   });
 }

@@ -47,11 +47,31 @@ void parallel_for(Index n, F&& f, [[maybe_unused]] int grain = 64) {
   if (failure) std::rethrow_exception(failure);
 }
 
+/// What it costs to do a row.
+enum class Cost {
+  much,
+  little  // a few operations
+};
+
+/// Calls f(k) for k in [0, parts), which together do n rows, on all threads. Few rows of little
+/// cost are done by one: others would take longer to fetch them.
+template <Cost cost, class F>
+void for_parts(Index parts, [[maybe_unused]] Index n, F&& f) {
+  constexpr Index few = cost == Cost::little ? 4096 : 0;
+  parallel_for(parts, f, n > few ? 1 : parts);
+}
+
 /// Calls f(chunk, begin, end) for the chunks of n rows on all threads.
-template <class F>
+template <Cost cost = Cost::much, class F>
 void for_chunks(Index n, F&& f) {
-  parallel_for(
-      chunk_count(n), [&](Index c) { f(c, chunk_begin(n, c), chunk_begin(n, c + 1)); }, 1);
+  for_parts<cost>(chunk_count(n), n,
+                  [&](Index c) { f(c, chunk_begin(n, c), chunk_begin(n, c + 1)); });
+}
+
+/// Calls f(begin, end) for chunks of n rows of little cost.
+template <class F>
+void sweep(Index n, F&& f) {
+  for_chunks<Cost::little>(n, [&](Index, Index begin, Index end) { f(begin, end); });
 }
 
 /// A value per chunk on the stack; memory that no chunk needs is not touched.
@@ -78,19 +98,16 @@ struct ItemRange {
 
 /// Sum of f(i) over some items of n, added in the order of the chunks of n. Here `count` of them
 /// are added up, those with the numbers chunk(k); complete(sums) brings the sums of the others.
-template <class T, class F, class Chunk, class Complete>
+template <Cost cost, class T, class F, class Chunk, class Complete>
 T sum_by_chunks(Index n, ItemRange items, T zero, F&& f, Index count, Chunk&& chunk,
                 Complete&& complete) {
   PerChunk<T> partial(chunk_count(n), zero);
-  parallel_for(
-      count,
-      [&](Index k) {
-        const Index c = chunk(k), end = std::min(chunk_begin(n, c + 1), items.end);
-        T s = zero;
-        for (Index i = std::max(chunk_begin(n, c), items.begin); i < end; ++i) s = s + f(i);
-        at(partial, c) = s;
-      },
-      1);
+  for_parts<cost>(count, n, [&](Index k) {
+    const Index c = chunk(k), end = std::min(chunk_begin(n, c + 1), items.end);
+    T s = zero;
+    for (Index i = std::max(chunk_begin(n, c), items.begin); i < end; ++i) s = s + f(i);
+    at(partial, c) = s;
+  });
   complete(partial.begin());
   T total = zero;
   for (const T& p : partial) total = total + p;
@@ -98,9 +115,9 @@ T sum_by_chunks(Index n, ItemRange items, T zero, F&& f, Index count, Chunk&& ch
 }
 
 /// Sum of f(i) over [0, n), added in the order of the chunks.
-template <class T, class F>
+template <Cost cost = Cost::much, class T, class F>
 T parallel_sum(Index n, T zero, F&& f) {
-  return sum_by_chunks(
+  return sum_by_chunks<cost>(
       n, {0, n}, zero, f, chunk_count(n), [](Index k) { return k; }, [](T*) {});
 }
 
