@@ -3,6 +3,7 @@
 #include "meniscus/run.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
 #include "meniscus/io/checkpoint.hpp"
@@ -118,12 +119,11 @@ class RunIn final : public Run::Base {
  private:
   /// sum_B N_B(X_A) f_B, plus X_A for positions.
   static std::vector<double> places(const Body<D>& body, const NodalVectors& f, bool position) {
+    const NodalVectors x = values_at_particles(body, f.data() + body.first);
     std::vector<double> values;
-    for (Index A = 0; A < body.size(); ++A) {
-      const Lanes x = value_at(body.at_particles, A, f.data() + body.first);
+    for (Index A = 0; A < body.size(); ++A)
       for (int i = 0; i < D; ++i)
-        values.push_back(x[i] + (position ? at(body.particles.X(), A)[i] : 0.0));
-    }
+        values.push_back(at(x, A)[i] + (position ? at(body.particles.X(), A)[i] : 0.0));
     return values;
   }
 

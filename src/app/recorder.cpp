@@ -4,6 +4,7 @@
 
 #include "meniscus/app/outputs.hpp"
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/core/ranks.hpp"
 
@@ -79,11 +80,11 @@ std::unique_ptr<ResultFile> make_result_file(const Simulation<D>& simulation,
 template <int D>
 std::vector<Real> at_places(const System<D>& system, const NodalVectors& field) {
   std::vector<Real> values(field.size() * D);
-  for (const Body<D>& body : system.bodies)
-    parallel_for(body.size(), [&](Index A) {
-      const Lanes x = value_at(body.at_particles, A, field.data() + body.first);
-      for (int i = 0; i < D; ++i) at(values, (body.first + A) * D + i) = x[i];
-    });
+  for (const Body<D>& body : system.bodies) {
+    const NodalVectors x = values_at_particles(body, field.data() + body.first);
+    for (Index A = 0; A < body.size(); ++A)
+      for (int i = 0; i < D; ++i) at(values, (body.first + A) * D + i) = at(x, A)[i];
+  }
   return values;
 }
 

@@ -3,8 +3,8 @@
 #include "meniscus/approx/particle_set.hpp"
 
 #include "meniscus/core/dense.hpp"
+#include "meniscus/core/divided.hpp"
 #include "meniscus/core/error.hpp"
-#include "meniscus/core/parallel.hpp"
 
 #include <fmt/core.h>
 
@@ -64,11 +64,14 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, 
       window_(window),
       search_(X_),
       pressed_(press(stretch, X_)) {
-  parallel_for(size(), [&](Index A) {
+  const OwnItems own = own_rows(size());
+  parallel_for(own.end - own.begin, [&](Index k) {
+    const Index A = own.begin + k;
     // The particle is its own nearest point.
     at(support_, A) =
         rule.factor * kernel_search().distance_of_nearest(at(kernel_X(), A), rule.rank + 1);
   });
+  complete_rows(size(), support_.data(), sizeof(Real));
   for (const Real support : support_) largest_support_ = std::max(largest_support_, support);
 }
 
@@ -159,7 +162,11 @@ void ParticleSet<D>::find_quality(std::span<const Vec<D>> points, std::span<cons
                                   std::vector<Real>& quality) const {
   constexpr Index together = 4;
   const auto count = static_cast<Index>(numbers.size());
-  parallel_for((count + together - 1) / together, [&](Index batch) {
+  using Qualities = std::array<Real, together>;
+  std::vector<Qualities> found(static_cast<std::size_t>((count + together - 1) / together));
+  const OwnItems own = own_rows(static_cast<Index>(found.size()));
+  parallel_for(own.end - own.begin, [&](Index item) {
+    const Index batch = own.begin + item;
     thread_local std::vector<Candidate<D>> reaching;
     thread_local ReproducingKernel<D> kernel(window_);
     kernel.use(window_);
@@ -176,9 +183,13 @@ void ParticleSet<D>::find_quality(std::span<const Vec<D>> points, std::span<cons
       const bool enough = static_cast<int>(reaching.size()) >= kernel.basis_size;
       if (enough) kernel.evaluate(kernel_places(x), reaching, Derivatives::none);
       for (Index k = first; k < next; ++k)
-        at(quality, at(numbers, k)) = enough ? std::max(0.0, kernel.quality()[k - first]) : 0.0;
+        at(at(found, batch), k % together) =
+            enough ? std::max(0.0, kernel.quality()[k - first]) : 0.0;
     }
   });
+  complete_rows(static_cast<Index>(found.size()), found.data(), sizeof(Qualities));
+  for (Index k = 0; k < count; ++k)
+    at(quality, at(numbers, k)) = at(at(found, k / together), k % together);
 }
 
 template <int D>

@@ -164,8 +164,38 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
   return rows;
 }
 
+/// Points are treated in the groups that they are in with all of them.
+template <int D>
+PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
+                              RowContent content, const std::string& body, ItemRange some) {
+  const auto n = static_cast<Index>(points.size());
+  const Index first = some.begin / group_size * group_size,
+              last = std::min(n, (some.end + group_size - 1) / group_size * group_size);
+  PointRows<D> rows = build_point_rows<D>(
+      particles,
+      points.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first)),
+      content, body);
+  const Offset before = at(rows.start, some.begin - first), end = at(rows.start, some.end - first);
+  for_arrays<D>(content, [&](auto array, std::size_t numbers) {
+    auto& entries = rows.*array;
+    entries.resize(static_cast<std::size_t>(end) * numbers);
+    entries.erase(entries.begin(), entries.begin() + before * static_cast<std::ptrdiff_t>(numbers));
+  });
+  std::vector<Offset> start(static_cast<std::size_t>(some.begin), 0);
+  start.reserve(points.size() + 1);
+  for (Index q = some.begin; q <= some.end; ++q)
+    start.push_back(at(rows.start, q - first) - before);
+  start.resize(points.size() + 1, end - before);
+  rows.start = std::move(start);
+  return rows;
+}
+
 template struct PointRows<2>;
 template struct PointRows<3>;
+template PointRows<2> build_point_rows(const ParticleSet<2>&, std::span<const Vec<2>>, RowContent,
+                                       const std::string&, ItemRange);
+template PointRows<3> build_point_rows(const ParticleSet<3>&, std::span<const Vec<3>>, RowContent,
+                                       const std::string&, ItemRange);
 #define MENISCUS_INSTANTIATE(D, Degree)              \
   template PointRows<D> build_point_rows<D, Degree>( \
       const ParticleSet<D>&, std::span<const Vec<D>>, RowContent, const std::string&);

@@ -95,13 +95,17 @@ MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
   // Givers are neighbours of the raised particles, or, where those cannot give enough, all.
   const QuadraticBasis<D> basis(X);
   typename QuadraticBasis<D>::Values wanted = QuadraticBasis<D>::Values::Zero();
+  std::vector<std::uint8_t> raised_near(n, 0);  // by the rows of this rank
   for (Index A = 0; A < body.size(); ++A) {
     if (at(excess, A) == 0) continue;
     wanted += at(excess, A) * basis(at(X, A));
-    for (Offset e = at(body.at_particles.start, A); e < at(body.at_particles.start, A + 1); ++e) {
-      const Index B = at(body.at_particles.particle, e);
-      at(near, B) = at(margin, B);
-    }
+    for (const Index B : body.at_particles.of_rows(A, A + 1)) at(raised_near, B) = 1;
+  }
+  for (int rank = 0; rank < ranks().size(); ++rank) {
+    std::vector<std::uint8_t> said = raised_near;
+    ranks().hand_out(rank, said.data(), said.size());
+    for (std::size_t B = 0; B < n; ++B)
+      if (said[B]) near[B] = margin[B];
   }
   for (report.kept_degree = 2; report.kept_degree >= 0; --report.kept_degree)
     for (const std::vector<Real>* givers : {&near, &margin})

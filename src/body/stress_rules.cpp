@@ -11,31 +11,6 @@
 namespace meniscus {
 namespace {
 
-/// Rows of some of the points; those of all others are empty. Points are treated in the fours that
-/// they would be in with all of them: so rows do not depend on which are asked for to the last bit.
-template <int D>
-PointRows<D> rows_of(const Body<D>& body, std::span<const Vec<D>> points, OwnItems some) {
-  constexpr Index four = 4;
-  const auto n = static_cast<Index>(points.size());
-  const Index first = some.begin / four * four,
-              last = std::min(n, (some.end + four - 1) / four * four);
-  PointRows<D> rows = build_point_rows<D>(
-      body.particles,
-      points.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first)),
-      {.gradient = true}, body.name);
-  const Offset before = at(rows.start, some.begin - first), end = at(rows.start, some.end - first);
-  rows.particle.resize(static_cast<std::size_t>(end));
-  rows.particle.erase(rows.particle.begin(), rows.particle.begin() + before);
-  rows.gradient.resize(static_cast<std::size_t>(end) * D);
-  rows.gradient.erase(rows.gradient.begin(), rows.gradient.begin() + before * D);
-  std::vector<Offset> start(static_cast<std::size_t>(some.begin), 0);
-  for (Index q = some.begin; q <= some.end; ++q)
-    start.push_back(at(rows.start, q - first) - before);
-  start.resize(points.size() + 1, end - before);
-  rows.start = std::move(start);
-  return rows;
-}
-
 /// Number of the particle nearest to a point with a row.
 template <int D>
 Index nearest(const Body<D>& body, const PointRows<D>& rows, Index point, const Vec<D>& X) {
@@ -61,7 +36,9 @@ PointRule<D> make_point_rule(const Body<D>& body, std::span<const Vec<D>> points
                                                     std::min(n, own_groups.end * per_group)};
   PointRule<D> rule;
   rule.per_group = per_group;
-  on_each_rank([&] { rule.rows = rows_of(body, points, own); });
+  on_each_rank([&] {
+    rule.rows = build_point_rows<D>(body.particles, points, {.gradient = true}, body.name, own);
+  });
   rule.point_weight = std::move(weight);
   rule.point_owner.resize(static_cast<std::size_t>(groups * per_group));
   parallel_for(own.end - own.begin, [&](Index k) {

@@ -61,7 +61,7 @@ int rank_of_row(Index n, Index row) {
 }
 
 void complete_items(Index n, void* values, std::size_t bytes_per_value) {
-  if (n > 0) exchange_of(n).bring(values, values, bytes_per_value);
+  if (n > 0 && !ranks().alone()) exchange_of(n).bring(values, values, bytes_per_value);
 }
 
 }  // namespace meniscus

@@ -24,7 +24,7 @@ std::vector<Vec<D>> in_this_reference(const Body<D>& body, const std::vector<Vec
   for (Index A = 0; A < body.size(); ++A)
     for (int i = 0; i < D; ++i)
       at(back, A).set(i, body.origin(A)[i] - at(body.particles.X(), A)[i]);
-  return pre_images<D>(body, coefficients_of(body.at_particles, back, back).data(), X);
+  return pre_images<D>(body, coefficients_of(body, back, back).data(), X);
 }
 
 /// Points of a body and the shape functions there. What is given by particle is taken between

@@ -2,6 +2,7 @@
 // Nematic liquid crystal: a Newtonian fluid with a director (Fan 2014, (4.18)-(4.27), corrected in
 // cells note 5). The stress of the fluid is that of the law "newtonian"; the director is a field of
 // its own.
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <cmath>
@@ -74,7 +75,8 @@ class Nematic final : public Material<D> {
   static std::vector<Real> volumes(const Body<D>& body) {
     constexpr Real floor = 0.3;
     std::vector<Real> volume(static_cast<std::size_t>(body.size()), 0.0);
-    const PointRows<D>& rows = body.at_particles;
+    const auto all_rows = rows_of_all_particles(body);
+    const PointRows<D>& rows = *all_rows;
     for (Index P = 0; P < body.size(); ++P)
       for (Offset e = at(rows.start, P); e < at(rows.start, P + 1); ++e)
         at(volume, at(rows.particle, e)) += first_volume(body, P) * at(rows.value, e);

@@ -3,6 +3,7 @@
 #include "meniscus/measure/drop_measures.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/physics/closed_surface.hpp"
 
 #include <cmath>
@@ -74,8 +75,9 @@ template <int D>
 PlaceMotion motion_of_places(const Body<D>& body, const Motion& motion) {
   Real mass = 0, square = 0;
   Lanes momentum = Lanes::zero();
+  const NodalVectors velocities = values_at_particles(body, motion.v.data() + body.first);
   for (Index A = 0; A < body.size(); ++A) {
-    const Lanes v = value_at(body.at_particles, A, motion.v.data() + body.first);
+    const Lanes& v = at(velocities, A);
     const Real m = at(body.mass, A);
     mass += m;
     square += m * sum(v * v);

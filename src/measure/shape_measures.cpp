@@ -4,6 +4,7 @@
 #include "meniscus/measure/shape_measures.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/measure/measure_registry.hpp"
@@ -28,13 +29,12 @@ class SurfacePlaces {
 
   std::vector<Vec<D>> places(const Motion& motion) const {
     const NodalVector* u = motion.u.data() + body_.first;
-    std::vector<Vec<D>> x(particles_.size());
-    parallel_for(static_cast<Index>(particles_.size()), [&](Index k) {
-      const Index A = at(particles_, k);
-      const Lanes displacement = value_at(body_.at_particles, A, u);
-      at(x, k) = at(body_.particles.X(), A);
-      for (int i = 0; i < D; ++i) at(x, k)[i] += displacement[i];
-    });
+    const NodalVectors displacement = values_at_particles(body_, u, particles_);
+    std::vector<Vec<D>> x;
+    for (std::size_t k = 0; k < particles_.size(); ++k) {
+      x.push_back(at(body_.particles.X(), particles_[k]));
+      for (int i = 0; i < D; ++i) x[k][i] += displacement[k][i];
+    }
     return x;
   }
 
@@ -98,11 +98,12 @@ const bool shape_measures_registered =
 template <int D>
 MeasureSource state_error(const Body<D>& body, ExactSolution exact) {
   const auto compute = [&body, exact = std::move(exact)](const Motion& m) {
-    const Lanes *u = m.u.data() + body.first, *v = m.v.data() + body.first;
+    const NodalVectors u = values_at_particles(body, m.u.data() + body.first),
+                       v = values_at_particles(body, m.v.data() + body.first);
     Real error = 0, size = 0;
     for (Index A = 0; A < body.size(); ++A) {
       const Eigen::Vector3d X = spatial<D>(at(body.particles.X(), A));
-      const Lanes u_A = value_at(body.at_particles, A, u), v_A = value_at(body.at_particles, A, v);
+      const Lanes &u_A = at(u, A), &v_A = at(v, A);
       const Real V = body.cells.volume(A);
       for (int i = 0; i < D; ++i) {
         const Real u_exact = exact.rate * at(exact.displacement, i)(X, m.time);

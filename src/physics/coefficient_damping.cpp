@@ -43,13 +43,16 @@ class CoefficientDamping final : public ForceTerm {
     const Rotation sums = subtract_places(motion);
     const Eigen::Vector3d w = sums.rate();
     Report report;
-    report.heat = sum_over_rows(0.0, [&](Index A) {
+    report.heat = divided_sum(body_.size(), 0.0, [&](Index A) {
       const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
       const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
       at(slip_, A) = at(rate_, A) * s;
       return at(rate_, A) * sum(s * s);
     });
-    if (is_entered(halo_)) slips_->bring(slip_.data(), slip_.data(), sizeof(Lanes));
+    if (is_entered(halo_))
+      slips_->bring(slip_.data(), slip_.data(), sizeof(Lanes));
+    else
+      complete_rows(body_.size(), slip_.data(), sizeof(Lanes));
     const auto own = body_.part(std::span<NodalVector>(force));
     windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* f) {
       for (Index A = begin; A < end; ++A) scatter_value(body_.at_particles, A, at(slip_, A), f);
@@ -70,7 +73,7 @@ class CoefficientDamping final : public ForceTerm {
     return windows_.bytes() + rate_.size() * sizeof(Real) +
            (slip_.size() + offset_.size()) * sizeof(Lanes);
   }
-  Offset pairs() const override { return body_.at_particles.entries(); }
+  Offset pairs() const override { return windows_.pairs(); }
 
  private:
   void keep_to(const std::shared_ptr<const Halo>& halo) {
@@ -99,17 +102,10 @@ class CoefficientDamping final : public ForceTerm {
     }
   };
 
-  /// Over the particles of the body, by the rows of each.
-  template <class T, class F>
-  T sum_over_rows(T zero, F&& f) const {
-    const Index n = body_.size();
-    return is_entered(halo_) ? divided_sum(n, zero, f) : parallel_sum(n, zero, f);
-  }
-
   /// d to slip_, e to offset_. Positions are quadratic fields: (I - N) x = (I - N) u.
   Rotation subtract_places(const Motion& motion) {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    return sum_over_rows(Rotation{}, [&](Index A) {
+    return divided_sum(body_.size(), Rotation{}, [&](Index A) {
       const PointRows<D>& rows = body_.at_particles;
       const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
       at(slip_, A) = d;

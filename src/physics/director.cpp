@@ -3,6 +3,7 @@
 #include "meniscus/physics/director.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/dense.hpp"
 
 #include <algorithm>
@@ -98,9 +99,8 @@ void Director<D>::add_reaction(const Motion& motion, Forces force) {
 }
 
 template <int D>
-Eigen::Vector3d Director<D>::value(const Motion& motion, Index A) const {
-  return spatial(
-      value_at(body_.at_particles, A, at(motion.fields, number()).x.data() + body_.first));
+NodalVectors Director<D>::values(const Motion& motion) const {
+  return values_at_particles(body_, at(motion.fields, number()).x.data() + body_.first);
 }
 
 /// Over the reference volume.
@@ -120,8 +120,9 @@ template <int D>
 Real Director<D>::order(const Motion& motion) const {
   Mat<D> Q = Mat<D>::Zero();
   Real volume = 0;
+  const NodalVectors directors = values(motion);
   for (Index A = 0; A < body_.size(); ++A) {
-    const Eigen::Vector3d h = value(motion, A);
+    const Eigen::Vector3d h = spatial(at(directors, A));
     const Real square = h.squaredNorm();
     if (!(square > 0)) continue;
     const Vec<D> axis = h.template head<D>();
@@ -150,8 +151,8 @@ void Director<D>::couples(const Motion& motion, std::span<Real> values) {
 
 /// P2 of the angle between the director and that of the start; 1 where there is none.
 template <int D>
-Real Director<D>::tilt(const Motion& motion, Index A) const {
-  const Eigen::Vector3d h = value(motion, A), &h0 = at(initial_, A);
+Real Director<D>::tilt(const Lanes& director, Index A) const {
+  const Eigen::Vector3d h = spatial(director), &h0 = at(initial_, A);
   const Real squares = h.squaredNorm() * h0.squaredNorm(), product = h.dot(h0);
   return squares > 0 ? (D * product * product / squares - 1) / (D - 1) : 1;
 }
@@ -160,8 +161,9 @@ template <int D>
 std::vector<FieldSource> Director<D>::fields() {
   return {{"director", D, dimension::none, "director of a nematic",
            [this](const Motion& motion, std::span<Real> values) {
+             const NodalVectors h = this->values(motion);
              for (Index A = 0; A < body_.size(); ++A)
-               for (int i = 0; i < D; ++i) at(values, D * A + i) = value(motion, A)[i];
+               for (int i = 0; i < D; ++i) at(values, D * A + i) = at(h, A)[i];
            }},
           {"director_couple", 3, dimension::pressure,
            "couple h x s per volume that the director exerts while it is not at rest, s = dE/dh",
@@ -170,14 +172,16 @@ std::vector<FieldSource> Director<D>::fields() {
            "P2 = (3 c^2 - 1)/2 (2D: 2 c^2 - 1), c the cosine between the director and that of the "
            "start",
            [this](const Motion& motion, std::span<Real> values) {
-             for (Index A = 0; A < body_.size(); ++A) at(values, A) = tilt(motion, A);
+             const NodalVectors h = this->values(motion);
+             for (Index A = 0; A < body_.size(); ++A) at(values, A) = tilt(at(h, A), A);
            }}};
 }
 
 template <int D>
 std::vector<MeasureSource> Director<D>::measures() {
   const auto length = [this](const Motion& motion) {
-    return mean([&](Index A) { return value(motion, A).norm(); });
+    const NodalVectors h = values(motion);
+    return mean([&](Index A) { return spatial(at(h, A)).norm(); });
   };
   const auto couple = [this](const Motion& motion) {
     std::vector<Real> m(3 * volume_.size());
@@ -197,7 +201,10 @@ std::vector<MeasureSource> Director<D>::measures() {
       {"director_tilt", dimension::none,
        "mean of P2 = (3 c^2 - 1)/2 (2D: 2 c^2 - 1), c the cosine between the director and that of "
        "the start",
-       [this](const Motion& motion) { return mean([&](Index A) { return tilt(motion, A); }); }},
+       [this](const Motion& motion) {
+         const NodalVectors h = values(motion);
+         return mean([&](Index A) { return tilt(at(h, A), A); });
+       }},
       {"director_length", dimension::none, "mean of |h|", length}};
 }
 

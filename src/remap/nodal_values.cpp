@@ -3,6 +3,7 @@
 #include "meniscus/remap/nodal_values.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
@@ -20,35 +21,27 @@ NodalVectors values_at(const PointRows<D>& rows, const NodalVector* c) {
   return values;
 }
 
-template <int D>
-NodalVectors shifted(const NodalVectors& f, const PointRows<D>& from, const PointRows<D>& to) {
-  NodalVectors result = f;
-  parallel_for(to.size(), [&](Index A) {
-    at(result, A) += value_at(to, A, f.data()) - value_at(from, A, f.data());
-  });
-  return result;
+NodalVectors shifted(NodalVectors f, const NodalVectors& from, const NodalVectors& to) {
+  for (std::size_t A = 0; A < f.size(); ++A) f[A] += at(to, A) - at(from, A);
+  return f;
 }
 
 template <int D>
-NodalVectors coefficients_of(const PointRows<D>& at_particles, const NodalVectors& f,
-                             NodalVectors guess) {
+NodalVectors coefficients_of(const Body<D>& body, const NodalVectors& f, NodalVectors guess) {
   constexpr int sweeps = 8;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const NodalVectors values = values_at(at_particles, guess.data());
-    parallel_for(static_cast<Index>(f.size()),
-                 [&](Index A) { at(guess, A) += at(f, A) - at(values, A); });
+    const NodalVectors values = values_at_particles(body, guess.data());
+    for (std::size_t A = 0; A < f.size(); ++A) guess[A] += f[A] - values[A];
   }
   return guess;
 }
 
 template <int D>
 std::vector<Vec<D>> places(const Body<D>& body, const NodalVector* u) {
-  std::vector<Vec<D>> x;
-  for (Index A = 0; A < body.size(); ++A) {
-    const Lanes moved = value_at(body.at_particles, A, u);
-    x.push_back(at(body.particles.X(), A));
-    for (int i = 0; i < D; ++i) x.back()[i] += moved[i];
-  }
+  const NodalVectors moved = values_at_particles(body, u);
+  std::vector<Vec<D>> x(body.particles.X().begin(), body.particles.X().end());
+  for (Index A = 0; A < body.size(); ++A)
+    for (int i = 0; i < D; ++i) at(x, A)[i] += at(moved, A)[i];
   return x;
 }
 
@@ -97,12 +90,11 @@ std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
                   body.name, place, *worst));
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                                  \
-  template NodalVectors values_at(const PointRows<D>&, const NodalVector*);                      \
-  template NodalVectors shifted(const NodalVectors&, const PointRows<D>&, const PointRows<D>&);  \
-  template NodalVectors coefficients_of(const PointRows<D>&, const NodalVectors&, NodalVectors); \
-  template std::vector<Vec<D>> places(const Body<D>&, const NodalVector*);                       \
-  template std::vector<Vec<D>> pre_images(const Body<D>&, const NodalVector*,                    \
+#define MENISCUS_INSTANTIATE(D)                                                             \
+  template NodalVectors values_at(const PointRows<D>&, const NodalVector*);                 \
+  template NodalVectors coefficients_of(const Body<D>&, const NodalVectors&, NodalVectors); \
+  template std::vector<Vec<D>> places(const Body<D>&, const NodalVector*);                  \
+  template std::vector<Vec<D>> pre_images(const Body<D>&, const NodalVector*,               \
                                           std::span<const Vec<D>>);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

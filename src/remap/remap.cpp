@@ -3,6 +3,7 @@
 #include "meniscus/remap/remap.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/body/quadratic_surface.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
@@ -32,11 +33,11 @@ std::vector<Vec<D>> centroids(const NodalCells<D>& cells) {
 
 /// Places in the reference of the scene when particles or cells move in that of the body.
 template <int D>
-std::vector<Vec<D>> origins(const Body<D>& body, const std::vector<Vec<D>>& origin,
-                            const PointRows<D>& from, const PointRows<D>& to) {
+std::vector<Vec<D>> origins(const std::vector<Vec<D>>& origin, auto&& from,
+                            const PointRows<D>& to) {
   NodalVectors f(origin.size(), Lanes::zero());
-  for (Index A = 0; A < body.size(); ++A) set_vector<D>(f, A, at(origin, A));
-  const NodalVectors moved = shifted(f, from, to);
+  for (std::size_t A = 0; A < origin.size(); ++A) set_vector<D>(f, A, origin[A]);
+  const NodalVectors moved = shifted(f, from(f.data()), values_at(to, f.data()));
   std::vector<Vec<D>> result = origin;
   for (std::size_t A = 0; A < result.size(); ++A)
     for (int i = 0; i < D; ++i) result[A][i] = moved[A][i];
@@ -50,7 +51,8 @@ std::vector<Real> volume_changes(std::span<const Real> of_cells, const PointRows
   NodalVectors f;
   for (const Real theta : of_cells) f.push_back({theta, 0, 0, 0});
   std::vector<Real> theta;
-  for (const Lanes& value : shifted(f, from, to)) theta.push_back(value[0]);
+  for (const Lanes& value : shifted(f, values_at(from, f.data()), values_at(to, f.data())))
+    theta.push_back(value[0]);
   return theta;
 }
 
@@ -147,8 +149,11 @@ Remap<D> remap(const Body<D>& body, const NodalVector* u, Seeds<D> seeds,
   const PointRows<D> old_cells = value_rows<D>(body, centroids(body.cells)),
                      new_cells = value_rows<D>(body, cell_places);
   if (old) {
-    next->origin = origins(body, old->origin, body.at_particles, value_rows<D>(body, result.nodes));
-    next->cell_origin = origins(body, old->cell_origin, old_cells, new_cells);
+    next->origin = origins<D>(
+        old->origin, [&](const NodalVector* f) { return values_at_particles(body, f); },
+        value_rows<D>(body, result.nodes));
+    next->cell_origin = origins<D>(
+        old->cell_origin, [&](const NodalVector* f) { return values_at(old_cells, f); }, new_cells);
   } else {
     next->origin = result.nodes;
     next->cell_origin = cell_places;
@@ -181,9 +186,9 @@ State carried(const System<D>& before, const State& state, const System<D>& afte
     const auto carry = [&](NodalVectors& field) {
       const auto own = old.part(std::span<NodalVector>(field));
       const NodalVectors coefficients(own.begin(), own.end());
-      const NodalVectors c =
-          coefficients_of(body.at_particles, values_at(rows, coefficients.data()),
-                          shifted(coefficients, old.at_particles, rows));
+      const NodalVectors there = values_at(rows, coefficients.data());
+      const NodalVectors c = coefficients_of(
+          body, there, shifted(coefficients, values_at_particles(old, coefficients.data()), there));
       std::copy(c.begin(), c.end(), own.begin());
     };
     carry(result.v);

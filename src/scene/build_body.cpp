@@ -100,12 +100,13 @@ template <int D>
 void report(const Body<D>& body, const typename Material<D>::Built& built,
             const BodySettings& settings, Assembly<D>& assembly) {
   const std::string& name = body.name;
+  const std::vector<Offset> of_ranks = said_by_ranks(body.at_particles.entries());
+  const Offset neighbours = std::accumulate(of_ranks.begin(), of_ranks.end(), Offset{0});
   assembly.note(fmt::format(
       "body '{}': {} particles, {} cells, mean spacing {:.4g} {}, {:.1f} neighbours per particle, "
       "{:.1f} pairs per particle, {:.1f} MB for the internal force",
       name, body.size(), body.geometry.grid.cell_count(), mean_spacing(body.geometry.grid),
-      assembly.units().symbol(dimension::length),
-      static_cast<Real>(body.at_particles.entries()) / body.size(),
+      assembly.units().symbol(dimension::length), static_cast<Real>(neighbours) / body.size(),
       static_cast<Real>(built.force->pairs()) / body.size(),
       1e-6 * static_cast<Real>(built.force->bytes())));
   if (built.cell_average)

@@ -8,6 +8,7 @@
 #include "meniscus/solve/elastic_inertia.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/buckets.hpp"
 #include "meniscus/core/dense.hpp"
@@ -111,8 +112,8 @@ class ElasticInertia<D>::OfBody {
   OfBody(const System<D>& system, const Body<D>& body)
       : first_(static_cast<std::size_t>(body.first)),
         size_(body.size()),
-        to_places_(body.at_particles),
-        from_places_(transpose_of(to_places_)) {
+        to_places_(rows_of_all_particles(body)),
+        from_places_(transpose_of(*to_places_)) {
     Real mass = 0;
     for (const Real m : body.part(std::span<const Real>(system.mass))) mass += m;
     const Real k = 2 * std::numbers::pi / extent_of(body);
@@ -129,7 +130,7 @@ class ElasticInertia<D>::OfBody {
     std::copy_n(r.begin() + static_cast<std::ptrdiff_t>(first_), x_.size(), x_.begin());
     divide_by(from_places_);
     factors_->solve(std::span(x_));
-    divide_by(to_places_);
+    divide_by(*to_places_);
     std::copy(x_.begin(), x_.end(), z.begin() + static_cast<std::ptrdiff_t>(first_));
   }
 
@@ -166,7 +167,7 @@ class ElasticInertia<D>::OfBody {
 
   std::size_t first_;
   Index size_;
-  const PointRows<D>& to_places_;
+  std::shared_ptr<const PointRows<D>> to_places_;
   PointRows<D> from_places_;
   std::unique_ptr<SparseCholesky> factors_;
   NodalVectors residual_, way_, image_, x_;

@@ -7,6 +7,7 @@
 #include "meniscus/solve/element_preconditioner.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/solve/nested_dissection.hpp"
@@ -71,11 +72,11 @@ std::vector<MatrixEntry> stiffness(const System<D>& system, const Body<D>& body,
   constexpr Real share_of_mass = 1e-3;
   const Grid<D>& grid = body.geometry.grid;
   std::vector<Vec<D>> places = grid.X;
-  if (step)
-    for (Index A = 0; A < body.size(); ++A) {
-      const Lanes u = value_at(body.at_particles, A, step->from().data() + body.first);
-      for (int i = 0; i < D; ++i) at(places, A)[i] += u[i];
-    }
+  if (step) {
+    const NodalVectors u = values_at_particles(body, step->from().data() + body.first);
+    for (Index A = 0; A < body.size(); ++A)
+      for (int i = 0; i < D; ++i) at(places, A)[i] += at(u, A)[i];
+  }
   std::vector<MatrixEntry> entries;
   for (const auto& cell : grid.cells) {
     auto corners = grid.corner_points(cell);
@@ -121,7 +122,8 @@ std::vector<Index> order_of_rows(const Grid<D>& grid) {
 template <int D>
 SparseLU inverse_transform(const Body<D>& body) {
   constexpr Real added = 0.004;
-  const PointRows<D>& rows = body.at_particles;
+  const auto all_rows = rows_of_all_particles(body);
+  const PointRows<D>& rows = *all_rows;
   std::vector<MatrixEntry> entries;
   for (Index A = 0; A < body.size(); ++A) {
     entries.push_back({A, A, added});

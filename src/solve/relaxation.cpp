@@ -15,6 +15,7 @@
 
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/box.hpp"
+#include "meniscus/core/divided.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/solve/central_difference.hpp"
@@ -255,12 +256,17 @@ Real Relaxation<D>::largest_change() const {
   Real largest = 0;
   for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
     const Body<D>& body = system_.bodies[b];
-    Real change = 0;
-    for (Index A = 0; A < body.size(); ++A) {
+    const OwnItems own = own_rows(body.size());
+    Real square = 0;
+    for (Index A = own.begin; A < own.end; ++A) {
       const Lanes moved = value_at(body.at_particles, A, du_.data() + body.first);
-      change = std::max(change, std::sqrt(sum(moved * moved)));
+      square = std::max(square, sum(moved * moved));
     }
-    largest = std::max(largest, change / extents_[b]);
+    for (int rank = 0; rank < ranks().size(); ++rank) {
+      Real of_rank = square;
+      ranks().hand_out(rank, &of_rank, sizeof of_rank);
+      largest = std::max(largest, std::sqrt(of_rank) / extents_[b]);
+    }
   }
   return largest;
 }

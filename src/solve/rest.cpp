@@ -3,6 +3,7 @@
 #include "meniscus/solve/rest.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
 
@@ -108,10 +109,10 @@ Vec<D> FluidRest<D>::axes(const Body<D>& body, const NodalVectors& u) const {
   Real mass = 0;
   Vec<D> first = Vec<D>::Zero();
   Mat<D> second = Mat<D>::Zero();
+  const NodalVectors moved = values_at_particles(body, u.data() + body.first);
   for (Index A = 0; A < body.size(); ++A) {
-    const Lanes moved = value_at(body.at_particles, A, u.data() + body.first);
     Vec<D> x = at(body.particles.X(), A);
-    for (int i = 0; i < D; ++i) x[i] += moved[i];
+    for (int i = 0; i < D; ++i) x[i] += at(moved, A)[i];
     const Real m = at(body.mass, A);
     mass += m;
     first += m * x;

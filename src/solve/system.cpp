@@ -52,12 +52,10 @@ void System<D>::share_steps(StepReads reads) {
   std::vector<Index> first;
   for (const Body<D>& body : bodies) first.push_back(body.first);
   ParticleOwners owners(size(), first);
-  for (const OwnItems own : owners.own())
-    for (const Body<D>& body : bodies) {
-      const Index begin = std::max(own.begin - body.first, 0),
-                  end = std::min(own.end - body.first, body.size());
-      if (begin < end) reads.particles(body.at_particles.of_rows(begin, end), body.first);
-    }
+  for (const Body<D>& body : bodies) {
+    const OwnItems own = own_rows(body.size());
+    reads.particles(body.at_particles.of_rows(own.begin, own.end), body.first);
+  }
   halo = reads.share(std::move(owners));
 }
 
@@ -95,7 +93,7 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
   const Index A = what.particle - body.first;
   const Vec<D>& X = at(body.particles.X(), A);
   Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
-  if (in_halo()) ranks().hand_out(halo->owners().owner(what.particle), &u, sizeof u);
+  ranks().hand_out(rank_of_row(body.size(), A), &u, sizeof u);
   std::string reference, current;
   for (int i = 0; i < D; ++i) {
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);

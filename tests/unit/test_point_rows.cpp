@@ -185,6 +185,32 @@ TEST(PointRows, AreThoseOfEachPointHoweverManyThereAre) {
   }
 }
 
+TEST(PointRows, OfSomePointsHaveTheBitsThatTheyHaveAmongAll) {
+  const auto body = test::body_of<3>(test::ball(4, 2));
+  const auto X = body->particles.X();
+  const auto n = static_cast<Index>(X.size());
+  const PointRows<3> all = build_point_rows<3>(body->particles, X, everything, "body");
+  for (const ItemRange some : {ItemRange{0, n}, {5, 17}, {6, 7}, {n - 3, n}, {9, 9}}) {
+    SCOPED_TRACE(some.begin);
+    const auto rows = build_point_rows<3>(body->particles, X, everything, "body", some);
+    ASSERT_EQ(rows.size(), n);
+    EXPECT_EQ(at(rows.start, some.begin), 0);
+    EXPECT_EQ(at(rows.start, some.end), rows.entries());
+    ASSERT_EQ(rows.entries(), at(all.start, some.end) - at(all.start, some.begin));
+    for (Index q = some.begin; q <= some.end; ++q)
+      ASSERT_EQ(at(rows.start, q), at(all.start, q) - at(all.start, some.begin));
+    const auto expect_part = [&](const auto& part, const auto& whole, int numbers) {
+      ASSERT_EQ(static_cast<Offset>(part.size()), rows.entries() * numbers);
+      EXPECT_TRUE(std::equal(part.begin(), part.end(),
+                             whole.begin() + at(all.start, some.begin) * numbers));
+    };
+    expect_part(rows.particle, all.particle, 1);
+    expect_part(rows.value, all.value, 1);
+    expect_part(rows.gradient, all.gradient, 3);
+    expect_part(rows.hessian, all.hessian, 6);
+  }
+}
+
 TEST(PointRows, HoldOnlyWhatWasAskedFor) {
   const auto body = test::body_of<3>(test::ball(4, 1));
   const auto X = body->particles.X();

@@ -4,6 +4,7 @@
 #pragma once
 #include "meniscus/approx/particle_set.hpp"
 #include "meniscus/core/aligned.hpp"
+#include "meniscus/core/parallel.hpp"
 
 #include <span>
 #include <string>
@@ -42,5 +43,10 @@ struct PointRows {
 template <int D, int Degree = 2>
 PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
                               RowContent content, const std::string& body);
+/// The rows of some of the points, with the bits that they have among all; those of all others are
+/// empty.
+template <int D>
+PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
+                              RowContent content, const std::string& body, ItemRange some);
 
 }  // namespace meniscus

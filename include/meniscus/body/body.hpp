@@ -24,7 +24,8 @@ struct Body {
   NodalCells<D> cells;  ///< refers to `geometry`: a body does not move in memory
   std::vector<Real> mass;
   /// Values of the shape functions at the particles: places x(X_A) = sum_B N_B(X_A) d_B. Particle
-  /// coefficients d_A are not places.
+  /// coefficients d_A are not places. The rows of this rank (own_rows()); those of others are
+  /// empty.
   PointRows<D> at_particles;
   /// What it was referred to anew; null: it has the reference of its scene.
   std::shared_ptr<const Reference<D>> reference;
@@ -52,8 +53,12 @@ struct Body {
       : name(std::move(body_name)),
         geometry(std::move(body_geometry)),
         particles(std::move(body_particles)),
-        cells(geometry.grid),
-        at_particles(build_point_rows<D>(particles, particles.X(), {.value = true}, name)) {}
+        cells(geometry.grid) {
+    on_each_rank([this] {
+      at_particles =
+          build_point_rows<D>(particles, particles.X(), {.value = true}, name, own_rows(size()));
+    });
+  }
 };
 
 /// How the coefficients of a cell rule are stored: in double, or in single precision but for a few

@@ -26,11 +26,11 @@ class Director final : public CarriedField {
   std::vector<MeasureSource> measures();
 
  private:
-  Eigen::Vector3d value(const Motion& motion, Index A) const;
+  NodalVectors values(const Motion& motion) const;
   template <class F>
   Real mean(F&& of_particle) const;
   Real order(const Motion& motion) const;
-  Real tilt(const Motion& motion, Index A) const;
+  Real tilt(const Lanes& director, Index A) const;
   void couples(const Motion& motion, std::span<Real> values);
 
   const Body<D>& body_;

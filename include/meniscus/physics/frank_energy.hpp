@@ -25,9 +25,7 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   std::optional<std::string> warning(const Motion& motion) const override;
   std::vector<MeasureSource> measures() const override;
   std::size_t bytes() const override;
-  Offset pairs() const override {
-    return 3 * cell_windows_.pairs() + 2 * body_.at_particles.entries();
-  }
+  Offset pairs() const override { return 3 * cell_windows_.pairs() + 2 * value_windows_.pairs(); }
 
   void hold_places(const NodalVector* u) override;
   Real held_energy(const NodalVector* x) const override;

@@ -11,18 +11,17 @@ namespace meniscus {
 template <int D>
 NodalVectors values_at(const PointRows<D>& rows, const NodalVector* c);
 
-/// The values f_A that go with particles or their cells, when these move from the points of the
-/// rows `from` to those of `to`: f_A + sum_B (N_B(to_A) - N_B(from_A)) f_B. What the shape
-/// functions smooth away stays with the particle, so that nothing changes where nothing moves.
-template <int D>
-NodalVectors shifted(const NodalVectors& f, const PointRows<D>& from, const PointRows<D>& to);
+/// The values f_A that go with particles or their cells, when these move from points where the
+/// field has the values `from` to those with the values `to`: f_A + sum_B (N_B(to_A) - N_B(from_A))
+/// f_B. What the shape functions smooth away stays with the particle, so that nothing changes where
+/// nothing moves.
+NodalVectors shifted(NodalVectors f, const NodalVectors& from, const NodalVectors& to);
 
 /// Coefficients c of a field whose values at the particles are given, sum_B N_B(X_A) c_B = f_A: by
 /// eight steps c += f - N c from a guess. Exact solutions would be rough, for the shape functions
 /// hardly pass on what changes from particle to particle.
 template <int D>
-NodalVectors coefficients_of(const PointRows<D>& at_particles, const NodalVectors& f,
-                             NodalVectors guess);
+NodalVectors coefficients_of(const Body<D>& body, const NodalVectors& f, NodalVectors guess);
 
 /// The places of the particles now, [particle] x(X_A) = X_A + sum_B N_B(X_A) u_B; `u` is that of
 /// the body.

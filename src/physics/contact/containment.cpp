@@ -3,6 +3,7 @@
 #include "meniscus/physics/containment.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 
 #include <fmt/core.h>
 
@@ -77,10 +78,9 @@ std::vector<std::array<Vec<D>, D>> simplices_of(const PlacedBody<D>& placed) {
 template <int D>
 PlacedBody<D>::PlacedBody(const Body<D>& the_body, const Motion& motion)
     : body(the_body), x(body.particles.X().begin(), body.particles.X().end()) {
-  for (Index A = 0; A < body.size(); ++A) {
-    const Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
-    for (int i = 0; i < D; ++i) at(x, A)[i] += u[i];
-  }
+  const NodalVectors u = values_at_particles(body, motion.u.data() + body.first);
+  for (Index A = 0; A < body.size(); ++A)
+    for (int i = 0; i < D; ++i) at(x, A)[i] += at(u, A)[i];
   box = box_around<D>(x);
 }
 
