@@ -2,7 +2,6 @@
 // A scene run from another program.
 #include "meniscus/run.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"

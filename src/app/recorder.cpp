@@ -3,7 +3,6 @@
 #include "meniscus/app/recorder.hpp"
 
 #include "meniscus/app/outputs.hpp"
-#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/core/ranks.hpp"

@@ -2,7 +2,6 @@
 // Motion of places and shape of drops.
 #include "meniscus/measure/drop_measures.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 #include "meniscus/physics/closed_surface.hpp"
 

@@ -3,7 +3,6 @@
 // solution.
 #include "meniscus/measure/shape_measures.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"

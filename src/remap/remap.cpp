@@ -2,7 +2,6 @@
 // New references, and velocities and fields carried to them.
 #include "meniscus/remap/remap.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 #include "meniscus/body/quadratic_surface.hpp"
 #include "meniscus/core/dense.hpp"

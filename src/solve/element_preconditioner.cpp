@@ -6,7 +6,6 @@
 // with it.
 #include "meniscus/solve/element_preconditioner.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"

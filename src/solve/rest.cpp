@@ -2,7 +2,6 @@
 // Rigid drift, and the flow in a fluid, as dynamic relaxation judges them.
 #include "meniscus/solve/rest.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"

@@ -2,7 +2,6 @@
 // Winding numbers of polyhedra, and bodies that are inside of each other.
 #include "meniscus/physics/containment.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 
 #include <fmt/core.h>
