@@ -33,7 +33,7 @@ ForceWindows::ForceWindows(std::span<const Offset> start, std::span<const Index>
 }
 
 void ForceWindows::add_to(std::span<NodalVector> force) const {
-  sweep(static_cast<Index>(force.size()), [&](Index begin, Index end) {
+  for_chunks(static_cast<Index>(force.size()), [&](Index, Index begin, Index end) {
     for (const WindowChunk& chunk : summed_) {
       const Index first = std::max(begin, chunk.low), last = std::min(end, chunk.high);
       const NodalVector* sum = sums_.data() + (chunk.sum - chunk.low);

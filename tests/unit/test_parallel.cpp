@@ -10,6 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace meniscus::test_parallel {
 namespace {
@@ -42,6 +43,35 @@ TEST(Chunks, SumsHaveTheSameBitsForAnyThreads) {
   omp_set_num_threads(before);
   // sum of sin i = sin(n/2) sin((n - 1)/2) / sin(1/2)
   EXPECT_NEAR(one, std::sin(n / 2.0) * std::sin((n - 1) / 2.0) / std::sin(0.5), 1e-9);
+}
+
+std::vector<Index> taken_by_one(Index parts) {
+  LoopShares shares(parts);
+  std::vector<Index> taken;
+  for (Index part = shares.take(); part >= 0; part = shares.take()) taken.push_back(part);
+  return taken;
+}
+
+/// Outside of loops the caller is the first of the threads, and the only one that takes.
+TEST(LoopShares, GiveAThreadItsOwnPartsFirstAndThenTheEndsOfOthers) {
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(3);
+  EXPECT_EQ(taken_by_one(10), (std::vector<Index>{0, 1, 2, 5, 4, 3, 9, 8, 7, 6}));
+  EXPECT_EQ(taken_by_one(1), (std::vector<Index>{0}));
+  EXPECT_EQ(taken_by_one(0), (std::vector<Index>{}));
+  omp_set_num_threads(before);
+}
+
+TEST(LoopShares, GiveEachPartOnceToAnyThreads) {
+  const int before = omp_get_max_threads();
+  for (const int threads : {1, 2, 5, 70}) {
+    omp_set_num_threads(threads);
+    std::vector<int> times(1000, 0);
+    parallel_for(
+        1000, [&](Index i) { ++at(times, i); }, 3);
+    EXPECT_EQ(times, std::vector<int>(1000, 1)) << threads;
+  }
+  omp_set_num_threads(before);
 }
 
 TEST(Sweeps, OverFewRowsWakeNoThread) {

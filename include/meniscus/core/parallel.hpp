@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loops over threads whose results do not depend on the number of threads.
 #pragma once
+#include "meniscus/core/loop_shares.hpp"
 #include "meniscus/core/types.hpp"
 
 #include <algorithm>
@@ -29,18 +30,22 @@ inline Index chunk_begin(Index n, int c) {
 /// would do wakes no other. The exception of the least i is rethrown afterwards (one that leaves an
 /// OpenMP region would end the program).
 template <class F>
-void parallel_for(Index n, F&& f, [[maybe_unused]] int grain = 64) {
+void parallel_for(Index n, F&& f, Index grain = 64) {
   std::exception_ptr failure;
   [[maybe_unused]] Index failed = n;
-#pragma omp parallel for schedule(dynamic, grain) if (n > grain)
-  for (Index i = 0; i < n; ++i) {
-    try {
-      f(i);
-    } catch (...) {
+  LoopShares shares(n / grain + (n % grain != 0));
+#pragma omp parallel if (n > grain)
+  for (Index part = shares.take(); part >= 0; part = shares.take()) {
+    const Index end = part < n / grain ? (part + 1) * grain : n;
+    for (Index i = part * grain; i < end; ++i) {
+      try {
+        f(i);
+      } catch (...) {
 #pragma omp critical(meniscus_parallel_for)
-      if (i < failed) {
-        failed = i;
-        failure = std::current_exception();
+        if (i < failed) {
+          failed = i;
+          failure = std::current_exception();
+        }
       }
     }
   }
@@ -58,7 +63,7 @@ enum class Cost {
 template <Cost cost, class F>
 void for_parts(Index parts, [[maybe_unused]] Index n, F&& f) {
   constexpr Index few = cost == Cost::little ? 4096 : 0;
-  parallel_for(parts, f, n > few ? 1 : parts);
+  parallel_for(parts, f, n > few ? 1 : std::max<Index>(parts, 1));
 }
 
 /// Calls f(chunk, begin, end) for the chunks of n rows on all threads.
