@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cost against size: building and stepping the free cube of lame_cube, per particle, with one
-// thread and with two (performance note 6).
+// thread and with two, and what two runs at once make of the machine (performance note 6).
 #include "meniscus/core/memory.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/scene/simulation.hpp"
@@ -10,7 +10,8 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <array>
+#include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,61 +45,84 @@ class Threads {
   int before_;
 };
 
-/// s per step with one thread and with two.
-using StepTimes = std::array<double, 2>;
+/// The free cube, ready to step.
+class Cube {
+ public:
+  explicit Cube(int cells) : scene_(scene_of(cells)), simulation_(scene_) { simulation_.begin(); }
 
-/// Of each the median over steps that are made in turns: others may use the machine.
-StepTimes seconds_per_step(Simulation<3>& simulation, Index particles) {
-  constexpr int in_a_row = 10;
-  const int rounds = std::max(3, 100000 / particles);
-  std::array<std::vector<double>, 2> times;
-  for (int round = 0; round < rounds; ++round)
-    for (int number = 1; number <= 2; ++number) {
-      const Threads threads(number);
-      for (int k = 0; k < in_a_row; ++k) {
-        const Stopwatch time;
-        simulation.advance();
-        at(times, number - 1).push_back(time.seconds());
-      }
+  Index particles() const { return scene_.system.size(); }
+  std::size_t bytes() const { return scene_.system.bytes(); }
+  std::uint64_t hash() { return simulation_.snapshot().hash(); }
+
+  /// Makes steps with so many threads; adds what each took, in s.
+  void make_steps(int steps, int threads, std::vector<double>& seconds) {
+    const Threads number(threads);
+    for (int k = 0; k < steps; ++k) {
+      const Stopwatch time;
+      simulation_.advance();
+      seconds.push_back(time.seconds());
     }
-  StepTimes medians{};
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const auto middle = times[k].begin() + in_a_row * rounds / 2;
-    std::nth_element(times[k].begin(), middle, times[k].end());
-    medians[k] = *middle;
   }
-  return medians;
-}
 
-struct Measured {
-  Measurement result;
-  StepTimes steps;
-  std::uint64_t hash;
+ private:
+  static Scene<3> scene_of(int cells) {
+    const SceneInput input = SceneInput::from_text(scene_text(cells));
+    scene_dimension(input);
+    return build_scene<3>(input);
+  }
+
+  Scene<3> scene_;
+  Simulation<3> simulation_;
 };
 
-/// Set up with `number` threads.
-Measured measure(int number, int cells) {
-  const Threads threads(number);
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Median s per step of a run with one thread, with two, and of two runs of one thread at once.
+struct StepTimes {
+  double one, two, at_once;
+};
+
+/// In turns, since others may use the machine, each so long that it does not matter where the one
+/// before has left threads and caches.
+StepTimes step_times(Cube& cube, Cube& beside) {
+  const int in_a_row = std::max(10, 200000 / cube.particles()),
+            rounds = std::clamp(200000 / cube.particles(), 3, 10);
+  std::vector<double> one, two, at_once;
+  for (int round = 0; round < rounds; ++round) {
+    cube.make_steps(in_a_row, 1, one);
+    cube.make_steps(in_a_row, 2, two);
+    std::vector<double> of_beside;
+    auto other = std::async(std::launch::async, [&] { beside.make_steps(in_a_row, 1, of_beside); });
+    cube.make_steps(in_a_row, 1, at_once);
+    other.get();
+    at_once.insert(at_once.end(), of_beside.begin(), of_beside.end());
+  }
+  return {median(one), median(two), median(at_once)};
+}
+
+/// Sets a cube up with so many threads, and makes its first steps.
+std::unique_ptr<Cube> measure(int threads, int cells, Measurement& result) {
+  const Threads number(threads);
   forget_peak_memory();
   const Stopwatch set_up;
-  const SceneInput input = SceneInput::from_text(scene_text(cells));
-  scene_dimension(input);
-  Scene<3> scene = build_scene<3>(input);
-  Simulation<3> simulation(scene);
-  simulation.begin();
-
-  Measurement result{.method = fmt::format("{} thread{}", number, number > 1 ? "s" : ""),
-                     .level = cells};
+  auto cube = std::make_unique<Cube>(cells);
+  result.method = fmt::format("{} thread{}", threads, threads > 1 ? "s" : "");
+  result.level = cells;
   result.set_up = set_up.seconds();
-  result.particles = scene.system.size();
+  result.particles = cube->particles();
   result.h = result.particles;
-  result.bytes = scene.system.bytes();
+  result.bytes = cube->bytes();
   const Real n = result.particles;
   result.errors = {{"set-up, us per particle", 1e6 * result.set_up / n},
                    {"forces, kB per particle", 1e-3 * static_cast<Real>(result.bytes) / n},
                    {"peak, kB per particle", 1e-3 * peak_memory() / n}};
-  const StepTimes steps = seconds_per_step(simulation, result.particles);
-  return {std::move(result), steps, simulation.snapshot().hash()};
+  std::vector<double> first;
+  cube->make_steps(10, threads, first);
+  return cube;
 }
 
 void record(StudyRun& study, Measurement result, double step) {
@@ -113,15 +137,19 @@ void run(StudyRun& study) {
   study.finish_settings();
   int different = 0;
   for (const int cells : study.levels()) {
-    const Measured one = measure(1, cells), two = measure(2, cells);
-    different += one.hash != two.hash;
-    const StepTimes steps{std::min(one.steps[0], two.steps[0]),
-                          std::min(one.steps[1], two.steps[1])};
-    record(study, one.result, steps[0]);
-    record(study, two.result, steps[1]);
+    Measurement one, two;
+    const std::uint64_t hash = measure(1, cells, one)->hash();
+    const auto cube = measure(2, cells, two);
+    different += cube->hash() != hash;
+    Cube beside(cells);
+    const StepTimes steps = step_times(*cube, beside);
+    record(study, one, steps.one);
+    record(study, two, steps.two);
     study.note(fmt::format(
-        "{} particles: two threads make steps {:.2f} and the set-up {:.2f} times as fast as one",
-        one.result.particles, steps[0] / steps[1], one.result.set_up / two.result.set_up));
+        "{} particles: two threads make steps {:.2f} and the set-up {:.2f} times as fast as one; "
+        "two runs at once make {:.2f} times as many steps as one alone: efficiency {:.2f}",
+        one.particles, steps.one / steps.two, one.set_up / two.set_up,
+        2 * steps.one / steps.at_once, steps.at_once / steps.two / 2));
   }
   study.require("sizes with another state after the steps with two threads", different, {0, 0});
   // A particle inside has more neighbours than one at the surface, of which large bodies have less.

@@ -18,7 +18,7 @@ Real sum_of(const Real* p, const Real* end) {
   constexpr std::ptrdiff_t line = 8, ahead = 512;
   Lanes even = Lanes::zero(), odd = even;
   for (; p != end; p += line) {
-    prefetch_passing(p + ahead);
+    prefetch(p + ahead);
     even += Lanes::load(p);
     odd += Lanes::load(p + line / 2);
   }

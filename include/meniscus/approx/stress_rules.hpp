@@ -140,7 +140,7 @@ struct CellRule {
     const char* ahead = reinterpret_cast<const char*>(coefficient.data() + exact_end * D) +
                         (half == Half::second ? (end - A) * bytes_ahead : 0);
     for (; A != end; ++A, g += D, ahead += bytes_ahead) {
-      prefetch_passing(ahead);
+      prefetch(ahead);
       std::array<Lanes, D> here;
       for (int K = 0; K < D; ++K) at(here, K) = in_register(g[K]);
       work(*A, here);
@@ -150,7 +150,7 @@ struct CellRule {
     ahead = reinterpret_cast<const char*>(rounded.data() + (at(start, cell + 1) - exact_end) * D) +
             (half == Half::second ? (end - A) * rounded_bytes_ahead : 0);
     for (; A != end; ++A, r += D, ahead += rounded_bytes_ahead) {
-      prefetch_passing(ahead);
+      prefetch(ahead);
       std::array<Lanes, D> wide;
       for (int K = 0; K < D; ++K) at(wide, K) = in_register(r[K].widened());
       work(*A, wide);
@@ -203,7 +203,7 @@ struct PointRule {
       const Index* A = rows.particle.data() + at(rows.start, q);
       const Index* const end = rows.particle.data() + at(rows.start, q + 1);
       for (; A != end; ++A, g += D) {
-        __builtin_prefetch(g + ahead);
+        prefetch(g + ahead);
         Lanes f = at(column[0], lane) * g[0];
         for (int K = 1; K < D; ++K) f += at(column[K], lane) * g[K];
         force[*A] += f;

@@ -127,11 +127,12 @@ inline bool any(Lanes::Mask mask) {
   return a;
 }
 
-/// Asks for the cache line of `p`, which is needed soon and then not for long: it takes no place
-/// from what stays. Inlined before anything is optimised: g++ 12 takes a function that does nothing
-/// else for one without effect and drops the call.
-[[gnu::always_inline]] inline void prefetch_passing(const void* p) {
-  __builtin_prefetch(p, 0, 0);
+/// Asks for the cache line of `p` in the second level, from where reading it soon costs little. The
+/// first level has few places for lines that are on their way: with all taken by what is asked for
+/// ahead, reading waits as well (performance note 2). Inlined before anything is optimised: g++ 12
+/// takes a function that does nothing else for one without effect and drops the call.
+[[gnu::always_inline]] inline void prefetch(const void* p) {
+  __builtin_prefetch(p, 0, 2);
 }
 
 /// The vectors (a_q, b_q, c_q, 0) of the lanes q = 0 ... 3.
