@@ -121,8 +121,9 @@ Rows<BodySettings> BodySettings::rows() {
           "automatic"),
       choice_row("precision", &S::precision, {"double", "single"},
                  "how integration = \"q_scni\" stores its gradients: single halves memory; "
-                 "steps take a fifth longer, those of small bodies up to a half; forces differ by "
-                 "about 1e-7 of the stress, momentum and angular momentum are kept as in double",
+                 "steps of large bodies on several threads are an eighth shorter, those of small "
+                 "ones up to a sixth longer; forces differ by about 1e-7 of the stress, momentum "
+                 "and angular momentum are kept as in double",
                  "double"),
       choice_row("window", &S::window, windows(), "window function of the kernel", "cubic_spline"),
       optional_row("support_factor", &S::support_factor, dimension::none, support_factors,

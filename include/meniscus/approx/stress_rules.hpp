@@ -203,7 +203,7 @@ struct PointRule {
       const Index* A = rows.particle.data() + at(rows.start, q);
       const Index* const end = rows.particle.data() + at(rows.start, q + 1);
       for (; A != end; ++A, g += D) {
-        prefetch(g + ahead);
+        __builtin_prefetch(g + ahead);
         Lanes f = at(column[0], lane) * g[0];
         for (int K = 1; K < D; ++K) f += at(column[K], lane) * g[K];
         force[*A] += f;
