@@ -8,6 +8,7 @@ import re
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import tomllib
 import unittest
@@ -225,15 +226,15 @@ class LibrarySettings(ProgramTest):
     def settings_of_a_run(self, **given):
         """Name of the process and VARIABLES of a run that is started with the given ones."""
         environment = {key: value for key, value in program.ENVIRONMENT.items() if key not in self.VARIABLES} | given
-        process = subprocess.Popen([program.PROGRAM, "run", self.scene(BLOCK), "--set", "time.end=1e9"],
+        results = Path(tempfile.mkdtemp(dir=self.directory)) / "results"
+        process = subprocess.Popen([program.PROGRAM, "run", self.scene(BLOCK), "--set", "time.end=1e9", "--output", results],
                                    cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment)
         self.addCleanup(process.__exit__, None, None, None)
         self.addCleanup(process.kill)
         for _ in range(1000):  # until it computes
-            if (self.directory / "results/scene/run.h5").exists():
+            if (results / "run.h5").exists():
                 break
             time.sleep(0.02)
-        shutil.rmtree(self.directory / "results")
         of_process = Path(f"/proc/{process.pid}")
         values = dict(entry.split("=", 1) for entry in (of_process / "environ").read_text().split("\0") if "=" in entry)
         return (of_process / "comm").read_text().strip(), *map(values.get, self.VARIABLES)
