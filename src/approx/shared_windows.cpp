@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rank does which chunks and adds up the windows over which particles.
+// Which rank does which chunks and adds up the sums of which particles.
 #include "meniscus/approx/shared_windows.hpp"
 
 #include "meniscus/core/divided.hpp"
@@ -8,106 +8,82 @@
 
 namespace meniscus {
 
-SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Offset> start,
-                             std::span<const Index> particle, Index particles) {
-  find_windows(chunks, start);
+SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Index> touched,
+                             std::span<const Offset> start, Index particles) {
   // As all rows of the body, whoever does these: what a rank adds up it has to follow.
   for (int rank = 0; rank <= ranks().size(); ++rank) border_.push_back(first_row(particles, rank));
   numbers_ = chunks.empty() ? 0 : chunks.back().number + 1;
-  const Touched of_chunks = touched(chunks, start, particle);
-  share_windows(chunks, of_chunks);
-  remember_touched(chunks, of_chunks);
+  const Touched by_chunks = touched_by_chunks(chunks, touched, start);
+  share_windows(chunks, by_chunks);
+  remember_touched(by_chunks);
   particles_ = exchange_of_forces([](Index) { return true; });
   share_results(chunks);
 }
 
 /// Who does which chunk is known before its rows are.
-void SharedWindows::find_windows(std::vector<WindowChunk>& chunks, std::span<const Offset> start) {
-  struct Reach {
-    Index low, high;
+SharedWindows::Touched SharedWindows::touched_by_chunks(const std::vector<WindowChunk>& chunks,
+                                                        std::span<const Index> touched,
+                                                        std::span<const Offset> start) {
+  struct Size {
+    Index sums;
     Offset pairs;
   };
-  const auto rows = static_cast<Index>(start.size()) - 1;
-  const int count = chunk_count(rows);
-  std::vector<Reach> reach(static_cast<std::size_t>(count));
+  const int count = chunk_count(static_cast<Index>(start.size()) - 1);
+  std::vector<Size> size(static_cast<std::size_t>(count));
   for (const WindowChunk& chunk : chunks) {
     rank_.push_back(rank_of_item(count, chunk.number));
     if (rank_.back() == ranks().rank())
-      at(reach, chunk.number) = {chunk.low, chunk.high,
-                                 at(start, chunk.end) - at(start, chunk.begin)};
+      at(size, chunk.number) = {chunk.sum_end - chunk.sum,
+                                at(start, chunk.end) - at(start, chunk.begin)};
   }
-  complete_items(count, reach.data(), sizeof reach[0]);
-  for (WindowChunk& chunk : chunks) {
-    const Reach& found = at(reach, chunk.number);
-    chunk.low = found.low;
-    chunk.high = found.high;
-    pairs_ += found.pairs;
-  }
-}
-
-SharedWindows::Touched SharedWindows::touched(const std::vector<WindowChunk>& chunks,
-                                              std::span<const Offset> start,
-                                              std::span<const Index> particle) const {
-  constexpr Index bits = 8;
-  Touched of_chunks;
-  std::vector<std::uint8_t> packed;
+  complete_items(count, size.data(), sizeof size[0]);
+  Touched by_chunks;
   for (std::size_t k = 0; k < chunks.size(); ++k) {
-    const WindowChunk& chunk = chunks[k];
-    const Index length = chunk.high - chunk.low;
-    packed.assign(static_cast<std::size_t>((length + bits - 1) / bits), 0);
+    const Size& found = at(size, chunks[k].number);
+    pairs_ += found.pairs;
+    std::vector<Index>& particles = by_chunks.emplace_back(static_cast<std::size_t>(found.sums));
     if (rank_[k] == ranks().rank())
-      for (Offset e = at(start, chunk.begin); e < at(start, chunk.end); ++e) {
-        const Index A = at(particle, e) - chunk.low;
-        at(packed, A / bits) |= static_cast<std::uint8_t>(1u << (A % bits));
-      }
-    ranks().hand_out(rank_[k], packed.data(), packed.size());
-    std::vector<bool>& is = of_chunks.emplace_back(static_cast<std::size_t>(length));
-    for (Index A = 0; A < length; ++A)
-      is[static_cast<std::size_t>(A)] = (at(packed, A / bits) >> (A % bits)) & 1;
+      std::copy_n(touched.begin() + chunks[k].sum, found.sums, particles.begin());
+    ranks().hand_out(rank_[k], particles.data(), particles.size() * sizeof(Index));
   }
-  return of_chunks;
+  return by_chunks;
 }
 
-/// In the sums of each rank its own windows come first.
+/// In the sums of each rank those of its own windows come first.
 void SharedWindows::share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched) {
   const int me = ranks().rank();
-  const Index first = at(border_, me), last = at(border_, me + 1);
-  std::vector<Offset> root(chunks.size());
-  std::vector<Offset> used(border_.size(), 0);
+  const ItemRange particles = summed_particles();
+  std::vector<Index> root(chunks.size());
+  std::vector<Index> used(border_.size(), 0);
   for (std::size_t k = 0; k < chunks.size(); ++k) {
     root[k] = at(used, rank_[k]);
-    at(used, rank_[k]) += window_length(chunks[k]);
+    at(used, rank_[k]) += static_cast<Index>(touched[k].size());
   }
   size_ = at(used, me);
   std::vector<Leaf> leaves;
   for (std::size_t k = 0; k < chunks.size(); ++k) {
-    WindowChunk chunk = chunks[k];
     const bool mine = rank_[k] == me;
-    chunk.sum = root[k];
-    if (mine) own_.push_back(chunk);
-    WindowChunk part = chunk;
-    part.low = std::max(chunk.low, first);
-    part.high = std::min(chunk.high, last);
-    if (part.low >= part.high) continue;
-    part.sum = mine ? chunk.sum + part.low - chunk.low : size_;
-    summed_.push_back(part);
-    if (mine) continue;
-    for (Index A = part.low; A < part.high; ++A)
-      if (touched[k][static_cast<std::size_t>(A - chunk.low)])
-        leaves.push_back({static_cast<Index>(part.sum + A - part.low), rank_[k],
-                          static_cast<Index>(root[k] + A - chunk.low)});
-    size_ += window_length(part);
+    if (mine) {
+      own_.push_back(chunks[k]);
+      own_.back().sum = root[k];
+      own_.back().sum_end = root[k] + static_cast<Index>(touched[k].size());
+    }
+    const auto first = std::lower_bound(touched[k].begin(), touched[k].end(), particles.begin);
+    const auto last = std::lower_bound(first, touched[k].end(), particles.end);
+    for (auto A = first; A != last; ++A) {
+      const Index sum = root[k] + static_cast<Index>(A - touched[k].begin());
+      summed_.push_back({*A, mine ? sum : size_});
+      if (!mine) leaves.push_back({size_++, rank_[k], sum});
+    }
   }
-  windows_ = ranks().exchange(static_cast<Index>(at(used, me)), leaves);
+  windows_ = ranks().exchange(at(used, me), leaves);
 }
 
-void SharedWindows::remember_touched(const std::vector<WindowChunk>& chunks,
-                                     const Touched& touched) {
+void SharedWindows::remember_touched(const Touched& touched) {
   touched_.assign(static_cast<std::size_t>(border_.back()), 0);
-  for (std::size_t k = 0; k < chunks.size(); ++k) {
+  for (std::size_t k = 0; k < touched.size(); ++k) {
     const std::uint8_t bits = by_a_rank | (rank_[k] == ranks().rank() ? by_this_rank : 0);
-    for (std::size_t A = 0; A < touched[k].size(); ++A)
-      if (touched[k][A]) touched_[static_cast<std::size_t>(chunks[k].low) + A] |= bits;
+    for (const Index A : touched[k]) at(touched_, A) |= bits;
   }
 }
 
@@ -127,8 +103,8 @@ void SharedWindows::mark_touched(std::span<std::uint8_t> particles) const {
 }
 
 void SharedWindows::mark_summed(std::span<std::uint8_t> particles) const {
-  const int me = ranks().rank();
-  for (Index A = at(border_, me); A < at(border_, me + 1); ++A) at(particles, A) = 1;
+  const ItemRange summed = summed_particles();
+  std::fill(particles.begin() + summed.begin, particles.begin() + summed.end, std::uint8_t{1});
 }
 
 void SharedWindows::keep_to(std::shared_ptr<const Halo> halo, Index first) {

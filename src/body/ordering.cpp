@@ -1,26 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slab-and-Morton order, and renumbering of grids.
+// Order by halving, and renumbering of grids.
 #include "meniscus/body/ordering.hpp"
 
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <tuple>
 
 namespace meniscus {
 
 namespace {
 
-/// Bits of a and b alternate in the result (those of a lower).
-std::uint64_t interleave(std::uint32_t a, std::uint32_t b) {
-  std::uint64_t code = 0;
-  for (int bit = 0; bit < 32; ++bit)
-    code |= (std::uint64_t((a >> bit) & 1) << (2 * bit)) |
-            (std::uint64_t((b >> bit) & 1) << (2 * bit + 1));
-  return code;
+/// Coordinates in so fine steps that the layers of a lattice, which rounding makes uneven, are
+/// even.
+template <int D>
+using Levels = std::array<std::int32_t, D>;
+
+template <int D>
+std::vector<Levels<D>> levels_of(std::span<const Vec<D>> points) {
+  constexpr Real steps = 1 << 20;
+  const Box<D> box = box_around<D>(points);
+  const Real longest = box.extent().maxCoeff();
+  const Real scale = longest > 0 ? steps / longest : 0;
+  std::vector<Levels<D>> levels;
+  levels.reserve(points.size());
+  for (const Vec<D>& X : points) {
+    Levels<D>& level = levels.emplace_back();
+    for (int k = 0; k < D; ++k)
+      at(level, k) = static_cast<std::int32_t>(std::lround(scale * (X[k] - box.low[k])));
+  }
+  return levels;
+}
+
+template <int D>
+int longest_axis(const std::vector<Levels<D>>& levels, std::span<const Index> points) {
+  Levels<D> low = at(levels, points[0]), high = low;
+  for (const Index A : points)
+    for (int k = 0; k < D; ++k) {
+      at(low, k) = std::min(at(low, k), at(at(levels, A), k));
+      at(high, k) = std::max(at(high, k), at(at(levels, A), k));
+    }
+  int axis = 0;
+  for (int k = 1; k < D; ++k)
+    if (at(high, k) - at(low, k) > at(high, axis) - at(low, axis)) axis = k;
+  return axis;
+}
+
+/// Halves the numbers begin to end of `order` again and again, first where chunks begin.
+template <int D>
+void halve(const std::vector<Levels<D>>& levels, std::vector<Index>& order, Index begin, Index end,
+           int chunk, int end_chunk) {
+  if (end - begin < 2) return;
+  const auto n = static_cast<Index>(order.size());
+  const int middle_chunk = (chunk + end_chunk) / 2;
+  const Index middle =
+      middle_chunk > chunk ? chunk_begin(n, middle_chunk) : begin + (end - begin) / 2;
+  const int axis =
+      longest_axis<D>(levels, std::span(order).subspan(static_cast<std::size_t>(begin),
+                                                       static_cast<std::size_t>(end - begin)));
+  const auto key = [&](Index A) {
+    const Levels<D>& level = at(levels, A);
+    return std::tuple(at(level, axis), at(level, (axis + 1) % D), at(level, (axis + 2) % D), A);
+  };
+  std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end,
+                   [&](Index a, Index b) { return key(a) < key(b); });
+  halve<D>(levels, order, begin, middle, chunk, middle_chunk);
+  halve<D>(levels, order, middle, end, middle_chunk, end_chunk);
 }
 
 template <class T>
@@ -46,34 +97,11 @@ std::vector<Index> inverse_order(std::span<const Index> order) {
 }  // namespace
 
 template <int D>
-std::vector<Index> spatial_order(std::span<const Vec<D>> points, Real spacing) {
+std::vector<Index> spatial_order(std::span<const Vec<D>> points) {
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), 0);
-  if (points.empty()) return order;
-  const Box<D> box = box_around<D>(points);
-  int axis = 0;
-  const Vec<D> extent = box.extent();
-  extent.maxCoeff(&axis);
-
-  // Morton codes of 24 bits per direction, in units of the longest extent.
-  const Real scale = extent[axis] > 0 ? Real((1 << 24) - 1) / extent[axis] : 0;
-  struct Key {
-    std::int64_t slab;
-    std::uint64_t code;
-    auto operator<=>(const Key&) const = default;
-  };
-  std::vector<Key> keys;
-  for (const auto& X : points) {
-    const auto level = [&](int k) {
-      return static_cast<std::uint32_t>(scale * (X[k] - box.low[k]));
-    };
-    // Half a spacing of shift keeps layers of a lattice away from slab borders.
-    const Real slab = std::floor((X[axis] - box.low[axis]) / spacing + 0.5);
-    keys.push_back({static_cast<std::int64_t>(slab),
-                    interleave(level((axis + 1) % D), D == 3 ? level((axis + 2) % D) : 0u)});
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return at(keys, a) < at(keys, b); });
+  const auto n = static_cast<Index>(points.size());
+  if (n > 0) halve<D>(levels_of<D>(points), order, 0, n, 0, chunk_count(n));
   return order;
 }
 
@@ -112,17 +140,15 @@ void renumber(Geometry<D>& geometry, std::span<const Index> order) {
 
 template <int D>
 std::vector<Index> order_spatially(Geometry<D>& geometry) {
-  const Real spacing =
-      std::pow(volume(geometry.grid) / static_cast<Real>(geometry.grid.X.size()), 1.0 / D);
-  std::vector<Index> order = spatial_order<D>(geometry.grid.X, spacing);
+  std::vector<Index> order = spatial_order<D>(geometry.grid.X);
   renumber<D>(geometry, order);
   return order;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                \
-  template std::vector<Index> spatial_order<D>(std::span<const Vec<D>>, Real); \
-  template void renumber<D>(Grid<D>&, std::span<const Index>);                 \
-  template void renumber<D>(Geometry<D>&, std::span<const Index>);             \
+#define MENISCUS_INSTANTIATE(D)                                          \
+  template std::vector<Index> spatial_order<D>(std::span<const Vec<D>>); \
+  template void renumber<D>(Grid<D>&, std::span<const Index>);           \
+  template void renumber<D>(Geometry<D>&, std::span<const Index>);       \
   template std::vector<Index> order_spatially<D>(Geometry<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

@@ -254,14 +254,16 @@ struct AllPairs {
 };
 
 /// Two round bodies with waves of the length of a facet, at gaps from near the core to the cut-off.
+/// Of several such pairs, since in one of them the nearest facets may be far from where forces are
+/// largest.
 template <int D>
 void expect_same_of_pairs(Real size, int points) {
   SCOPED_TRACE(std::to_string(D) + "D, " + std::to_string(points) + " points");
   const ContactLaw law = test::law<D>(D == 3 ? PairKernel::space : PairKernel::integrated, size);
   Real nodal = 0, net = 0, energy = 0, nodal_error = 0, net_error = 0, energy_error = 0;
-  for (Real gap = 0.5 * size; gap < 4 * size; gap *= D == 3 ? 1.7 : 1.25) {
+  const auto compare = [&](Real gap, unsigned seed) {
     const auto pair = test::round_pair<D>(gap);
-    const NodalVectors u = pair.random(0.01, 3);
+    const NodalVectors u = pair.random(0.01, seed);
     const auto term =
         contact_pair<D>({*pair.first, 1.2}, {*pair.second, 0.7}, law, choice<D>(points));
     const AllPairs<D> all(pair, law, points, u);
@@ -275,10 +277,12 @@ void expect_same_of_pairs(Real size, int points) {
     net_error = std::max(net_error, on_first(error));
     energy = std::min(energy, all.energy);
     energy_error = std::max(energy_error, std::abs(test::energy_of(*term, u) - all.energy));
-  }
+  };
+  for (unsigned seed = 1; seed <= (D == 3 ? 1 : 6); ++seed)
+    for (Real gap = 0.5 * size; gap < 4 * size; gap *= D == 3 ? 1.7 : 1.25) compare(gap, seed);
   EXPECT_GT(nodal_error, 0);
-  EXPECT_LT(nodal_error, 3e-5 * nodal);
-  EXPECT_LT(net_error, 1e-4 * net);
+  EXPECT_LT(nodal_error, 2e-5 * nodal);
+  EXPECT_LT(net_error, 5e-5 * net);
   EXPECT_LT(energy_error, -1e-4 * energy);
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adding up forces from rows on several threads and ranks with the same bits for any number of
-// them: row chunks, as many as their number asks for, each with its own window of particles, summed
-// in ascending order (performance note 5, scaling note 2).
+// them: row chunks, as many as their number asks for, each with its own sums for the particles that
+// its rows touch, added up in ascending order (performance note 5, scaling note 2).
 #pragma once
 #include "meniscus/approx/shared_windows.hpp"
+#include "meniscus/approx/thread_sums.hpp"
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/parallel.hpp"
 
@@ -31,9 +32,10 @@ class ForceWindows {
         static_cast<Index>(own_.size()),
         [&](Index c) {
           const WindowChunk& chunk = at(own_, c);
-          NodalVector* sum = sums_.data() + chunk.sum;
-          std::fill(sum, sum + (chunk.high - chunk.low), Lanes::zero());
-          work(chunk.number, chunk.begin, chunk.end, sum - chunk.low);
+          NodalVector* const window = thread_sums(particles_);
+          for (Index s = chunk.sum; s < chunk.sum_end; ++s) window[at(touched_, s)] = Lanes::zero();
+          work(chunk.number, chunk.begin, chunk.end, window);
+          for (Index s = chunk.sum; s < chunk.sum_end; ++s) at(sums_, s) = window[at(touched_, s)];
         },
         1);
     if (shared_) shared_->bring_windows(sums_);
@@ -55,15 +57,26 @@ class ForceWindows {
   int chunks() const { return chunks_; }
   /// Pairs of the rows of all ranks and particles.
   Offset pairs() const { return pairs_; }
-  std::size_t bytes() const { return sums_.size() * sizeof(Lanes); }
+  /// Sums that this rank adds up.
+  std::size_t sums() const { return sum_of_particle_.size(); }
+  std::size_t bytes() const {
+    return sums_.size() * sizeof(NodalVector) +
+           (touched_.size() + sum_start_.size() + sum_of_particle_.size()) * sizeof(Index);
+  }
 
  private:
+  void find_touched(std::span<const Offset> start, std::span<const Index> particle);
+  void order_by_particle(const std::vector<WindowSum>& sums, ItemRange particles);
   void add_to(std::span<NodalVector> force) const;
 
   int chunks_ = 0;
+  Index particles_ = 0;
   Offset pairs_ = 0;
-  std::vector<WindowChunk> own_;     // whose rows this rank does
-  std::vector<WindowChunk> summed_;  // windows over this rank's particles, ascending
+  std::vector<WindowChunk> own_;        // whose rows this rank does
+  std::vector<Index> touched_;          // particle of a sum of own chunks, [sum]
+  ItemRange summed_{0, 0};              // particles whose sums this rank adds up
+  std::vector<Index> sum_start_;        // [particle of summed_ + 1]
+  std::vector<Index> sum_of_particle_;  // number of a sum, in ascending order of chunks
   NodalVectors sums_;
   std::shared_ptr<SharedWindows> shared_;  // null: there are no other ranks
 };

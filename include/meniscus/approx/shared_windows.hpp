@@ -13,32 +13,34 @@
 
 namespace meniscus {
 
-/// A chunk of rows and its window.
+/// A chunk of rows and its sums, of the particles that they touch in ascending order.
 struct WindowChunk {
   int number;
-  Index begin, end;  ///< rows
-  Index low, high;   ///< particles
-  Offset sum = 0;    ///< where the sums [particle - low] begin
+  Index begin, end;    ///< rows
+  Index sum, sum_end;  ///< among the sums of this rank
 };
 
-/// Sums of a window, so many that the next one begins on a cache line.
-inline Offset window_length(const WindowChunk& chunk) {
-  return (Offset{chunk.high} - chunk.low + 1) / 2 * 2;
-}
+/// A sum of a window and the particle it is part of the force on.
+struct WindowSum {
+  Index particle, sum;
+};
 
 class SharedWindows {
  public:
-  /// `chunks`: all that have rows, in ascending order, of compressed rows; of the rows, and of the
-  /// particles that chunks reach, only those of own chunks are looked at.
-  SharedWindows(std::vector<WindowChunk> chunks, std::span<const Offset> start,
-                std::span<const Index> particle, Index particles);
+  /// `chunks`: all that have rows, in ascending order, of compressed rows; of the rows, and of
+  /// `touched`, the particles of their sums, only those of own chunks are looked at.
+  SharedWindows(std::vector<WindowChunk> chunks, std::span<const Index> touched,
+                std::span<const Offset> start, Index particles);
 
   /// Those whose rows this rank does.
   const std::vector<WindowChunk>& own() const { return own_; }
-  /// Windows over this rank's particles, cut to them, in ascending order.
-  const std::vector<WindowChunk>& summed() const { return summed_; }
+  /// Sums of the forces on this rank's particles, in ascending order of chunks.
+  const std::vector<WindowSum>& summed() const { return summed_; }
+  ItemRange summed_particles() const {
+    return {at(border_, ranks().rank()), at(border_, ranks().rank() + 1)};
+  }
   /// Of the sums of all windows here.
-  Offset size() const { return size_; }
+  Index size() const { return size_; }
   /// Pairs of all rows and particles.
   Offset pairs() const { return pairs_; }
 
@@ -61,16 +63,15 @@ class SharedWindows {
   void spread_results(PerChunk<T>&... results);
 
  private:
-  /// Which particles of its window the rows of a chunk touch, [chunk][particle - low].
-  using Touched = std::vector<std::vector<bool>>;
+  /// The particles that the rows of each chunk touch, [chunk].
+  using Touched = std::vector<std::vector<Index>>;
   /// Bits of `touched_`.
   static constexpr std::uint8_t by_a_rank = 1, by_this_rank = 2;
 
-  void find_windows(std::vector<WindowChunk>& chunks, std::span<const Offset> start);
-  Touched touched(const std::vector<WindowChunk>& chunks, std::span<const Offset> start,
-                  std::span<const Index> particle) const;
+  Touched touched_by_chunks(const std::vector<WindowChunk>& chunks, std::span<const Index> touched,
+                            std::span<const Offset> start);
   void share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched);
-  void remember_touched(const std::vector<WindowChunk>& chunks, const Touched& touched);
+  void remember_touched(const Touched& touched);
   /// Forces of particles for which `is_wanted`, that rows touch and other ranks add up.
   template <class F>
   std::unique_ptr<Exchange> exchange_of_forces(F&& is_wanted) const;
@@ -81,8 +82,10 @@ class SharedWindows {
 
   std::vector<int> rank_;      // that does a chunk, [chunk]
   std::vector<Index> border_;  // particle at which those of a rank begin, [rank], and their number
-  std::vector<WindowChunk> own_, summed_;
-  Offset size_ = 0, pairs_ = 0;
+  std::vector<WindowChunk> own_;
+  std::vector<WindowSum> summed_;
+  Index size_ = 0;
+  Offset pairs_ = 0;
   int numbers_ = 0;                    // of chunks are below this
   std::vector<int> foreign_;           // numbers of the chunks of others
   std::vector<std::uint8_t> touched_;  // by rows of which ranks, [particle]

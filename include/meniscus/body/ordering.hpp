@@ -8,12 +8,12 @@
 
 namespace meniscus {
 
-/// The numbers of the points in spatial order (order[new] = old): slabs of thickness `spacing`
-/// along the longest axis of the cloud, Morton order inside a slab; equal places keep their order.
-/// Slabs keep the rows that touch one particle close together (narrow windows of the force
-/// reduction).
+/// The numbers of the points in spatial order (order[new] = old): the cloud is cut across its
+/// longest edge into two halves, these likewise, and so on; those that are cut first begin where
+/// chunks of the points begin (core/parallel), which so are blocks: their rows touch few particles
+/// of others. Equal places keep their order.
 template <int D>
-std::vector<Index> spatial_order(std::span<const Vec<D>> points, Real spacing);
+std::vector<Index> spatial_order(std::span<const Vec<D>> points);
 
 /// Gives node order[i] the number i. Cells are then sorted by their lowest node and facets by cell.
 /// `order` must be a permutation of the nodes, else InputError.
@@ -22,7 +22,7 @@ void renumber(Grid<D>& grid, std::span<const Index> order);
 template <int D>
 void renumber(Geometry<D>& geometry, std::span<const Index> order);
 
-/// Renumbers in spatial order with slabs of the mean spacing (V / nodes)^(1/D); returns order.
+/// Renumbers in spatial order; returns order.
 template <int D>
 std::vector<Index> order_spatially(Geometry<D>& geometry);
 
