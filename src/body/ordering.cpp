@@ -106,6 +106,14 @@ std::vector<Index> spatial_order(std::span<const Vec<D>> points) {
 }
 
 template <int D>
+Vec<D> mark_of_order(std::span<const Vec<D>> points) {
+  Vec<D> mark = Vec<D>::Zero();
+  for (std::size_t A = 0; A < points.size(); ++A)
+    mark += std::cos(static_cast<Real>(A)) * points[A];
+  return mark;
+}
+
+template <int D>
 void renumber(Grid<D>& grid, std::span<const Index> order) {
   if (order.size() != grid.X.size())
     throw InputError("the new order of the nodes is not a permutation of their numbers");
@@ -147,6 +155,7 @@ std::vector<Index> order_spatially(Geometry<D>& geometry) {
 
 #define MENISCUS_INSTANTIATE(D)                                          \
   template std::vector<Index> spatial_order<D>(std::span<const Vec<D>>); \
+  template Vec<D> mark_of_order<D>(std::span<const Vec<D>>);             \
   template void renumber<D>(Grid<D>&, std::span<const Index>);           \
   template void renumber<D>(Geometry<D>&, std::span<const Index>);       \
   template std::vector<Index> order_spatially<D>(Geometry<D>&);

@@ -2,6 +2,7 @@
 // Beginning, advancing, saving and restoring a run.
 #include "meniscus/scene/simulation.hpp"
 
+#include "meniscus/body/ordering.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/measure/drop_measures.hpp"
@@ -294,6 +295,7 @@ Ledger Simulation<D>::audit_now() {
 
 template <int D>
 void Simulation<D>::archive(const Archive& a) {
+  archive_orders(a.in("orders"));
   state_.archive(a, D);
   a("last_step", last_step_, dimension::time);
   require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
@@ -346,6 +348,25 @@ void Simulation<D>::archive_references(const Archive& a) const {
       Reference<D> reference = *body.reference;
       reference.archive(a.in(body.name));
     }
+  }
+}
+
+/// Values are those of particles by their numbers, which another version may give otherwise. Places
+/// of later references are kept themselves.
+template <int D>
+void Simulation<D>::archive_orders(const Archive& a) const {
+  constexpr Real of_rounding = 1e-6;  // of the spacing, of all particles together
+  for (const Body<D>& body : scene_.system.bodies) {
+    if (body.reference) continue;
+    const Vec<D> mark = mark_of_order<D>(body.geometry.grid.X);
+    Eigen::Vector3d saved = Eigen::Vector3d::Zero();
+    saved.head<D>() = mark;
+    a(body.name, saved, dimension::length);
+    if (!((saved.head<D>() - mark).norm() < of_rounding * mean_spacing(body.geometry.grid)))
+      throw FileError(
+          fmt::format("the saved state of body '{}' has its particles in another order: it was "
+                      "written by another version; continue it with that one, or run it again",
+                      body.name));
   }
 }
 

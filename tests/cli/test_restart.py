@@ -203,6 +203,17 @@ class ChangedState(Restart):
                                  "out of range" if np.isfinite(value) else f"'{name}' is {value}")
 
 
+    def test_another_order_of_particles(self):
+        """As another version may number them."""
+        scene = self.scene(with_output(DROP.replace('"60 ps"', '"15 ps"'), "restartable = true"))
+        self.call("run", scene, "--output", "out")
+        with h5py.File(self.directory / "out/run.h5", "r+") as file:
+            file["steps/1/state/orders/drop"][0] *= 1 + 1e-5
+            sign(file["steps/1"])
+        self.refused(["run", scene, "--output", "on", "--restart", "out", "--frame", 1], 5, "body 'drop'",
+                     "another order")
+
+
 class RemappedDrop(EveryWay, Restart):
     # Stopped in the second and the third epoch.
     SCENE, TIME, LATER = REMAPPED_DROP, "20.3 ps", "41 ps"

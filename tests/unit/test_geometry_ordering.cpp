@@ -90,6 +90,20 @@ TEST(Ordering, RenumberedBodyIsTheSameBody) {
   EXPECT_LT((sum(surface_points(body, 3)) - sum(surface_points(before, 3))).norm(), 1e-12);
 }
 
+TEST(Ordering, MarkTellsOrdersApart) {
+  const std::vector<Vec<3>> points = long_ellipsoid().geometry().grid.X;
+  const Vec<3> mark = mark_of_order<3>(points);
+  std::vector<Vec<3>> changed = points;
+  for (std::size_t A = 0; A < points.size(); ++A)
+    changed[A] *= 1 + 1e-15 * std::sin(static_cast<Real>(A));
+  EXPECT_LT((mark_of_order<3>(changed) - mark).norm(), 1e-11);
+  for (std::size_t A = 0; A + 1 < points.size(); ++A) {
+    changed = points;
+    std::swap(changed[A], changed[A + 1]);
+    EXPECT_GT((mark_of_order<3>(changed) - mark).norm(), 1e-3 * (points[A] - points[A + 1]).norm());
+  }
+}
+
 TEST(Ordering, EqualPlacesKeepTheirOrder) {
   const std::vector<Vec<2>> points(5, Vec<2>(1, 1));
   EXPECT_EQ(spatial_order<2>(points), (std::vector<Index>{0, 1, 2, 3, 4}));

@@ -15,6 +15,11 @@ namespace meniscus {
 template <int D>
 std::vector<Index> spatial_order(std::span<const Vec<D>> points);
 
+/// A sum of places with weights of their numbers, which tells orders of the same points apart: to
+/// exchange two changes it by some of their distance, rounding of places by no more than theirs.
+template <int D>
+Vec<D> mark_of_order(std::span<const Vec<D>> points);
+
 /// Gives node order[i] the number i. Cells are then sorted by their lowest node and facets by cell.
 /// `order` must be a permutation of the nodes, else InputError.
 template <int D>

@@ -73,6 +73,7 @@ class Simulation {
   void archive_viscosity(const Archive& a);
   void archive_terms(const Archive& a);
   void archive_references(const Archive& a) const;
+  void archive_orders(const Archive& a) const;
   void step(Real dt);
   void step_or_halve(Real dt);
   void refuse_impossible_states() const;
