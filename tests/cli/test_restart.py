@@ -202,7 +202,6 @@ class ChangedState(Restart):
                     self.refused(["run", scene, "--output", "on", "--restart", path, "--frame", 1], 5,
                                  "out of range" if np.isfinite(value) else f"'{name}' is {value}")
 
-
     def test_another_order_of_particles(self):
         """As another version may number them."""
         scene = self.scene(with_output(DROP.replace('"60 ps"', '"15 ps"'), "restartable = true"))

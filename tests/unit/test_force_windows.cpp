@@ -3,11 +3,11 @@
 // what fails stays, and chunks of a cloud in spatial order touch few particles of others.
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/body/ordering.hpp"
-#include "meniscus/core/box.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
