@@ -228,7 +228,7 @@ void Recorder<D>::write_frame(bool with_state) {
       add_source(name);
   }
   std::optional<Snapshot> snapshot;
-  if (with_state) snapshot = simulation_->snapshot();
+  if (with_state) snapshot = simulation_->snapshot_of_first_rank();
   on_first_rank([&] {
     files_->results->write_frame(state.step, state.time, fields, snapshot ? &*snapshot : nullptr);
     files_->partners.write(state.step, state.time);
@@ -238,7 +238,7 @@ void Recorder<D>::write_frame(bool with_state) {
 
 template <int D>
 void Recorder<D>::checkpoint() {
-  const Snapshot snapshot = simulation_->snapshot();
+  const Snapshot snapshot = simulation_->snapshot_of_first_rank();
   on_first_rank([&] {
     files_->checkpoints.write(simulation_->state().step, simulation_->state().time, snapshot);
   });

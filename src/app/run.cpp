@@ -155,7 +155,7 @@ std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double
   return fmt::format(
       "{} steps in {:.2f} s ({:.0f} ns per particle-step{}{}), set-up {:.2f} s, state {:016x}",
       steps, seconds, 1e9 * seconds / particle_steps, effort.empty() ? "" : ", ", effort,
-      set_up_seconds, simulation.snapshot().hash());
+      set_up_seconds, simulation.snapshot_of_first_rank().hash());
 }
 
 /// What the ranks have sent and held since the beginning of the run.
@@ -258,7 +258,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   const bool in_place = restart && restart->in_place;
   const State& begin = epochs.simulation().state();
   if (in_place) {  // before rows and frames are dropped that a later checkpoint would need
-    const Snapshot snapshot = epochs.simulation().snapshot();
+    const Snapshot snapshot = epochs.simulation().snapshot_of_first_rank();
     on_first_rank(
         [&] { CheckpointWriter(directory, origin).write(begin.step, begin.time, snapshot); });
   }

@@ -16,7 +16,7 @@ SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const In
   const Touched by_chunks = touched_by_chunks(chunks, touched, start);
   share_windows(chunks, by_chunks);
   remember_touched(by_chunks);
-  particles_ = exchange_of_forces([](Index) { return true; });
+  particles_ = exchange_of_forces();
   share_results(chunks);
 }
 
@@ -87,13 +87,11 @@ void SharedWindows::remember_touched(const Touched& touched) {
   }
 }
 
-template <class F>
-std::unique_ptr<Exchange> SharedWindows::exchange_of_forces(F&& is_wanted) const {
+std::unique_ptr<Exchange> SharedWindows::exchange_of_forces() const {
   std::vector<Leaf> leaves;
   for (int rank = 0; rank < ranks().size(); ++rank)
     for (Index A = at(border_, rank); A < at(border_, rank + 1); ++A)
-      if (rank != ranks().rank() && at(touched_, A) != 0 && is_wanted(A))
-        leaves.push_back({A, rank, A});
+      if (rank != ranks().rank() && at(touched_, A) != 0) leaves.push_back({A, rank, A});
   return ranks().exchange(border_.back(), leaves);
 }
 
@@ -105,11 +103,6 @@ void SharedWindows::mark_touched(std::span<std::uint8_t> particles) const {
 void SharedWindows::mark_summed(std::span<std::uint8_t> particles) const {
   const ItemRange summed = summed_particles();
   std::fill(particles.begin() + summed.begin, particles.begin() + summed.end, std::uint8_t{1});
-}
-
-void SharedWindows::keep_to(std::shared_ptr<const Halo> halo, Index first) {
-  halo_ = std::move(halo);
-  followed_ = exchange_of_forces([&](Index A) { return halo_->follows(first + A); });
 }
 
 void SharedWindows::share_results(const std::vector<WindowChunk>& chunks) {

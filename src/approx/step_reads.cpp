@@ -13,7 +13,7 @@ void StepReads::rows(ForceWindows& windows, Index first) {
 
 void StepReads::sums(ForceWindows& windows, Index first) {
   windows.mark_summed(std::span(read_).subspan(static_cast<std::size_t>(first)));
-  when_shared([&windows, first](const SharedHalo& halo) { windows.keep_to(halo, first); });
+  when_shared([&windows](const SharedHalo& halo) { windows.keep_to(halo); });
 }
 
 void StepReads::particles(std::span<const Index> numbers, Index first) {

@@ -40,7 +40,7 @@ std::string Archive::unused(std::string_view name) const {
 void Archive::numbers(std::string_view name, std::span<Real> x, Dimension dimension) const {
   if (from_)
     from_->copy_to(full(name), x);
-  else
+  else if (to_)
     to_->add_reals(unused(name), x, symbol_(dimension));
 }
 
@@ -59,7 +59,7 @@ void Archive::operator()(std::string_view name, std::vector<Real>& x, Dimension 
 void Archive::operator()(std::string_view name, std::int64_t& x) const {
   if (from_)
     x = from_->integer(full(name));
-  else
+  else if (to_)
     to_->add_integers(unused(name), {&x, 1});
 }
 
@@ -72,7 +72,7 @@ void Archive::operator()(std::string_view name, bool& x) const {
 void Archive::operator()(std::string_view name, std::string& x) const {
   if (from_)
     x = from_->text(full(name));
-  else
+  else if (to_)
     to_->add_text(unused(name), x);
 }
 
@@ -93,6 +93,7 @@ void Archive::operator()(std::string_view name, std::map<std::string, Real>& x,
 
 void Archive::operator()(std::string_view name, NodalVectors& x, int components,
                          Dimension dimension) const {
+  if (is_nowhere()) return;
   std::vector<Real> packed;
   packed.reserve(x.size() * static_cast<std::size_t>(components));
   for (const Lanes& vector : x)

@@ -36,7 +36,7 @@ Index first_row(Index n, int rank) {
 }
 
 int rank_of_item(Index n, Index item) {
-  int rank = 0;
+  auto rank = static_cast<int>(static_cast<Offset>(item) * ranks().size() / n);
   while (item >= first_item(n, rank + 1)) ++rank;
   return rank;
 }
@@ -55,7 +55,7 @@ void complete_rows(Index n, void* values, std::size_t bytes_per_value) {
 }
 
 int rank_of_row(Index n, Index row) {
-  int chunk = 0;
+  auto chunk = static_cast<int>(static_cast<Offset>(row) * chunk_count(n) / n);
   while (row >= chunk_begin(n, chunk + 1)) ++chunk;
   return rank_of_item(chunk_count(n), chunk);
 }

@@ -25,6 +25,16 @@ Halo::Halo(std::vector<std::uint8_t> read, ParticleOwners owners)
   }
   ghosts_ = size_ - own;
   partial_ = ranks().largest(n - size_) > 0;
+  if (!partial_) return;
+  std::vector<Leaf> leaves;
+  for (Index A = 0; A < n; ++A)
+    if (const int rank = follows(A) ? owners_.adds_up(A) : ranks().rank(); rank != ranks().rank())
+      leaves.push_back({A, rank, A});
+  sums_ = ranks().exchange(n, leaves);
+}
+
+void Halo::spread(std::span<NodalVector> sums) const {
+  sums_->bring(sums.data(), sums.data(), sizeof(NodalVector));
 }
 
 void Halo::enter(std::initializer_list<NodalVectors*> motion) {

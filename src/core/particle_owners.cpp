@@ -6,7 +6,8 @@
 
 namespace meniscus {
 
-ParticleOwners::ParticleOwners(Index n, std::span<const Index> first) : n_(n) {
+ParticleOwners::ParticleOwners(Index n, std::span<const Index> first)
+    : n_(n), first_(first.begin(), first.end()) {
   std::vector<Leaf> leaves;
   std::size_t body = 0;
   for (int c = 0; c < chunk_count(n); ++c) {
@@ -34,6 +35,12 @@ int ParticleOwners::owner(Index A) const {
   return std::upper_bound(runs_.begin(), runs_.end(), A,
                           [](Index a, const Run& run) { return a < run.particles.end; })
       ->owner;
+}
+
+int ParticleOwners::adds_up(Index A) const {
+  const auto next = std::upper_bound(first_.begin(), first_.end(), A);
+  const Index begin = *(next - 1), end = next == first_.end() ? n_ : *next;
+  return rank_of_row(end - begin, A - begin);
 }
 
 void ParticleOwners::complete_chunks(void* values, std::size_t bytes_per_value) const {

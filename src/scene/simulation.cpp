@@ -101,6 +101,7 @@ template <int D>
 void Simulation<D>::share_steps() {
   scene_.system.halo.reset();
   StepReads reads(scene_.system.size());
+  if (!stepper_->chooses_step()) controller_->tell_reads(reads);
   if (stepper_->tell_reads(reads)) scene_.system.share_steps(std::move(reads));
 }
 
@@ -376,6 +377,14 @@ Snapshot Simulation<D>::snapshot() {
   Snapshot snapshot;
   archive(Archive::writing(snapshot, [this](Dimension d) { return scene_.units.symbol(d); }));
   return snapshot;
+}
+
+template <int D>
+Snapshot Simulation<D>::snapshot_of_first_rank() {
+  if (ranks().first()) return snapshot();
+  complete_state();
+  archive(Archive::nowhere());
+  return {};
 }
 
 template <int D>

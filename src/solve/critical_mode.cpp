@@ -2,26 +2,32 @@
 // Combinations of modes by the quotients of Rayleigh and Ritz.
 #include "meniscus/solve/critical_mode.hpp"
 
-#include "meniscus/core/nodal_algebra.hpp"
+#include "meniscus/core/halo_algebra.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <utility>
 
 namespace meniscus {
 namespace {
 
+using SharedHalo = std::shared_ptr<const Halo>;
+
 /// a = factor_of_a a + factor b; a may be empty, as b where there is no viscosity.
-void mix(NodalVectors& a, Real factor_of_a, const NodalVectors& b, Real factor) {
+void mix(const SharedHalo& halo, NodalScratch& a, Real factor_of_a, const NodalScratch& b,
+         Real factor) {
   if (b.empty()) return;
-  a.resize(b.size(), Lanes::zero());
-  sweep(static_cast<Index>(a.size()), [&](Index begin, Index end) {
-    for (Index A = begin; A < end; ++A) at(a, A) = factor_of_a * at(a, A) + factor * at(b, A);
+  const bool is_new = a.empty();
+  a.resize(b.size());
+  for_particles(halo, static_cast<Index>(a.size()), [&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(a, A) = factor_of_a * (is_new ? Lanes::zero() : at(a, A)) + factor * at(b, A);
   });
 }
 
-void mix(TrialMode& a, Real factor_of_a, const TrialMode& b, Real factor) {
-  mix(a.w, factor_of_a, b.w, factor);
-  mix(a.Kw, factor_of_a, b.Kw, factor);
-  mix(a.Cw, factor_of_a, b.Cw, factor);
+void mix(const SharedHalo& halo, TrialMode& a, Real factor_of_a, const TrialMode& b, Real factor) {
+  mix(halo, a.w, factor_of_a, b.w, factor);
+  mix(halo, a.Kw, factor_of_a, b.Kw, factor);
+  mix(halo, a.Cw, factor_of_a, b.Cw, factor);
 }
 
 }  // namespace
@@ -31,10 +37,11 @@ Lanes CriticalMode::force(const TrialMode& of, Real dt, Index A) const {
   return of.Cw.empty() ? stiff : stiff + (dt / 2) * at(of.Cw, A);
 }
 
-void CriticalMode::begin(const NodalVectors& start) {
-  trial.w = start;
+void CriticalMode::begin(std::span<const NodalVector> start) {
+  trial.w.resize(start.size());
+  copy(halo_, start, trial.w);
   for (TrialMode* none : {&mode, &way_})
-    for (NodalVectors* field : {&none->w, &none->Kw, &none->Cw}) field->clear();
+    for (NodalScratch* field : {&none->w, &none->Kw, &none->Cw}) field->clear();
 }
 
 ModeRates CriticalMode::rates(const TrialMode& of) const {
@@ -45,7 +52,7 @@ ModeRates CriticalMode::rates(const TrialMode& of) const {
     }
   };
   const bool viscous = !of.Cw.empty();
-  const Sums all = parallel_sum(static_cast<Index>(of.w.size()), Sums{}, [&](Index A) {
+  const Sums all = sum_over_particles(halo_, static_cast<Index>(of.w.size()), Sums{}, [&](Index A) {
     const Lanes& w = at(of.w, A);
     return Sums{at(mass_, A) * sum(w * w), sum(w * at(of.Kw, A)),
                 viscous ? sum(w * at(of.Cw, A)) : 0};
@@ -57,22 +64,19 @@ void CriticalMode::propose_trial(Real dt) {
   const ModeRates q = rates(mode);
   const Real lambda = dt * dt / 4 * q.stiffness + dt / 2 * q.viscosity;
   trial.w.resize(mode.w.size());
-  sweep(static_cast<Index>(mode.w.size()), [&](Index begin, Index end) {
+  for_particles(halo_, static_cast<Index>(mode.w.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A)
       at(trial.w, A) = (1 / at(mass_, A)) * force(mode, dt, A) - lambda * at(mode.w, A);
   });
 }
 
 void CriticalMode::include_trial(Real dt) {
-  if (mode.w.empty()) {
-    mode = trial;
-    return;
-  }
+  if (mode.w.empty()) return std::swap(mode, trial);
   using Products = Eigen::Matrix<Real, 3, 6>;  // by M, by A
   const std::array<const TrialMode*, 3> all{&mode, &trial, &way_};
   const int count = way_.w.empty() ? 2 : 3;
-  const Products products =
-      parallel_sum(static_cast<Index>(mode.w.size()), Products(Products::Zero()), [&](Index A) {
+  const Products products = sum_over_particles(
+      halo_, static_cast<Index>(mode.w.size()), Products(Products::Zero()), [&](Index A) {
         Products p = Products::Zero();
         for (int j = 0; j < count; ++j) {
           const Lanes momentum = at(mass_, A) * at(at(all, j)->w, A), f = force(*at(all, j), dt, A);
@@ -96,8 +100,8 @@ void CriticalMode::include_trial(Real dt) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Square> solver(0.5 * (a + a.transpose()), M);
     Eigen::Vector3d best = Eigen::Vector3d::Zero();
     best.head(n) = scale * solver.eigenvectors().col(n - 1);
-    mix(way_, best[2], trial, best[1]);
-    mix(mode, best[0], way_, 1);
+    mix(halo_, way_, best[2], trial, best[1]);
+    mix(halo_, mode, best[0], way_, 1);
     return;
   }
 }

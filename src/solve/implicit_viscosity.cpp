@@ -169,6 +169,7 @@ void ImplicitViscosity<D>::renew_diagonal() {
   });
   for (auto& term : system_.terms)
     if (term->viscous()) term->add_viscous_diagonal(diagonal_);
+  system_.spread(diagonal_);
   age_ = 0;
 }
 
@@ -192,6 +193,7 @@ Real ImplicitViscosity<D>::apply(const State& state, Real dt) {
   });
   for (auto& term : system_.terms)
     if (term->viscous()) term->add_viscous({state.time, state.u, p_, state.fields}, q_);
+  system_.spread(q_);
   return system_.sum_over_particles(0.0, [&](Index A) {
     return sum(at(p_, A) * (at(system_.mass, A) * at(p_, A) - dt / 2 * at(q_, A)));
   });

@@ -19,11 +19,13 @@ constexpr Real shortest_interval = 5;
 }  // namespace
 
 template <int D>
-void StepController<D>::begin(const State& state) {
+void StepController<D>::begin(State& state) {
+  if (estimator_.keeps_to_halo()) system_.enter_halo(state);
   // Where u = 0 the damping of coefficients is no smooth function of u, but for v = 0.
   State at_rest = state;
   std::fill(at_rest.v.begin(), at_rest.v.end(), Lanes::zero());
   stable_ = estimator_.estimate(at_rest);
+  system_.complete(state);
   first_limit_ = stable_.dt;
   interval_ = shortest_interval;
   plan_next_check(state);
@@ -51,7 +53,7 @@ void StepController<D>::choose_step() {
 
 template <int D>
 void StepController<D>::reconsider(State& state) {
-  system_.complete(state);
+  estimator_.keeps_to_halo() ? system_.enter_halo(state) : system_.complete(state);
   const Real before = stable_.dt;
   stable_ = estimator_.estimate_again(state, stable_);
   // So long that the limit changes by 2 % between estimates (with implicit viscosity, where it

@@ -122,6 +122,7 @@ Report System<D>::add_up(const Motion& motion, Forces force) {
     all += std::move(report);
   }
   for (auto& field : carried) field->add_reaction(motion, force);
+  spread(force);
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include "meniscus/solve/time_step.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/halo_algebra.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/solve/least_spacing.hpp"
 
@@ -41,23 +42,27 @@ struct FallingLimit {
   bool found() const { return settled >= 4; }
 };
 
-/// A start with all wave lengths in it, the same on every machine.
-void make_rough(NodalVectors& mode, int components) {
+/// A start with all wave lengths in it, the same on every machine; in a halo of the particles that
+/// the rank follows.
+void make_rough(const std::shared_ptr<const Halo>& halo, std::span<NodalVector> mode,
+                int components) {
   std::uint64_t bits = 0x9e3779b97f4a7c15;
-  for (NodalVector& w : mode) {
-    w = Lanes::zero();
+  const Halo* const some = is_entered(halo) ? halo.get() : nullptr;
+  for (Index A = 0; A < static_cast<Index>(mode.size()); ++A) {
+    NodalVector w = Lanes::zero();
     for (int i = 0; i < components; ++i) {
       bits ^= bits << 13;
       bits ^= bits >> 7;
       bits ^= bits << 17;
       w.set(i, static_cast<Real>(bits >> 11) * 0x1p-52 - 1);
     }
+    if (!some || some->follows(A)) at(mode, A) = w;
   }
 }
 
 NodalVectors rough_mode(Index n, int components) {
   NodalVectors mode(static_cast<std::size_t>(n));
-  make_rough(mode, components);
+  make_rough(nullptr, mode, components);
   return mode;
 }
 
@@ -83,13 +88,25 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
           [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
       spacing_(least_spacing(system.bodies)),
       trial_size_(smallest_trial),
-      critical_(system.mass),
+      critical_(system.mass, system.halo),
       mode_(rough_mode(system.size(), D)),
       trial_force_(mode_.size()),
       known_response_(mode_.size(), Lanes::zero()),
       response_(mode_.size()) {
   for (const Unknown& field : system.fields)
     field_modes_.push_back(rough_mode(system.size(), field.spec.components));
+}
+
+template <int D>
+void StableStepEstimator<D>::tell_reads(StepReads& reads) {
+  if (!keeps_to_halo()) return;
+  reads.keeps(mode_);
+  reads.keeps(known_response_);
+}
+
+template <int D>
+Real StableStepEstimator<D>::largest(std::span<const NodalVector> w) const {
+  return meniscus::largest(system_.halo, w);
 }
 
 template <int D>
@@ -108,6 +125,7 @@ void StableStepEstimator<D>::archive(const Archive& a) {
 template <int D>
 void StableStepEstimator<D>::find_stiff_forces(const State& state, Real size, TrialMode& trial) {
   const Real du = size * spacing_ / largest(trial.w);
+  trial.Kw.resize(trial.w.size());
   force_change(state, trial.w, du, 0, du, trial.Kw);
 }
 
@@ -115,17 +133,18 @@ void StableStepEstimator<D>::find_stiff_forces(const State& state, Real size, Tr
 template <int D>
 void StableStepEstimator<D>::find_viscous_forces(const State& state, Real rate, TrialMode& trial) {
   const Real dv = smallest_trial * spacing_ / largest(trial.w) * (rate > 0 ? rate : 1);
+  trial.Cw.resize(trial.w.size());
   force_change(state, trial.w, 0, dv, dv, trial.Cw);
 }
 
 /// result = - (f(u + du w, v + dv w) - f(u, v)) / size.
 template <int D>
-void StableStepEstimator<D>::force_change(const State& state, const NodalVectors& w, Real du,
-                                          Real dv, Real size, NodalVectors& result) {
+void StableStepEstimator<D>::force_change(const State& state, std::span<const NodalVector> w,
+                                          Real du, Real dv, Real size,
+                                          std::span<NodalVector> result) {
   u_.resize(w.size());
   v_.resize(w.size());
-  result.resize(w.size());
-  sweep(system_.size(), [&](Index begin, Index end) {
+  system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(u_, A) = at(state.u, A) + du * at(w, A);
       at(v_, A) = viscous_counts_ ? at(state.v, A) + dv * at(w, A) : Lanes::zero();
@@ -137,7 +156,7 @@ void StableStepEstimator<D>::force_change(const State& state, const NodalVectors
     fields = trial_;
   }
   system_.add_up({state.time, u_, v_, fields}, {result, trial_});
-  sweep(system_.size(), [&](Index begin, Index end) {
+  system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(result, A) = (1 / size) * (at(base_, A) - at(result, A));
   });
 }
@@ -190,7 +209,7 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
     critical_.propose_trial(limit);
     if (system_.constraints) system_.constraints->project(critical_.trial.w);
   }
-  if (!critical_.mode.w.empty()) mode_ = critical_.mode.w;
+  if (!critical_.mode.w.empty()) copy(system_.halo, critical_.mode.w, mode_);
   return best;
 }
 
@@ -217,7 +236,7 @@ template <int D>
 bool StableStepEstimator<D>::is_smooth(const State& state, StableStep& found) {
   constexpr Real about = 1.5;
   TrialMode& trial = critical_.trial;
-  trial.w = mode_;
+  copy(system_.halo, mode_, trial.w);
   if (!(largest(trial.w) > 0)) return true;
   find_stiff_forces(state, wider * trial_size_, trial);
   ++found.evaluations;
@@ -228,13 +247,13 @@ bool StableStepEstimator<D>::is_smooth(const State& state, StableStep& found) {
 /// With the mode found last and, as long, the change of the responses.
 template <int D>
 void StableStepEstimator<D>::start_where_it_changed() {
-  NodalVectors& change = trial_force_;
-  sweep(system_.size(), [&](Index begin, Index end) {
+  NodalScratch& change = trial_force_;
+  system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A)
       at(change, A) = (1 / at(system_.mass, A)) * (at(known_response_, A) - at(response_, A));
   });
-  const Real scale = std::sqrt(dot(mode_, mode_) / dot(change, change));
-  sweep(system_.size(), [&](Index begin, Index end) {
+  const Real scale = std::sqrt(dot(system_.halo, mode_, mode_) / dot(system_.halo, change, change));
+  system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(mode_, A) += scale * at(change, A);
   });
   if (system_.constraints) system_.constraints->project(mode_);
@@ -242,9 +261,9 @@ void StableStepEstimator<D>::start_where_it_changed() {
 }
 
 template <int D>
-void StableStepEstimator<D>::find_response(const State& state, NodalVectors& response) {
-  NodalVectors& rough = trial_force_;
-  make_rough(rough, D);
+void StableStepEstimator<D>::find_response(const State& state, std::span<NodalVector> response) {
+  NodalScratch& rough = trial_force_;
+  make_rough(system_.halo, rough, D);
   if (system_.constraints) system_.constraints->project(rough);
   const Real dt = response_step_, size = smallest_trial * spacing_ / largest(rough) / (dt * dt / 4);
   const bool viscous = viscous_counts_ && system_.viscous();
@@ -259,7 +278,7 @@ void StableStepEstimator<D>::know_response(const State& state, Real dt) {
 
 template <int D>
 bool StableStepEstimator<D>::responds_as_before(Real tolerated) const {
-  const Index others = parallel_sum(system_.size(), Index{0}, [&](Index A) {
+  const Index others = system_.sum_over_particles(Index{0}, [&](Index A) {
     const Lanes change = (1 / at(system_.mass, A)) * (at(response_, A) - at(known_response_, A));
     return Index{!(sum(change * change) < tolerated * tolerated)};  // also not a number
   });
@@ -271,8 +290,11 @@ template <int D>
 void StableStepEstimator<D>::find_base_forces(const State& state) {
   base_.resize(mode_.size());
   trial_ = state.fields;
-  v_ = state.v;
-  if (!viscous_counts_) std::fill(v_.begin(), v_.end(), Lanes::zero());
+  v_.resize(mode_.size());
+  system_.for_particles([&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(v_, A) = viscous_counts_ ? at(state.v, A) : Lanes::zero();
+  });
   system_.add_up({state.time, state.u, v_, state.fields}, {base_, trial_});
   base_fields_.resize(trial_.size());
   for (std::size_t k = 0; k < trial_.size(); ++k) base_fields_[k] = trial_[k].f;
@@ -294,8 +316,8 @@ StableStep StableStepEstimator<D>::estimate_again(const State& state, const Stab
     // The force of the state is at another velocity, or has reactions in it.
     find_base_forces(state);
   } else {
-    base_ = state.force;
-    v_ = state.v;
+    base_.resize(mode_.size());
+    copy(system_.halo, state.force, base_);
   }
   find_response(state, response_);
   if (responds_as_before(same_response)) {
@@ -304,7 +326,10 @@ StableStep StableStepEstimator<D>::estimate_again(const State& state, const Stab
     same.steady = responds_as_before(0.1 * same_response);
     return same;
   }
-  std::swap(known_response_, response_);
+  system_.for_particles([&](Index begin, Index end) {
+    std::swap_ranges(known_response_.begin() + begin, known_response_.begin() + end,
+                     response_.begin() + begin);
+  });
   constexpr Real collapsed = 0.5;  // in the time from one estimate to the next
   const StableStep found = limit_from_base(state, collapsed * before.dt);
   if (std::abs(found.dt - response_step_) > 0.1 * response_step_) know_response(state, found.dt);
@@ -314,8 +339,10 @@ StableStep StableStepEstimator<D>::estimate_again(const State& state, const Stab
 template <int D>
 StableStep StableStepEstimator<D>::limit_from_base(const State& state, Real doubtful) {
   // Every iteration lengthens the mode a little: in a long run it would overflow.
-  const Real length = std::sqrt(dot(mode_, mode_));
-  for (NodalVector& w : mode_) w /= length;
+  const Real length = std::sqrt(dot(system_.halo, mode_, mode_));
+  system_.for_particles([&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A) at(mode_, A) /= length;
+  });
   if (system_.constraints) system_.constraints->project(mode_);
   StableStep best = limit_without_jumps(state, doubtful);
   if (!system_.carried.empty())
@@ -339,14 +366,15 @@ StableStep StableStepEstimator<D>::limit_from_base(const State& state, Real doub
 
 template <int D>
 StepError StableStepEstimator<D>::failure(std::string cause, const State& state) const {
-  Index stiffest = 0;
-  Real largest = -1;
-  for (Index A = 0; A < system_.size(); ++A)
-    if (const Real square = sum(at(mode_, A) * at(mode_, A)); square > largest) {
-      stiffest = A;
-      largest = square;
-    }
-  return StepError(system_.located({stiffest, std::move(cause)}, state.motion()));
+  struct Stiffest {
+    Real square;
+    Index particle;
+    Stiffest operator+(const Stiffest& b) const { return b.square > square ? b : *this; }
+  };
+  const Stiffest all = system_.sum_over_particles(Stiffest{-1, 0}, [&](Index A) {
+    return Stiffest{sum(at(mode_, A) * at(mode_, A)), A};
+  });
+  return StepError(system_.located({all.particle, std::move(cause)}, state.motion()));
 }
 
 /// A carried field relaxes in as many stages as its own limit asks for: it does not limit the step.

@@ -236,6 +236,22 @@ class SameBits(RanksTest):
                 self.assert_follows_a_part("ranks4")
                 self.directory = self.directory.parent
 
+    def test_estimates_in_the_halo(self):
+        """The stable step is looked for without any vector over all particles being sent."""
+        scene = self.scene(SHORT_BLOCK.replace("[1, 1, 1]", "[11, 1, 1]").replace(
+            "[4, 4, 4]", "[63, 4, 4]").replace("check_every = 30", "check_every = 1").replace(
+                "history_every = 0.01", "history_every = 1").replace("frames_every = 0.04",
+                                                                     "frames_every = 1"))
+        sent = {}  # [steps] bytes
+        for until in (0.03, 0.055):
+            self.ranks(4, "run", scene, "--output", str(until), "--until", until)
+            log = self.log(str(until))
+            steps = int(re.search(r"(\d+) steps in", log)[1])
+            sent[steps] = int(re.search(r"messages of (\d+) bytes", log)[1])
+        (few, less), (many, more) = sent.items()
+        particles, bytes_of_each = 64 * 5 * 5, 32
+        self.assertLess((more - less) / (many - few), particles * bytes_of_each)
+
     def assert_follows_a_part(self, output):
         steps = re.search(r"on (\d+) of (\d+) particles at most, (\d+) of them ghosts",
                           self.log(output))

@@ -24,8 +24,8 @@ class ForceWindows {
 
   /// Calls work(chunk, begin row, end row, window) for each chunk of this rank; window[A] += ... is
   /// allowed for the particles A of those rows. Then adds all windows to `force`, which is the same
-  /// on all ranks before and after (while a halo is entered, on those that follow a particle), and
-  /// completes what work has written per chunk.
+  /// on all ranks before and after (while a halo is entered, on the rank that adds up the sums of a
+  /// particle, until Halo::spread()), and completes what work has written per chunk.
   template <class F, class... T>
   void accumulate(std::span<NodalVector> force, F&& work, PerChunk<T>&... results) {
     parallel_for(
@@ -49,9 +49,7 @@ class ForceWindows {
   /// Of SharedWindows, in a run of several ranks.
   void mark_touched(std::span<std::uint8_t> particles) const { shared_->mark_touched(particles); }
   void mark_summed(std::span<std::uint8_t> particles) const { shared_->mark_summed(particles); }
-  void keep_to(std::shared_ptr<const Halo> halo, Index first) {
-    shared_->keep_to(std::move(halo), first);
-  }
+  void keep_to(std::shared_ptr<const Halo> halo) { shared_->keep_to(std::move(halo)); }
 
   /// All chunk numbers are below this.
   int chunks() const { return chunks_; }

@@ -48,17 +48,16 @@ class SharedWindows {
   void bring_windows(NodalVectors& sums) const {
     windows_->bring(sums.data(), sums.data(), sizeof(NodalVector));
   }
-  /// Forces on all particles that the rows touch; while a halo is entered, on those it follows.
+  /// Forces on all particles that the rows touch; while a halo is entered, nothing.
   void spread_forces(std::span<NodalVector> force) const {
-    const Exchange& exchange = is_entered(halo_) ? *followed_ : *particles_;
-    exchange.bring(force.data(), force.data(), sizeof(NodalVector));
+    if (!is_entered(halo_)) particles_->bring(force.data(), force.data(), sizeof(NodalVector));
   }
   /// Marks the particles that the rows of this rank touch.
   void mark_touched(std::span<std::uint8_t> particles) const;
   /// Marks those over which it adds up windows.
   void mark_summed(std::span<std::uint8_t> particles) const;
-  /// `first`: the number, in the halo, of the first of the particles. All ranks call this.
-  void keep_to(std::shared_ptr<const Halo> halo, Index first);
+  /// From now on forces are spread by the halo, when it is entered, and not by these windows.
+  void keep_to(std::shared_ptr<const Halo> halo) { halo_ = std::move(halo); }
   template <class... T>
   void spread_results(PerChunk<T>&... results);
 
@@ -72,9 +71,8 @@ class SharedWindows {
                             std::span<const Offset> start);
   void share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched);
   void remember_touched(const Touched& touched);
-  /// Forces of particles for which `is_wanted`, that rows touch and other ranks add up.
-  template <class F>
-  std::unique_ptr<Exchange> exchange_of_forces(F&& is_wanted) const;
+  /// Forces of particles that rows touch and other ranks add up.
+  std::unique_ptr<Exchange> exchange_of_forces() const;
   void share_results(const std::vector<WindowChunk>& chunks);
 
   template <class T>
@@ -91,8 +89,7 @@ class SharedWindows {
   std::vector<std::uint8_t> touched_;  // by rows of which ranks, [particle]
   std::unique_ptr<Exchange> windows_, particles_, chunks_;
   std::shared_ptr<const Halo> halo_;
-  std::unique_ptr<Exchange> followed_;  // particles of the halo
-  std::vector<std::byte> records_;      // results, [chunk number]
+  std::vector<std::byte> records_;  // results, [chunk number]
 };
 
 template <class... T>

@@ -70,6 +70,9 @@ void grow(UnsetVector<T>& v, std::size_t size) {
 using NodalVector = Lanes;
 /// One vector per particle.
 using NodalVectors = AlignedVector<NodalVector>;
+/// The same for intermediate results, which are written before they are read: pages of particles
+/// that a rank does not follow take no memory.
+using NodalScratch = UnsetVector<NodalVector>;
 
 /// The first D components of entry i.
 template <int D>

@@ -28,6 +28,8 @@ class Archive {
   /// `symbol` writes the units beside the values; without it there are none.
   static Archive writing(Snapshot& snapshot, Symbol symbol = {});
   static Archive reading(const Snapshot& snapshot);
+  /// Writes nowhere: of a rank whose part in writing is what the first rank asks of it.
+  static Archive nowhere() { return {}; }
 
   bool is_reading() const { return from_ != nullptr; }
   /// The archive of a part; its names begin with "group/".
@@ -54,6 +56,7 @@ class Archive {
  private:
   Archive() = default;
   std::string full(std::string_view name) const { return prefix_ + std::string(name); }
+  bool is_nowhere() const { return !to_ && !from_; }
   void numbers(std::string_view name, std::span<Real> x, Dimension dimension) const;
   /// The full name of something new.
   std::string unused(std::string_view name) const;

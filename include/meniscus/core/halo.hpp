@@ -40,6 +40,10 @@ class Halo {
   /// Between the two.
   bool is_entered() const { return entered_; }
 
+  /// Brings sums over rows, [particle], from the rank that adds them up to those that follow the
+  /// particle. All ranks call this.
+  void spread(std::span<NodalVector> sums) const;
+
   /// Calls f(begin, end) on all threads for the particles that are followed, in parts.
   template <class F>
   void for_particles(F&& f) const {
@@ -52,6 +56,7 @@ class Halo {
   std::vector<OwnItems> parts_;
   std::vector<NodalVectors*> kept_;
   ParticleOwners owners_;
+  std::unique_ptr<Exchange> sums_;
   Index size_ = 0, ghosts_ = 0;
   bool partial_ = false, entered_ = false;
 };

@@ -20,6 +20,8 @@ class ParticleOwners {
 
   Index particles() const { return n_; }
   int owner(Index A) const;
+  /// The rank that adds up the windows over a particle.
+  int adds_up(Index A) const;
   /// Neighbouring particles of this rank, in ascending order.
   std::span<const OwnItems> own() const { return own_; }
   /// Chunks of sums over all particles.
@@ -36,6 +38,7 @@ class ParticleOwners {
   };
 
   Index n_;
+  std::vector<Index> first_;
   std::vector<Run> runs_;
   std::vector<OwnItems> own_;
   std::vector<Index> own_chunks_;

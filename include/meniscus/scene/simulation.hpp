@@ -61,6 +61,9 @@ class Simulation {
 
   /// Everything that decides how the run goes on, bit for bit.
   Snapshot snapshot();
+  /// The same for the first rank of a run, which writes it; nothing for the others, so that they
+  /// have no memory for it. All ranks call this.
+  Snapshot snapshot_of_first_rank();
   /// Throws FileError if the snapshot is of another scene.
   void restore(const Snapshot& snapshot);
 

@@ -24,7 +24,11 @@ class StepController {
       : system_(system), estimator_(system, !choice.implicit_viscosity), choice_(choice) {}
 
   /// Estimates the stable step at the start of a run. Throws InputError if a fixed step exceeds it.
-  void begin(const State& state);
+  /// All ranks know the state before and after.
+  void begin(State& state);
+
+  /// Of the estimates between steps.
+  void tell_reads(StepReads& reads) { estimator_.tell_reads(reads); }
 
   /// The next step: not longer than `accurate`, down to a tenth of what is stable (a thousandth
   /// with implicit viscosity), unless it is

@@ -65,6 +65,10 @@ struct System {
     if (halo) halo->leave({&state.u, &state.v, &state.force});
   }
   bool in_halo() const { return is_entered(halo); }
+  /// After terms have added to `sums`, [particle]: brings them to all that follow a particle.
+  void spread(std::span<NodalVector> sums) const {
+    if (in_halo()) halo->spread(sums);
+  }
   /// Calls f(begin, end) for all particles, those that are followed in a step.
   template <class F>
   void for_particles(F&& f) const {

@@ -27,13 +27,19 @@ struct StableStep {
 /// response to a rough displacement and velocity, which takes one. Forces that jump, as that of a
 /// contact point above the edge of two facets, are as stiff as the change of places is small, but
 /// do not make steps unstable: where a term may do so, a step that comes out short is looked for
-/// with changes so large that the jump does not count.
+/// with changes so large that the jump does not count. In a halo all of this is done on the
+/// particles that each rank follows.
 template <int D>
 class StableStepEstimator {
  public:
   /// `viscous`: whether the viscous force, taken at the velocity of the half step before, counts;
   /// without it the velocity is taken for zero.
   explicit StableStepEstimator(System<D>& system, bool viscous = true);
+
+  /// Whether it can be asked in a halo: contacts, whose forces may jump, may need more.
+  bool keeps_to_halo() const { return !may_jump_; }
+  /// Vectors that it keeps from estimate to estimate.
+  void tell_reads(StepReads& reads);
 
   /// Throws SolveError if no finite limit can be found.
   StableStep estimate(const State& state);
@@ -52,14 +58,15 @@ class StableStepEstimator {
   StableStep limit_without_jumps(const State& state, Real doubtful);
   StableStep limit_of_motion(const State& state);
   bool is_smooth(const State& state, StableStep& found);
-  void find_response(const State& state, NodalVectors& response);
+  void find_response(const State& state, std::span<NodalVector> response);
   void know_response(const State& state, Real dt);
   bool responds_as_before(Real tolerated) const;
   void start_where_it_changed();
   void find_stiff_forces(const State& state, Real size, TrialMode& trial);
   void find_viscous_forces(const State& state, Real rate, TrialMode& trial);
-  void force_change(const State& state, const NodalVectors& w, Real du, Real dv, Real size,
-                    NodalVectors& result);
+  void force_change(const State& state, std::span<const NodalVector> w, Real du, Real dv, Real size,
+                    std::span<NodalVector> result);
+  Real largest(std::span<const NodalVector> w) const;
   void carry_trial(const State& state);
   Real field_limit(const State& state, std::size_t number);
   Real field_limit(const State& state, std::size_t number,
@@ -72,11 +79,13 @@ class StableStepEstimator {
   Real spacing_;     ///< smallest particle distance
   Real trial_size_;  ///< of the trial displacements, part of the spacing
   CriticalMode critical_;
-  NodalVectors mode_, start_, u_, v_, base_, trial_force_;
+  NodalVectors mode_, start_;
+  NodalScratch u_, v_, base_, trial_force_;
   Real mode_limit_ = 0;  ///< by the quotient of mode_, when that was found; 0: not yet
   // (dt^2/4 K + dt/2 C) p of a rough p, to be compared with M p: when the mode was looked for last,
   // and after estimate_again() now or, where the mode was looked for, before.
-  NodalVectors known_response_, response_;
+  NodalVectors known_response_;
+  NodalScratch response_;
   Real response_step_ = 0;  ///< dt; 0: no response is known
   // Of the unknown fields.
   std::vector<NodalVectors> field_modes_, base_fields_;
