@@ -3,8 +3,21 @@
 #include "meniscus/approx/near_candidates.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace meniscus {
+namespace {
+
+/// The lanes that are set in bits of a mask, in ascending order; any after these.
+constexpr auto lanes_of_bits = [] {
+  std::array<std::array<Index, Lanes::width>, 1 << Lanes::width> lanes{};
+  for (std::size_t bits = 0; bits < lanes.size(); ++bits)
+    for (std::size_t lane = 0, count = 0; lane < Lanes::width; ++lane)
+      if ((bits >> lane & 1) != 0) lanes[bits][count++] = static_cast<Index>(lane);
+  return lanes;
+}();
+
+}  // namespace
 
 template <int D>
 void NearCandidates<D>::begin(std::span<const Candidate<D>> candidates) {
@@ -32,9 +45,10 @@ template <int D>
 void NearCandidates<D>::select(const std::array<Vec<D>, 4>& points) {
   const std::size_t fours = (all_.size() + Lanes::width - 1) / Lanes::width;
   std::size_t count = 0;
+  const std::array<Vec<D>, 4> all = points;  // which no store below can change
   for (std::size_t four = 0; four < fours; ++four) {
     Lanes::Mask reaches{};
-    for (const Vec<D>& x : points) {
+    for (const Vec<D>& x : all) {
       Lanes square = Lanes::zero();
       for (int i = 0; i < D; ++i) {
         const Lanes away = place_[four * D + static_cast<std::size_t>(i)] - x[i];
@@ -42,10 +56,11 @@ void NearCandidates<D>::select(const std::array<Vec<D>, 4>& points) {
       }
       reaches |= square.v <= square_[four].v;
     }
-    for (int lane = 0; lane < Lanes::width; ++lane) {  // without a branch: it would be a guess
-      numbers_[count] = static_cast<Index>(four) * Lanes::width + lane;
-      count += reaches[lane] != 0;
-    }
+    const unsigned bits = lane_bits(reaches);  // without a branch: it would be a guess
+    std::array<Index, Lanes::width> numbers = lanes_of_bits[bits];
+    for (Index& number : numbers) number += static_cast<Index>(four) * Lanes::width;
+    std::copy(numbers.begin(), numbers.end(), numbers_.data() + count);
+    count += static_cast<std::size_t>(std::popcount(bits));
   }
   count_ = count;
   for (std::size_t k = 0; k < count; ++k) near_[k] = all_[static_cast<std::size_t>(numbers_[k])];

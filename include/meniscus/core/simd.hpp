@@ -116,13 +116,20 @@ inline Lanes sqrt(Lanes a) {
 #endif
 }
 
+/// Bit l is whether the mask is set in lane l.
+inline unsigned lane_bits(Lanes::Mask mask) {
+#ifdef __AVX__
+  return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
+#else
+  unsigned bits = 0;
+  for (unsigned lane = 0; lane < Lanes::width; ++lane) bits |= unsigned{mask[lane] != 0} << lane;
+  return bits;
+#endif
+}
+
 /// Whether the mask is set in any lane.
 inline bool any(Lanes::Mask mask) {
-#ifdef __AVX__
-  return _mm256_movemask_pd(std::bit_cast<__m256d>(mask)) != 0;
-#else
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
-#endif
+  return lane_bits(mask) != 0;
 }
 
 /// The same number, kept in a register from here on: where several products have it as a factor,
