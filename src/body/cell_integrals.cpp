@@ -164,23 +164,32 @@ void integrate_fluxes(const Body<D>& body, std::span<const Vec<D>> X, std::span<
   add_integrals<D, Flux<D>>(body, X, weight, candidates, flux);
 }
 
-/// The integrals through a facet that are not zero, for the cell on its other side.
+/// The candidates with a flux that is not zero.
+template <int D>
+void list_with_flux(std::span<const Flux<D>> flux, std::vector<Index>& numbers) {
+  numbers.resize(flux.size());
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < flux.size(); ++k) {  // without a branch: it would be a guess
+    numbers[count] = static_cast<Index>(k);
+    count += !flux[k].is_zero();
+  }
+  numbers.resize(count);
+}
+
+/// The integrals through a facet, for the cell on its other side; `numbers` of candidates.
 template <int D>
 void pack_shared(const typename CellSamples<D>::SharedFacet& facet,
                  std::span<const Candidate<D>> candidates, std::span<const Flux<D>> flux,
-                 SharedFlux<D>& packed) {
+                 std::span<const Index> numbers, SharedFlux<D>& packed) {
   packed.neighbor = facet.neighbor;
   packed.centre = facet.centre;
   packed.particle.clear();
   packed.flux.clear();
-  const auto count = std::count_if(flux.begin(), flux.end(),
-                                   [](const Flux<D>& through) { return !through.is_zero(); });
-  packed.particle.reserve(static_cast<std::size_t>(count));
-  packed.flux.reserve(static_cast<std::size_t>(count));
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    if (flux[k].is_zero()) continue;
-    packed.particle.push_back(candidates[k].particle);
-    packed.flux.push_back(flux[k]);
+  packed.particle.reserve(numbers.size());
+  packed.flux.reserve(numbers.size());
+  for (const Index k : numbers) {
+    packed.particle.push_back(at(candidates, k).particle);
+    packed.flux.push_back(at(flux, k));
   }
 }
 
@@ -191,6 +200,7 @@ void integrate_samples(const Body<D>& body, Index cell, const CellSamples<D>& sa
   own.volume.assign(own.candidates.size(), {});
   add_integrals<D, Real>(body, samples.volume_X, samples.volume_w, candidates, own.volume);
   thread_local std::vector<std::vector<Flux<D>>> facets;
+  thread_local std::vector<Index> numbers;
   facets.resize(samples.facets.size());
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const auto& facet = samples.facets[f];
@@ -205,11 +215,11 @@ void integrate_samples(const Body<D>& body, Index cell, const CellSamples<D>& sa
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const auto& facet = samples.facets[f];
     const Lanes arm = Flux<D>::with_zero(facet.centre - body.cells.centroid(cell));
-    for (std::size_t k = 0; k < own.candidates.size(); ++k)
-      own.flux[k].add_moved(facets[f][k], arm, 1);
+    list_with_flux<D>(facets[f], numbers);
+    for (const Index k : numbers) at(own.flux, k).add_moved(at(facets[f], k), arm, 1);
     if (facet.neighbor < cell || facet.neighbor >= block.end) continue;
     if (shared == own.shared.size()) own.shared.emplace_back();
-    pack_shared<D>(facet, own.candidates, facets[f], own.shared[shared++]);
+    pack_shared<D>(facet, own.candidates, facets[f], numbers, own.shared[shared++]);
   }
   own.shared.resize(shared);
 }

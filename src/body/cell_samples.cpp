@@ -4,6 +4,7 @@
 #include "meniscus/core/unroll.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "octant_tables.hpp"
 
@@ -77,6 +78,40 @@ class SharedPlaces {
   std::vector<std::pair<Key, std::size_t>> seen_;
 };
 
+/// Points of a facet, one per lane, with the normals times weights of each.
+template <int D>
+struct FourFacetPoints {
+  std::array<Lanes, D> X;
+  std::array<Lanes, 4> dA;
+  int count;
+};
+
+/// Points that integrate polynomials exactly over the end of direction k of the octant at a corner.
+template <int D>
+void append_exact_points(const CellMap<D>& map, int corner, int k,
+                         std::vector<FourFacetPoints<D>>& points) {
+  const auto append = [&](const std::vector<FourTabulatedPoints<D>>& table, int direction,
+                          Real sign) {
+    for (const auto& p : table) {
+      const FourCellPoints<D> four = map(p);
+      const auto normal = four.facet_normal(direction);
+      std::array<Lanes, 3> dA{};
+      for (std::size_t i = 0; i < D; ++i) dA[i] = sign * p.w * normal[i];
+      auto& [X, dA_of_lane, count] = points.emplace_back();
+      X = four.X;
+      dA_of_lane = by_lane(dA[0], dA[1], dA[2]);
+      count = p.count;
+    }
+  };
+  if (const auto* simplex = map.simplex()) {
+    const int i = simplex_corner<D>(corner), j = at(directions_at<D>(i), k);
+    const auto& side = simplex->between(i, j);
+    append(side.points, side.k, i < j ? 1 : -1);
+  } else {
+    append(map.table().inner(corner, k), k, -corner_sign(corner, k));
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -130,6 +165,22 @@ bool NodalCells<D>::is_long(Index node, Index cell, int corner,
 }
 
 template <int D>
+bool NodalCells<D>::are_even(const auto& octants, int between) const {
+  const unsigned others = ((1u << D) - 1) & ~(between < 0 ? 0u : 1u << between);
+  const auto kind_of = [&](const auto& octant) {
+    return kind(octant.cell, octant.corner, Sharing::whole) & others;
+  };
+  const auto& first = octants.front();
+  const Index number = at(equal_cells_, first.cell);
+  if (number < 0) return false;
+  const unsigned ends = kind_of(first);
+  return octants.size() == std::size_t{1} << (std::popcount(others) - std::popcount(ends)) &&
+         std::all_of(octants.begin(), octants.end(), [&](const auto& octant) {
+           return at(equal_cells_, octant.cell) == number && kind_of(octant) == ends;
+         });
+}
+
+template <int D>
 void NodalCells<D>::sample_volume(Index node, const ParticleSet<D>& particles,
                                   CellSamples<D>& samples) const {
   const auto octants = octants_.of(node);
@@ -161,6 +212,8 @@ Real NodalCells<D>::missing_of_volume(Index node, Sharing sharing, CellSamples<D
       samples.volume_w.push_back(w);
     }
   }
+  samples.volume_exact = are_even(octants_.of(node), -1);
+  if (samples.volume_exact) return 0;
   const Real V = at(volume_, node);
   auto& missing = samples.volume_missing;
   missing.fill(0);
@@ -203,9 +256,13 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
   samples.facet_X.resize(facet.begin);
   samples.facet_dA.resize(facet.begin);
   facet.centre.setZero();
+  thread_local std::vector<FourFacetPoints<D>> exact;
+  exact.clear();
+  facet.exact = are_even(parts, parts.front().k);
   SharedPlaces<D> seen;
   for (const FacetPart& part : parts) {
     const CellMap<D> map(*grid_, part.cell);
+    if (!facet.exact) append_exact_points(map, part.corner, part.k, exact);
     const int own = map.simplex() ? simplex_corner<D>(part.corner) : part.corner;
     const auto& table =
         SampleTable<D>::of(map.simplex()).facet(own, part.k, kind(part.cell, part.corner, sharing));
@@ -226,35 +283,26 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
   }
   facet.end = samples.facet_X.size();
   facet.centre /= static_cast<Real>(facet.end - facet.begin);
+  if (facet.exact) return 0;
 
   std::array<Lanes, std::tuple_size_v<typename CellSamples<D>::template Missing<3>>> missing;
   missing.fill(Lanes::zero());
-  const auto add = [&](const Vec<D>& X, const Vec<D>& dA) {  // a lane per component
-    add_monomials<D, 3>(Lanes(dA[0], dA[1], D == 3 ? dA[D - 1] : 0.0, 0.0), X - facet.centre,
-                        missing);
+  const auto add = [&](const Vec<D>& X, Lanes dA) {  // a lane per component
+    add_monomials<D, 3>(dA, X - facet.centre, missing);
   };
   Real area = 0, radius = 0;
   for (std::size_t q = facet.begin; q < facet.end; ++q) {
-    add(samples.facet_X[q], -samples.facet_dA[q]);
-    area += samples.facet_dA[q].norm();
+    const Vec<D>& dA = samples.facet_dA[q];
+    add(samples.facet_X[q], -Lanes(dA[0], dA[1], D == 3 ? dA[D - 1] : 0.0, 0.0));
+    area += dA.norm();
     radius = std::max(radius, (samples.facet_X[q] - facet.centre).norm());
   }
-  for (const FacetPart& part : parts) {
-    const CellMap<D> map(*grid_, part.cell);
-    const auto integrate = [&](const std::vector<TabulatedPoint<D>>& points, int k, Real sign) {
-      for (const auto& p : points) {
-        const CellPoint<D, D> point = map(p);
-        add(point.X, sign * p.w * facet_normal<D>(point.J, k));
-      }
-    };
-    if (const auto* simplex = map.simplex()) {
-      const int i = simplex_corner<D>(part.corner), j = at(directions_at<D>(i), part.k);
-      const auto& side = simplex->between(i, j);
-      integrate(side.points, side.k, i < j ? 1 : -1);
-    } else {
-      integrate(map.table().inner(part.corner, part.k), part.k, -corner_sign(part.corner, part.k));
+  for (const FourFacetPoints<D>& four : exact)
+    for (int lane = 0; lane < four.count; ++lane) {
+      Vec<D> X;
+      for (int i = 0; i < D; ++i) X[i] = at(four.X, i)[lane];
+      add(X, at(four.dA, lane));
     }
-  }
   for (int K = 0; K < D; ++K)
     for (std::size_t m = 0; m < missing.size(); ++m) at(facet.missing, K)[m] = missing[m][K];
   Real most = 0;

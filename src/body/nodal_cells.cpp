@@ -7,19 +7,45 @@
 
 #include <fmt/core.h>
 
+#include "equal_cells.hpp"
 #include "octant_tables.hpp"
 
 namespace meniscus {
 
 namespace {
 
+/// Calls f(point, lane) for the first `count` of four points.
+template <int D, class F>
+void for_lanes(const std::array<Lanes, D>& X, int count, F&& f) {
+  const auto place = by_lane(X[0], X[1], D == 3 ? X[D - 1] : Lanes::zero());
+  for (int lane = 0; lane < count; ++lane)
+    f(Vec<D>(spatial(at(place, lane)).template head<D>()), lane);
+}
+
+/// Calls f(X, w) for the points of the octants of a nodal cell.
+template <int D, class F>
+void for_volume_points(const Grid<D>& grid, std::span<const NodeCells::Entry> octants, F&& f) {
+  for (const auto& [cell, corner] : octants) {
+    const CellMap<D> map(grid, cell);
+    const auto* simplex = map.simplex();
+    for (const auto& p :
+         simplex ? simplex->volume(simplex_corner<D>(corner)) : map.table().volume(corner)) {
+      const FourCellPoints<D> four = map(p);
+      const Lanes w = p.w * determinant(four.J);
+      for_lanes<D>(four.X, p.count, [&](const Vec<D>& X, int lane) { f(X, w[lane]); });
+    }
+  }
+}
+
 template <int D>
 void append_facet(CellQuadrature<D>& q, const CellMap<D>& map,
-                  const std::vector<TabulatedPoint<D>>& points, int k, Real sign) {
+                  const std::vector<FourTabulatedPoints<D>>& points, int k, Real sign) {
   for (const auto& p : points) {
-    const CellPoint<D, D> point = map(p);
-    q.facet_X.push_back(point.X);
-    q.facet_dA.push_back(sign * (p.w * facet_normal<D>(point.J, k)));
+    const FourCellPoints<D> four = map(p);
+    std::array<Lanes, D> dA = four.facet_normal(k);
+    for (Lanes& component : dA) component *= sign * p.w;
+    for_lanes<D>(four.X, p.count, [&](const Vec<D>& X, int) { q.facet_X.push_back(X); });
+    for_lanes<D>(dA, p.count, [&](const Vec<D>& n_dA, int) { q.facet_dA.push_back(n_dA); });
   }
 }
 
@@ -29,6 +55,7 @@ template <int D>
 NodalCells<D>::NodalCells(const Grid<D>& grid)
     : grid_(&grid),
       octants_(cells_of_nodes(grid)),
+      equal_cells_(equal_cells(grid)),
       boundary_sides_(grid.cells.size(), 0),
       volume_(grid.X.size()),
       centroid_(grid.X.size()),
@@ -39,25 +66,8 @@ NodalCells<D>::NodalCells(const Grid<D>& grid)
   for (const auto& facet : grid.facets)
     at(boundary_sides_, facet.cell) |= static_cast<std::uint8_t>(1u << facet.side);
   for_chunks(grid.node_count(), [&](Index, Index begin, Index end) {
-    CellQuadrature<D> q;
-    for (Index node = begin; node < end; ++node) integrate(node, q);
+    for (Index node = begin; node < end; ++node) integrate(node);
   });
-}
-
-template <int D>
-void NodalCells<D>::volume_points(Index node, CellQuadrature<D>& q) const {
-  q.volume_X.clear();
-  q.volume_w.clear();
-  for (const auto& [cell, corner] : octants_.of(node)) {
-    const CellMap<D> map(*grid_, cell);
-    const auto* simplex = map.simplex();
-    for (const auto& p :
-         simplex ? simplex->volume(simplex_corner<D>(corner)) : map.table().volume(corner)) {
-      const CellPoint<D, D> point = map(p);
-      q.volume_X.push_back(point.X);
-      q.volume_w.push_back(p.w * determinant<D>(point.J));
-    }
-  }
 }
 
 template <int D>
@@ -107,7 +117,12 @@ void NodalCells<D>::append_boundary(Index node, CellQuadrature<D>& q) const {
 
 template <int D>
 void NodalCells<D>::quadrature(Index node, CellQuadrature<D>& q) const {
-  volume_points(node, q);
+  q.volume_X.clear();
+  q.volume_w.clear();
+  for_volume_points<D>(*grid_, octants_.of(node), [&](const Vec<D>& X, Real w) {
+    q.volume_X.push_back(X);
+    q.volume_w.push_back(w);
+  });
   facet_points(node, q);
 }
 
@@ -120,19 +135,18 @@ void NodalCells<D>::boundary_points(Index node, CellQuadrature<D>& q) const {
 }
 
 template <int D>
-void NodalCells<D>::integrate(Index node, CellQuadrature<D>& q) {
-  volume_points(node, q);
+void NodalCells<D>::integrate(Index node) {
   // Moments about the node, not the origin: no cancellation far from it.
   const Vec<D>& origin = at(grid_->X, node);
   Real V = 0;
   Vec<D> first = Vec<D>::Zero();
   Mat<D> second = Mat<D>::Zero();
-  for (std::size_t p = 0; p < q.volume_X.size(); ++p) {
-    const Vec<D> arm = q.volume_X[p] - origin;
-    V += q.volume_w[p];
-    first += q.volume_w[p] * arm;
-    second += q.volume_w[p] * (arm * arm.transpose());
-  }
+  for_volume_points<D>(*grid_, octants_.of(node), [&](const Vec<D>& X, Real w) {
+    const Vec<D> arm = X - origin;
+    V += w;
+    first += w * arm;
+    second += w * (arm * arm.transpose());
+  });
   const Vec<D> offset = first / V;
   at(volume_, node) = V;
   at(centroid_, node) = origin + offset;

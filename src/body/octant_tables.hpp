@@ -7,6 +7,7 @@
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/simd.hpp"
+#include "meniscus/core/unroll.hpp"
 
 #include <cmath>
 #include <utility>
@@ -40,10 +41,47 @@ TabulatedPoint<D> tabulate(const Vec<D>& xi, Real w) {
   return point;
 }
 
+/// Four tabulated points, one per lane.
+template <int D>
+struct FourTabulatedPoints {
+  struct Function {
+    Lanes N;
+    std::array<Lanes, D> dN;
+  };
+  std::array<Function, 1 << D> corner;
+  std::array<Function, Bulge<D>::mode_count> bulge;
+  Lanes w;
+  int count;  ///< of the points; where they are less than four, the last one fills up
+};
+
+/// The same points, four by four.
+template <int D>
+std::vector<FourTabulatedPoints<D>> in_fours(const std::vector<TabulatedPoint<D>>& points) {
+  const auto n = static_cast<int>(points.size());
+  std::vector<FourTabulatedPoints<D>> fours;
+  for (int begin = 0; begin < n; begin += Lanes::width) {
+    auto& four = fours.emplace_back();
+    four.count = std::min(n - begin, Lanes::width);
+    for (int lane = 0; lane < Lanes::width; ++lane) {
+      const TabulatedPoint<D>& p = at(points, begin + std::min(lane, four.count - 1));
+      const auto set = [lane](auto& functions, const auto& N, const auto& dN) {
+        for (std::size_t a = 0; a < functions.size(); ++a) {
+          functions[a].N.set(lane, N[static_cast<int>(a)]);
+          for (int k = 0; k < D; ++k) at(functions[a].dN, k).set(lane, dN(static_cast<int>(a), k));
+        }
+      };
+      set(four.corner, p.N, p.dN);
+      set(four.bulge, p.bulge.N, p.bulge.dN);
+      four.w.set(lane, p.w);
+    }
+  }
+  return fours;
+}
+
 template <int D>
 class OctantTable {
  public:
-  using Points = std::vector<TabulatedPoint<D>>;
+  using Points = std::vector<FourTabulatedPoints<D>>;
 
   /// For cells that are curved in the directions of the bits of `curved`.
   static const OctantTable& instance(unsigned curved) {
@@ -71,13 +109,13 @@ class OctantTable {
     for (int k = 0; k < D; ++k) at(count, k) = points_along<D>(k, curved);
     const TensorRule<D> cube = tensor_rule<D>(count);
     for (int corner = 0; corner < (1 << D); ++corner) {
-      Points octant;
+      std::vector<TabulatedPoint<D>> octant;
       for (std::size_t q = 0; q < cube.x.size(); ++q) {
         Vec<D> xi;
         for (int k = 0; k < D; ++k) xi[k] = 0.5 * (corner_sign(corner, k) + cube.x[q][k]);
         octant.push_back(tabulate<D>(xi, cube.w[q] / (1 << D)));
       }
-      volume_.push_back(octant);
+      volume_.push_back(in_fours<D>(octant));
       for (int k = 0; k < D; ++k) {
         inner_.push_back(facet(corner, k, 0, curved));
         outer_.push_back(facet(corner, k, corner_sign(corner, k), curved));
@@ -90,14 +128,14 @@ class OctantTable {
     for (int l = 0, d = 0; l < D; ++l)
       if (l != k) at(count, d++) = points_along<D>(l, curved);
     const TensorRule<D - 1> square = tensor_rule<D - 1>(count);
-    Points points;
+    std::vector<TabulatedPoint<D>> points;
     for (std::size_t q = 0; q < square.x.size(); ++q) {
       Vec<D> xi;
       for (int l = 0, d = 0; l < D; ++l)
         xi[l] = l == k ? level : 0.5 * (corner_sign(corner, l) + square.x[q][d++]);
       points.push_back(tabulate<D>(xi, square.w[q] / (1 << (D - 1))));
     }
-    return points;
+    return in_fours<D>(points);
   }
 
   std::vector<Points> volume_, inner_, outer_;
@@ -121,7 +159,7 @@ TabulatedPoint<D> tabulate_part(int i, const Vec<D>& xi, Real w) {
 template <int D>
 class SimplexTable {
  public:
-  using Points = std::vector<TabulatedPoint<D>>;
+  using Points = std::vector<FourTabulatedPoints<D>>;
   /// Where direction k of a part ends.
   struct Side {
     Points points;
@@ -147,19 +185,22 @@ class SimplexTable {
     const TensorRule<D> cube = tensor_rule<D>(points);
     const TensorRule<D - 1> square = tensor_rule<D - 1>(points);
     for (int i = 0; i <= D; ++i) {
-      Points& part = volume_.emplace_back();
+      std::vector<TabulatedPoint<D>> part;
       for (std::size_t q = 0; q < cube.x.size(); ++q)
         part.push_back(tabulate_part<D>(i, cube.x[q], cube.w[q]));
+      volume_.push_back(in_fours<D>(part));
       for (int k = 0; k < D; ++k) {
         const int other = at(directions_at<D>(i), k);
         for (const bool end : {false, true}) {
           Side& side = at(end ? end_ : begin_, i * (D + 1) + other);
           side.k = k;
+          std::vector<TabulatedPoint<D>> of_side;
           for (std::size_t q = 0; q < square.x.size(); ++q) {
             Vec<D> xi;
             for (int l = 0, d = 0; l < D; ++l) xi[l] = l == k ? (end ? 1 : -1) : square.x[q][d++];
-            side.points.push_back(tabulate_part<D>(i, xi, square.w[q]));
+            of_side.push_back(tabulate_part<D>(i, xi, square.w[q]));
           }
+          side.points = in_fours<D>(of_side);
         }
       }
     }
@@ -296,6 +337,28 @@ class SampleTable {
   std::vector<Facet> facet_;
 };
 
+/// The map of a cell at four points, one per lane.
+template <int D>
+struct FourCellPoints {
+  std::array<Lanes, D> X;
+  std::array<std::array<Lanes, D>, D> J;  ///< [i][k]
+
+  /// Column k of cof J, as `facet_normal`.
+  std::array<Lanes, D> facet_normal(int k) const {
+    if constexpr (D == 2) {
+      if (k == 0) return {J[1][1], -J[0][1]};
+      return {-J[1][0], J[0][0]};
+    } else {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      const auto component = [&](std::size_t i, std::size_t j) {
+        const Lanes product = at(J[i], a) * at(J[j], b);
+        return product - at(J[j], a) * at(J[i], b);
+      };
+      return {component(1, 2), component(2, 0), component(0, 1)};
+    }
+  }
+};
+
 /// The map of one cell at tabulated points.
 template <int D>
 class CellMap {
@@ -338,9 +401,29 @@ class CellMap {
     }
     return point;
   }
+  FourCellPoints<D> operator()(const FourTabulatedPoints<D>& p) const {
+    FourCellPoints<D> four;
+    for (int i = 0; i < D; ++i) set_component(p, i, four);
+    return four;
+  }
 
  private:
   static constexpr int corners = 1 << D;
+  // Inlined, g++ 12 copies all functions to the stack, to have them there for the next component.
+  [[gnu::noinline]] void set_component(const FourTabulatedPoints<D>& p, int i,
+                                       FourCellPoints<D>& four) const {
+    Lanes X = Lanes::zero();
+    std::array<Lanes, D> J;
+    J.fill(Lanes::zero());
+    const auto add = [&](Real x, const auto& function) {
+      X += function.N * x;
+      for (int k = 0; k < D; ++k) at(J, k) += at(function.dN, k) * x;
+    };
+    for (int a = 0; a < corners; ++a) add(at(corner_, a)[i], at(p.corner, a));
+    for (int m = 0; m < modes_; ++m) add(at(deviation_, m)[i], at(p.bulge, at(mode_, m)));
+    at(four.X, i) = X;
+    unroll<D>([&](auto k) { at(four.J, i)[k] = J[k]; });
+  }
   static Lanes lanes_of(const Vec<D>& x) { return {x[0], x[1], D == 3 ? x[D - 1] : 0.0, 0.0}; }
 
   std::array<Lanes, corners> corner_;

@@ -14,6 +14,18 @@ Real determinant(const Mat<D>& A) {
   return A.determinant();
 }
 
+// In the order of Eigen's.
+template <std::size_t D>
+Lanes determinant(const std::array<std::array<Lanes, D>, D>& A) {
+  const auto a = [&](std::size_t i, std::size_t j) { return A[i][j].v; };
+  if constexpr (D == 2)
+    return a(0, 0) * a(1, 1) - a(1, 0) * a(0, 1);
+  else
+    return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) -
+           a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
+           a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
+}
+
 template <int D>
 Mat<D> inverse(const Mat<D>& A) {
   return A.inverse();
@@ -95,6 +107,8 @@ Mat<3> best_rotation(const Mat<3>& moment) {
 
 template Real determinant(const Mat<2>&);
 template Real determinant(const Mat<3>&);
+template Lanes determinant(const std::array<std::array<Lanes, 2>, 2>&);
+template Lanes determinant(const std::array<std::array<Lanes, 3>, 3>&);
 template Mat<1> inverse(const Mat<1>&);
 template Mat<2> inverse(const Mat<2>&);
 template Mat<3> inverse(const Mat<3>&);

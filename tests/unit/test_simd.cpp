@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Operations on four lanes that are instructions of some processors and plain C++ on others.
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/simd.hpp"
 
 #include <gtest/gtest.h>
@@ -42,6 +43,25 @@ TEST(Simd, LeastAndLargestByLane) {
     EXPECT_EQ(least[lane], std::min(x[lane], y[lane]));
     EXPECT_EQ(largest[lane], std::max(x[lane], y[lane]));
   }
+}
+
+template <int D>
+void expect_determinants() {
+  std::array<std::array<Lanes, D>, D> four;
+  std::array<Mat<D>, 4> each;
+  for (int lane = 0; lane < Lanes::width; ++lane)
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) {
+        at(each, lane)(i, j) = std::sin(1 + lane + 4 * i + 11 * j) / 3;
+        at(at(four, i), j).set(lane, at(each, lane)(i, j));
+      }
+  const Lanes det = determinant(four);
+  for (int lane = 0; lane < Lanes::width; ++lane)
+    EXPECT_EQ(det[lane], determinant<D>(at(each, lane)));
+}
+TEST(Simd, DeterminantsAreThoseOfEachAlone) {
+  expect_determinants<2>();
+  expect_determinants<3>();
 }
 
 }  // namespace

@@ -109,6 +109,10 @@ class NodalCells {
   unsigned kind(Index cell, int corner, Sharing sharing) const;
   /// Whether an octant is long beside the supports in some direction.
   bool is_long(Index node, Index cell, int corner, const ParticleSet<D>& particles) const;
+  /// Whether these octants, or parts of a facet between two nodal cells (the end of direction
+  /// `between`; volumes: -1), are equal and have all that continue them beyond the particle: then
+  /// samples that they share miss nothing.
+  bool are_even(const auto& octants, int between) const;
   void sample_volume(Index node, const ParticleSet<D>& particles, CellSamples<D>& samples) const;
   void sample_facet(Index node, std::span<const FacetPart> parts, const ParticleSet<D>& particles,
                     CellSamples<D>& samples) const;
@@ -116,13 +120,14 @@ class NodalCells {
   Real missing_of_volume(Index node, Sharing sharing, CellSamples<D>& samples) const;
   Real missing_of_facet(std::span<const FacetPart> parts, Sharing sharing,
                         CellSamples<D>& samples) const;
-  void volume_points(Index node, CellQuadrature<D>& q) const;
   void facet_points(Index node, CellQuadrature<D>& q) const;
   void append_boundary(Index node, CellQuadrature<D>& q) const;
-  void integrate(Index node, CellQuadrature<D>& q);
+  /// Sets the volume, centroid and covariance of one nodal cell.
+  void integrate(Index node);
 
   const Grid<D>* grid_;
   NodeCells octants_;
+  std::vector<Index> equal_cells_;
   std::vector<std::uint8_t> boundary_sides_;  // per cell: bit `side` set if on the body's boundary
   std::vector<Real> volume_;
   std::vector<Vec<D>> centroid_;

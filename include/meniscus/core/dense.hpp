@@ -2,8 +2,10 @@
 // Determinants, inverses and decompositions of small matrices, compiled once: Eigen's, which take
 // seconds to compile in every file that uses them.
 #pragma once
+#include "meniscus/core/simd.hpp"
 #include "meniscus/core/types.hpp"
 
+#include <array>
 #include <vector>
 
 namespace meniscus {
@@ -16,6 +18,9 @@ inline Eigen::Vector3d cross(const Eigen::Vector3d& x, const Eigen::Vector3d& y)
 
 template <int D>
 Real determinant(const Mat<D>& A);
+/// Of four matrices A[i][j], one per lane: to the last bit that of each alone.
+template <std::size_t D>
+Lanes determinant(const std::array<std::array<Lanes, D>, D>& A);
 
 /// Of a matrix that is not singular.
 template <int D>

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Samples of nodal cells: with what they are said to miss, they integrate as exact rules do, and
+// they are said to miss nothing where the cells around are equal and complete.
+#include "meniscus/approx/monomials.hpp"
+#include "meniscus/body/nodal_cells.hpp"
+#include "meniscus/body/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+
+#include "support.hpp"
+
+namespace meniscus::test_cell_samples {
+namespace {
+
+template <int D, int degree>
+using Values = std::array<Real, static_cast<std::size_t>(monomial_count(D, degree))>;
+
+template <int D, int degree>
+Values<D, degree> monomials(const Vec<D>& arm) {
+  constexpr Monomials<D, degree> table;
+  Values<D, degree> f;
+  f[0] = 1;
+  for (std::size_t k = 1; k < f.size(); ++k) f[k] = at(f, table.factor[k]) * arm[table.variable[k]];
+  return f;
+}
+
+/// A brick of unit cells without those where x and y are both above its middle.
+template <int D>
+Grid<D> angle(int cells) {
+  const Grid<D> whole = test::brick<D>(std::vector<Real>(D, cells)).grid;
+  Grid<D> grid;
+  std::map<Index, Index> number;
+  for (const auto& cell : whole.cells) {
+    Vec<D> middle = Vec<D>::Zero();
+    for (const Vec<D>& X : whole.corner_points(cell)) middle += X / (1 << D);
+    if (middle[0] > 0 && middle[1] > 0) continue;
+    auto& kept = grid.cells.emplace_back();
+    for (int a = 0; a < (1 << D); ++a) {
+      const auto [entry, is_new] = number.try_emplace(at(cell, a), grid.node_count());
+      if (is_new) grid.X.push_back(at(whole.X, at(cell, a)));
+      at(kept, a) = entry->second;
+    }
+  }
+  find_boundary(grid);
+  return grid;
+}
+
+/// Sums that are to be equal.
+struct Sums {
+  Real integral = 0, scale = 0;
+  Real sampled = 0;
+};
+
+/// Counts of what is not exact.
+struct Inexact {
+  int volumes = 0, facets = 0;
+};
+
+template <int D>
+void check_volume(const NodalCells<D>& cells, Index node, const CellQuadrature<D>& q,
+                  const CellSamples<D>& samples) {
+  const Vec<D>& centre = cells.centroid(node);
+  std::array<Sums, std::tuple_size_v<Values<D, 2>>> sums;
+  for (std::size_t p = 0; p < q.volume_X.size(); ++p) {
+    const auto f = monomials<D, 2>(q.volume_X[p] - centre);
+    for (std::size_t k = 0; k < f.size(); ++k) {
+      sums[k].integral += q.volume_w[p] * f[k];
+      sums[k].scale += q.volume_w[p] * std::abs(f[k]);
+    }
+  }
+  for (std::size_t p = 0; p < samples.volume_X.size(); ++p) {
+    const auto f = monomials<D, 2>(samples.volume_X[p] - centre);
+    for (std::size_t k = 0; k < f.size(); ++k) sums[k].sampled += samples.volume_w[p] * f[k];
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (!samples.volume_exact) sums[k].sampled += samples.volume_missing[k];
+    ASSERT_NEAR(sums[k].sampled, sums[k].integral, 1e-12 * sums[k].scale)
+        << "node " << node << ", monomial " << k;
+  }
+}
+
+/// Linear functions; where all facets are exact, cubic ones.
+template <int D>
+void check_facets(const NodalCells<D>& cells, Index node, const CellQuadrature<D>& q,
+                  const CellSamples<D>& samples) {
+  const Vec<D>& centre = cells.centroid(node);
+  std::array<std::array<Sums, std::tuple_size_v<Values<D, 3>>>, D> sums;
+  for (std::size_t p = 0; p < q.body_facets_begin; ++p) {
+    const auto f = monomials<D, 3>(q.facet_X[p] - centre);
+    for (int K = 0; K < D; ++K)
+      for (std::size_t k = 0; k < f.size(); ++k) {
+        at(sums, K)[k].integral += q.facet_dA[p][K] * f[k];
+        at(sums, K)[k].scale += q.facet_dA[p].norm() * std::abs(f[k]);
+      }
+  }
+  bool exact = true;
+  for (const auto& facet : samples.facets) {
+    exact = exact && facet.exact;
+    for (std::size_t p = facet.begin; p < facet.end; ++p) {
+      const auto f = monomials<D, 3>(samples.facet_X[p] - centre);
+      for (int K = 0; K < D; ++K)
+        for (std::size_t k = 0; k < f.size(); ++k)
+          at(sums, K)[k].sampled += samples.facet_dA[p][K] * f[k];
+    }
+    if (facet.exact) continue;
+    for (int K = 0; K < D; ++K) {
+      const auto& missing = at(facet.missing, K);
+      at(sums, K)[0].sampled += missing[0];
+      for (int i = 0; i < D; ++i)
+        at(at(sums, K), 1 + i).sampled +=
+            at(missing, 1 + i) + missing[0] * (facet.centre - centre)[i];
+    }
+  }
+  for (int K = 0; K < D; ++K)
+    for (std::size_t k = 0; k < (exact ? sums[0].size() : 1 + D); ++k) {
+      const Sums& sum = at(sums, K)[k];
+      ASSERT_NEAR(sum.sampled, sum.integral, 1e-12 * sum.scale)
+          << "node " << node << ", component " << K << ", monomial " << k;
+    }
+}
+
+template <int D>
+Inexact check(const Grid<D>& grid) {
+  const NodalCells<D> cells(grid);
+  const ParticleSet<D> particles(grid.X, 2.5, Window::cubic_spline);
+  Inexact inexact;
+  CellQuadrature<D> q;
+  CellSamples<D> samples;
+  for (Index node = 0; node < cells.size(); ++node) {
+    cells.quadrature(node, q);
+    cells.sample(node, std::numeric_limits<Index>::max(), particles, samples);
+    check_volume(cells, node, q, samples);
+    check_facets(cells, node, q, samples);
+    inexact.volumes += !samples.volume_exact;
+    for (const auto& facet : samples.facets) inexact.facets += !facet.exact;
+  }
+  return inexact;
+}
+
+template <int D>
+void expect_brick() {
+  const Inexact inexact = check<D>(test::brick<D>(std::vector<Real>(D, 4)).grid);
+  EXPECT_EQ(inexact.volumes, 0);
+  EXPECT_EQ(inexact.facets, 0);
+}
+TEST(CellSamples, MissNothingInABrick) {
+  expect_brick<2>();
+  expect_brick<3>();
+}
+
+/// Equal cells that leave a gap: what the rule would have beyond the particle is not there. In the
+/// plane so much would be missing that the parts have points of their own, which miss nothing.
+TEST(CellSamples, MissSomethingAtAReentrantEdge) {
+  EXPECT_EQ(check<2>(angle<2>(4)).volumes, 0);
+  const Inexact inexact = check<3>(angle<3>(4));
+  EXPECT_EQ(inexact.volumes, 3);     // the inner nodes of the edge
+  EXPECT_EQ(inexact.facets, 2 * 4);  // between its nodes, seen from either side
+}
+
+/// Cells that differ by more than rounding, by far less than a spacing.
+TEST(CellSamples, MissSomethingInUnevenCells) {
+  Grid<3> grid = test::brick<3>({4, 4, 4}).grid;
+  for (Vec<3>& X : grid.X)
+    if (X[0] > 0.5) X[0] *= 1 + 1e-9;
+  const Inexact inexact = check<3>(grid);
+  EXPECT_GT(inexact.volumes, 0);
+  EXPECT_LT(inexact.volumes, grid.node_count());
+}
+
+TEST(CellSamples, OfCurvedAndDisorderedCells) {
+  check<2>(test::disk(4, 2).grid);
+  check<3>(test::ball(4, 2).grid);
+  check<2>(test::brick<2>({5, 4}, 0.3).grid);
+  check<3>(test::brick<3>({4, 3, 4}, 0.3).grid);
+}
+
+}  // namespace
+}  // namespace meniscus::test_cell_samples
