@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-constexpr Real rounding = 1e-13;  // of the edges
+constexpr Real same_edge = 1e-13;  // of the longest one
 
 template <int D>
 using Edges = std::array<Vec<D>, D>;  // [k] along xi_k
@@ -32,7 +32,7 @@ Real longest(const Edges<D>& edges) {
 
 template <int D>
 bool are_close(const Edges<D>& a, const Edges<D>& b) {
-  const Real small = rounding * longest<D>(a);
+  const Real small = same_edge * longest<D>(a);
   return std::equal(a.begin(), a.end(), b.begin(), [&](const Vec<D>& one, const Vec<D>& other) {
     return (one - other).squaredNorm() <= small * small;
   });
@@ -42,7 +42,7 @@ template <int D>
 bool is_parallelepiped(const Grid<D>& grid, Index cell, const Edges<D>& edges) {
   const auto& corners = at(grid.cells, cell);
   if (grid.bulge(cell) || is_simplex<D>(corners)) return false;
-  const Real small = rounding * longest<D>(edges);
+  const Real small = same_edge * longest<D>(edges);
   for (int a = 0; a < (1 << D); ++a) {
     Vec<D> X = at(grid.X, corners[0]);
     for (int k = 0; k < D; ++k)
