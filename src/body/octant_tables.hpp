@@ -351,6 +351,7 @@ struct FourCellPoints {
     } else {
       const int a = (k + 1) % 3, b = (k + 2) % 3;
       const auto component = [&](std::size_t i, std::size_t j) {
+        // First by itself: so g++ rounds the other product, as it does for one point.
         const Lanes product = at(J[i], a) * at(J[j], b);
         return product - at(J[j], a) * at(J[i], b);
       };
