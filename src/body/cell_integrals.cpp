@@ -178,7 +178,7 @@ void list_with_flux(std::span<const Flux<D>> flux, std::vector<Index>& numbers) 
 
 /// The integrals through a facet, for the cell on its other side; `numbers` of candidates.
 template <int D>
-void pack_shared(const typename CellSamples<D>::SharedFacet& facet,
+void pack_shared(const typename CellSamples<D>::Facet& facet,
                  std::span<const Candidate<D>> candidates, std::span<const Flux<D>> flux,
                  std::span<const Index> numbers, SharedFlux<D>& packed) {
   packed.neighbor = facet.neighbor;
@@ -235,15 +235,17 @@ Real reach(std::span<const Vec<D>> points, const Vec<D>& centre) {
 template <int D>
 struct SampledCell {
   CellSamples<D> samples;
-  CellQuadrature<D> boundary;
-  Real reach;  ///< of all points from the centroid
+  CellQuadrature<D> boundary;  ///< points of loads on faces; none where there are no such loads
+  Real reach;                  ///< of all points from the centroid
 };
 
 /// `first`: that of the cells whose integrals are computed along with this one's.
 template <int D>
 void sample(const Body<D>& body, Index cell, Index first, SampledCell<D>& sampled) {
-  body.cells.sample(cell, first, body.particles, sampled.samples);
-  body.cells.boundary_points(cell, sampled.boundary);
+  body.cells.sample(cell, first, body.particles, !body.loaded_faces, sampled.samples);
+  sampled.boundary.facet_X.clear();
+  sampled.boundary.facet_dA.clear();
+  if (body.loaded_faces) body.cells.boundary_points(cell, sampled.boundary);
   const Vec<D>& centroid = body.cells.centroid(cell);
   sampled.reach = std::max({reach<D>(sampled.samples.volume_X, centroid),
                             reach<D>(sampled.samples.facet_X, centroid),

@@ -86,9 +86,10 @@ struct FourFacetPoints {
   int count;
 };
 
-/// Points that integrate polynomials exactly over the end of direction k of the octant at a corner.
+/// Points that integrate polynomials exactly over the end of direction k of the octant at a corner,
+/// or over its beginning on the boundary of the body (`outer`).
 template <int D>
-void append_exact_points(const CellMap<D>& map, int corner, int k,
+void append_exact_points(const CellMap<D>& map, int corner, int k, bool outer,
                          std::vector<FourFacetPoints<D>>& points) {
   const auto append = [&](const std::vector<FourTabulatedPoints<D>>& table, int direction,
                           Real sign) {
@@ -105,8 +106,10 @@ void append_exact_points(const CellMap<D>& map, int corner, int k,
   };
   if (const auto* simplex = map.simplex()) {
     const int i = simplex_corner<D>(corner), j = at(directions_at<D>(i), k);
-    const auto& side = simplex->between(i, j);
-    append(side.points, side.k, i < j ? 1 : -1);
+    const auto& side = outer ? simplex->on_side(i, j) : simplex->between(i, j);
+    append(side.points, side.k, !outer && i < j ? 1 : -1);
+  } else if (outer) {
+    append(map.table().outer(corner, k), k, corner_sign(corner, k));
   } else {
     append(map.table().inner(corner, k), k, -corner_sign(corner, k));
   }
@@ -117,22 +120,27 @@ void append_exact_points(const CellMap<D>& map, int corner, int k,
 template <int D>
 unsigned NodalCells<D>::kind(Index cell, int corner, Sharing sharing) const {
   if (sharing == Sharing::parts) return SampleTable<D>::apart;
-  const bool simplex = is_simplex<D>(at(grid_->cells, cell));
   unsigned bits = 0;
-  for (int k = 0; k < D; ++k) {
-    const int side = simplex ? side_opposite<D>(at(directions_at<D>(simplex_corner<D>(corner)), k))
-                             : 2 * k + ((corner >> k) & 1);
-    bits |= static_cast<unsigned>((at(boundary_sides_, cell) >> side) & 1) << k;
-  }
+  for (int k = 0; k < D; ++k) bits |= static_cast<unsigned>(on_boundary(cell, corner, k)) << k;
   return bits;
+}
+
+template <int D>
+bool NodalCells<D>::on_boundary(Index cell, int corner, int k) const {
+  const int side = is_simplex<D>(at(grid_->cells, cell))
+                       ? side_opposite<D>(at(directions_at<D>(simplex_corner<D>(corner)), k))
+                       : 2 * k + ((corner >> k) & 1);
+  return ((at(boundary_sides_, cell) >> side) & 1) != 0;
 }
 
 template <int D>
 auto NodalCells<D>::facet_parts(Index node) const -> std::vector<FacetPart> {
   std::vector<FacetPart> parts;
   for (const auto& [cell, corner] : octants_.of(node))
-    for (int k = 0; k < D; ++k)
+    for (int k = 0; k < D; ++k) {
       parts.push_back({node_of<D>(at(grid_->cells, cell), corner, k), cell, corner, k});
+      if (on_boundary(cell, corner, k)) parts.push_back({no_neighbor, cell, corner, k});
+    }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const FacetPart& a, const FacetPart& b) { return a.neighbor < b.neighbor; });
   return parts;
@@ -242,7 +250,7 @@ void NodalCells<D>::sample_facet(Index node, std::span<const FacetPart> parts,
   const auto is_long_part = [&](const FacetPart& p) {
     const int beyond = corner_along<D>(at(grid_->cells, p.cell), p.corner, p.k);
     return is_long(node, p.cell, p.corner, particles) ||
-           is_long(p.neighbor, p.cell, beyond, particles);
+           (p.neighbor != no_neighbor && is_long(p.neighbor, p.cell, beyond, particles));
   };
   if (std::any_of(parts.begin(), parts.end(), is_long_part) ||
       missing_of_facet(parts, Sharing::whole, samples) > most_missing)
@@ -258,14 +266,17 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
   facet.centre.setZero();
   thread_local std::vector<FourFacetPoints<D>> exact;
   exact.clear();
-  facet.exact = are_even(parts, parts.front().k);
+  const bool outer = facet.neighbor == no_neighbor;
+  facet.exact = !outer && are_even(parts, parts.front().k);
   SharedPlaces<D> seen;
   for (const FacetPart& part : parts) {
     const CellMap<D> map(*grid_, part.cell);
-    if (!facet.exact) append_exact_points(map, part.corner, part.k, exact);
+    if (!facet.exact) append_exact_points(map, part.corner, part.k, outer, exact);
     const int own = map.simplex() ? simplex_corner<D>(part.corner) : part.corner;
-    const auto& table =
-        SampleTable<D>::of(map.simplex()).facet(own, part.k, kind(part.cell, part.corner, sharing));
+    const auto& samples_of_parts = SampleTable<D>::of(map.simplex());
+    const unsigned of_kind = kind(part.cell, part.corner, sharing);
+    const auto& table = outer ? samples_of_parts.outer_facet(own, part.k, of_kind)
+                              : samples_of_parts.facet(own, part.k, of_kind);
     for (const auto& p : table.points) {
       const CellPoint<D, D> point = map(p.at);
       const Vec<D> dA = table.sign * p.at.w * facet_normal<D>(point.J, part.k);
@@ -312,7 +323,7 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
 }
 
 template <int D>
-void NodalCells<D>::sample(Index node, Index first, const ParticleSet<D>& particles,
+void NodalCells<D>::sample(Index node, Index first, const ParticleSet<D>& particles, bool boundary,
                            CellSamples<D>& samples) const {
   samples.clear();
   sample_volume(node, particles, samples);
@@ -320,14 +331,18 @@ void NodalCells<D>::sample(Index node, Index first, const ParticleSet<D>& partic
   for (auto begin = parts.begin(); begin != parts.end();) {
     const auto end = std::find_if(
         begin, parts.end(), [&](const FacetPart& p) { return p.neighbor != begin->neighbor; });
-    if (begin->neighbor > node || begin->neighbor < first)
-      sample_facet(node, std::span(begin, end), particles, samples);
+    const bool wanted = begin->neighbor == no_neighbor
+                            ? boundary
+                            : begin->neighbor > node || begin->neighbor < first;
+    if (wanted) sample_facet(node, std::span(begin, end), particles, samples);
     begin = end;
   }
 }
 
-template void NodalCells<2>::sample(Index, Index, const ParticleSet<2>&, CellSamples<2>&) const;
-template void NodalCells<3>::sample(Index, Index, const ParticleSet<3>&, CellSamples<3>&) const;
+template void NodalCells<2>::sample(Index, Index, const ParticleSet<2>&, bool,
+                                    CellSamples<2>&) const;
+template void NodalCells<3>::sample(Index, Index, const ParticleSet<3>&, bool,
+                                    CellSamples<3>&) const;
 template void NodalCells<2>::lower_neighbors(Index, std::vector<Index>&) const;
 template void NodalCells<3>::lower_neighbors(Index, std::vector<Index>&) const;
 

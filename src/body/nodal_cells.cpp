@@ -22,20 +22,59 @@ void for_lanes(const std::array<Lanes, D>& X, int count, F&& f) {
     f(Vec<D>(spatial(at(place, lane)).template head<D>()), lane);
 }
 
-/// Calls f(X, w) for the points of the octants of a nodal cell.
+/// Calls f(points, w, count) for the points of an octant of a nodal cell, four by four; those that
+/// only fill up have w = 0.
 template <int D, class F>
-void for_volume_points(const Grid<D>& grid, std::span<const NodeCells::Entry> octants, F&& f) {
-  for (const auto& [cell, corner] : octants) {
-    const CellMap<D> map(grid, cell);
-    const auto* simplex = map.simplex();
-    for (const auto& p :
-         simplex ? simplex->volume(simplex_corner<D>(corner)) : map.table().volume(corner)) {
-      const FourCellPoints<D> four = map(p);
-      const Lanes w = p.w * determinant(four.J);
-      for_lanes<D>(four.X, p.count, [&](const Vec<D>& X, int lane) { f(X, w[lane]); });
-    }
+void for_volume_points(const Grid<D>& grid, const NodeCells::Entry& octant, F&& f) {
+  const CellMap<D> map(grid, octant.cell);
+  const auto* simplex = map.simplex();
+  for (const auto& p : simplex ? simplex->volume(simplex_corner<D>(octant.corner))
+                               : map.table().volume(octant.corner)) {
+    const FourCellPoints<D> four = map(p);
+    f(four.X, p.w * determinant(four.J), p.count);
   }
 }
+
+/// Volume of parts of a nodal cell, and the integrals of X - Xn and (X - Xn)(X - Xn)^T, which do
+/// not cancel far from the origin as those of X do. Xn: place of the node.
+template <int D>
+struct MomentsAboutNode {
+  Real V = 0;
+  Vec<D> first = Vec<D>::Zero();
+  Mat<D> second = Mat<D>::Zero();
+
+  void add_octant(const Grid<D>& grid, const NodeCells::Entry& octant, const Vec<D>& Xn) {
+    Lanes w_sum = Lanes::zero();
+    std::array<Lanes, D> w_arm;
+    std::array<std::array<Lanes, D>, D> w_arm_arm;
+    w_arm.fill(Lanes::zero());
+    w_arm_arm.fill(w_arm);
+    for_volume_points<D>(grid, octant, [&](const std::array<Lanes, D>& X, Lanes w, int) {
+      w_sum += w;
+      for (std::size_t i = 0; i < D; ++i) {
+        const Lanes of_i = w * (X[i] - Xn[static_cast<int>(i)]);
+        w_arm[i] += of_i;
+        for (std::size_t j = i; j < D; ++j)
+          w_arm_arm[i][j] += of_i * (X[j] - Xn[static_cast<int>(j)]);
+      }
+    });
+    V += sum(w_sum);
+    for (int i = 0; i < D; ++i) {
+      first[i] += sum(at(w_arm, i));
+      for (int j = i; j < D; ++j) second(i, j) += sum(at(at(w_arm_arm, i), j));
+      for (int j = 0; j < i; ++j) second(i, j) = second(j, i);
+    }
+  }
+  /// The octant of a parallelepiped between the halves of its edges at the node, columns of
+  /// `edges`.
+  void add_parallelepiped(const Mat<D>& edges) {
+    const Real volume = std::abs(determinant<D>(edges));
+    const Vec<D> middle = 0.5 * edges.rowwise().sum();
+    V += volume;
+    first += volume * middle;
+    second += volume * (middle * middle.transpose() + edges * edges.transpose() / 12);
+  }
+};
 
 template <int D>
 void append_facet(CellQuadrature<D>& q, const CellMap<D>& map,
@@ -119,10 +158,13 @@ template <int D>
 void NodalCells<D>::quadrature(Index node, CellQuadrature<D>& q) const {
   q.volume_X.clear();
   q.volume_w.clear();
-  for_volume_points<D>(*grid_, octants_.of(node), [&](const Vec<D>& X, Real w) {
-    q.volume_X.push_back(X);
-    q.volume_w.push_back(w);
-  });
+  for (const auto& octant : octants_.of(node))
+    for_volume_points<D>(*grid_, octant, [&](const auto& X, Lanes w, int count) {
+      for_lanes<D>(X, count, [&](const Vec<D>& place, int lane) {
+        q.volume_X.push_back(place);
+        q.volume_w.push_back(w[lane]);
+      });
+    });
   facet_points(node, q);
 }
 
@@ -136,21 +178,23 @@ void NodalCells<D>::boundary_points(Index node, CellQuadrature<D>& q) const {
 
 template <int D>
 void NodalCells<D>::integrate(Index node) {
-  // Moments about the node, not the origin: no cancellation far from it.
   const Vec<D>& origin = at(grid_->X, node);
-  Real V = 0;
-  Vec<D> first = Vec<D>::Zero();
-  Mat<D> second = Mat<D>::Zero();
-  for_volume_points<D>(*grid_, octants_.of(node), [&](const Vec<D>& X, Real w) {
-    const Vec<D> arm = X - origin;
-    V += w;
-    first += w * arm;
-    second += w * (arm * arm.transpose());
-  });
-  const Vec<D> offset = first / V;
-  at(volume_, node) = V;
+  MomentsAboutNode<D> sum;
+  for (const auto& octant : octants_.of(node)) {
+    if (at(equal_cells_, octant.cell) < 0) {
+      sum.add_octant(*grid_, octant, origin);
+      continue;
+    }
+    const auto& corners = at(grid_->cells, octant.cell);
+    Mat<D> edges;
+    for (int k = 0; k < D; ++k)
+      edges.col(k) = 0.5 * (at(grid_->X, at(corners, octant.corner ^ (1 << k))) - origin);
+    sum.add_parallelepiped(edges);
+  }
+  const Vec<D> offset = sum.first / sum.V;
+  at(volume_, node) = sum.V;
   at(centroid_, node) = origin + offset;
-  at(covariance_, node) = second / V - offset * offset.transpose();
+  at(covariance_, node) = sum.second / sum.V - offset * offset.transpose();
 }
 
 template class NodalCells<2>;

@@ -51,7 +51,7 @@ struct FourTabulatedPoints {
   std::array<Function, 1 << D> corner;
   std::array<Function, Bulge<D>::mode_count> bulge;
   Lanes w;
-  int count;  ///< of the points; where they are less than four, the last one fills up
+  int count;  ///< of the points; where they are less than four, the last one fills up with w = 0
 };
 
 /// The same points, four by four.
@@ -72,7 +72,7 @@ std::vector<FourTabulatedPoints<D>> in_fours(const std::vector<TabulatedPoint<D>
       };
       set(four.corner, p.N, p.dN);
       set(four.bulge, p.bulge.N, p.bulge.dN);
-      four.w.set(lane, p.w);
+      four.w.set(lane, lane < four.count ? p.w : 0);
     }
   }
   return fours;
@@ -210,11 +210,12 @@ class SimplexTable {
   std::vector<Side> begin_, end_;
 };
 
-/// Few points of the parts. Facets between nodal cells: two Gauss points per direction, of which
-/// the part has one where a cell beyond the particle continues it. Volumes: three per direction, of
-/// which one is at the particle, shared, and one further out; at the boundary of the body the part
-/// has all three; hexahedra that are continued in all directions: the 14 points of Irons (1971),
-/// exact up to the fifth degree as well. Or two Gauss points of the part's own in each direction.
+/// Few points of the parts. Facets between nodal cells and on the boundary of the body: two Gauss
+/// points per direction, of which the part has one where a cell beyond the particle continues it.
+/// Volumes: three per direction, of which one is at the particle, shared, and one further out; at
+/// the boundary of the body the part has all three; hexahedra that are continued in all directions:
+/// the 14 points of Irons (1971), exact up to the fifth degree as well. Or two Gauss points of the
+/// part's own in each direction.
 template <int D>
 class SampleTable {
  public:
@@ -242,6 +243,10 @@ class SampleTable {
   const Facet& facet(int corner, int k, unsigned kind) const {
     return meniscus::at(facet_, number(corner, kind) * D + k);
   }
+  /// Where direction k begins, on the boundary of the body at the particle.
+  const Facet& outer_facet(int corner, int k, unsigned kind) const {
+    return meniscus::at(outer_facet_, number(corner, kind) * D + k);
+  }
 
  private:
   template <bool simplex>
@@ -253,10 +258,12 @@ class SampleTable {
     const int corners = simplex ? D + 1 : 1 << D;
     for (int corner = 0; corner < corners; ++corner)
       for (unsigned kind = 0; kind <= apart; ++kind) {
-        volume_.push_back(points(simplex, corner, kind, -1));
-        for (int k = 0; k < D; ++k)
-          facet_.push_back(
-              {points(simplex, corner, kind, k), simplex ? 1 : -corner_sign(corner, k)});
+        volume_.push_back(points(simplex, corner, kind, {}));
+        for (int k = 0; k < D; ++k) {
+          const Real sign = simplex ? 1 : -corner_sign(corner, k);
+          facet_.push_back({points(simplex, corner, kind, {k, {1, 1, 1}}), sign});
+          outer_facet_.push_back({points(simplex, corner, kind, {k, {0, -1, 1}}), -sign});
+        }
       }
   }
   static int number(int corner, unsigned kind) {
@@ -274,17 +281,23 @@ class SampleTable {
     Places places;
   };
 
-  static std::vector<Product> tensor_points(unsigned kind, int between) {
+  /// Of a facet: the direction that it is across, and where; of a volume: no direction.
+  struct Across {
+    int direction = -1;
+    Abscissa where{};
+  };
+
+  static std::vector<Product> tensor_points(unsigned kind, const Across& across) {
     const Real three = std::sqrt(0.6), two = std::sqrt(1. / 3);
     const std::vector<Abscissa> all_of_three{
         {1, -three, 5. / 9}, {2, 0, 8. / 9}, {3, three, 5. / 9}},
         half_of_three{{0, -1, 8. / 9}, {1, 2 * three - 1, 10. / 9}},
-        own_two{{1, -two, 1}, {2, two, 1}}, half_of_two{{1, 2 * two - 1, 2}}, end{{1, 1, 1}};
+        own_two{{1, -two, 1}, {2, two, 1}}, half_of_two{{1, 2 * two - 1, 2}}, one{across.where};
     const auto along = [&](int k) -> const std::vector<Abscissa>& {
-      if (k == between) return end;
+      if (k == across.direction) return one;
       if (kind == apart) return own_two;
       if ((kind >> k) & 1) return all_of_three;
-      return D == 3 && between >= 0 ? half_of_two : half_of_three;
+      return D == 3 && across.direction >= 0 ? half_of_two : half_of_three;
     };
     std::vector<Product> products{{Vec<D>::Zero(), 1, {}}};
     for (int k = 0; k < D; ++k) {
@@ -316,10 +329,9 @@ class SampleTable {
     return products;
   }
 
-  /// With direction `between` at its end; -1: of the volume.
-  static Points points(bool simplex, int corner, unsigned kind, int between) {
-    const bool irons = D == 3 && !simplex && kind == 0 && between < 0;
-    const std::vector<Product> products = irons ? irons_points() : tensor_points(kind, between);
+  static Points points(bool simplex, int corner, unsigned kind, const Across& across) {
+    const bool volume = across.direction < 0, irons = D == 3 && !simplex && kind == 0 && volume;
+    const std::vector<Product> products = irons ? irons_points() : tensor_points(kind, across);
     Points points;
     for (const Product& p : products) {
       if (simplex) {
@@ -327,14 +339,14 @@ class SampleTable {
       } else {
         Vec<D> xi;
         for (int k = 0; k < D; ++k) xi[k] = 0.5 * corner_sign(corner, k) * (1 - p.t[k]);
-        points.push_back({tabulate<D>(xi, p.w / (1 << (between < 0 ? D : D - 1))), p.places});
+        points.push_back({tabulate<D>(xi, p.w / (1 << (volume ? D : D - 1))), p.places});
       }
     }
     return points;
   }
 
   std::vector<Points> volume_;
-  std::vector<Facet> facet_;
+  std::vector<Facet> facet_, outer_facet_;
 };
 
 /// The map of a cell at four points, one per lane.

@@ -175,6 +175,7 @@ struct Held final : Load<D> {
       block.problem("axis", "has no direction; allowed is any but zero");
   }
 
+  void prepare(BodyPlans<D>& bodies) const override { face.prepare(bodies); }
   void build(Assembly<D>& assembly) const override {
     const Body<D>& body = assembly.body(face.body);
     const FaceCells<D> cells = face.cells(this->place, body);

@@ -83,6 +83,9 @@ struct Spring final : Load<D> {
         block.problem("components", fmt::format("'{}' is no component; allowed are {}", c,
                                                 D == 3 ? "x, y, z" : "x, y"));
   }
+  void prepare(BodyPlans<D>& bodies) const override {
+    if (!at_a_place()) face.prepare(bodies);
+  }
   void build(Assembly<D>& assembly) const override {
     const Body<D>& body = assembly.body(face.body);
     assembly.keep_reference(face.body, "its [[spring]] knows places of its first reference only");

@@ -51,6 +51,7 @@ struct Traction final : Load<D> {
     if (force.empty() != pressure.has_value())
       block.problem("force", "allowed is either force or pressure, not both or neither");
   }
+  void prepare(BodyPlans<D>& bodies) const override { face.prepare(bodies); }
   void build(Assembly<D>& assembly) const override {
     const Body<D>& body = assembly.body(face.body);
     FaceCells<D> cells = face.cells(this->place, body, pressure.has_value());

@@ -147,6 +147,7 @@ std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned,
       system.bodies.emplace_back(settings.name, std::move(geometry), std::move(particles));
   body.first = system.size();
   body.reference = std::move(reference);
+  body.loaded_faces = planned.loaded_faces;
   auto built = planned.material->build(
       body, {settings.integration, settings.gauss_points, settings.volumetric,
              planned.enclosed && planned.material->fluid(),

@@ -88,7 +88,7 @@ void check_facets(const NodalCells<D>& cells, Index node, const CellQuadrature<D
                   const CellSamples<D>& samples) {
   const Vec<D>& centre = cells.centroid(node);
   std::array<std::array<Sums, std::tuple_size_v<Values<D, 3>>>, D> sums;
-  for (std::size_t p = 0; p < q.body_facets_begin; ++p) {
+  for (std::size_t p = 0; p < q.facet_X.size(); ++p) {
     const auto f = monomials<D, 3>(q.facet_X[p] - centre);
     for (int K = 0; K < D; ++K)
       for (std::size_t k = 0; k < f.size(); ++k) {
@@ -131,7 +131,7 @@ Inexact check(const Grid<D>& grid) {
   CellSamples<D> samples;
   for (Index node = 0; node < cells.size(); ++node) {
     cells.quadrature(node, q);
-    cells.sample(node, std::numeric_limits<Index>::max(), particles, samples);
+    cells.sample(node, std::numeric_limits<Index>::max(), particles, true, samples);
     check_volume(cells, node, q, samples);
     check_facets(cells, node, q, samples);
     inexact.volumes += !samples.volume_exact;

@@ -26,6 +26,19 @@ Grid<D> jittered_brick() {
   return grid;
 }
 
+/// Equal cells with oblique edges, whose moments are known without points.
+template <int D>
+Grid<D> oblique_brick() {
+  Brick<D> brick;
+  brick.cells = D == 3 ? std::vector<Real>{4, 3, 5} : std::vector<Real>{6, 7};
+  Grid<D> grid = brick.geometry().grid;
+  Mat<D> F = Mat<D>::Identity();
+  for (int i = 0; i < D; ++i)
+    for (int k = 0; k < D; ++k) F(i, k) += 0.3 * i - 0.1 * k;
+  for (Vec<D>& X : grid.X) X = F * X;
+  return grid;
+}
+
 template <int D>
 Grid<D> round_grid() {
   if constexpr (D == 3) {
@@ -78,6 +91,11 @@ void expect_identities(const Grid<D>& grid) {
 TEST(NodalCells, IdentitiesOnJitteredBrick) {
   expect_identities(jittered_brick<2>());
   expect_identities(jittered_brick<3>());
+}
+
+TEST(NodalCells, IdentitiesOnObliqueBricks) {
+  expect_identities(oblique_brick<2>());
+  expect_identities(oblique_brick<3>());
 }
 
 TEST(NodalCells, IdentitiesOnRoundGrids) {

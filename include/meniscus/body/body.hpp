@@ -22,6 +22,10 @@ struct Body {
   Geometry<D> geometry;
   ParticleSet<D> particles;
   NodalCells<D> cells;  ///< refers to `geometry`: a body does not move in memory
+  /// Loads act on faces of it (FaceCells): what the rule of nodal cells has of the boundary is then
+  /// computed at their points, so that they balance a uniform stress to the last digits; otherwise
+  /// at few.
+  bool loaded_faces = true;
   std::vector<Real> mass;
   /// Values of the shape functions at the particles: places x(X_A) = sum_B N_B(X_A) d_B. Particle
   /// coefficients d_A are not places. The rows of this rank (own_rows()); those of others are

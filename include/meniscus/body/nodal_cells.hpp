@@ -34,11 +34,11 @@ struct CellQuadrature {
   std::vector<BodyFacet> body_facets;
 };
 
-/// Few points for the integrals of smooth functions over one nodal cell and over the facets between
-/// it and other nodal cells: as many as are exact up to the fifth degree in equal parallelepipeds,
-/// and to the third in their facets; two per direction of each octant where octants are unequal or
-/// long beside the supports. What sums over them miss of the integrals of polynomials goes with
-/// them (RKPM note 5.6). Reused from node to node.
+/// Few points for the integrals of smooth functions over one nodal cell, over the facets between it
+/// and other nodal cells, and over its part of the boundary of the body: as many as are exact up to
+/// the fifth degree in equal parallelepipeds, and to the third in their facets; two per direction
+/// of each octant where octants are unequal or long beside the supports. What sums over them miss
+/// of the integrals of polynomials goes with them (RKPM note 5.6). Reused from node to node.
 template <int D>
 struct CellSamples {
   /// Integral minus sum, for the monomials of X - centre up to `degree`.
@@ -50,14 +50,14 @@ struct CellSamples {
   Missing<2> volume_missing;  ///< centre: the centroid
   bool volume_exact = true;   ///< nothing but rounding is missing
 
-  struct SharedFacet {
-    Index neighbor;                     ///< the other nodal cell
+  struct Facet {
+    Index neighbor;                     ///< the other nodal cell; -1: the boundary of the body
     std::size_t begin, end;             ///< its points
     Vec<D> centre;                      ///< their mean
     std::array<Missing<3>, D> missing;  ///< [K] with n_K dA
     bool exact;
   };
-  std::vector<SharedFacet> facets;  ///< by ascending neighbor
+  std::vector<Facet> facets;  ///< by ascending neighbor
   std::vector<Vec<D>> facet_X;
   std::vector<Vec<D>> facet_dA;  ///< outward normal times weight
 
@@ -90,14 +90,16 @@ class NodalCells {
   /// Only the points on the boundary of the body.
   void boundary_points(Index node, CellQuadrature<D>& q) const;
   /// Fills the samples of one node, with the facets towards nodes of higher number and towards
-  /// those below `first`, likewise.
-  void sample(Index node, Index first, const ParticleSet<D>& particles,
+  /// those below `first`, and if `boundary` with its part of the boundary of the body, likewise.
+  void sample(Index node, Index first, const ParticleSet<D>& particles, bool boundary,
               CellSamples<D>& samples) const;
   /// Nodes of lower number whose nodal cells share a facet with this one, ascending.
   void lower_neighbors(Index node, std::vector<Index>& neighbors) const;
 
  private:
-  /// A facet within one grid cell, seen from the node: end of direction k of its octant.
+  static constexpr Index no_neighbor = -1;
+  /// A facet within one grid cell, seen from the node: end of direction k of its octant; without
+  /// neighbor its beginning, on the boundary of the body.
   struct FacetPart {
     Index neighbor, cell;
     int corner, k;
@@ -105,6 +107,8 @@ class NodalCells {
   std::vector<FacetPart> facet_parts(Index node) const;
   /// Whether the points are those of the nodal cell or of each of its parts.
   enum class Sharing : std::uint8_t { whole, parts };
+  /// Whether direction k of an octant begins on the boundary of the body.
+  bool on_boundary(Index cell, int corner, int k) const;
   /// Of an octant, as in SampleTable.
   unsigned kind(Index cell, int corner, Sharing sharing) const;
   /// Whether an octant is long beside the supports in some direction.

@@ -15,6 +15,11 @@ struct FaceKeys {
   /// Notes a face that there is not.
   template <int D>
   void check(const Block& block, const BodyPlans<D>& bodies) const;
+  /// Notes that the body has a load on a face.
+  template <int D>
+  void prepare(BodyPlans<D>& bodies) const {
+    for (BodyPlan<D>& planned : bodies) planned.loaded_faces |= planned.settings.name == body;
+  }
   /// `place` of the table, to begin messages with. Throws as face_cells().
   template <int D>
   FaceCells<D> cells(const std::string& place, const Body<D>& body,

@@ -31,10 +31,11 @@ struct BodyPlan {
   BodySettings settings;
   Geometry<D> geometry;
   std::shared_ptr<const Material<D>> material;
-  bool in_order;             ///< a body that cannot be made has a stand-in for its geometry
-  bool enclosed = false;     ///< if it is a fluid: Integration::enclosed
-  bool curvature = false;    ///< of its surface, by second derivatives, is asked for
-  SolidSettings solid = {};  ///< if it is none
+  bool in_order;              ///< a body that cannot be made has a stand-in for its geometry
+  bool enclosed = false;      ///< if it is a fluid: Integration::enclosed
+  bool curvature = false;     ///< of its surface, by second derivatives, is asked for
+  bool loaded_faces = false;  ///< Body::loaded_faces
+  SolidSettings solid = {};   ///< if it is none
 };
 template <int D>
 using BodyPlans = std::vector<BodyPlan<D>>;
