@@ -91,7 +91,7 @@ Child::Child() {
 }
 
 Child::~Child() {
-  hand_signals_to(SIG_DFL);
+  if (handed == 0) hand_signals_to(SIG_DFL);  // the same request may come again, see `timeout`
 }
 
 ChildEnd Child::call(const std::vector<std::string>& arguments) {

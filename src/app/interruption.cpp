@@ -68,7 +68,7 @@ void Interruption::catch_signals() {
 }
 
 Interruption::~Interruption() {
-  handle_by(SIG_DFL);
+  if (!caught) handle_by(SIG_DFL);  // the same request may come again before the program is gone
 }
 
 std::optional<int> Interruption::noticed() const {

@@ -13,7 +13,7 @@ struct ChildEnd {
 };
 
 /// Calls a program and waits for its end. While the object lives, signals that ask to stop are
-/// handed on to it. One object at a time.
+/// handed on to it; once one was, others change nothing any more. One object at a time.
 class Child {
  public:
   Child();

@@ -8,8 +8,8 @@
 namespace meniscus {
 
 /// SIGINT, SIGTERM, SIGHUP, SIGUSR1 and SIGXCPU are noted and acted on at the end of the step, of
-/// Newton's method within it; another one a second later ends the program at once. One object at a
-/// time.
+/// Newton's method within it; another one a second later ends the program at once, and so it stays
+/// when the object is gone. One object at a time.
 class Interruption {
  public:
   /// `max_walltime` in seconds from now.
