@@ -10,31 +10,33 @@
 namespace meniscus {
 namespace {
 
-/// sum_k += sum_q weight_q N_k(x_q) for all candidates k. Points come in fours that are close
-/// together; candidates that reach none of the four are left out.
-template <int D, class Weight, class Sum>
-void add_integrals(const Body<D>& body, std::span<const Vec<D>> points,
-                   std::span<const Weight> weight, NearCandidates<D>& candidates,
-                   std::vector<Sum>& integral) {
+/// Calls f(first, kernel) for fours of points, which are close together, beginning with `first`,
+/// with the values there of the candidates that reach one of them.
+template <int D, class F>
+void for_fours(const Body<D>& body, std::span<const Vec<D>> points, NearCandidates<D>& candidates,
+               F&& f) {
   thread_local ReproducingKernel<D> kernel(body.particles.window());  // keeps its buffers
   kernel.use(body.particles.window());
-  for (std::size_t q = 0; q < points.size(); q += 4) {
-    std::array<Vec<D>, 4> batch;  // the last point fills up, with weight zero
-    std::array<Weight, 4> batch_weight{};
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      batch[lane] = points[std::min(q + lane, points.size() - 1)];
-      if (q + lane < points.size()) batch_weight[lane] = weight[q + lane];
-    }
-    const auto places = body.particles.kernel_places(batch);
+  for (std::size_t first = 0; first < points.size(); first += 4) {
+    std::array<Vec<D>, 4> four;  // the last point fills up
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      four[lane] = points[std::min(first + lane, points.size() - 1)];
+    const auto places = body.particles.kernel_places(four);
     candidates.select(places);
     kernel.evaluate(places, candidates.near(), Derivatives::none);
     for (std::size_t lane = 0; lane < 4; ++lane)
-      body.particles.require_quality(kernel.quality()[static_cast<int>(lane)], batch[lane],
+      body.particles.require_quality(kernel.quality()[static_cast<int>(lane)], four[lane],
                                      body.name);
-    const auto numbers = candidates.numbers();
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-      at(integral, numbers[k]).add(kernel.value(k), batch_weight);
+    f(first, kernel);
   }
+}
+
+/// sum_k += sum_q weight_q N_k(x_q), q the lanes, for the candidates k that are near.
+template <int D, class Weight, class Sum>
+void add_four(const ReproducingKernel<D>& kernel, const NearCandidates<D>& candidates,
+              const std::array<Weight, 4>& weight, std::vector<Sum>& sum) {
+  const auto numbers = candidates.numbers();
+  for (std::size_t k = 0; k < numbers.size(); ++k) at(sum, numbers[k]).add(kernel.value(k), weight);
 }
 
 /// Functions of a batch: moments 0 and 1 of n_K.
@@ -157,11 +159,57 @@ template <int D>
 void integrate_fluxes(const Body<D>& body, std::span<const Vec<D>> X, std::span<const Vec<D>> dA,
                       const Vec<D>& centre, NearCandidates<D>& candidates,
                       std::vector<Flux<D>>& flux) {
-  thread_local std::vector<Flux<D>> weight;
-  weight.clear();
-  for (std::size_t q = 0; q < X.size(); ++q) weight.emplace_back(dA[q], X[q] - centre);
   flux.assign(candidates.all().size(), {});
-  add_integrals<D, Flux<D>>(body, X, weight, candidates, flux);
+  for_fours<D>(body, X, candidates, [&](std::size_t first, const ReproducingKernel<D>& kernel) {
+    std::array<Flux<D>, 4> weight{};
+    for (std::size_t lane = 0; lane < 4 && first + lane < X.size(); ++lane)
+      weight[lane] = Flux<D>(dA[first + lane], X[first + lane] - centre);
+    add_four<D>(kernel, candidates, weight, flux);
+  });
+}
+
+/// Adds the points of a facet that are among the four that begin with `first`, from `next` on.
+template <int D>
+void add_facet_points(const CellSamples<D>& samples, const typename CellSamples<D>::Facet& facet,
+                      std::size_t first, const ReproducingKernel<D>& kernel,
+                      const NearCandidates<D>& candidates, std::size_t& next,
+                      std::vector<Flux<D>>& flux) {
+  std::array<Flux<D>, 4> weight;
+  std::array<int, 4> lane{};
+  std::size_t count = 0;
+  for (; next < facet.end && samples.facet_points[next].number < first + 4; ++next, ++count) {
+    const auto& [number, dA] = samples.facet_points[next];
+    lane[count] = static_cast<int>(number - first);
+    weight[count] = Flux<D>(dA, samples.X[number] - facet.centre);
+  }
+  if (count == 4) return add_four<D>(kernel, candidates, weight, flux);
+  const auto numbers = candidates.numbers();
+  for (std::size_t p = 0; p < count; ++p)
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      at(flux, numbers[k]).add(kernel.value(k)[lane[p]], weight[p]);
+}
+
+/// Integrals over the volume and through the facets of a cell: each point is evaluated once for all
+/// of them.
+template <int D>
+void add_integrals(const Body<D>& body, const CellSamples<D>& samples,
+                   NearCandidates<D>& candidates, std::vector<VolumeIntegral>& volume,
+                   std::span<std::vector<Flux<D>>> facets) {
+  thread_local std::vector<std::size_t> next;  // [facet] its first point that is to come
+  next.clear();
+  for (const auto& facet : samples.facets) next.push_back(facet.begin);
+  for_fours<D>(
+      body, samples.X, candidates, [&](std::size_t first, const ReproducingKernel<D>& kernel) {
+        if (first < samples.volume_w.size()) {
+          std::array<Real, 4> w{};
+          for (std::size_t q = first; q < std::min(first + 4, samples.volume_w.size()); ++q)
+            w[q - first] = samples.volume_w[q];
+          add_four<D>(kernel, candidates, w, volume);
+        }
+        for (std::size_t f = 0; f < facets.size(); ++f)
+          add_facet_points(samples, samples.facets[f], first, kernel, candidates, next[f],
+                           facets[f]);
+      });
 }
 
 /// The candidates with a flux that is not zero.
@@ -198,17 +246,11 @@ template <int D>
 void integrate_samples(const Body<D>& body, Index cell, const CellSamples<D>& samples,
                        OwnItems block, NearCandidates<D>& candidates, CellIntegrals<D>& own) {
   own.volume.assign(own.candidates.size(), {});
-  add_integrals<D, Real>(body, samples.volume_X, samples.volume_w, candidates, own.volume);
   thread_local std::vector<std::vector<Flux<D>>> facets;
   thread_local std::vector<Index> numbers;
   facets.resize(samples.facets.size());
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const auto& facet = samples.facets[f];
-    const std::size_t count = facet.end - facet.begin;
-    integrate_fluxes<D>(body, std::span(samples.facet_X).subspan(facet.begin, count),
-                        std::span(samples.facet_dA).subspan(facet.begin, count), facet.centre,
-                        candidates, facets[f]);
-  }
+  for (auto& flux : facets) flux.assign(own.candidates.size(), {});
+  add_integrals<D>(body, samples, candidates, own.volume, facets);
   MissingMoments<D>(body, cell, samples).add(candidates, own.volume, facets);
 
   std::size_t shared = 0;
@@ -247,9 +289,8 @@ void sample(const Body<D>& body, Index cell, Index first, SampledCell<D>& sample
   sampled.boundary.facet_dA.clear();
   if (body.loaded_faces) body.cells.boundary_points(cell, sampled.boundary);
   const Vec<D>& centroid = body.cells.centroid(cell);
-  sampled.reach = std::max({reach<D>(sampled.samples.volume_X, centroid),
-                            reach<D>(sampled.samples.facet_X, centroid),
-                            reach<D>(sampled.boundary.facet_X, centroid)});
+  sampled.reach =
+      std::max(reach<D>(sampled.samples.X, centroid), reach<D>(sampled.boundary.facet_X, centroid));
 }
 
 /// The end of the group that begins with the first of these cells, and the mean of its centroids.

@@ -38,6 +38,9 @@ struct Flux {
     for (int lane = 0; lane < 4; ++lane)
       for (int K = 0; K < D; ++K) at(moment, K) += N[lane] * at(at(weight, lane).moment, K);
   }
+  void add(Real N, const Flux& weight) {
+    for (int K = 0; K < D; ++K) at(moment, K) += N * at(weight.moment, K);
+  }
   /// Adds `sign` times another one, whose arms begin at Xf + arm; `from_centre`: (0, arm).
   void add_moved(const Flux& other, Lanes from_centre, Real sign) {
     for (int K = 0; K < D; ++K) {

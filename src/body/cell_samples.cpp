@@ -54,29 +54,38 @@ Index node_of(const typename Grid<D>::Cell& cell, int corner, int k) {
   return at(cell, corner_along<D>(cell, corner, k));
 }
 
-/// Numbers of points, the same for one that several parts of a nodal cell have.
+/// The number of a point of a part among the samples; a new one at X where no part before has it.
 template <int D>
-class SharedPlaces {
- public:
-  /// `next`: that of a new one.
-  std::size_t number(const typename Grid<D>::Cell& cell, int corner,
-                     const typename SampleTable<D>::Places& places, std::size_t next) {
-    if (std::find(places.begin(), places.end(), 0) == places.end()) return next;
-    Key key{};  // which particles it lies towards, and how far: the same from each part
+std::size_t number_of(const typename Grid<D>::Cell& cell, int corner,
+                      const typename SampleTable<D>::Places& places, const Vec<D>& X,
+                      CellSamples<D>& samples) {
+  using Table = SampleTable<D>;
+  const auto is = [](int number) { return [number](int place) { return place == number; }; };
+  std::array<Index, D> key;
+  key.fill(-1);
+  if (std::any_of(places.begin(), places.end(), is(0)) ||
+      std::all_of(places.begin(), places.end(), is(Table::end))) {
+    key.fill(0);  // which particles it lies towards, and how far: the same from each part
     for (int k = 0; k < D; ++k)
       if (at(places, k) != 0)
-        at(key, k) = 1 + at(places, k) + SampleTable<D>::distances * node_of<D>(cell, corner, k);
+        at(key, k) = 1 + at(places, k) + Table::distances * node_of<D>(cell, corner, k);
     std::sort(key.begin(), key.end());
-    for (const auto& [other, number] : seen_)
-      if (other == key) return number;
-    seen_.push_back({key, next});
-    return next;
+    const auto found = std::find(samples.key.begin(), samples.key.end(), key);
+    if (found != samples.key.end()) return static_cast<std::size_t>(found - samples.key.begin());
   }
+  samples.key.push_back(key);
+  samples.X.push_back(X);
+  return samples.X.size() - 1;
+}
 
- private:
-  using Key = std::array<Index, D>;
-  std::vector<std::pair<Key, std::size_t>> seen_;
-};
+/// Fills up fours, so that the next points are in one.
+template <int D>
+void fill_up(CellSamples<D>& samples) {
+  while (samples.X.size() % Lanes::width != 0) {
+    samples.X.push_back(samples.X.back());
+    samples.key.emplace_back().fill(-1);
+  }
+}
 
 /// Points of a facet, one per lane, with the normals times weights of each.
 template <int D>
@@ -200,24 +209,17 @@ void NodalCells<D>::sample_volume(Index node, const ParticleSet<D>& particles,
 
 template <int D>
 Real NodalCells<D>::missing_of_volume(Index node, Sharing sharing, CellSamples<D>& samples) const {
-  samples.volume_X.clear();
+  samples.resize(0);
   samples.volume_w.clear();
-  SharedPlaces<D> seen;
   for (const auto& [cell, corner] : octants_.of(node)) {
     const CellMap<D> map(*grid_, cell);
     const int own = map.simplex() ? simplex_corner<D>(corner) : corner;
     for (const auto& p :
          SampleTable<D>::of(map.simplex()).volume(own, kind(cell, corner, sharing))) {
       const CellPoint<D, D> point = map(p.at);
-      const Real w = p.at.w * determinant<D>(point.J);
-      const std::size_t q =
-          seen.number(at(grid_->cells, cell), corner, p.places, samples.volume_X.size());
-      if (q < samples.volume_X.size()) {
-        samples.volume_w[q] += w;
-        continue;
-      }
-      samples.volume_X.push_back(point.X);
-      samples.volume_w.push_back(w);
+      const std::size_t q = number_of(at(grid_->cells, cell), corner, p.places, point.X, samples);
+      samples.volume_w.resize(samples.X.size(), 0);
+      samples.volume_w[q] += p.at.w * determinant<D>(point.J);
     }
   }
   samples.volume_exact = are_even(octants_.of(node), -1);
@@ -226,8 +228,8 @@ Real NodalCells<D>::missing_of_volume(Index node, Sharing sharing, CellSamples<D
   auto& missing = samples.volume_missing;
   missing.fill(0);
   Real radius = 0;
-  for (std::size_t q = 0; q < samples.volume_X.size(); ++q) {
-    const Vec<D> arm = samples.volume_X[q] - at(centroid_, node);
+  for (std::size_t q = 0; q < samples.volume_w.size(); ++q) {
+    const Vec<D> arm = samples.X[q] - at(centroid_, node);
     add_monomials<D, 2, Real>(-samples.volume_w[q], arm, missing);
     radius = std::max(radius, arm.norm());
   }
@@ -245,30 +247,32 @@ void NodalCells<D>::sample_facet(Index node, std::span<const FacetPart> parts,
                                  const ParticleSet<D>& particles, CellSamples<D>& samples) const {
   auto& facet = samples.facets.emplace_back();
   facet.neighbor = parts.front().neighbor;
-  facet.begin = samples.facet_X.size();
+  facet.begin = samples.facet_points.size();
   // Seen from either side, so that a body and its mirror image have the same points.
   const auto is_long_part = [&](const FacetPart& p) {
     const int beyond = corner_along<D>(at(grid_->cells, p.cell), p.corner, p.k);
     return is_long(node, p.cell, p.corner, particles) ||
            (p.neighbor != no_neighbor && is_long(p.neighbor, p.cell, beyond, particles));
   };
-  if (std::any_of(parts.begin(), parts.end(), is_long_part) ||
-      missing_of_facet(parts, Sharing::whole, samples) > most_missing)
-    missing_of_facet(parts, Sharing::parts, samples);
+  const std::size_t before = samples.X.size();
+  if (std::none_of(parts.begin(), parts.end(), is_long_part)) {
+    if (missing_of_facet(parts, Sharing::whole, samples) <= most_missing) return;
+    samples.resize(before);
+  }
+  missing_of_facet(parts, Sharing::parts, samples);
 }
 
 template <int D>
 Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing sharing,
                                      CellSamples<D>& samples) const {
   auto& facet = samples.facets.back();
-  samples.facet_X.resize(facet.begin);
-  samples.facet_dA.resize(facet.begin);
-  facet.centre.setZero();
+  auto& points = samples.facet_points;
+  points.resize(facet.begin);
   thread_local std::vector<FourFacetPoints<D>> exact;
   exact.clear();
   const bool outer = facet.neighbor == no_neighbor;
   facet.exact = !outer && are_even(parts, parts.front().k);
-  SharedPlaces<D> seen;
+  if (sharing == Sharing::whole) fill_up(samples);
   for (const FacetPart& part : parts) {
     const CellMap<D> map(*grid_, part.cell);
     if (!facet.exact) append_exact_points(map, part.corner, part.k, outer, exact);
@@ -281,19 +285,23 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
       const CellPoint<D, D> point = map(p.at);
       const Vec<D> dA = table.sign * p.at.w * facet_normal<D>(point.J, part.k);
       const std::size_t q =
-          facet.begin + seen.number(at(grid_->cells, part.cell), part.corner, p.places,
-                                    samples.facet_X.size() - facet.begin);
-      if (q < samples.facet_X.size()) {
-        samples.facet_dA[q] += dA;
-        continue;
-      }
-      samples.facet_X.push_back(point.X);
-      samples.facet_dA.push_back(dA);
-      facet.centre += point.X;
+          number_of(at(grid_->cells, part.cell), part.corner, p.places, point.X, samples);
+      const auto begin = points.begin() + static_cast<std::ptrdiff_t>(facet.begin);
+      const auto same =
+          std::find_if(begin, points.end(), [q](const auto& of) { return of.number == q; });
+      if (same == points.end())
+        points.push_back({q, dA});
+      else
+        same->dA += dA;
     }
   }
-  facet.end = samples.facet_X.size();
-  facet.centre /= static_cast<Real>(facet.end - facet.begin);
+  facet.end = points.size();
+  const std::span own_points(points.data() + facet.begin, facet.end - facet.begin);
+  std::sort(own_points.begin(), own_points.end(),
+            [](const auto& a, const auto& b) { return a.number < b.number; });
+  facet.centre.setZero();
+  for (const auto& point : own_points) facet.centre += samples.X[point.number];
+  facet.centre /= static_cast<Real>(own_points.size());
   if (facet.exact) return 0;
 
   std::array<Lanes, std::tuple_size_v<typename CellSamples<D>::template Missing<3>>> missing;
@@ -302,11 +310,11 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
     add_monomials<D, 3>(dA, X - facet.centre, missing);
   };
   Real area = 0, radius = 0;
-  for (std::size_t q = facet.begin; q < facet.end; ++q) {
-    const Vec<D>& dA = samples.facet_dA[q];
-    add(samples.facet_X[q], -Lanes(dA[0], dA[1], D == 3 ? dA[D - 1] : 0.0, 0.0));
+  for (const auto& [number, dA] : own_points) {
+    const Vec<D>& X = samples.X[number];
+    add(X, -Lanes(dA[0], dA[1], D == 3 ? dA[D - 1] : 0.0, 0.0));
     area += dA.norm();
-    radius = std::max(radius, (samples.facet_X[q] - facet.centre).norm());
+    radius = std::max(radius, (X - facet.centre).norm());
   }
   for (const FourFacetPoints<D>& four : exact)
     for (int lane = 0; lane < four.count; ++lane) {

@@ -10,6 +10,7 @@
 #include "meniscus/core/unroll.hpp"
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace meniscus {
@@ -214,14 +215,15 @@ class SimplexTable {
 /// points per direction, of which the part has one where a cell beyond the particle continues it.
 /// Volumes: three per direction, of which one is at the particle, shared, and one further out; at
 /// the boundary of the body the part has all three; hexahedra that are continued in all directions:
-/// the 14 points of Irons (1971), exact up to the fifth degree as well. Or two Gauss points of the
-/// part's own in each direction.
+/// the 14 points of Irons (1971), exact up to the fifth degree as well. Or for each part by itself
+/// its corners and its middle, exact up to the third degree, of which the corners are those of
+/// other parts, cells and facets as well; in the plane two Gauss points per direction.
 template <int D>
 class SampleTable {
  public:
   /// Where in direction k: 0 at the particle, otherwise a number per distance from it.
   using Places = std::array<int, D>;
-  static constexpr int distances = 4;
+  static constexpr int end = 4, on_axis = 5, distances = 6;
   /// The kind of parts with points of their own.
   static constexpr unsigned apart = 1 << D;
   struct Point {
@@ -261,7 +263,7 @@ class SampleTable {
         volume_.push_back(points(simplex, corner, kind, {}));
         for (int k = 0; k < D; ++k) {
           const Real sign = simplex ? 1 : -corner_sign(corner, k);
-          facet_.push_back({points(simplex, corner, kind, {k, {1, 1, 1}}), sign});
+          facet_.push_back({points(simplex, corner, kind, {k, {end, 1, 1}}), sign});
           outer_facet_.push_back({points(simplex, corner, kind, {k, {0, -1, 1}}), -sign});
         }
       }
@@ -314,6 +316,24 @@ class SampleTable {
     return products;
   }
 
+  /// The corners, with a third of the weight, and the middle.
+  static std::vector<Product> corners_and_middle(const Across& across) {
+    std::vector<Product> products;
+    const auto add = [&](const auto& abscissa, Real w) {
+      Product p{Vec<D>::Zero(), w, {}};
+      for (int k = 0; k < D; ++k)
+        std::tie(p.t[k], meniscus::at(p.places, k)) =
+            k == across.direction ? std::pair(across.where.t, across.where.place) : abscissa(k);
+      products.push_back(p);
+    };
+    const bool volume = across.direction < 0;
+    for (int c = 0; c < (1 << D); ++c)
+      if (volume || ((c >> across.direction) & 1) == 0)
+        add([c](int k) { return (c >> k) & 1 ? std::pair(1., end) : std::pair(-1., 0); }, 1. / 3);
+    add([](int) { return std::pair(0., 2); }, 2. / 3 * static_cast<Real>(products.size()));
+    return products;
+  }
+
   /// In one octant: the point towards the corner, and those on the axes, which four octants share.
   static std::vector<Product> irons_points() {
     const Real corner = std::sqrt(19. / 33), axis = std::sqrt(19. / 30);
@@ -323,7 +343,7 @@ class SampleTable {
     for (int k = 0; k < D; ++k) {
       Product p{Vec<D>::Constant(-1), 8 * 80. / 361, {}};
       p.t[k] = 2 * axis - 1;
-      meniscus::at(p.places, k) = 2;
+      meniscus::at(p.places, k) = on_axis;
       products.push_back(p);
     }
     return products;
@@ -331,7 +351,9 @@ class SampleTable {
 
   static Points points(bool simplex, int corner, unsigned kind, const Across& across) {
     const bool volume = across.direction < 0, irons = D == 3 && !simplex && kind == 0 && volume;
-    const std::vector<Product> products = irons ? irons_points() : tensor_points(kind, across);
+    const std::vector<Product> products = irons                     ? irons_points()
+                                          : D == 3 && kind == apart ? corners_and_middle(across)
+                                                                    : tensor_points(kind, across);
     Points points;
     for (const Product& p : products) {
       if (simplex) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples of nodal cells: with what they are said to miss, they integrate as exact rules do, and
-// they are said to miss nothing where the cells around are equal and complete.
+// Samples of nodal cells: with what they are said to miss, they integrate as exact rules do, they
+// are said to miss nothing where the cells around are equal and complete, and they are few.
 #include "meniscus/approx/monomials.hpp"
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/body/shapes.hpp"
@@ -71,8 +71,8 @@ void check_volume(const NodalCells<D>& cells, Index node, const CellQuadrature<D
       sums[k].scale += q.volume_w[p] * std::abs(f[k]);
     }
   }
-  for (std::size_t p = 0; p < samples.volume_X.size(); ++p) {
-    const auto f = monomials<D, 2>(samples.volume_X[p] - centre);
+  for (std::size_t p = 0; p < samples.volume_w.size(); ++p) {
+    const auto f = monomials<D, 2>(samples.X[p] - centre);
     for (std::size_t k = 0; k < f.size(); ++k) sums[k].sampled += samples.volume_w[p] * f[k];
   }
   for (std::size_t k = 0; k < sums.size(); ++k) {
@@ -100,10 +100,10 @@ void check_facets(const NodalCells<D>& cells, Index node, const CellQuadrature<D
   for (const auto& facet : samples.facets) {
     exact = exact && facet.exact;
     for (std::size_t p = facet.begin; p < facet.end; ++p) {
-      const auto f = monomials<D, 3>(samples.facet_X[p] - centre);
+      const auto& [number, dA] = samples.facet_points[p];
+      const auto f = monomials<D, 3>(samples.X[number] - centre);
       for (int K = 0; K < D; ++K)
-        for (std::size_t k = 0; k < f.size(); ++k)
-          at(sums, K)[k].sampled += samples.facet_dA[p][K] * f[k];
+        for (std::size_t k = 0; k < f.size(); ++k) at(sums, K)[k].sampled += dA[K] * f[k];
     }
     if (facet.exact) continue;
     for (int K = 0; K < D; ++K) {
@@ -149,6 +149,33 @@ void expect_brick() {
 TEST(CellSamples, MissNothingInABrick) {
   expect_brick<2>();
   expect_brick<3>();
+}
+
+/// The mean over the cells inside a body of how often all shape functions are evaluated: at each
+/// point, and once for what the volume misses and each facet, which is one of two cells.
+Real evaluations(const Grid<3>& grid) {
+  const NodalCells<3> cells(grid);
+  const ParticleSet<3> particles(grid.X, 2.6, Window::cubic_spline);
+  std::vector<bool> inside(grid.X.size(), true);
+  for (const auto& facet : grid.facets)
+    for (const Index node : facet.nodes) inside[static_cast<std::size_t>(node)] = false;
+  std::size_t count = 0, evaluated = 0;
+  CellSamples<3> samples;
+  for (Index node = 0; node < cells.size(); ++node) {
+    if (!inside[static_cast<std::size_t>(node)]) continue;
+    ++count;
+    cells.sample(node, 0, particles, true, samples);
+    evaluated += samples.X.size() + (samples.volume_exact ? 0 : 1);
+    for (const auto& facet : samples.facets) evaluated += facet.exact ? 0 : 1;
+  }
+  return static_cast<Real>(evaluated) / static_cast<Real>(count);
+}
+
+/// With points of their own the octants of uneven cells had 116.
+TEST(CellSamples, AreFewInUnevenCells) {
+  EXPECT_LT(evaluations(test::brick<3>({8, 8, 8}).grid), 30);
+  EXPECT_LT(evaluations(test::brick<3>({8, 8, 8}, 0.3).grid), 54);
+  EXPECT_LT(evaluations(test::ball(5, 3).grid), 54);
 }
 
 /// Equal cells that leave a gap: what the rule would have beyond the particle is not there. In the

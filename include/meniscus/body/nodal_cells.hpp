@@ -36,20 +36,28 @@ struct CellQuadrature {
 
 /// Few points for the integrals of smooth functions over one nodal cell, over the facets between it
 /// and other nodal cells, and over its part of the boundary of the body: as many as are exact up to
-/// the fifth degree in equal parallelepipeds, and to the third in their facets; two per direction
-/// of each octant where octants are unequal or long beside the supports. What sums over them miss
-/// of the integrals of polynomials goes with them (RKPM note 5.6). Reused from node to node.
+/// the fifth degree in equal parallelepipeds, and to the third in their facets; corners and middle
+/// of each octant (in the plane two per direction) where octants are unequal or long beside the
+/// supports. What sums over them miss of the integrals of polynomials goes with them (RKPM
+/// note 5.6). Reused from node to node.
 template <int D>
 struct CellSamples {
   /// Integral minus sum, for the monomials of X - centre up to `degree`.
   template <int degree>
   using Missing = std::array<Real, static_cast<std::size_t>(monomial_count(D, degree))>;
 
-  std::vector<Vec<D>> volume_X;
-  std::vector<Real> volume_w;
-  Missing<2> volume_missing;  ///< centre: the centroid
-  bool volume_exact = true;   ///< nothing but rounding is missing
+  /// Of the volume and the facets: each point once, whichever of them have it. Points that only
+  /// fill up fours, so that those of a facet come together, are of none.
+  std::vector<Vec<D>> X;
+  std::vector<std::array<Index, D>> key;  ///< the same for the same place; none: -1
+  std::vector<Real> volume_w;             ///< of the first points; the others have none
+  Missing<2> volume_missing;              ///< centre: the centroid
+  bool volume_exact = true;               ///< nothing but rounding is missing
 
+  struct FacetPoint {
+    std::size_t number;  ///< in X
+    Vec<D> dA;           ///< outward normal times weight
+  };
   struct Facet {
     Index neighbor;                     ///< the other nodal cell; -1: the boundary of the body
     std::size_t begin, end;             ///< its points
@@ -57,17 +65,20 @@ struct CellSamples {
     std::array<Missing<3>, D> missing;  ///< [K] with n_K dA
     bool exact;
   };
-  std::vector<Facet> facets;  ///< by ascending neighbor
-  std::vector<Vec<D>> facet_X;
-  std::vector<Vec<D>> facet_dA;  ///< outward normal times weight
+  std::vector<Facet> facets;             ///< by ascending neighbor
+  std::vector<FacetPoint> facet_points;  ///< of each facet by ascending number
 
+  /// Without points from this one on.
+  void resize(std::size_t count) {
+    X.resize(count);
+    key.resize(count);
+  }
   void clear() {
-    volume_X.clear();
+    resize(0);
     volume_w.clear();
     volume_exact = true;
     facets.clear();
-    facet_X.clear();
-    facet_dA.clear();
+    facet_points.clear();
   }
 };
 
