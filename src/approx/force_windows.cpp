@@ -2,8 +2,6 @@
 // Chunks of rows, the particles that they touch, and the ordered sum.
 #include "meniscus/approx/force_windows.hpp"
 
-#include "meniscus/core/divided.hpp"
-
 #include <algorithm>
 #include <numeric>
 
@@ -30,12 +28,14 @@ std::vector<Index> distinct(std::span<const Index> particle, Index particles) {
 }  // namespace
 
 ForceWindows::ForceWindows(std::span<const Offset> start, std::span<const Index> particle,
-                           Index particles)
-    : particles_(particles), pairs_(start.empty() ? 0 : start.back()) {
+                           Index particles, const Division& division)
+    : division_(division),
+      chunks_(chunk_count(static_cast<Index>(start.size()) - 1)),
+      particles_(particles),
+      pairs_(start.empty() ? 0 : start.back()) {
   find_touched(start, particle);
-  chunks_ = own_.empty() ? 0 : own_.back().number + 1;
   if (!ranks().alone()) {
-    shared_ = std::make_shared<SharedWindows>(own_, touched_, start, particles);
+    shared_ = std::make_shared<SharedWindows>(own_, touched_, start, particles, division);
     own_ = shared_->own();
     pairs_ = shared_->pairs();
     order_by_particle(shared_->summed(), shared_->summed_particles());
@@ -50,14 +50,14 @@ ForceWindows::ForceWindows(std::span<const Offset> start, std::span<const Index>
 
 void ForceWindows::find_touched(std::span<const Offset> start, std::span<const Index> particle) {
   const auto rows = static_cast<Index>(start.size()) - 1;
-  for (int c = 0; c < chunk_count(rows); ++c)
+  for (int c = 0; c < chunks_; ++c)
     if (chunk_begin(rows, c) < chunk_begin(rows, c + 1))
       own_.push_back({c, chunk_begin(rows, c), chunk_begin(rows, c + 1), 0, 0});
   std::vector<std::vector<Index>> touched(own_.size());
   parallel_for(
       static_cast<Index>(own_.size()),
       [&](Index c) {
-        if (rank_of_item(chunk_count(rows), at(own_, c).number) != ranks().rank()) return;
+        if (division_.rank_of_item(chunks_, at(own_, c).number) != ranks().rank()) return;
         const Offset begin = at(start, at(own_, c).begin), end = at(start, at(own_, c).end);
         at(touched, c) = distinct(particle.subspan(static_cast<std::size_t>(begin),
                                                    static_cast<std::size_t>(end - begin)),

@@ -64,14 +64,14 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, 
       window_(window),
       search_(X_),
       pressed_(press(stretch, X_)) {
-  const OwnItems own = own_rows(size());
+  const OwnItems own = evenly.own_rows(size());
   parallel_for(own.end - own.begin, [&](Index k) {
     const Index A = own.begin + k;
     // The particle is its own nearest point.
     at(support_, A) =
         rule.factor * kernel_search().distance_of_nearest(at(kernel_X(), A), rule.rank + 1);
   });
-  complete_rows(size(), support_.data(), sizeof(Real));
+  evenly.complete_rows(size(), support_.data(), sizeof(Real));
   for (const Real support : support_) largest_support_ = std::max(largest_support_, support);
 }
 
@@ -164,7 +164,7 @@ void ParticleSet<D>::find_quality(std::span<const Vec<D>> points, std::span<cons
   const auto count = static_cast<Index>(numbers.size());
   using Qualities = std::array<Real, together>;
   std::vector<Qualities> found(static_cast<std::size_t>((count + together - 1) / together));
-  const OwnItems own = own_rows(static_cast<Index>(found.size()));
+  const OwnItems own = evenly.own_rows(static_cast<Index>(found.size()));
   parallel_for(own.end - own.begin, [&](Index item) {
     const Index batch = own.begin + item;
     thread_local std::vector<Candidate<D>> reaching;
@@ -187,7 +187,7 @@ void ParticleSet<D>::find_quality(std::span<const Vec<D>> points, std::span<cons
             enough ? std::max(0.0, kernel.quality()[k - first]) : 0.0;
     }
   });
-  complete_rows(static_cast<Index>(found.size()), found.data(), sizeof(Qualities));
+  evenly.complete_rows(static_cast<Index>(found.size()), found.data(), sizeof(Qualities));
   for (Index k = 0; k < count; ++k)
     at(quality, at(numbers, k)) = at(at(found, k / together), k % together);
 }

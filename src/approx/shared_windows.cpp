@@ -2,28 +2,27 @@
 // Which rank does which chunks and adds up the sums of which particles.
 #include "meniscus/approx/shared_windows.hpp"
 
-#include "meniscus/core/divided.hpp"
-
 #include <algorithm>
 
 namespace meniscus {
 
 SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Index> touched,
-                             std::span<const Offset> start, Index particles) {
+                             std::span<const Offset> start, Index particles,
+                             const Division& division) {
   // As all rows of the body, whoever does these: what a rank adds up it has to follow.
-  for (int rank = 0; rank <= ranks().size(); ++rank) border_.push_back(first_row(particles, rank));
-  numbers_ = chunks.empty() ? 0 : chunks.back().number + 1;
-  const Touched by_chunks = touched_by_chunks(chunks, touched, start);
+  for (int rank = 0; rank <= ranks().size(); ++rank)
+    border_.push_back(division.first_row(particles, rank));
+  const Touched by_chunks = touched_by_chunks(chunks, touched, start, division);
   share_windows(chunks, by_chunks);
   remember_touched(by_chunks);
   particles_ = exchange_of_forces();
-  share_results(chunks);
 }
 
 /// Who does which chunk is known before its rows are.
 SharedWindows::Touched SharedWindows::touched_by_chunks(const std::vector<WindowChunk>& chunks,
                                                         std::span<const Index> touched,
-                                                        std::span<const Offset> start) {
+                                                        std::span<const Offset> start,
+                                                        const Division& division) {
   struct Size {
     Index sums;
     Offset pairs;
@@ -31,12 +30,12 @@ SharedWindows::Touched SharedWindows::touched_by_chunks(const std::vector<Window
   const int count = chunk_count(static_cast<Index>(start.size()) - 1);
   std::vector<Size> size(static_cast<std::size_t>(count));
   for (const WindowChunk& chunk : chunks) {
-    rank_.push_back(rank_of_item(count, chunk.number));
+    rank_.push_back(division.rank_of_item(count, chunk.number));
     if (rank_.back() == ranks().rank())
       at(size, chunk.number) = {chunk.sum_end - chunk.sum,
                                 at(start, chunk.end) - at(start, chunk.begin)};
   }
-  complete_items(count, size.data(), sizeof size[0]);
+  division.complete_items(count, size.data(), sizeof size[0]);
   Touched by_chunks;
   for (std::size_t k = 0; k < chunks.size(); ++k) {
     const Size& found = at(size, chunks[k].number);
@@ -103,16 +102,6 @@ void SharedWindows::mark_touched(std::span<std::uint8_t> particles) const {
 void SharedWindows::mark_summed(std::span<std::uint8_t> particles) const {
   const ItemRange summed = summed_particles();
   std::fill(particles.begin() + summed.begin, particles.begin() + summed.end, std::uint8_t{1});
-}
-
-void SharedWindows::share_results(const std::vector<WindowChunk>& chunks) {
-  std::vector<Leaf> leaves;
-  for (std::size_t k = 0; k < chunks.size(); ++k) {
-    if (rank_[k] == ranks().rank()) continue;
-    foreign_.push_back(chunks[k].number);
-    leaves.push_back({chunks[k].number, rank_[k], chunks[k].number});
-  }
-  chunks_ = ranks().exchange(numbers_, leaves);
 }
 
 }  // namespace meniscus

@@ -272,7 +272,7 @@ CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, Own
 
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision) {
-  return build_cell_rule(body, precision, own_rows(body.size()));
+  return build_cell_rule(body, precision, body.division.own_rows(body.size()));
 }
 
 #define MENISCUS_INSTANTIATE(D)                                           \

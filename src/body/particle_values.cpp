@@ -24,7 +24,8 @@ NodalVectors values_at_particles(const Body<D>& body, const NodalVector* c,
   // Where in `which` the particles of a rank begin.
   const auto begin_of = [&](int rank) {
     return static_cast<Index>(
-        std::lower_bound(which.begin(), which.end(), first_row(body.size(), rank)) - which.begin());
+        std::lower_bound(which.begin(), which.end(), body.division.first_row(body.size(), rank)) -
+        which.begin());
   };
   const Index begin = begin_of(ranks().rank());
   parallel_for(begin_of(ranks().rank() + 1) - begin, [&](Index k) {
@@ -47,13 +48,13 @@ std::shared_ptr<const PointRows<D>> rows_of_all_particles(const Body<D>& body) {
   std::vector<Index> length(static_cast<std::size_t>(body.size()));
   for (Index A = 0; A < body.size(); ++A)
     at(length, A) = static_cast<Index>(at(own.start, A + 1) - at(own.start, A));
-  complete_rows(body.size(), length.data(), sizeof(Index));
+  body.division.complete_rows(body.size(), length.data(), sizeof(Index));
   for (const Index count : length) all.start.push_back(all.start.back() + count);
   all.particle.resize(static_cast<std::size_t>(all.entries()));
   all.value.resize(all.particle.size());
   for (int rank = 0; rank < ranks().size(); ++rank) {
-    const Offset first = at(all.start, first_row(body.size(), rank)),
-                 count = at(all.start, first_row(body.size(), rank + 1)) - first;
+    const Offset first = at(all.start, body.division.first_row(body.size(), rank)),
+                 count = at(all.start, body.division.first_row(body.size(), rank + 1)) - first;
     if (rank == ranks().rank()) {
       std::copy_n(own.particle.begin(), count, all.particle.begin() + first);
       std::copy_n(own.value.begin(), count, all.value.begin() + first);

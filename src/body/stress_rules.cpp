@@ -32,8 +32,9 @@ PointRule<D> make_point_rule(const Body<D>& body, std::span<const Vec<D>> points
                              std::vector<Real> weight, Index per_group) {
   const auto n = static_cast<Index>(points.size());
   const Index groups = (n + per_group - 1) / per_group;
-  const OwnItems own_groups = own_rows(groups), own{std::min(n, own_groups.begin * per_group),
-                                                    std::min(n, own_groups.end * per_group)};
+  const OwnItems own_groups = body.division.own_rows(groups),
+                 own{std::min(n, own_groups.begin * per_group),
+                     std::min(n, own_groups.end * per_group)};
   PointRule<D> rule;
   rule.per_group = per_group;
   on_each_rank([&] {
@@ -45,8 +46,8 @@ PointRule<D> make_point_rule(const Body<D>& body, std::span<const Vec<D>> points
     const Index q = own.begin + k;
     at(rule.point_owner, q) = nearest<D>(body, rule.rows, q, at(points, q));
   });
-  complete_rows(groups, rule.point_owner.data(),
-                static_cast<std::size_t>(per_group) * sizeof(Index));
+  body.division.complete_rows(groups, rule.point_owner.data(),
+                              static_cast<std::size_t>(per_group) * sizeof(Index));
   rule.point_owner.resize(points.size());
   return rule;
 }

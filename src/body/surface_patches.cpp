@@ -57,7 +57,7 @@ SurfacePatches<D>::SurfacePatches(const Body<D>& body)
       patches_(static_cast<Index>(body.geometry.grid.facets.size())) {
   number_points(body.geometry);
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
-  windows_ = {rows_.start, rows_.particle, body.size()};
+  windows_ = {rows_.start, rows_.particle, body.size(), body.division};
   list_shares();
   x_.assign(X_.size(), Lanes::zero());
   for (Index q = 0; q < point_count(); ++q) set_vector<D>(x_, q, at(X_, q));

@@ -1,67 +1,113 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Items divided evenly between the ranks, and their exchanges by the number of items.
+// Items and rows divided between the ranks, and what each has of them brought to all.
 #include "meniscus/core/divided.hpp"
 
-#include <map>
+#include <algorithm>
+#include <numeric>
 
 namespace meniscus {
 namespace {
 
-Index first_item(Index n, int rank) {
-  return static_cast<Index>(static_cast<Offset>(n) * rank / ranks().size());
-}
-
-Exchange& exchange_of(Index n) {
-  constexpr std::size_t most = 64;  // lists of contacts have ever new lengths
-  static std::map<Index, std::unique_ptr<Exchange>> known;
-  if (known.size() > most) known.clear();
-  std::unique_ptr<Exchange>& exchange = known[n];
-  if (exchange) return *exchange;
-  std::vector<Leaf> leaves;
-  for (int rank = 0; rank < ranks().size(); ++rank)
-    for (Index k = first_item(n, rank); k < first_item(n, rank + 1); ++k)
-      if (rank != ranks().rank()) leaves.push_back({k, rank, k});
-  exchange = ranks().exchange(n, leaves);
-  return *exchange;
+/// Brings parts of an array of values, of rank r those from first(r) to first(r + 1).
+template <class First>
+void gather(void* values, std::size_t bytes_per_value, First&& first) {
+  static std::vector<std::size_t> begin;
+  begin.clear();
+  for (int rank = 0; rank <= ranks().size(); ++rank)
+    begin.push_back(static_cast<std::size_t>(first(rank)) * bytes_per_value);
+  ranks().gather(values, begin);
 }
 
 }  // namespace
 
-OwnItems own_items(Index n) {
+Index Division::first_item(Index n, int rank) const {
+  if (whole_ != none) return rank > whole_ ? n : 0;
+  return static_cast<Index>(static_cast<Offset>(n) * rank / ranks().size());
+}
+
+OwnItems Division::own_items(Index n) const {
   return {first_item(n, ranks().rank()), first_item(n, ranks().rank() + 1)};
 }
 
-Index first_row(Index n, int rank) {
-  return chunk_begin(n, first_item(chunk_count(n), rank));
-}
-
-int rank_of_item(Index n, Index item) {
+int Division::rank_of_item(Index n, Index item) const {
+  if (whole_ != none) return whole_;
   auto rank = static_cast<int>(static_cast<Offset>(item) * ranks().size() / n);
   while (item >= first_item(n, rank + 1)) ++rank;
   return rank;
 }
 
-OwnItems own_rows(Index n) {
+void Division::complete_items(Index n, void* values, std::size_t bytes_per_value) const {
+  if (ranks().alone()) return;
+  if (whole_ != none)
+    ranks().hand_out(whole_, values, static_cast<std::size_t>(n) * bytes_per_value);
+  else
+    gather(values, bytes_per_value, [&](int rank) { return first_item(n, rank); });
+}
+
+Index Division::first_row(Index n, int rank) const {
+  return chunk_begin(n, first_item(chunk_count(n), rank));
+}
+
+OwnItems Division::own_rows(Index n) const {
   return {first_row(n, ranks().rank()), first_row(n, ranks().rank() + 1)};
 }
 
-void complete_rows(Index n, void* values, std::size_t bytes_per_value) {
-  auto* bytes = static_cast<std::byte*>(values);
-  for (int rank = 0; rank < ranks().size(); ++rank) {
-    const std::size_t begin = static_cast<std::size_t>(first_row(n, rank)) * bytes_per_value,
-                      end = static_cast<std::size_t>(first_row(n, rank + 1)) * bytes_per_value;
-    ranks().hand_out(rank, bytes + begin, end - begin);
-  }
-}
-
-int rank_of_row(Index n, Index row) {
+int Division::rank_of_row(Index n, Index row) const {
+  if (whole_ != none) return whole_;
   auto chunk = static_cast<int>(static_cast<Offset>(row) * chunk_count(n) / n);
   while (row >= chunk_begin(n, chunk + 1)) ++chunk;
   return rank_of_item(chunk_count(n), chunk);
 }
 
-void complete_items(Index n, void* values, std::size_t bytes_per_value) {
-  if (n > 0 && !ranks().alone()) exchange_of(n).bring(values, values, bytes_per_value);
+void Division::complete_rows(Index n, void* values, std::size_t bytes_per_value) const {
+  if (ranks().alone()) return;
+  if (whole_ != none)
+    ranks().hand_out(whole_, values, static_cast<std::size_t>(n) * bytes_per_value);
+  else
+    gather(values, bytes_per_value, [&](int rank) { return first_row(n, rank); });
+}
+
+namespace {
+
+/// The share of a rank that bodies up to `largest` rows leave the one with most if they are whole,
+/// and where they are.
+Real place_whole(std::span<const Index> rows, Index largest, std::vector<Division>& divisions) {
+  const int size = ranks().size();
+  Offset small = 0, all = 0;
+  for (const Index n : rows) {
+    all += n;
+    if (n <= largest) small += n;
+  }
+  std::vector<Real> load(static_cast<std::size_t>(size), static_cast<Real>(all - small) / size);
+  Offset before = 0;
+  for (std::size_t b = 0; b < rows.size(); ++b) {
+    divisions[b] = evenly;
+    if (rows[b] > largest) continue;
+    const auto rank = static_cast<int>((2 * before + rows[b]) * size / (2 * small));
+    divisions[b] = Division(rank);
+    at(load, rank) += rows[b];
+    before += rows[b];
+  }
+  return *std::max_element(load.begin(), load.end()) * size / static_cast<Real>(all);
+}
+
+}  // namespace
+
+std::vector<Division> divide(std::span<const Index> rows) {
+  std::vector<Division> divisions(rows.size());
+  if (ranks().alone()) return divisions;
+  constexpr Real bearable = 1.05;
+  const Offset all = std::accumulate(rows.begin(), rows.end(), Offset{0});
+  Index largest = static_cast<Index>(all / (4 * ranks().size()));
+  while (largest > 0 && place_whole(rows, largest, divisions) > bearable) {
+    // Without those that were the largest.
+    Index next = 0;
+    for (const Index n : rows)
+      if (n <= largest) next = std::max(next, n);
+    largest = next - 1;
+  }
+  if (largest <= 0) divisions.assign(rows.size(), evenly);
+  return divisions;
 }
 
 }  // namespace meniscus

@@ -6,21 +6,15 @@
 
 namespace meniscus {
 
-ParticleOwners::ParticleOwners(Index n, std::span<const Index> first)
-    : n_(n), first_(first.begin(), first.end()) {
-  std::vector<Leaf> leaves;
-  std::size_t body = 0;
+ParticleOwners::ParticleOwners(Index n, std::vector<Index> first, std::vector<Division> division)
+    : n_(n), first_(std::move(first)), division_(std::move(division)) {
   for (int c = 0; c < chunk_count(n); ++c) {
     const OwnItems chunk{chunk_begin(n, c), chunk_begin(n, c + 1)};
+    const int owner =
+        chunk.begin < chunk.end ? adds_up(chunk.begin + (chunk.end - chunk.begin) / 2) : 0;
+    chunks_.add(owner);
     if (chunk.begin == chunk.end) continue;
-    const Index middle = chunk.begin + (chunk.end - chunk.begin) / 2;
-    while (body + 1 < first.size() && first[body + 1] <= middle) ++body;
-    const Index begin = first[body], end = body + 1 < first.size() ? first[body + 1] : n;
-    const int owner = rank_of_row(end - begin, middle - begin);
-    if (owner == ranks().rank())
-      own_chunks_.push_back(c);
-    else
-      leaves.push_back({c, owner, c});
+    if (owner == ranks().rank()) own_chunks_.push_back(c);
     if (!runs_.empty() && runs_.back().owner == owner)
       runs_.back().particles.end = chunk.end;
     else
@@ -28,7 +22,6 @@ ParticleOwners::ParticleOwners(Index n, std::span<const Index> first)
   }
   for (const Run& run : runs_)
     if (run.owner == ranks().rank()) own_.push_back(run.particles);
-  chunks_ = ranks().exchange(chunk_count(n), leaves);
 }
 
 int ParticleOwners::owner(Index A) const {
@@ -40,11 +33,8 @@ int ParticleOwners::owner(Index A) const {
 int ParticleOwners::adds_up(Index A) const {
   const auto next = std::upper_bound(first_.begin(), first_.end(), A);
   const Index begin = *(next - 1), end = next == first_.end() ? n_ : *next;
-  return rank_of_row(end - begin, A - begin);
-}
-
-void ParticleOwners::complete_chunks(void* values, std::size_t bytes_per_value) const {
-  chunks_->bring(values, values, bytes_per_value);
+  return division_[static_cast<std::size_t>(next - first_.begin()) - 1].rank_of_row(end - begin,
+                                                                                    A - begin);
 }
 
 void ParticleOwners::complete(void* values, std::size_t bytes_per_value) const {

@@ -122,6 +122,20 @@ class PetscRanks final : public Ranks {
     traffic_.bytes += static_cast<std::int64_t>(bytes);
   }
 
+  /// In log2(P) rounds, of which a rank sends as much as it gets.
+  void gather(void* values, std::span<const std::size_t> begin) override {
+    constexpr std::size_t most = std::size_t{1} << 30;
+    if (begin.back() > most) return hand_out_in_turn(static_cast<std::byte*>(values), begin);
+    count_.clear();
+    for (std::size_t r = 0; r + 1 < begin.size(); ++r)
+      count_.push_back(static_cast<int>(begin[r + 1] - begin[r]));
+    begin_.assign(begin.begin(), begin.end());
+    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_BYTE, values, count_.data(), begin_.data(), MPI_BYTE,
+                   PETSC_COMM_WORLD);
+    traffic_.messages += rounds();
+    traffic_.bytes += begin_.back() - begin_.front() - count_[static_cast<std::size_t>(rank_)];
+  }
+
   std::unique_ptr<Exchange> exchange(Index roots, const std::vector<Leaf>& leaves) override {
     return std::make_unique<StarForest>(roots, leaves, traffic_);
   }
@@ -143,6 +157,17 @@ class PetscRanks final : public Ranks {
   Traffic traffic() const override { return traffic_; }
 
  private:
+  void hand_out_in_turn(std::byte* values, std::span<const std::size_t> begin) {
+    for (std::size_t r = 0; r + 1 < begin.size(); ++r)
+      hand_out(static_cast<int>(r), values + begin[r], begin[r + 1] - begin[r]);
+  }
+
+  int rounds() const {
+    int rounds = 0;
+    while ((1 << rounds) < size_) ++rounds;
+    return rounds;
+  }
+
   /// Whether it does while others may still be on the way.
   static bool comes_true(MPI_Request& request) {
     using namespace std::chrono;
@@ -163,6 +188,7 @@ class PetscRanks final : public Ranks {
 
   int rank_ = 0, size_ = 1;
   MPI_Comm at_the_end_ = MPI_COMM_NULL;
+  std::vector<int> count_, begin_;  // of gather(), [rank]
   Traffic traffic_;
 };
 

@@ -27,7 +27,7 @@ class BodyForce final : public ForceTerm {
   }
   void add_tangent(const Motion&, const Motion&, Forces) override {}  // the same everywhere
   bool tell_reads(StepReads& reads) override {
-    const OwnItems own = own_rows(body_.size());
+    const OwnItems own = body_.division.own_rows(body_.size());
     reads.range(body_.first + own.begin, body_.first + own.end);
     return true;
   }
@@ -40,8 +40,9 @@ class BodyForce final : public ForceTerm {
   Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
   Real load_power(const Motion& motion) override {
     evaluate(motion.time);
-    return divided_sum(body_.size(), 0.0,
-                       [&](Index A) { return sum(at(load_, A) * at(motion.v, body_.first + A)); });
+    return body_.division.sum(body_.size(), 0.0, [&](Index A) {
+      return sum(at(load_, A) * at(motion.v, body_.first + A));
+    });
   }
   std::size_t bytes() const override { return load_.size() * sizeof(Lanes); }
   Offset pairs() const override { return 0; }

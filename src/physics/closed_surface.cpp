@@ -52,7 +52,7 @@ ClosedSurface<D>::ClosedSurface(const Body<D>& body, SurfacePart part, int point
   rule_.rows = build_point_rows<D>(body.particles, reference_.X, {.value = true, .gradient = true},
                                    body.name);
   rule_.point_weight = reference_.area;
-  windows_ = rule_.windows(body.size());
+  windows_ = rule_.windows(body.size(), body.division);
 
   origin_ = Vec<D>::Zero();
   for (Index q = 0; q < reference_.size(); ++q) {

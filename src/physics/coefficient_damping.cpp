@@ -13,7 +13,7 @@ class CoefficientDamping final : public ForceTerm {
  public:
   CoefficientDamping(const Body<D>& body, std::span<const Real> viscosity, Real strength)
       : body_(body),
-        windows_(body.at_particles.start, body.at_particles.particle, body.size()),
+        windows_(body.at_particles.start, body.at_particles.particle, body.size(), body.division),
         slip_(static_cast<std::size_t>(body.size())),
         offset_(slip_) {
     const Real h = mean_spacing(body.geometry.grid);
@@ -43,7 +43,7 @@ class CoefficientDamping final : public ForceTerm {
     const Rotation sums = subtract_places(motion);
     const Eigen::Vector3d w = sums.rate();
     Report report;
-    report.heat = divided_sum(body_.size(), 0.0, [&](Index A) {
+    report.heat = body_.division.sum(body_.size(), 0.0, [&](Index A) {
       const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
       const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
       at(slip_, A) = at(rate_, A) * s;
@@ -52,7 +52,7 @@ class CoefficientDamping final : public ForceTerm {
     if (is_entered(halo_))
       slips_->bring(slip_.data(), slip_.data(), sizeof(Lanes));
     else
-      complete_rows(body_.size(), slip_.data(), sizeof(Lanes));
+      body_.division.complete_rows(body_.size(), slip_.data(), sizeof(Lanes));
     const auto own = body_.part(std::span<NodalVector>(force));
     windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* f) {
       for (Index A = begin; A < end; ++A) scatter_value(body_.at_particles, A, at(slip_, A), f);
@@ -62,7 +62,7 @@ class CoefficientDamping final : public ForceTerm {
   }
 
   bool tell_reads(StepReads& reads) override {
-    const OwnItems own = own_rows(body_.size());
+    const OwnItems own = body_.division.own_rows(body_.size());
     reads.particles(body_.at_particles.of_rows(own.begin, own.end), body_.first);
     reads.rows(windows_, body_.first);
     reads.when_shared([this](const auto& halo) { keep_to(halo); });
@@ -78,11 +78,11 @@ class CoefficientDamping final : public ForceTerm {
  private:
   void keep_to(const std::shared_ptr<const Halo>& halo) {
     halo_ = halo;
-    const OwnItems rows = own_rows(body_.size());
+    const OwnItems rows = body_.division.own_rows(body_.size());
     std::vector<Leaf> leaves;
     for (Index A = 0; A < body_.size(); ++A)
       if (halo->follows(body_.first + A) && (A < rows.begin || A >= rows.end))
-        leaves.push_back({A, rank_of_row(body_.size(), A), A});
+        leaves.push_back({A, body_.division.rank_of_row(body_.size(), A), A});
     slips_ = ranks().exchange(body_.size(), leaves);
   }
 
@@ -105,7 +105,7 @@ class CoefficientDamping final : public ForceTerm {
   /// d to slip_, e to offset_. Positions are quadratic fields: (I - N) x = (I - N) u.
   Rotation subtract_places(const Motion& motion) {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    return divided_sum(body_.size(), Rotation{}, [&](Index A) {
+    return body_.division.sum(body_.size(), Rotation{}, [&](Index A) {
       const PointRows<D>& rows = body_.at_particles;
       const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
       at(slip_, A) = d;

@@ -26,7 +26,7 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
                       body.name));
     rows_ = build_point_rows<D>(body.particles, surface_.X,
                                 {.value = true, .gradient = true, .hessian = true}, body.name);
-    windows_ = {rows_.start, rows_.particle, body.size()};
+    windows_ = {rows_.start, rows_.particle, body.size(), body.division};
   }
 
   /// Its force is not the gradient of its energy.

@@ -45,7 +45,7 @@ Director<D>::Director(const Body<D>& body, std::size_t number, const NematicBody
       numbers_(nematic.numbers),
       gradients_(
           build_point_rows<D>(body.particles, body.particles.X(), {.gradient = true}, body.name)),
-      windows_(gradients_.start, gradients_.particle, body.size()),
+      windows_(gradients_.start, gradients_.particle, body.size(), body.division),
       volume_(nematic.volume) {
   for (const Vec<D>& h : nematic.director) initial_.push_back(spatial<D>(h));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tangent of a force that has no exact one.
+// What a term does as long as it says nothing else: its tangent by differences, its report from
+// those of chunks.
 #include "meniscus/physics/force_term.hpp"
 
 namespace meniscus {
@@ -41,6 +42,29 @@ void ForceTerm::add_tangent(const Motion& motion, const Motion& change, Forces f
   add(plus.force, minus.force, force);
   for (std::size_t k = 0; k < force.fields.size(); ++k)
     add(plus.fields[k].f, minus.fields[k].f, force.fields[k].f);
+}
+
+void ForceTerm::add_chunks(const Motion& motion, Forces force, Report& report) const {
+  Real stored = 0;
+  Index failed = ChunkReport::nowhere;
+  for (const ChunkReport& chunk : *report.chunks) {
+    report.heat += chunk.heat;
+    report.external_power += chunk.external_power;
+    stored += chunk.energy;
+    failed = std::min(failed, chunk.failed);
+  }
+  report.chunks = nullptr;
+  if (force.energies && !energy_kind().empty()) force.energies->push_back({this, stored});
+  if (failed != ChunkReport::nowhere) report.failure = failure_of(failed, motion);
+}
+
+Report ForceTerm::report_of(ChunkReports& said, const Motion& motion, Forces force) const {
+  Report report;
+  report.chunks = &said;
+  if (force.leave_chunks) return report;
+  said.complete();
+  add_chunks(motion, force, report);
+  return report;
 }
 
 Real ForceTerm::work_between(const Motion& before, const Motion& after) const {

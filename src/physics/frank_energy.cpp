@@ -18,8 +18,9 @@ FrankEnergy<D>::FrankEnergy(const Body<D>& body, std::size_t field, const Nemati
       numbers_(numbers),
       length_stiffness_(numbers.frank_constant / (numbers.core_length * numbers.core_length)),
       rule_(std::move(rule)),
-      cell_windows_(rule_.windows(body.size())),
-      value_windows_(body.at_particles.start, body.at_particles.particle, body.size()),
+      cell_windows_(rule_.windows(body.size(), body.division)),
+      value_windows_(body.at_particles.start, body.at_particles.particle, body.size(),
+                     body.division),
       metric_(static_cast<std::size_t>(rule_.groups())),
       volume_(metric_.size()) {}
 
@@ -79,7 +80,7 @@ Report FrankEnergy<D>::add_force(const Motion& motion, Forces force) {
 template <int D>
 std::optional<Real> FrankEnergy<D>::stored_energy(const Motion& motion) const {
   const NodalVector *u = motion.u.data() + body_.first, *h = director(motion);
-  return divided_sum(rule_.groups(), 0.0, [&](Index P) {
+  return body_.division.sum(rule_.groups(), 0.0, [&](Index P) {
     Tensor<Lanes> H, slope;
     rule_.gather(P, u, H);
     rule_.gather(P, h, slope);
@@ -93,7 +94,7 @@ std::optional<Real> FrankEnergy<D>::stored_energy(const Motion& motion) const {
 
 template <int D>
 void FrankEnergy<D>::hold_places(const NodalVector* u) {
-  const OwnItems own = own_rows(rule_.groups());
+  const OwnItems own = body_.division.own_rows(rule_.groups());
   parallel_for(own.end - own.begin, [&](Index k) {
     const Index P = own.begin + k;
     Tensor<Lanes> H;
@@ -120,7 +121,7 @@ Tensor<Lanes> weighted(const Tensor<Lanes>& x, const Metric& M) {
 
 template <int D>
 Real FrankEnergy<D>::held_energy(const NodalVector* x) const {
-  return divided_sum(rule_.groups(), 0.0, [&](Index P) {
+  return body_.division.sum(rule_.groups(), 0.0, [&](Index P) {
     Tensor<Lanes> slope;
     rule_.gather(P, x, slope);
     const Real r = excess(P, x);

@@ -14,8 +14,9 @@ class SolidViscosity final : public ForceTerm {
   SolidViscosity(const Body<D>& body, Real shear, Real volumetric)
       : body_(body),
         rule_(build_cell_rule(body).rule),
-        windows_(rule_.windows(body.size())),
-        own_(own_rows(rule_.groups())),
+        windows_(rule_.windows(body.size(), body.division)),
+        said_(windows_),
+        own_(body.division.own_rows(rule_.groups())),
         shear_(shear),
         volumetric_(volumetric) {}
 
@@ -27,30 +28,25 @@ class SolidViscosity final : public ForceTerm {
   }
 
   Report add_force(const Motion& motion, Forces force) override {
-    PerChunk<Real> heat(windows_.chunks(), 0);
     const NodalVector* u = motion.u.data() + body_.first;
     const NodalVector* v = motion.v.data() + body_.first;
-    windows_.accumulate(
-        body_.part(std::span<NodalVector>(force)),
-        [&](int chunk, Index begin, Index end, NodalVector* f) {
-          Lanes power = Lanes::zero();
-          KeptDeformations kept(this->kept());
-          for (Index g = begin; g < end; ++g) {
-            Tensor<Lanes> H, F_rate;
-            rule_.gather(g, u, H);
-            kept.take(g, H);
-            rule_.gather(g, v, F_rate);
-            const Tensor<Lanes> P = stress(H, F_rate);
-            const Lanes w = rule_.weight(g);
-            power += w * contract(P, F_rate);
-            rule_.scatter(g, -w * P, f);
-          }
-          at(heat, chunk) = sum(power);
-        },
-        heat);
-    Report report;
-    for (const Real p : heat) report.heat += p;
-    return report;
+    windows_.accumulate(body_.part(std::span<NodalVector>(force)),
+                        [&](int chunk, Index begin, Index end, NodalVector* f) {
+                          Lanes power = Lanes::zero();
+                          KeptDeformations kept(this->kept());
+                          for (Index g = begin; g < end; ++g) {
+                            Tensor<Lanes> H, F_rate;
+                            rule_.gather(g, u, H);
+                            kept.take(g, H);
+                            rule_.gather(g, v, F_rate);
+                            const Tensor<Lanes> P = stress(H, F_rate);
+                            const Lanes w = rule_.weight(g);
+                            power += w * contract(P, F_rate);
+                            rule_.scatter(g, -w * P, f);
+                          }
+                          said_[chunk].heat = sum(power);
+                        });
+    return report_of(said_, motion, force);
   }
 
   void expect_viscous_calls() override {
@@ -104,6 +100,7 @@ class SolidViscosity final : public ForceTerm {
   const Body<D>& body_;
   CellRule<D> rule_;
   ForceWindows windows_;
+  ChunkReports said_;
   OwnItems own_;  // groups whose rows this rank has
   Lanes shear_, volumetric_;
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group]

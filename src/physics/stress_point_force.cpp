@@ -32,25 +32,21 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
   if (surface_)
     enclosed = surface_->measure(Size::volume, u, du) / surface_->reference(Size::volume) - 1.0;
   PerChunk<Dual<Real>> pull(chunks(), 0.0);
-  accumulate(
-      force,
-      [&](int chunk, Index begin, Index end, NodalVector* f) {
-        DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
-        Dual<Lanes> sum_of_pulls(0.0);
-        for (Index g = begin; g < end; ++g) {
-          x.H = gradients(g, u, du);
-          if (viscous) x.F_rate = gradients(g, v, dv);
-          const StressChange stress = laws_->tangent(g, motion.time, x);
-          const Lanes w = rule_.weight(g);
-          rule_.scatter(g, -w * stress.P, f);
-          sum_of_pulls += w * stress.pull_on_enclosed;
-        }
-        at(pull, chunk) = sum(sum_of_pulls);
-      },
-      pull);
+  accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
+    DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
+    Dual<Lanes> sum_of_pulls(0.0);
+    for (Index g = begin; g < end; ++g) {
+      x.H = gradients(g, u, du);
+      if (viscous) x.F_rate = gradients(g, v, dv);
+      const StressChange stress = laws_->tangent(g, motion.time, x);
+      const Lanes w = rule_.weight(g);
+      rule_.scatter(g, -w * stress.P, f);
+      sum_of_pulls += w * stress.pull_on_enclosed;
+    }
+    at(pull, chunk) = sum(sum_of_pulls);
+  });
   if (!surface_) return;
-  Dual<Real> slope(0.0);
-  for (const Dual<Real>& p : pull) slope += p;
+  const Dual<Real> slope = sum_of_chunks(pull);
   surface_->add_gradient_change(Size::volume, u, du, -slope / surface_->reference(Size::volume),
                                 body_.part(std::span<NodalVector>(force)));
 }
@@ -71,7 +67,7 @@ void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diag
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  return divided_sum(rule_.groups(), 0.0, [&](Index g) {
+  return body_.division.sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws.energy_density(g, motion.time, gradients(g, u)));
   });
 }
@@ -86,7 +82,7 @@ std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motio
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  const Real force = divided_sum(rule_.groups(), 0.0, [&](Index g) {
+  const Real force = body_.division.sum(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
   });
   return force / spacing_;
@@ -99,15 +95,14 @@ Index StressPointForce<D, Rule>::first_folded(Index begin, Index end, const Noda
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
       if (!(1 + volume_change(lane_of(H, lane)) > 0)) return g;
   }
-  return no_group;
+  return ChunkReport::nowhere;
 }
 
 template <int D, class Rule>
 std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
-                                                             const NodalVector* u) const {
-  if (group == no_group) return std::nullopt;
-  Tensor<Lanes> H = gradients(group, u);
-  ranks().hand_out(rank_of_row(rule_.groups(), group), &H, sizeof H);
+                                                             const Motion& motion) const {
+  Tensor<Lanes> H = gradients(group, motion.u.data() + body_.first);
+  ranks().hand_out(body_.division.rank_of_row(rule_.groups(), group), &H, sizeof H);
   int lane = 0;
   while (1 + volume_change(lane_of(H, lane)) > 0) ++lane;
   const Tensor<Real> F = deformation_gradient(lane_of(H, lane));
@@ -146,7 +141,7 @@ template <int D, class Rule>
 void StressPointForce<D, Rule>::visit(const Motion& motion,
                                       const std::function<void(const StressPoint&)>& f) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  for_all_in_order(
+  body_.division.for_all_in_order(
       rule_.groups(), [&](Index g) { return gradients(g, u); },
       [&](Index g, const Tensor<Lanes>& H) {
         const Tensor<Lanes> P = laws_->stress(g, motion.time, H);

@@ -135,7 +135,7 @@ void keep_mass(Body<D>& body) {
 }  // namespace
 
 template <int D>
-std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned,
+std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned, const Division& division,
                                            std::shared_ptr<const Reference<D>> reference,
                                            Scene<D>& scene, Assembly<D>& assembly) {
   const BodySettings& settings = planned.settings;
@@ -143,8 +143,8 @@ std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned,
   if (!reference) order_spatially(geometry);
   ParticleSet<D> particles = sound_particles(settings, geometry, assembly);
   System<D>& system = scene.system;
-  Body<D>& body =
-      system.bodies.emplace_back(settings.name, std::move(geometry), std::move(particles));
+  Body<D>& body = system.bodies.emplace_back(settings.name, std::move(geometry),
+                                             std::move(particles), division);
   body.first = system.size();
   body.reference = std::move(reference);
   body.loaded_faces = planned.loaded_faces;
@@ -172,10 +172,10 @@ std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned,
   return std::move(built.nematic);
 }
 
-template std::unique_ptr<NematicBody<2>> build_body(const BodyPlan<2>&,
+template std::unique_ptr<NematicBody<2>> build_body(const BodyPlan<2>&, const Division&,
                                                     std::shared_ptr<const Reference<2>>, Scene<2>&,
                                                     Assembly<2>&);
-template std::unique_ptr<NematicBody<3>> build_body(const BodyPlan<3>&,
+template std::unique_ptr<NematicBody<3>> build_body(const BodyPlan<3>&, const Division&,
                                                     std::shared_ptr<const Reference<3>>, Scene<3>&,
                                                     Assembly<3>&);
 

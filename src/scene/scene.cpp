@@ -36,6 +36,26 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
   }
 }
 
+/// Null: the reference of the scene.
+template <int D>
+std::shared_ptr<const Reference<D>> reference_of(const BodyPlan<D>& body,
+                                                 const References<D>& references) {
+  const auto found = references.find(body.settings.name);
+  return found == references.end() ? nullptr : found->second;
+}
+
+/// How the rows of the bodies are divided between the ranks.
+template <int D>
+std::vector<Division> divide_bodies(const Plan<D>& plan, const References<D>& references) {
+  std::vector<Index> particles;
+  for (const BodyPlan<D>& body : plan.bodies) {
+    const auto reference = reference_of(body, references);
+    const Geometry<D>& geometry = reference ? reference->geometry : body.geometry;
+    particles.push_back(static_cast<Index>(geometry.grid.X.size()));
+  }
+  return divide(particles);
+}
+
 /// Bodies that share space: particles of one closer to one of the other than half its spacing.
 template <int D>
 void warn_of_overlaps(Scene<D>& scene) {
@@ -92,10 +112,11 @@ Scene<D> build(const Plan<D>& plan, const References<D>& references) {
   static_cast<RunSettings&>(scene) = plan;
   Assembly<D> assembly(scene, references.empty());
   std::vector<std::unique_ptr<NematicBody<D>>> nematics;
-  for (const BodyPlan<D>& body : plan.bodies) {
-    const auto found = references.find(body.settings.name);
+  const std::vector<Division> divisions = divide_bodies(plan, references);
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const BodyPlan<D>& body = plan.bodies[b];
     nematics.push_back(
-        build_body(body, found == references.end() ? nullptr : found->second, scene, assembly));
+        build_body(body, divisions[b], reference_of(body, references), scene, assembly));
   }
   for (std::size_t b = 0; b < nematics.size(); ++b)
     if (nematics[b]) add_director(scene.system.bodies[b], std::move(*nematics[b]), scene, assembly);

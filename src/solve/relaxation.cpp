@@ -256,17 +256,14 @@ Real Relaxation<D>::largest_change() const {
   Real largest = 0;
   for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
     const Body<D>& body = system_.bodies[b];
-    const OwnItems own = own_rows(body.size());
+    const OwnItems own = body.division.own_rows(body.size());
     Real square = 0;
     for (Index A = own.begin; A < own.end; ++A) {
       const Lanes moved = value_at(body.at_particles, A, du_.data() + body.first);
       square = std::max(square, sum(moved * moved));
     }
-    for (int rank = 0; rank < ranks().size(); ++rank) {
-      Real of_rank = square;
-      ranks().hand_out(rank, &of_rank, sizeof of_rank);
+    for (const Real of_rank : said_by_ranks(square))
       largest = std::max(largest, std::sqrt(of_rank) / extents_[b]);
-    }
   }
   return largest;
 }

@@ -50,10 +50,14 @@ void System<D>::share_steps(StepReads reads) {
     if (!term->tell_reads(reads)) return;
   if (constraints) reads.particles(constraints->particles(), 0);
   std::vector<Index> first;
-  for (const Body<D>& body : bodies) first.push_back(body.first);
-  ParticleOwners owners(size(), first);
+  std::vector<Division> division;
   for (const Body<D>& body : bodies) {
-    const OwnItems own = own_rows(body.size());
+    first.push_back(body.first);
+    division.push_back(body.division);
+  }
+  ParticleOwners owners(size(), std::move(first), std::move(division));
+  for (const Body<D>& body : bodies) {
+    const OwnItems own = body.division.own_rows(body.size());
     reads.particles(body.at_particles.of_rows(own.begin, own.end), body.first);
   }
   halo = reads.share(std::move(owners));
@@ -93,7 +97,7 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
   const Index A = what.particle - body.first;
   const Vec<D>& X = at(body.particles.X(), A);
   Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
-  ranks().hand_out(rank_of_row(body.size(), A), &u, sizeof u);
+  ranks().hand_out(body.division.rank_of_row(body.size(), A), &u, sizeof u);
   std::string reference, current;
   for (int i = 0; i < D; ++i) {
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
@@ -115,15 +119,30 @@ Report System<D>::add_up(const Motion& motion, Forces force) {
     std::fill(force.begin() + begin, force.begin() + end, Lanes::zero());
   });
   for (Unknown& field : force.fields) clear(field.f);
-  Report all;
-  for (auto& term : terms) {
-    Report report = term->add_force(motion, force);
-    if (report.failure) report.failure->term = term->name();
-    all += std::move(report);
-  }
+  force.leave_chunks = !ranks().alone();
+  reports_.clear();
+  for (auto& term : terms) reports_.push_back(term->add_force(motion, force));
   for (auto& field : carried) field->add_reaction(motion, force);
   spread(force);
+  if (force.leave_chunks) add_chunks(motion, force);
+  Report all;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    Report& report = reports_[k];
+    if (report.failure) report.failure->term = terms[k]->name();
+    all += std::move(report);
+  }
   return all;
+}
+
+/// Waits for other ranks once, however many terms there are.
+template <int D>
+void System<D>::add_chunks(const Motion& motion, Forces force) {
+  left_.clear();
+  for (const Report& report : reports_)
+    if (report.chunks) left_.push_back(report.chunks);
+  exchange_.complete(left_);
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    if (reports_[k].chunks) terms[k]->add_chunks(motion, force, reports_[k]);
 }
 
 template <int D>

@@ -41,7 +41,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
         strength_(strength),
         polar_(polar),
         surface_(body, points, true),
-        windows_(surface_.points.windows(body.size())),
+        windows_(surface_.points.windows(body.size(), body.division)),
         held_(static_cast<std::size_t>(surface_.groups())) {}
 
   std::string name() const override { return "anchoring to the surface of '" + body_.name + "'"; }

@@ -43,7 +43,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
         of_place_(of_place),
         changes_(of_place || gamma.depends_on_time()),
         surface_(body, points, of_place),
-        windows_(surface_.points.windows(body.size())) {
+        windows_(surface_.points.windows(body.size(), body.division)) {
     now_.resize(surface_.reference.size());
     if (changes_) {
       last_ = now_;
@@ -71,7 +71,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
                         });
     Report report;
     if (!changes_) return report;
-    complete_rows(surface_.groups(), now_.area.data(), sizeof(Lanes));
+    body_.division.complete_rows(surface_.groups(), now_.area.data(), sizeof(Lanes));
     report.external_work = supplied();
     return report;
   }

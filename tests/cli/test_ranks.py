@@ -145,6 +145,33 @@ range = 0.2
 points = 2
 """,
 }
+
+
+def blocks(count, gap, y=0, cells=4):
+    """Small viscous bodies one behind the other, of which the first one flies."""
+    body = SHORT_BLOCK[SHORT_BLOCK.index("[[body]]"):SHORT_BLOCK.index("[[body_force]]")]
+    return "".join(
+        body.replace('"block"', f'"block{k}"').replace("[4, 4, 4]", f"[{cells}, {cells}, {cells}]").replace(
+            "[body.material]", f"""centre = [{k * (1 + gap)}, {y}, 0]
+initial_velocity = [{10 if k == 0 else 0}, 0, 0]
+[body.material]
+viscosity = 10""") for k in range(count))
+
+
+NO_BODY = SHORT_BLOCK[:SHORT_BLOCK.index("[[body]]")]
+# [name] small bodies that are whole on some numbers of ranks
+WHOLE = {
+    "apart": NO_BODY + blocks(16, 1),
+    "in contact": NO_BODY + blocks(8, 0.08) + "".join(f"""
+[[contact]]
+bodies = ["block{k}", "block{k + 1}"]
+epsilon = 2e6
+sigma0 = 0.05
+beta = 1
+points = 2
+""" for k in range(7)),
+    "beside a large one": thick(9) + blocks(4, 0.5, y=2, cells=3),
+}
 PRESSED = SHORT_BLOCK.replace("neo_hookean", "st_venant_kirchhoff").replace(
     "[[body]]", '[[body]]\ninitial_velocity = ["-20*x^2", 0, 0]')
 BENT_SHEET = RELAXING_SHEET.replace('"relax"', '"newton"')
@@ -270,6 +297,35 @@ class SameBits(RanksTest):
                 followed, of_all = map(int, steps.groups())
                 self.assertLess(followed, of_all)
                 self.directory = self.directory.parent
+
+    def test_small_bodies(self):
+        """They are whole on one rank, if that leaves none with much more than the others."""
+        for name, scene in WHOLE.items():
+            with self.subTest(name):
+                self.directory = self.directory / name.replace(" ", "_")
+                self.directory.mkdir()
+                self.assert_same_bits((2, 3, 4), self.scene(scene))
+                self.directory = self.directory.parent
+        log = (self.directory / "apart" / "ranks4" / "run.log").read_text()
+        self.assertIn("on 500 of 2000 particles at most, 0 of them ghosts", log)
+
+    def test_restart_of_small_bodies(self):
+        scene = self.scene(WHOLE["in contact"])
+        whole = self.call("run", scene, "--output", "whole")
+        self.ranks(2, "run", scene, "--output", "part", "--until", 0.02)
+        self.ranks(3, "run", scene, "--restart", "part", "--until", 0.04)
+        done = self.ranks(2, "run", scene, "--restart", "part")
+        self.assertEqual(state_of(done), state_of(whole))
+
+    def test_failure_in_a_small_body(self):
+        """It is said by all, which do not have its rows."""
+        folding = WHOLE["apart"].replace("initial_velocity = [10, 0, 0]",
+                                         'initial_velocity = ["-600*x", 0, 0]')
+        path = self.scene(folding)
+        alone = self.call("run", path, "--output", "alone", code=4)
+        done = self.ranks(2, "run", path, "--output", "ranks2", code=4)
+        words = [re.search(r"error: (step.*)", run.stderr)[1] for run in (alone, done)]
+        self.assertEqual(*words)
 
     def test_parts_that_meet(self):
         """Of surfaces in contact ranks follow what is near the other one, which comes to be more in

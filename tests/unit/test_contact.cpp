@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "contact_support.hpp"
 
 namespace meniscus::test_contact {

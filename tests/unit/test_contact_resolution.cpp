@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "contact_support.hpp"
 
 namespace meniscus {

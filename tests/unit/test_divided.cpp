@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "straight_grid.hpp"
 #include "support.hpp"
@@ -38,18 +39,59 @@ TEST(Divided, EachRowIsOfOneRankInOrder) {
     for (const int size : {1, 2, 3, 20}) {
       Index next = 0;
       as_each_of(size, [&](int rank) {
-        const OwnItems own = own_rows(n);
+        const OwnItems own = evenly.own_rows(n);
         EXPECT_EQ(own.begin, next);
-        for (Index row = own.begin; row < own.end; row += 7) EXPECT_EQ(rank_of_row(n, row), rank);
+        for (Index row = own.begin; row < own.end; row += 7)
+          EXPECT_EQ(evenly.rank_of_row(n, row), rank);
         next = own.end;
       });
       EXPECT_EQ(next, n);
     }
 }
 
+/// The rank that has all rows of each body; -1: each has some.
+std::vector<int> owners(const std::vector<Index>& rows) {
+  std::vector<int> found;
+  const std::vector<Division> divisions = divide(rows);
+  for (std::size_t b = 0; b < rows.size(); ++b) {
+    const int first = divisions[b].rank_of_row(rows[b], 0),
+              last = divisions[b].rank_of_row(rows[b], rows[b] - 1);
+    found.push_back(first == last ? first : -1);
+  }
+  return found;
+}
+
+TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
+  using Owners = std::vector<int>;
+  const std::vector<Index> equal(8, 500);
+  as_each_of(2, [&](int) {
+    EXPECT_EQ(owners(equal), (Owners{0, 0, 0, 0, 1, 1, 1, 1}));
+    EXPECT_EQ(owners({500, 500, 500, 500}), (Owners{-1, -1, -1, -1})) << "a half of a share each";
+    EXPECT_EQ(owners({10000}), Owners{-1});
+    // The first rank would have 5000 of the large one, the second one what is on it besides.
+    EXPECT_EQ(owners({10000, 500}), (Owners{-1, 1})) << "1.048 shares";
+    EXPECT_EQ(owners({10000, 600}), (Owners{-1, -1})) << "1.057 shares";
+    EXPECT_EQ(owners({600, 10000, 50, 600}), (Owners{0, -1, 0, 1}));
+    EXPECT_EQ(owners({10000, 600, 50}), (Owners{-1, -1, 1})) << "without the larger one";
+  });
+  as_each_of(3, [&](int) { EXPECT_EQ(owners(equal), Owners(8, -1)) << "more than a quarter"; });
+  as_each_of(1, [&](int) { EXPECT_EQ(owners(equal), Owners(8, 0)); });
+}
+
+TEST(Divided, RowsOfAWholeBodyAreOfOneRank) {
+  as_each_of(3, [&](int rank) {
+    const Division division(1);
+    const OwnItems rows = division.own_rows(70), items = division.own_items(5);
+    EXPECT_EQ(rows.end - rows.begin, rank == 1 ? 70 : 0);
+    EXPECT_EQ(items.end - items.begin, rank == 1 ? 5 : 0);
+    EXPECT_EQ(division.first_row(70, 3), 70);
+    EXPECT_EQ(division.rank_of_row(70, 69), 1);
+  });
+}
+
 TEST(Divided, AllValuesAreUsedInOrder) {
   std::vector<Index> used;
-  for_all_in_order(
+  evenly.for_all_in_order(
       50000, [](Index i) { return 2 * i; },
       [&](Index i, Index value) {
         EXPECT_EQ(value, 2 * i);
@@ -129,7 +171,7 @@ void expect_parts_of_point_rule(Index per_group) {
   as_each_of(3, [&](int) {
     const PointRule<D> some = build_gauss_rule(*body, 2, per_group);
     ASSERT_EQ(some.rows.size(), all.rows.size());
-    const OwnItems own = own_rows(all.groups());
+    const OwnItems own = evenly.own_rows(all.groups());
     for (Index q = 0; q < all.rows.size(); ++q) {
       const Offset begin = at(some.rows.start, q), size = at(some.rows.start, q + 1) - begin,
                    begin_of_all = at(all.rows.start, q);

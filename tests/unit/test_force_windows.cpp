@@ -48,7 +48,7 @@ void add_rows(const Rows& r, Index begin, Index end, NodalVector* force) {
 TEST(ForceWindows, AddsChunksInAscendingOrderWhateverTheThreads) {
   constexpr Index n = 3000;
   const Rows rows = scattered_rows(n, n);
-  ForceWindows windows(rows.start, rows.particle, n);
+  ForceWindows windows(rows.start, rows.particle, n, evenly);
   NodalVectors expected(n, NodalVector(1.0));
   for (int c = 0; c < chunk_count(n); ++c) {
     NodalVectors of_chunk(n, NodalVector::zero());
@@ -70,7 +70,7 @@ TEST(ForceWindows, AddsChunksInAscendingOrderWhateverTheThreads) {
 
 TEST(ForceWindows, KeepsNothingOfRowsThatFailed) {
   const Rows rows = scattered_rows(300, 300);
-  ForceWindows windows(rows.start, rows.particle, 300);
+  ForceWindows windows(rows.start, rows.particle, 300, evenly);
   NodalVectors force(300, NodalVector::zero());
   const auto add = [&](bool fail) {
     windows.accumulate(force, [&](int, Index begin, Index end, NodalVector* window) {
@@ -86,7 +86,7 @@ TEST(ForceWindows, KeepsNothingOfRowsThatFailed) {
 }
 
 TEST(ForceWindows, OfNoRowsLeaveForcesAlone) {
-  ForceWindows windows(std::vector<Offset>{0}, {}, 2);
+  ForceWindows windows(std::vector<Offset>{0}, {}, 2, evenly);
   NodalVectors force(2, NodalVector(3.0));
   windows.accumulate(force, [](int, Index, Index, NodalVector*) { FAIL(); });
   EXPECT_EQ(at(force, 1)[0], 3.0);
@@ -135,7 +135,7 @@ TEST(ForceWindows, ChunksInSpatialOrderTouchLittleOfOthers) {
     const Vec<3> layers = (high.array() + reach).min(side - 1) - (low.array() - reach).max(0) + 1;
     expected += static_cast<std::size_t>(layers.prod());
   }
-  EXPECT_EQ(ForceWindows(rows.start, rows.particle, n).sums(), expected);
+  EXPECT_EQ(ForceWindows(rows.start, rows.particle, n, evenly).sums(), expected);
   EXPECT_LT(expected, 2.1 * side * side * side);
 }
 

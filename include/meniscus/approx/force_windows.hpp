@@ -19,15 +19,16 @@ class ForceWindows {
  public:
   ForceWindows() = default;
   /// Windows for compressed rows. All ranks make them of the same number of rows, of which each has
-  /// those of its own chunks at least (own_rows()).
-  ForceWindows(std::span<const Offset> start, std::span<const Index> particle, Index particles);
+  /// those of its own chunks at least (Division::own_rows()).
+  ForceWindows(std::span<const Offset> start, std::span<const Index> particle, Index particles,
+               const Division& division);
 
   /// Calls work(chunk, begin row, end row, window) for each chunk of this rank; window[A] += ... is
   /// allowed for the particles A of those rows. Then adds all windows to `force`, which is the same
-  /// on all ranks before and after (while a halo is entered, on the rank that adds up the sums of a
-  /// particle, until Halo::spread()), and completes what work has written per chunk.
-  template <class F, class... T>
-  void accumulate(std::span<NodalVector> force, F&& work, PerChunk<T>&... results) {
+  /// on all ranks before and after; while a halo is entered, on the rank that adds up the sums of a
+  /// particle, until Halo::spread().
+  template <class F>
+  void accumulate(std::span<NodalVector> force, F&& work) {
     parallel_for(
         static_cast<Index>(own_.size()),
         [&](Index c) {
@@ -40,10 +41,7 @@ class ForceWindows {
         1);
     if (shared_) shared_->bring_windows(sums_);
     add_to(force);
-    if (shared_) {
-      shared_->spread_forces(force);
-      if constexpr (sizeof...(T) > 0) shared_->spread_results(results...);
-    }
+    if (shared_) shared_->spread_forces(force);
   }
 
   /// Of SharedWindows, in a run of several ranks.
@@ -51,8 +49,9 @@ class ForceWindows {
   void mark_summed(std::span<std::uint8_t> particles) const { shared_->mark_summed(particles); }
   void keep_to(std::shared_ptr<const Halo> halo) { shared_->keep_to(std::move(halo)); }
 
-  /// All chunk numbers are below this.
+  /// Also of those without rows.
   int chunks() const { return chunks_; }
+  const Division& division() const { return division_; }
   /// Pairs of the rows of all ranks and particles.
   Offset pairs() const { return pairs_; }
   /// Sums that this rank adds up.
@@ -67,6 +66,7 @@ class ForceWindows {
   void order_by_particle(const std::vector<WindowSum>& sums, ItemRange particles);
   void add_to(std::span<NodalVector> force) const;
 
+  Division division_;
   int chunks_ = 0;
   Index particles_ = 0;
   Offset pairs_ = 0;

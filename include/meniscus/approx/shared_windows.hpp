@@ -4,10 +4,7 @@
 #pragma once
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/halo.hpp"
-#include "meniscus/core/parallel.hpp"
-#include "meniscus/core/ranks.hpp"
 
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -30,7 +27,7 @@ class SharedWindows {
   /// `chunks`: all that have rows, in ascending order, of compressed rows; of the rows, and of
   /// `touched`, the particles of their sums, only those of own chunks are looked at.
   SharedWindows(std::vector<WindowChunk> chunks, std::span<const Index> touched,
-                std::span<const Offset> start, Index particles);
+                std::span<const Offset> start, Index particles, const Division& division);
 
   /// Those whose rows this rank does.
   const std::vector<WindowChunk>& own() const { return own_; }
@@ -58,8 +55,6 @@ class SharedWindows {
   void mark_summed(std::span<std::uint8_t> particles) const;
   /// From now on forces are spread by the halo, when it is entered, and not by these windows.
   void keep_to(std::shared_ptr<const Halo> halo) { halo_ = std::move(halo); }
-  template <class... T>
-  void spread_results(PerChunk<T>&... results);
 
  private:
   /// The particles that the rows of each chunk touch, [chunk].
@@ -68,15 +63,11 @@ class SharedWindows {
   static constexpr std::uint8_t by_a_rank = 1, by_this_rank = 2;
 
   Touched touched_by_chunks(const std::vector<WindowChunk>& chunks, std::span<const Index> touched,
-                            std::span<const Offset> start);
+                            std::span<const Offset> start, const Division& division);
   void share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched);
   void remember_touched(const Touched& touched);
   /// Forces of particles that rows touch and other ranks add up.
   std::unique_ptr<Exchange> exchange_of_forces() const;
-  void share_results(const std::vector<WindowChunk>& chunks);
-
-  template <class T>
-  static constexpr std::size_t in_record = (sizeof(T) + 7) / 8 * 8;
 
   std::vector<int> rank_;      // that does a chunk, [chunk]
   std::vector<Index> border_;  // particle at which those of a rank begin, [rank], and their number
@@ -84,36 +75,9 @@ class SharedWindows {
   std::vector<WindowSum> summed_;
   Index size_ = 0;
   Offset pairs_ = 0;
-  int numbers_ = 0;                    // of chunks are below this
-  std::vector<int> foreign_;           // numbers of the chunks of others
   std::vector<std::uint8_t> touched_;  // by rows of which ranks, [particle]
-  std::unique_ptr<Exchange> windows_, particles_, chunks_;
+  std::unique_ptr<Exchange> windows_, particles_;
   std::shared_ptr<const Halo> halo_;
-  std::vector<std::byte> records_;  // results, [chunk number]
 };
-
-template <class... T>
-void SharedWindows::spread_results(PerChunk<T>&... results) {
-  constexpr std::size_t size = (in_record<T> + ...);
-  const auto for_each = [&](int number, auto&& copy) {
-    std::byte* record = records_.data() + size * static_cast<std::size_t>(number);
-    const auto next = [&](auto& values) {
-      using Value = std::remove_cvref_t<decltype(at(values, number))>;
-      if (values.begin() != values.end()) copy(record, &at(values, number), sizeof(Value));
-      record += in_record<Value>;
-    };
-    (next(results), ...);
-  };
-  records_.resize(size * static_cast<std::size_t>(numbers_));
-  for (const WindowChunk& chunk : own_)
-    for_each(chunk.number, [](std::byte* record, const void* value, std::size_t bytes) {
-      std::memcpy(record, value, bytes);
-    });
-  chunks_->bring(records_.data(), records_.data(), size);
-  for (const int number : foreign_)
-    for_each(number, [](const std::byte* record, void* value, std::size_t bytes) {
-      std::memcpy(value, record, bytes);
-    });
-}
 
 }  // namespace meniscus

@@ -115,7 +115,9 @@ struct CellRule {
     });
   }
 
-  ForceWindows windows(Index particles) const { return {start, particle, particles}; }
+  ForceWindows windows(Index particles, const Division& division) const {
+    return {start, particle, particles, division};
+  }
   Offset pairs() const { return start.back(); }
   std::size_t bytes() const {
     return (start.size() + double_start.size()) * sizeof(Offset) + particle.size() * sizeof(Index) +
@@ -227,12 +229,12 @@ struct PointRule {
   }
 
   Offset pairs() const { return rows.entries(); }
-  ForceWindows windows(Index particles) const {
+  ForceWindows windows(Index particles, const Division& division) const {
     // Windows count groups as rows.
     std::vector<Offset> group_start;
     for (Index g = 0; g < groups(); ++g) group_start.push_back(at(rows.start, g * per_group));
     group_start.push_back(rows.entries());
-    return {group_start, rows.particle, particles};
+    return {group_start, rows.particle, particles, division};
   }
   std::size_t bytes() const {
     return rows.bytes() + point_weight.size() * sizeof(Real) + point_owner.size() * sizeof(Index);

@@ -18,7 +18,8 @@ namespace meniscus {
 template <int D>
 struct Body {
   std::string name;
-  Index first = 0;  ///< number of its first particle in the arrays of all bodies
+  Division division;  ///< of its rows, between the ranks
+  Index first = 0;    ///< number of its first particle in the arrays of all bodies
   Geometry<D> geometry;
   ParticleSet<D> particles;
   NodalCells<D> cells;  ///< refers to `geometry`: a body does not move in memory
@@ -28,8 +29,7 @@ struct Body {
   bool loaded_faces = true;
   std::vector<Real> mass;
   /// Values of the shape functions at the particles: places x(X_A) = sum_B N_B(X_A) d_B. Particle
-  /// coefficients d_A are not places. The rows of this rank (own_rows()); those of others are
-  /// empty.
+  /// coefficients d_A are not places. The rows of this rank; those of others are empty.
   PointRows<D> at_particles;
   /// What it was referred to anew; null: it has the reference of its scene.
   std::shared_ptr<const Reference<D>> reference;
@@ -53,14 +53,16 @@ struct Body {
   }
   Body(const Body&) = delete;
   Body(Body&&) = delete;
-  Body(std::string body_name, Geometry<D> body_geometry, ParticleSet<D> body_particles)
+  Body(std::string body_name, Geometry<D> body_geometry, ParticleSet<D> body_particles,
+       Division between_ranks = evenly)
       : name(std::move(body_name)),
+        division(between_ranks),
         geometry(std::move(body_geometry)),
         particles(std::move(body_particles)),
         cells(geometry.grid) {
     on_each_rank([this] {
-      at_particles =
-          build_point_rows<D>(particles, particles.X(), {.value = true}, name, own_rows(size()));
+      at_particles = build_point_rows<D>(particles, particles.X(), {.value = true}, name,
+                                         division.own_rows(size()));
     });
   }
 };
@@ -77,7 +79,7 @@ struct CellOperator {
   std::vector<Real> shape_integral;  ///< [particle] integral of N_A over the body
 };
 
-/// The rows of this rank (own_rows()), and the integrals over all cells. Throws SolveError where
+/// The rows of this rank, and the integrals over all cells. Throws SolveError where
 /// shape functions cannot be determined.
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision = RowPrecision::full);

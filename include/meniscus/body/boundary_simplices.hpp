@@ -26,7 +26,7 @@ struct BoundarySimplices {
     for (auto& simplex : corners)
       for (Index& A : simplex) A = at(number, A);
     rows = build_point_rows<D>(body.particles, X, {.value = true}, body.name);
-    windows = {rows.start, rows.particle, body.size()};
+    windows = {rows.start, rows.particle, body.size(), body.division};
   }
 
   /// x = places at the displacement coefficients u of the body; x has the size of X.

@@ -4,31 +4,80 @@
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/core/ranks.hpp"
 
+#include <span>
 #include <vector>
 
 namespace meniscus {
 
-/// The items that this rank does of n, a neighbouring part.
+/// The items that a rank does of n, a neighbouring part.
 using OwnItems = ItemRange;
-OwnItems own_items(Index n);
-/// The rank that does an item of n.
-int rank_of_item(Index n, Index item);
-/// The rows of the chunks of this rank, of n rows.
-OwnItems own_rows(Index n);
-/// With which those of a rank begin; of the number of ranks: n.
-Index first_row(Index n, int rank);
-/// The rank whose rows have a row of n.
-int rank_of_row(Index n, Index row);
-/// Brings values of so many bytes, [row], of the rows of the others.
-void complete_rows(Index n, void* values, std::size_t bytes_per_value);
-/// Brings values of so many bytes, [item], of the others.
-void complete_items(Index n, void* values, std::size_t bytes_per_value);
+
+/// How items and rows are divided between the ranks: evenly, or, those of a small body, all to one.
+/// Rows are divided in their chunks.
+class Division {
+ public:
+  constexpr Division() = default;
+  /// All to one rank.
+  constexpr explicit Division(int rank) : whole_(rank) {}
+
+  /// Items of this rank.
+  OwnItems own_items(Index n) const;
+  /// With which those of a rank begin; of the number of ranks: n.
+  Index first_item(Index n, int rank) const;
+  /// The rank that does an item of n.
+  int rank_of_item(Index n, Index item) const;
+  /// Brings values of so many bytes, [item], of the others.
+  void complete_items(Index n, void* values, std::size_t bytes_per_value) const;
+
+  // The same of rows.
+  OwnItems own_rows(Index n) const;
+  Index first_row(Index n, int rank) const;
+  int rank_of_row(Index n, Index row) const;
+  void complete_rows(Index n, void* values, std::size_t bytes_per_value) const;
+
+  /// Calls use(i, value) for all i < n in ascending order on all ranks, with value = make(i) of the
+  /// rank whose rows have i. Makes those of a chunk at a time.
+  template <class Make, class Use>
+  void for_all_in_order(Index n, Make&& make, Use&& use) const {
+    std::vector<decltype(make(0))> values;
+    for (int c = 0; c < chunk_count(n); ++c) {
+      const Index begin = chunk_begin(n, c), size = chunk_begin(n, c + 1) - begin;
+      const int rank = rank_of_item(chunk_count(n), c);
+      values.resize(static_cast<std::size_t>(size));
+      if (rank == ranks().rank())
+        parallel_for(size, [&](Index k) { at(values, k) = make(begin + k); });
+      ranks().hand_out(rank, values.data(), values.size() * sizeof values[0]);
+      for (Index k = 0; k < size; ++k) use(begin + k, at(values, k));
+    }
+  }
+
+  /// parallel_sum() with the same bits, of which each rank does the chunks of its rows.
+  template <class T, class F>
+  T sum(Index n, T zero, F&& f) const {
+    const OwnItems own = own_items(chunk_count(n));
+    return sum_by_chunks<Cost::much>(
+        n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; },
+        [&](T* sums) { complete_items(chunk_count(n), sums, sizeof(T)); });
+  }
+
+ private:
+  static constexpr int none = -1;
+
+  int whole_ = none;  // the rank that has all
+};
+
+inline constexpr Division evenly{};
+
+/// Of bodies with so many rows each. A small body, of at most a quarter of what a rank has, is
+/// whole: its exchanges would cost more than its rows. As many are as leave no rank with more than
+/// 5 % over its share, neighbours among them on the same rank.
+std::vector<Division> divide(std::span<const Index> rows);
 
 /// What each rank says, [rank].
 template <class T>
 std::vector<T> said_by_ranks(const T& mine) {
   std::vector<T> all(static_cast<std::size_t>(ranks().size()), mine);
-  complete_items(ranks().size(), all.data(), sizeof(T));
+  evenly.complete_items(ranks().size(), all.data(), sizeof(T));
   return all;
 }
 
@@ -36,42 +85,15 @@ std::vector<T> said_by_ranks(const T& mine) {
 /// memory, is handed to others by take(k, record).
 template <class F, class Record, class Take>
 void divided_for(Index n, F&& f, Record&& record, Take&& take, int grain = 64) {
-  const OwnItems own = own_items(n);
+  const OwnItems own = evenly.own_items(n);
   parallel_for(
       own.end - own.begin, [&](Index i) { f(own.begin + i); }, grain);
   if (ranks().alone()) return;
   std::vector<decltype(record(0))> records(static_cast<std::size_t>(n));
   for (Index k = own.begin; k < own.end; ++k) at(records, k) = record(k);
-  complete_items(n, records.data(), sizeof records[0]);
+  evenly.complete_items(n, records.data(), sizeof records[0]);
   for (Index k = 0; k < n; ++k)
     if (k < own.begin || k >= own.end) take(k, at(records, k));
-}
-
-/// Calls use(i, value) for all i < n in ascending order on all ranks, with value = make(i) of the
-/// rank whose rows have i. Makes those of a chunk at a time.
-template <class Make, class Use>
-void for_all_in_order(Index n, Make&& make, Use&& use) {
-  std::vector<decltype(make(0))> values;
-  for (int c = 0; c < chunk_count(n); ++c) {
-    const Index begin = chunk_begin(n, c), size = chunk_begin(n, c + 1) - begin;
-    const int rank = rank_of_item(chunk_count(n), c);
-    values.resize(static_cast<std::size_t>(size));
-    if (rank == ranks().rank())
-      parallel_for(size, [&](Index k) { at(values, k) = make(begin + k); });
-    ranks().hand_out(rank, values.data(), values.size() * sizeof values[0]);
-    for (Index k = 0; k < size; ++k) use(begin + k, at(values, k));
-  }
-}
-
-/// parallel_sum() with the same bits, of which each rank does some chunks.
-template <class T, class F>
-T divided_sum(Index n, T zero, F&& f) {
-  const OwnItems own = own_items(chunk_count(n));
-  return sum_by_chunks<Cost::much>(
-      n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; },
-      [&](T* sums) {
-        if (!ranks().alone()) complete_items(chunk_count(n), sums, sizeof(T));
-      });
 }
 
 }  // namespace meniscus

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,10 @@ class Ranks {
   /// Brings all ranks what one of them has in the same array.
   virtual void hand_out([[maybe_unused]] int from, [[maybe_unused]] void* values,
                         [[maybe_unused]] std::size_t bytes) {}
+  /// Brings all ranks what each of them has in the same array, the rank r from byte begin[r] to
+  /// begin[r + 1].
+  virtual void gather([[maybe_unused]] void* values,
+                      [[maybe_unused]] std::span<const std::size_t> begin) {}
   /// What one of the ranks says.
   std::string of_rank(int rank, std::string mine);
   /// What the first rank says that does not say nothing.

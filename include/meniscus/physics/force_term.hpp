@@ -4,6 +4,7 @@
 #pragma once
 #include "meniscus/approx/step_reads.hpp"
 #include "meniscus/core/archive.hpp"
+#include "meniscus/physics/chunk_reports.hpp"
 #include "meniscus/physics/constraint.hpp"
 #include "meniscus/physics/unknown.hpp"
 
@@ -46,6 +47,8 @@ struct Forces : std::span<NodalVector> {
   std::span<Unknown> fields;
   /// Where terms that have it at hand put their stored energy; none: it is not asked for.
   std::vector<StoredEnergy>* energies = nullptr;
+  /// Whether terms leave what they say per chunk of rows to Report::chunks.
+  bool leave_chunks = false;
 };
 
 /// Why a term could not compute a force that makes sense.
@@ -79,6 +82,8 @@ struct Report {
   Real external_work = 0;
   StepDemand demand = {};
   std::optional<Failure> failure = {};
+  /// What is left to be brought to all ranks and added by ForceTerm::add_chunks().
+  ChunkReports* chunks = nullptr;
 
   /// Sums; the first failure stays.
   Report& operator+=(Report other) {
@@ -119,6 +124,9 @@ class ForceTerm {
   /// force[A] += ... over all particles. Same bits for any thread count. Called for any motion,
   /// also trial ones: the history of the term stays as it is.
   virtual Report add_force(const Motion& motion, Forces force) = 0;
+  /// Adds to its report what all ranks have said in Report::chunks, which they know by now. All
+  /// ranks call this.
+  void add_chunks(const Motion& motion, Forces force, Report& report) const;
   /// force[A] += the derivative of the forces for a change of the motion by `change` (du, dv and
   /// field changes; its time counts for nothing). Linear in `change`, which should be of the size
   /// of a spacing: without an exact tangent it is the difference of the forces over a millionth of
@@ -190,10 +198,17 @@ class ForceTerm {
   virtual std::vector<FieldSource> fields() const { return {}; }
   virtual std::vector<MeasureSource> measures() const { return {}; }
 
+  /// Puts the failure of a row into words. All ranks call this.
+  virtual std::optional<Failure> failure_of(Index, const Motion&) const { return std::nullopt; }
+
   /// Bytes held for the time loop.
   virtual std::size_t bytes() const = 0;
   /// Pairs (evaluation point or cell, particle) visited by one add_force().
   virtual Offset pairs() const = 0;
+
+ protected:
+  /// The report of a term whose chunks of rows have said all.
+  Report report_of(ChunkReports& said, const Motion& motion, Forces force) const;
 };
 
 }  // namespace meniscus

@@ -5,8 +5,6 @@
 #pragma once
 #include "meniscus/physics/stress_point_force.hpp"
 
-#include <numeric>
-
 namespace meniscus {
 
 /// `Rule` is CellRule<D> or PointRule<D>. One law for the whole body, or one for each group of
@@ -33,55 +31,42 @@ class InternalForce final : public StressPointForce<D, Rule> {
     const NodalVector* u = motion.u.data() + this->body().first;
     [[maybe_unused]] const NodalVector* v = motion.v.data() + this->body().first;
     if constexpr (EnclosedLaw<L>) laws.enclose(this->follow_enclosed(u));
-    PerChunk<Real> power(this->chunks(), 0), ramp_power(this->chunks(), 0), pull(this->chunks(), 0);
-    PerChunk<Real> energy(force.energies ? this->chunks() : 0, 0);
-    PerChunk<Index> failed(this->chunks(), this->no_group);
-    this->accumulate(
-        force,
-        [&](int chunk, Index begin, Index end, NodalVector* f) {
-          Lanes::Mask folded{};
-          [[maybe_unused]] KeptDeformations kept(this->kept());
-          Lanes heat = Lanes::zero();
-          [[maybe_unused]] Lanes work = Lanes::zero(), on_enclosed = Lanes::zero();
-          Lanes stored = Lanes::zero();
-          for (Index g = begin; g < end; ++g) {
-            const Lanes w = rule.weight(g);
-            Tensor<Lanes> H;
-            rule.gather(g, u, H);
-            if constexpr (L::viscous) kept.take(g, H);
-            folded |= ~((1.0 + volume_change(H)).v > 0.0);  // also true for not a number
-            const auto& law = laws.at(g, motion.time);
-            Tensor<Lanes> P = law.stress(H);
-            if (force.energies) stored += w * laws.energy_density(g, motion.time, H);
-            if constexpr (RampedLaw<L>) work += w * law.energy_rate(H);
-            if constexpr (EnclosedLaw<L>) on_enclosed += w * law.pull_on_enclosed(H);
-            if constexpr (L::viscous) {
-              Tensor<Lanes> F_rate;
-              rule.gather(g, v, F_rate);
-              const Tensor<Lanes> viscous = law.viscous_stress(H, F_rate);
-              heat += w * contract(viscous, F_rate);
-              P = P + viscous;
-            }
-            rule.scatter(g, -w * P, f);
-          }
-          at(power, chunk) = sum(heat);
-          at(ramp_power, chunk) = sum(work);
-          at(pull, chunk) = sum(on_enclosed);
-          if (force.energies) at(energy, chunk) = sum(stored);
-          if (folded[0] | folded[1] | folded[2] | folded[3])
-            at(failed, chunk) = this->first_folded(begin, end, u);
-        },
-        power, ramp_power, pull, energy, failed);
-    if constexpr (EnclosedLaw<L>)
-      this->pull_on_surface(std::accumulate(pull.begin(), pull.end(), 0.0), force);
-    Report report;
-    for (const Real p : power) report.heat += p;
-    // What it takes to change the numbers of the law.
-    for (const Real p : ramp_power) report.external_power += p;
-    if (force.energies)
-      force.energies->push_back({this, std::accumulate(energy.begin(), energy.end(), 0.0)});
-    report.failure = this->failure_of(*std::min_element(failed.begin(), failed.end()), u);
-    return report;
+    PerChunk<Real> pull(EnclosedLaw<L> ? this->chunks() : 0, 0);
+    ChunkReports& said = this->said();
+    this->accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
+      Lanes::Mask folded{};
+      [[maybe_unused]] KeptDeformations kept(this->kept());
+      Lanes heat = Lanes::zero();
+      [[maybe_unused]] Lanes work = Lanes::zero(), on_enclosed = Lanes::zero();
+      Lanes stored = Lanes::zero();
+      for (Index g = begin; g < end; ++g) {
+        const Lanes w = rule.weight(g);
+        Tensor<Lanes> H;
+        rule.gather(g, u, H);
+        if constexpr (L::viscous) kept.take(g, H);
+        folded |= ~((1.0 + volume_change(H)).v > 0.0);  // also true for not a number
+        const auto& law = laws.at(g, motion.time);
+        Tensor<Lanes> P = law.stress(H);
+        if (force.energies) stored += w * laws.energy_density(g, motion.time, H);
+        if constexpr (RampedLaw<L>) work += w * law.energy_rate(H);
+        if constexpr (EnclosedLaw<L>) on_enclosed += w * law.pull_on_enclosed(H);
+        if constexpr (L::viscous) {
+          Tensor<Lanes> F_rate;
+          rule.gather(g, v, F_rate);
+          const Tensor<Lanes> viscous = law.viscous_stress(H, F_rate);
+          heat += w * contract(viscous, F_rate);
+          P = P + viscous;
+        }
+        rule.scatter(g, -w * P, f);
+      }
+      // The power is what it takes to change the numbers of the law.
+      said[chunk] = {sum(heat), sum(work), sum(stored)};
+      if (folded[0] | folded[1] | folded[2] | folded[3])
+        said[chunk].failed = this->first_folded(begin, end, u);
+      if constexpr (EnclosedLaw<L>) at(pull, chunk) = sum(on_enclosed);
+    });
+    if constexpr (EnclosedLaw<L>) this->pull_on_surface(this->sum_of_chunks(pull), force);
+    return this->report_of(said, motion, force);
   }
 
   void add_viscous([[maybe_unused]] const Motion& motion, [[maybe_unused]] Forces force) override {

@@ -52,6 +52,7 @@ class StressPointForce : public ForceTerm {
     if (surface_) surface_->tell_reads(reads, body_.first);
     return true;
   }
+  std::optional<Failure> failure_of(Index group, const Motion& motion) const final;
   Offset pairs() const final { return windows_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
  protected:
@@ -59,8 +60,9 @@ class StressPointForce : public ForceTerm {
                    std::unique_ptr<SurfacePatches<D>> surface)
       : body_(body),
         rule_(std::move(rule)),
-        windows_(rule_.windows(body.size())),
-        own_(own_rows(rule_.groups())),
+        windows_(rule_.windows(body.size(), body.division)),
+        said_(windows_),
+        own_(body.division.own_rows(rule_.groups())),
         laws_(std::move(laws)),
         surface_(std::move(surface)),
         spacing_(mean_spacing(body.geometry.grid)) {}
@@ -69,10 +71,19 @@ class StressPointForce : public ForceTerm {
   const Rule& rule() const { return rule_; }
   PointLaws& laws() { return *laws_; }
   int chunks() const { return windows_.chunks(); }
-  /// Sums of the forces of this body's particles out of `all`; results are per chunk.
-  template <class F, class... T>
-  void accumulate(std::span<NodalVector> all, F&& work, PerChunk<T>&... results) {
-    windows_.accumulate(body_.part(all), work, results...);
+  ChunkReports& said() { return said_; }
+  /// Sums of the forces of this body's particles out of `all`.
+  template <class F>
+  void accumulate(std::span<NodalVector> all, F&& work) {
+    windows_.accumulate(body_.part(all), work);
+  }
+  /// Of what the chunks of all ranks have left.
+  template <class T>
+  T sum_of_chunks(PerChunk<T>& left) const {
+    body_.division.complete_items(chunks(), left.begin(), sizeof(T));
+    T sum(0.0);
+    for (const T& of_chunk : left) sum += of_chunk;
+    return sum;
   }
 
   /// J_e - 1 of the surface at the displacements `u` of the body, whose gradient is remembered;
@@ -90,12 +101,9 @@ class StressPointForce : public ForceTerm {
   void keep_deformations() { kept_.resize(static_cast<std::size_t>(own_.end - own_.begin)); }
   Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data() - own_.begin; }
 
-  static constexpr Index no_group = std::numeric_limits<Index>::max();
-  /// The first of these groups with a point where J <= 0 or not a number; no_group if there is
-  /// none. `u` is that of the body.
+  /// The first of these groups with a point where J <= 0 or not a number; ChunkReport::nowhere if
+  /// there is none. `u` is that of the body.
   Index first_folded(Index begin, Index end, const NodalVector* u) const;
-  /// Puts the failure of a group into words.
-  std::optional<Failure> failure_of(Index group, const NodalVector* u) const;
 
  private:
   using Size = typename SurfacePatches<D>::Size;
@@ -114,6 +122,7 @@ class StressPointForce : public ForceTerm {
   const Body<D>& body_;
   Rule rule_;
   ForceWindows windows_;
+  ChunkReports said_;
   OwnItems own_;  // groups whose rows this rank has
   std::unique_ptr<PointLaws> laws_;
   std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume

@@ -80,7 +80,7 @@ class SurfaceTerm : public ForceTerm {
       : body_(body),
         law_(law),
         surface_(body, points),
-        windows_(surface_.points.windows(body.size())) {}
+        windows_(surface_.points.windows(body.size(), body.division)) {}
 
   std::string name() const override {
     return std::string(L::type_name) + " of the surface of '" + body_.name + "'";

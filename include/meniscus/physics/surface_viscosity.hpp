@@ -14,32 +14,31 @@ class SurfaceViscosity final : public SurfaceTerm<D, L> {
   bool viscous() const override { return true; }
 
   Report add_force(const Motion& motion, Forces force) override {
-    PerChunk<Real> heat(windows_.chunks(), 0);
     const NodalVector *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    windows_.accumulate(
-        body_.part(std::span<NodalVector>(force)),
-        [&](int chunk, Index begin, Index end, NodalVector* f) {
-          Lanes power = Lanes::zero();
-          for (Index g = begin; g < end; ++g) {
-            const Tensor<Lanes> F_rate = surface_.gradients(g, v);
-            const Tensor<Lanes> P = law_.stress(surface_.state(g, surface_.gradients(g, u)), F_rate,
-                                                -surface_.points.weight(g));
-            power += -contract(P, F_rate);
-            surface_.points.scatter(g, P, f);
-          }
-          at(heat, chunk) = sum(power);
-        },
-        heat);
-    Report report;
-    for (const Real p : heat) report.heat += p;
-    return report;
+    windows_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int chunk, Index begin,
+                                                                       Index end, NodalVector* f) {
+      Lanes power = Lanes::zero();
+      for (Index g = begin; g < end; ++g) {
+        const Tensor<Lanes> F_rate = surface_.gradients(g, v);
+        const Tensor<Lanes> P = law_.stress(surface_.state(g, surface_.gradients(g, u)), F_rate,
+                                            -surface_.points.weight(g));
+        power += -contract(P, F_rate);
+        surface_.points.scatter(g, P, f);
+      }
+      said_[chunk].heat = sum(power);
+    });
+    return this->report_of(said_, motion, force);
   }
-  /// All of the force is linear in the velocity.
-  void add_viscous(const Motion& motion, Forces force) override { add_force(motion, force); }
+  /// All of the force is linear in the velocity; the heat is not asked for.
+  void add_viscous(const Motion& motion, Forces force) override {
+    force.leave_chunks = true;
+    add_force(motion, force);
+  }
 
  private:
   using SurfaceTerm<D, L>::body_, SurfaceTerm<D, L>::law_, SurfaceTerm<D, L>::surface_,
       SurfaceTerm<D, L>::windows_;
+  ChunkReports said_{windows_};
 };
 
 }  // namespace meniscus

@@ -100,7 +100,13 @@ struct System {
   const Body<D>& body_of(Index particle) const;
 
  private:
+  /// To the reports of all terms what their chunks of all ranks say.
+  void add_chunks(const Motion& motion, Forces force);
   Index first_not_finite(std::span<const NodalVector> force) const;
+
+  std::vector<Report> reports_;      // of the last call, [term]
+  std::vector<ChunkReports*> left_;  // by reports
+  ReportExchange exchange_;
 };
 
 }  // namespace meniscus

@@ -83,7 +83,7 @@ ContactFacets<D>::ContactFacets(const Body<D>& body)
   for (auto& simplex : simplices_)
     for (Index& A : simplex) A = at(number, A);
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
-  windows_ = {rows_.start, rows_.particle, body.size()};
+  windows_ = {rows_.start, rows_.particle, body.size(), body.division};
 }
 
 template <int D>

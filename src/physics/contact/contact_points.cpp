@@ -118,7 +118,7 @@ void ContactPoints<D>::build_rows(RowContent content) {
   const std::vector<Offset> start = std::exchange(rule_.rows.start, {0});
   for (Index q = 0, point = 0; q < size(); ++q)
     rule_.rows.start.push_back(at(start, has_point(q) ? ++point : point));
-  windows_ = rule_.windows(body_->size());
+  windows_ = rule_.windows(body_->size(), body_->division);
   list_particles();
   take_inertia();
 }

@@ -83,7 +83,7 @@ class PairSumsOf final : public PairSums<D> {
   Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
               const ContactPlaces<D>& others) const override {
     // Over all clusters: the order of summation must not depend on which are active.
-    return divided_sum(clusters, 0.0, [&](Index c) {
+    return evenly.sum(clusters, 0.0, [&](Index c) {
       Lanes T[D], S[1];
       T[0] = Lanes::zero();
       contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
