@@ -214,6 +214,7 @@ Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
 
 template <int D>
 Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
+  if (!windows_.division().has_some()) return 0;
   place(u, x_);
   return parallel_sum(group_count(), 0.0, [&](Index g) {
     return sum_of_patches(g,

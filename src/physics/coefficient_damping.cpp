@@ -14,6 +14,7 @@ class CoefficientDamping final : public ForceTerm {
   CoefficientDamping(const Body<D>& body, std::span<const Real> viscosity, Real strength)
       : body_(body),
         windows_(body.at_particles.start, body.at_particles.particle, body.size(), body.division),
+        said_(windows_),
         slip_(static_cast<std::size_t>(body.size())),
         offset_(slip_) {
     const Real h = mean_spacing(body.geometry.grid);
@@ -25,7 +26,10 @@ class CoefficientDamping final : public ForceTerm {
   bool viscous() const override { return true; }
   std::optional<Real> potential(const Motion&) override { return 0; }
 
-  void add_viscous(const Motion& motion, Forces force) override { add_force(motion, force); }
+  void add_viscous(const Motion& motion, Forces force) override {
+    force.leave_chunks = true;  // the heat is not asked for
+    add_force(motion, force);
+  }
   void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
     const auto own = body_.part(diagonal);
     windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* sum) {
@@ -42,23 +46,24 @@ class CoefficientDamping final : public ForceTerm {
   Report add_force(const Motion& motion, Forces force) override {
     const Rotation sums = subtract_places(motion);
     const Eigen::Vector3d w = sums.rate();
-    Report report;
-    report.heat = body_.division.sum(body_.size(), 0.0, [&](Index A) {
-      const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
-      const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
-      at(slip_, A) = at(rate_, A) * s;
-      return at(rate_, A) * sum(s * s);
+    const auto own = body_.part(std::span<NodalVector>(force));
+    windows_.accumulate(own, [&](int chunk, Index begin, Index end, NodalVector* f) {
+      Real heat = 0;
+      for (Index A = begin; A < end; ++A) {
+        const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
+        const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
+        at(slip_, A) = at(rate_, A) * s;
+        heat += at(rate_, A) * sum(s * s);
+        scatter_value(body_.at_particles, A, at(slip_, A), f);
+      }
+      said_[chunk].heat = heat;
     });
     if (is_entered(halo_))
       slips_->bring(slip_.data(), slip_.data(), sizeof(Lanes));
     else
       body_.division.complete_rows(body_.size(), slip_.data(), sizeof(Lanes));
-    const auto own = body_.part(std::span<NodalVector>(force));
-    windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* f) {
-      for (Index A = begin; A < end; ++A) scatter_value(body_.at_particles, A, at(slip_, A), f);
-    });
     for (Index A = 0; A < body_.size(); ++A) at(own, A) -= at(slip_, A);
-    return report;
+    return report_of(said_, motion, force);
   }
 
   bool tell_reads(StepReads& reads) override {
@@ -105,7 +110,7 @@ class CoefficientDamping final : public ForceTerm {
   /// d to slip_, e to offset_. Positions are quadratic fields: (I - N) x = (I - N) u.
   Rotation subtract_places(const Motion& motion) {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    return body_.division.sum(body_.size(), Rotation{}, [&](Index A) {
+    return body_.division.sum_where_rows_are(body_.size(), Rotation{}, [&](Index A) {
       const PointRows<D>& rows = body_.at_particles;
       const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
       at(slip_, A) = d;
@@ -119,6 +124,7 @@ class CoefficientDamping final : public ForceTerm {
 
   const Body<D>& body_;
   ForceWindows windows_;
+  ChunkReports said_;
   std::vector<Real> rate_;  // c, [particle]
   NodalVectors slip_, offset_;
   std::shared_ptr<const Halo> halo_;

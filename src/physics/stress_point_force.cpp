@@ -53,7 +53,7 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
 
 template <int D, class Rule>
 void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diagonal) {
-  if (kept_.empty()) return;
+  if (!keeps_) return;
   accumulate(diagonal, [&](int, Index begin, Index end, NodalVector* sum) {
     for (Index g = begin; g < end; ++g) {
       const auto viscosity = laws_->viscosity(g, 0, kept()[g]);

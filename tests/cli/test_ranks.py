@@ -158,6 +158,16 @@ initial_velocity = [{10 if k == 0 else 0}, 0, 0]
 viscosity = 10""") for k in range(count))
 
 
+def drops(count):
+    """Small drops one beside the other, in steps that solve for the velocity."""
+    start = SHORT_DROP.index("[[body]]")
+    return SHORT_DROP[:start].replace("[time]", '[time]\nviscosity = "implicit"').replace(
+        "drop.", "drop0.") + "".join(
+            SHORT_DROP[start:].replace('"drop"', f'"drop{k}"').replace(
+                "[body.material]", f'centre = ["{40 * k} nm", 0, 0]\n[body.material]')
+            for k in range(count))
+
+
 NO_BODY = SHORT_BLOCK[:SHORT_BLOCK.index("[[body]]")]
 # [name] small bodies that are whole on some numbers of ranks
 WHOLE = {
@@ -170,6 +180,7 @@ sigma0 = 0.05
 beta = 1
 points = 2
 """ for k in range(7)),
+    "drops": drops(8),
     "beside a large one": thick(9) + blocks(4, 0.5, y=2, cells=3),
 }
 PRESSED = SHORT_BLOCK.replace("neo_hookean", "st_venant_kirchhoff").replace(
@@ -308,6 +319,8 @@ class SameBits(RanksTest):
                 self.directory = self.directory.parent
         log = (self.directory / "apart" / "ranks4" / "run.log").read_text()
         self.assertIn("on 500 of 2000 particles at most, 0 of them ghosts", log)
+        log = (self.directory / "drops" / "ranks2" / "run.log").read_text()
+        self.assertRegex(log, r"on \d+ of \d+ particles at most, 0 of them ghosts")
 
     def test_restart_of_small_bodies(self):
         scene = self.scene(WHOLE["in contact"])

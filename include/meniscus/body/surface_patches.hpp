@@ -33,7 +33,8 @@ class SurfacePatches {
   Real reference(Size size) const { return size == Size::area ? area_ : volume_; }
   /// A size at the displacement coefficients `u` of the body.
   Real measure(Size size, const NodalVector* u) const;
-  /// The same, and its gradient is remembered. Allocates nothing.
+  /// The same, and its gradient is remembered. Allocates nothing. A rank that has no rows of the
+  /// body does nothing and says zero.
   Real follow(Size size, const NodalVector* u);
   /// force_A += factor d(size)/du_A of what was followed last, over the particles of the body.
   void add_gradient(Real factor, std::span<NodalVector> force);
@@ -50,9 +51,10 @@ class SurfacePatches {
   void add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
                         std::span<NodalVector> force);
 
-  /// Every rank reads all places of the surface, of a body whose particles begin at `first`.
+  /// Every rank that may have rows of the body reads all places of its surface; its particles begin
+  /// at `first`.
   void tell_reads(StepReads& reads, Index first) {
-    reads.particles(rows_.particle, first);
+    if (windows_.division().has_some()) reads.particles(rows_.particle, first);
     tell_sums(reads, first);
   }
   /// Of add_to_particles() alone.

@@ -20,6 +20,8 @@ class Division {
   /// All to one rank.
   constexpr explicit Division(int rank) : whole_(rank) {}
 
+  /// Whether this rank may have rows or items.
+  bool has_some() const { return whole_ == none || whole_ == ranks().rank(); }
   /// Items of this rank.
   OwnItems own_items(Index n) const;
   /// With which those of a rank begin; of the number of ranks: n.
@@ -28,6 +30,10 @@ class Division {
   int rank_of_item(Index n, Index item) const;
   /// Brings values of so many bytes, [item], of the others.
   void complete_items(Index n, void* values, std::size_t bytes_per_value) const;
+  /// The same for those only that may have rows: nothing is sent of a whole body.
+  void complete_where_rows_are(Index n, void* values, std::size_t bytes_per_value) const {
+    if (whole_ == none) complete_items(n, values, bytes_per_value);
+  }
 
   // The same of rows.
   OwnItems own_rows(Index n) const;
@@ -54,13 +60,24 @@ class Division {
   /// parallel_sum() with the same bits, of which each rank does the chunks of its rows.
   template <class T, class F>
   T sum(Index n, T zero, F&& f) const {
-    const OwnItems own = own_items(chunk_count(n));
-    return sum_by_chunks<Cost::much>(
-        n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; },
-        [&](T* sums) { complete_items(chunk_count(n), sums, sizeof(T)); });
+    return sum_of_own(n, zero, f,
+                      [&](T* sums) { complete_items(chunk_count(n), sums, sizeof(T)); });
+  }
+  /// The same for those only that may have rows.
+  template <class T, class F>
+  T sum_where_rows_are(Index n, T zero, F&& f) const {
+    return sum_of_own(n, zero, f,
+                      [&](T* sums) { complete_where_rows_are(chunk_count(n), sums, sizeof(T)); });
   }
 
  private:
+  template <class T, class F, class Complete>
+  T sum_of_own(Index n, T zero, F&& f, Complete&& complete) const {
+    const OwnItems own = own_items(chunk_count(n));
+    return sum_by_chunks<Cost::much>(
+        n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; }, complete);
+  }
+
   static constexpr int none = -1;
 
   int whole_ = none;  // the rank that has all

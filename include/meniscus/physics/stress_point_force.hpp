@@ -77,10 +77,10 @@ class StressPointForce : public ForceTerm {
   void accumulate(std::span<NodalVector> all, F&& work) {
     windows_.accumulate(body_.part(all), work);
   }
-  /// Of what the chunks of all ranks have left.
+  /// Of what the chunks of all ranks have left, where the rows are.
   template <class T>
   T sum_of_chunks(PerChunk<T>& left) const {
-    body_.division.complete_items(chunks(), left.begin(), sizeof(T));
+    body_.division.complete_where_rows_are(chunks(), left.begin(), sizeof(T));
     T sum(0.0);
     for (const T& of_chunk : left) sum += of_chunk;
     return sum;
@@ -98,7 +98,10 @@ class StressPointForce : public ForceTerm {
   }
 
   /// From now on add_force leaves H of the groups of this rank in kept()[group].
-  void keep_deformations() { kept_.resize(static_cast<std::size_t>(own_.end - own_.begin)); }
+  void keep_deformations() {
+    keeps_ = true;
+    kept_.resize(static_cast<std::size_t>(own_.end - own_.begin));
+  }
   Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data() - own_.begin; }
 
   /// The first of these groups with a point where J <= 0 or not a number; ChunkReport::nowhere if
@@ -127,6 +130,7 @@ class StressPointForce : public ForceTerm {
   std::unique_ptr<PointLaws> laws_;
   std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
   Real spacing_;
+  bool keeps_ = false;
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group]
 };
 
