@@ -2,6 +2,7 @@
 // Building the rule of nodal cells with linear moments: their rows, from the integrals of shape
 // functions over cells and facets (RKPM note 5.6).
 #include "meniscus/body/body.hpp"
+#include "meniscus/body/sums_over_ranks.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 
@@ -9,7 +10,6 @@
 
 #include "cell_integrals.hpp"
 #include "rounded_rows.hpp"
-#include "sums_over_ranks.hpp"
 
 namespace meniscus {
 namespace {
@@ -260,14 +260,24 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
 }  // namespace
 
 template <int D>
-CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells) {
-  CellOperator<D> op;
-  SumsOverRanks shape_integral(body.size());
-  on_each_rank([&] { append_rows(body, cells, precision, op.rule, shape_integral); });
+CellRows<D>::CellRows(const Body<D>& body, RowPrecision precision, OwnItems cells)
+    : shape_integral(body.size()) {
+  append_rows(body, cells, precision, rule, shape_integral);
+}
+
+template <int D>
+CellOperator<D> cell_rule_of(const Body<D>& body, CellRows<D> rows) {
+  CellOperator<D> op{std::move(rows.rule), rows.shape_integral.of_all()};
   end_rows(body, op.rule);
   list_points(body, op.rule);
-  op.shape_integral = shape_integral.of_all();
   return op;
+}
+
+template <int D>
+CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells) {
+  std::optional<CellRows<D>> rows;
+  on_each_rank([&] { rows.emplace(body, precision, cells); });
+  return cell_rule_of(body, std::move(*rows));
 }
 
 template <int D>
@@ -276,6 +286,8 @@ CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision) {
 }
 
 #define MENISCUS_INSTANTIATE(D)                                           \
+  template struct CellRows<D>;                                            \
+  template CellOperator<D> cell_rule_of(const Body<D>&, CellRows<D>);     \
   template CellOperator<D> build_cell_rule(const Body<D>&, RowPrecision); \
   template CellOperator<D> build_cell_rule(const Body<D>&, RowPrecision, OwnItems);
 MENISCUS_INSTANTIATE(2)

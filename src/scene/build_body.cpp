@@ -124,6 +124,10 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
                     name));
 }
 
+RowPrecision row_precision(const BodySettings& settings) {
+  return settings.precision == "single" ? RowPrecision::rounded : RowPrecision::full;
+}
+
 /// The body has the mass that it had before it was referred anew, to the last bit if it is that.
 template <int D>
 void keep_mass(Body<D>& body) {
@@ -135,23 +139,38 @@ void keep_mass(Body<D>& body) {
 }  // namespace
 
 template <int D>
-std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned, const Division& division,
-                                           std::shared_ptr<const Reference<D>> reference,
-                                           Scene<D>& scene, Assembly<D>& assembly) {
+void place_body(const BodyPlan<D>& planned, const Division& division,
+                std::shared_ptr<const Reference<D>> reference, Scene<D>& scene,
+                Assembly<D>& assembly) {
   const BodySettings& settings = planned.settings;
   Geometry<D> geometry = reference ? reference->geometry : planned.geometry;
   if (!reference) order_spatially(geometry);
   ParticleSet<D> particles = sound_particles(settings, geometry, assembly);
-  System<D>& system = scene.system;
-  Body<D>& body = system.bodies.emplace_back(settings.name, std::move(geometry),
-                                             std::move(particles), division);
-  body.first = system.size();
+  auto& bodies = scene.system.bodies;
+  const Index first = bodies.empty() ? 0 : bodies.back().first + bodies.back().size();
+  Body<D>& body =
+      bodies.emplace_back(settings.name, std::move(geometry), std::move(particles), division);
+  body.first = first;
   body.reference = std::move(reference);
   body.loaded_faces = planned.loaded_faces;
+}
+
+template <int D>
+void build_rows(const BodyPlan<D>& planned, Body<D>& body) {
+  body.build_values();
+  if (planned.settings.integration == "q_scni")
+    body.cell_rows = std::make_unique<CellRows<D>>(body, row_precision(planned.settings),
+                                                   body.division.own_rows(body.size()));
+}
+
+template <int D>
+std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned, Body<D>& body,
+                                           Scene<D>& scene, Assembly<D>& assembly) {
+  const BodySettings& settings = planned.settings;
+  System<D>& system = scene.system;
   auto built = planned.material->build(
       body, {settings.integration, settings.gauss_points, settings.volumetric,
-             planned.enclosed && planned.material->fluid(),
-             settings.precision == "single" ? RowPrecision::rounded : RowPrecision::full});
+             planned.enclosed && planned.material->fluid(), row_precision(settings)});
   if (body.reference) keep_mass(body);
   system.mass.insert(system.mass.end(), body.mass.begin(), body.mass.end());
   report(body, built, settings, assembly);
@@ -172,11 +191,14 @@ std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned, const Div
   return std::move(built.nematic);
 }
 
-template std::unique_ptr<NematicBody<2>> build_body(const BodyPlan<2>&, const Division&,
-                                                    std::shared_ptr<const Reference<2>>, Scene<2>&,
-                                                    Assembly<2>&);
-template std::unique_ptr<NematicBody<3>> build_body(const BodyPlan<3>&, const Division&,
-                                                    std::shared_ptr<const Reference<3>>, Scene<3>&,
-                                                    Assembly<3>&);
+#define MENISCUS_INSTANTIATE(D)                                                                \
+  template void place_body(const BodyPlan<D>&, const Division&,                                \
+                           std::shared_ptr<const Reference<D>>, Scene<D>&, Assembly<D>&);      \
+  template void build_rows(const BodyPlan<D>&, Body<D>&);                                      \
+  template std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>&, Body<D>&, Scene<D>&, \
+                                                      Assembly<D>&);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
 
 }  // namespace meniscus

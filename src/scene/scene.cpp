@@ -113,11 +113,15 @@ Scene<D> build(const Plan<D>& plan, const References<D>& references) {
   Assembly<D> assembly(scene, references.empty());
   std::vector<std::unique_ptr<NematicBody<D>>> nematics;
   const std::vector<Division> divisions = divide_bodies(plan, references);
-  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
-    const BodyPlan<D>& body = plan.bodies[b];
-    nematics.push_back(
-        build_body(body, divisions[b], reference_of(body, references), scene, assembly));
-  }
+  auto& bodies = scene.system.bodies;
+  for (std::size_t b = 0; b < divisions.size(); ++b)
+    place_body(plan.bodies[b], divisions[b], reference_of(plan.bodies[b], references), scene,
+               assembly);
+  on_each_rank([&] {
+    for (std::size_t b = 0; b < divisions.size(); ++b) build_rows(plan.bodies[b], bodies[b]);
+  });
+  for (std::size_t b = 0; b < divisions.size(); ++b)
+    nematics.push_back(build_body(plan.bodies[b], bodies[b], scene, assembly));
   for (std::size_t b = 0; b < nematics.size(); ++b)
     if (nematics[b]) add_director(scene.system.bodies[b], std::move(*nematics[b]), scene, assembly);
   set_initial_state(plan, scene);

@@ -262,8 +262,11 @@ Real Relaxation<D>::largest_change() const {
       const Lanes moved = value_at(body.at_particles, A, du_.data() + body.first);
       square = std::max(square, sum(moved * moved));
     }
-    for (const Real of_rank : said_by_ranks(square))
+    for (int rank = 0; rank < ranks().size(); ++rank) {
+      Real of_rank = square;
+      ranks().hand_out(rank, &of_rank, sizeof of_rank);
       largest = std::max(largest, std::sqrt(of_rank) / extents_[b]);
+    }
   }
   return largest;
 }

@@ -3,6 +3,7 @@
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/divided.hpp"
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/shared_items.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +16,18 @@
 namespace meniscus::test_divided {
 namespace {
 
-/// One of several ranks whose others say and bring nothing.
+/// One of several ranks whose others say nothing, and bring their number in each byte.
 class OneOf final : public Ranks {
  public:
   static inline int number = 0, all = 1;
   int rank() const override { return number; }
   int size() const override { return all; }
+  void gather(void* values, std::span<const std::size_t> begin) override {
+    for (std::size_t r = 0; r + 1 < begin.size(); ++r)
+      if (static_cast<int>(r) != number)
+        std::memset(static_cast<std::byte*>(values) + begin[r], static_cast<int>(r),
+                    begin[r + 1] - begin[r]);
+  }
 };
 
 /// Calls f as each of so many ranks.
@@ -71,7 +78,7 @@ TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
     // The first rank would have 5000 of the large one, the second one what is on it besides.
     EXPECT_EQ(owners({10000, 500}), (Owners{-1, 1})) << "1.048 shares";
     EXPECT_EQ(owners({10000, 600}), (Owners{-1, -1})) << "1.057 shares";
-    EXPECT_EQ(owners({600, 10000, 50, 600}), (Owners{0, -1, 0, 1}));
+    EXPECT_EQ(owners({600, 10000, 50, 600}), (Owners{0, -1, 1, 1}));
     EXPECT_EQ(owners({10000, 600, 50}), (Owners{-1, -1, 1})) << "without the larger one";
   });
   as_each_of(3, [&](int) { EXPECT_EQ(owners(equal), Owners(8, -1)) << "more than a quarter"; });
@@ -86,6 +93,28 @@ TEST(Divided, RowsOfAWholeBodyAreOfOneRank) {
     EXPECT_EQ(items.end - items.begin, rank == 1 ? 5 : 0);
     EXPECT_EQ(division.first_row(70, 3), 70);
     EXPECT_EQ(division.rank_of_row(70, 69), 1);
+  });
+}
+
+TEST(Divided, ItemsAreBroughtFromTheirRanks) {
+  using Values = std::vector<std::uint16_t>;
+  SharedItems items;
+  items.add(2);
+  items.add(2, Division(0));
+  items.add(3, evenly);  // as long as there is one rank only: all to the first
+  items.add(1);
+  as_each_of(3, [&](int rank) {
+    Values values(7, 7);
+    items.complete(values.data(), sizeof values[0]);
+    const std::vector<int> of{2, 0, 0, 0, 0, 0, 1};
+    for (std::size_t k = 0; k < values.size(); ++k)
+      EXPECT_EQ(values[k], of[k] == rank ? 7 : of[k] * 0x0101) << rank << " " << k;
+    Values rows(48, 7);
+    evenly.complete_rows(48, rows.data(), sizeof rows[0]);
+    for (Index row = 0; row < 48; ++row) {
+      const int owner = evenly.rank_of_row(48, row);
+      EXPECT_EQ(at(rows, row), owner == rank ? 7 : owner * 0x0101);
+    }
   });
 }
 

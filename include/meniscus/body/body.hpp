@@ -7,12 +7,16 @@
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/body/reference.hpp"
+#include "meniscus/body/sums_over_ranks.hpp"
 #include "meniscus/core/divided.hpp"
 
 #include <memory>
 #include <string>
 
 namespace meniscus {
+
+template <int D>
+struct CellRows;
 
 /// The particles first ... first + size() - 1 of all, with their grid, nodal cells and masses.
 template <int D>
@@ -31,6 +35,8 @@ struct Body {
   /// Values of the shape functions at the particles: places x(X_A) = sum_B N_B(X_A) d_B. Particle
   /// coefficients d_A are not places. The rows of this rank; those of others are empty.
   PointRows<D> at_particles;
+  /// Rows of its cells that were made ahead, for the material to take; null: it makes them.
+  std::unique_ptr<CellRows<D>> cell_rows;
   /// What it was referred to anew; null: it has the reference of its scene.
   std::shared_ptr<const Reference<D>> reference;
 
@@ -53,17 +59,23 @@ struct Body {
   }
   Body(const Body&) = delete;
   Body(Body&&) = delete;
+  /// All ranks make it, with its values at particles.
+  Body(std::string body_name, Geometry<D> body_geometry, ParticleSet<D> body_particles)
+      : Body(std::move(body_name), std::move(body_geometry), std::move(body_particles), evenly) {
+    on_each_rank([this] { build_values(); });
+  }
+  /// Without values at its particles.
   Body(std::string body_name, Geometry<D> body_geometry, ParticleSet<D> body_particles,
-       Division between_ranks = evenly)
+       Division between_ranks)
       : name(std::move(body_name)),
         division(between_ranks),
         geometry(std::move(body_geometry)),
         particles(std::move(body_particles)),
-        cells(geometry.grid) {
-    on_each_rank([this] {
-      at_particles = build_point_rows<D>(particles, particles.X(), {.value = true}, name,
-                                         division.own_rows(size()));
-    });
+        cells(geometry.grid) {}
+  /// Those of this rank. Throws SolveError where shape functions cannot be determined.
+  void build_values() {
+    at_particles = build_point_rows<D>(particles, particles.X(), {.value = true}, name,
+                                       division.own_rows(size()));
   }
 };
 
@@ -79,8 +91,21 @@ struct CellOperator {
   std::vector<Real> shape_integral;  ///< [particle] integral of N_A over the body
 };
 
-/// The rows of this rank, and the integrals over all cells. Throws SolveError where
-/// shape functions cannot be determined.
+/// The rows of the rule of some cells, which a rank makes by itself; those of all others are empty.
+template <int D>
+struct CellRows {
+  /// Throws SolveError where shape functions cannot be determined.
+  CellRows(const Body<D>& body, RowPrecision precision, OwnItems cells);
+
+  CellRule<D> rule;
+  SumsOverRanks shape_integral;
+};
+/// The rule that all ranks have made the rows of. All ranks call this.
+template <int D>
+CellOperator<D> cell_rule_of(const Body<D>& body, CellRows<D> rows);
+
+/// The rows of this rank, and the integrals over all cells. All ranks call this. Throws SolveError
+/// where shape functions cannot be determined.
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision = RowPrecision::full);
 /// Likewise the rows of some cells, which the ranks share out; those of all others are empty.

@@ -17,8 +17,6 @@ class SharedItems {
   void add(Index n, const Division& division) {
     for (Index k = 0; k < n; ++k) add(division.rank_of_item(n, k));
   }
-  Index size() const { return static_cast<Index>(rank_.size()); }
-  int rank(Index item) const { return at(rank_, item); }
 
   /// Brings values of so many bytes, [item], of the others. All ranks call this.
   void complete(void* values, std::size_t bytes_per_value);

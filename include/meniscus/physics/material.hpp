@@ -67,7 +67,9 @@ class MaterialOf final : public Material<D> {
   [[gnu::cold]] typename Material<D>::Built build(Body<D>& body,
                                                   const Integration& integration) const override {
     if (integration.rule == "q_scni") {
-      CellOperator<D> op = build_cell_rule(body, integration.precision);
+      CellOperator<D> op = body.cell_rows ? cell_rule_of(body, std::move(*body.cell_rows))
+                                          : build_cell_rule(body, integration.precision);
+      body.cell_rows.reset();
       std::vector<Vec<D>> places;
       for (Index A = 0; A < body.size(); ++A) places.push_back(body.cell_origin(A));
       return integrated(body, std::move(op.rule), laws_at(places, body.geometry), op.shape_integral,
