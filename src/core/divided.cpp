@@ -10,7 +10,8 @@ namespace {
 
 /// Brings parts of an array of values, of rank r those from first(r) to first(r + 1).
 template <class First>
-void gather(void* values, std::size_t bytes_per_value, First&& first) {
+void complete(void* values, std::size_t bytes_per_value, First&& first) {
+  if (ranks().alone()) return;
   static std::vector<std::size_t> begin;
   begin.clear();
   for (int rank = 0; rank <= ranks().size(); ++rank)
@@ -37,11 +38,7 @@ int Division::rank_of_item(Index n, Index item) const {
 }
 
 void Division::complete_items(Index n, void* values, std::size_t bytes_per_value) const {
-  if (ranks().alone()) return;
-  if (whole_ != none)
-    ranks().hand_out(whole_, values, static_cast<std::size_t>(n) * bytes_per_value);
-  else
-    gather(values, bytes_per_value, [&](int rank) { return first_item(n, rank); });
+  complete(values, bytes_per_value, [&](int rank) { return first_item(n, rank); });
 }
 
 Index Division::first_row(Index n, int rank) const {
@@ -60,11 +57,7 @@ int Division::rank_of_row(Index n, Index row) const {
 }
 
 void Division::complete_rows(Index n, void* values, std::size_t bytes_per_value) const {
-  if (ranks().alone()) return;
-  if (whole_ != none)
-    ranks().hand_out(whole_, values, static_cast<std::size_t>(n) * bytes_per_value);
-  else
-    gather(values, bytes_per_value, [&](int rank) { return first_row(n, rank); });
+  complete(values, bytes_per_value, [&](int rank) { return first_row(n, rank); });
 }
 
 namespace {

@@ -100,18 +100,24 @@ THICK_PAIR = thick(14) + thick(5)[thick(5).index("[[body]]"):].replace('"block"'
     "[body.material]", "centre = [0, 0, 1.05]\n[body.material]")
 TWO_DROPS = LONG["implicit viscosity"] + LONG_DROP[LONG_DROP.index("[[body]]"):].replace(
     '"drop"', '"far"').replace("core = 8", 'centre = ["20 nm", 0, 0]\ncore = 7')
-# Bars fly at each other from beyond the reach of their contact, meet with their ends and part.
-BAR = LONG_BLOCK[:LONG_BLOCK.index("[[body_force]]")]
-MEETING_BARS = BAR.replace("end = 0.06", "end = 0.12") + BAR[BAR.index("[[body]]"):].replace(
-    '"block"', '"other"').replace(
-        "[body.material]", "centre = [4.4, 0, 0]\ninitial_velocity = [-6, 0, 0]\n[body.material]") + """
+
+
+def contact(first, second, epsilon):
+    return f"""
 [[contact]]
-bodies = ["block", "other"]
-epsilon = 2e6
+bodies = ["{first}", "{second}"]
+epsilon = {epsilon}
 sigma0 = 0.05
 beta = 1
 points = 2
 """
+
+
+# Bars fly at each other from beyond the reach of their contact, meet with their ends and part.
+BAR = LONG_BLOCK[:LONG_BLOCK.index("[[body_force]]")]
+MEETING_BARS = BAR.replace("end = 0.06", "end = 0.12") + BAR[BAR.index("[[body]]"):].replace(
+    '"block"', '"other"').replace(
+        "[body.material]", "centre = [4.4, 0, 0]\ninitial_velocity = [-6, 0, 0]\n[body.material]") + contact("block", "other", 2e6)
 # [name] bodies of which every rank needs most, but not all
 MOST = {
     "two drops": TWO_DROPS,
@@ -128,14 +134,7 @@ point = [0, 0, -0.55]
 normal = [0, 0, 1]
 displacement = [0, 0, "0.5*t"]
 """,
-    "a pair": THICK_PAIR + """
-[[contact]]
-bodies = ["block", "other"]
-epsilon = 100
-sigma0 = 0.05
-beta = 1
-points = 2
-""",
+    "a pair": THICK_PAIR + contact("block", "other", 100),
     "a law of the gap": THICK_PAIR + """
 [[contact]]
 bodies = ["block", "other"]
@@ -172,14 +171,7 @@ NO_BODY = SHORT_BLOCK[:SHORT_BLOCK.index("[[body]]")]
 # [name] small bodies that are whole on some numbers of ranks
 WHOLE = {
     "apart": NO_BODY + blocks(16, 1),
-    "in contact": NO_BODY + blocks(8, 0.08) + "".join(f"""
-[[contact]]
-bodies = ["block{k}", "block{k + 1}"]
-epsilon = 2e6
-sigma0 = 0.05
-beta = 1
-points = 2
-""" for k in range(7)),
+    "in contact": NO_BODY + blocks(8, 0.08) + "".join(contact(f"block{k}", f"block{k + 1}", 2e6) for k in range(7)),
     "drops": drops(8),
     "beside a large one": thick(9) + blocks(4, 0.5, y=2, cells=3),
 }
