@@ -6,6 +6,7 @@
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/core/buckets.hpp"
 #include "meniscus/core/dense.hpp"
+#include "meniscus/core/divided.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
 
@@ -181,11 +182,15 @@ std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell) {
 
 template <int D>
 void check_jacobians(const Grid<D>& grid, const std::string& cause) {
-  parallel_for(grid.cell_count(), [&](Index e) {
-    if (const auto fold = find_fold(grid, e))
-      throw InputError(
-          fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive",
-                      cause, e, place<D>(fold->X), determinant<D>(fold->J)));
+  const OwnItems own = evenly.own_items(grid.cell_count());
+  on_each_rank([&] {
+    parallel_for(own.end - own.begin, [&](Index k) {
+      const Index e = own.begin + k;
+      if (const auto fold = find_fold(grid, e))
+        throw InputError(
+            fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive",
+                        cause, e, place<D>(fold->X), determinant<D>(fold->J)));
+    });
   });
 }
 

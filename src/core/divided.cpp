@@ -6,12 +6,11 @@
 #include <numeric>
 
 namespace meniscus {
-namespace {
 
 /// Brings parts of an array of values, of rank r those from first(r) to first(r + 1).
 template <class First>
-void complete(void* values, std::size_t bytes_per_value, First&& first) {
-  if (ranks().alone()) return;
+void Division::complete(void* values, std::size_t bytes_per_value, First&& first) const {
+  if (ranks().alone() || is_to_each()) return;
   static std::vector<std::size_t> begin;
   begin.clear();
   for (int rank = 0; rank <= ranks().size(); ++rank)
@@ -19,10 +18,8 @@ void complete(void* values, std::size_t bytes_per_value, First&& first) {
   ranks().gather(values, begin);
 }
 
-}  // namespace
-
 Index Division::first_item(Index n, int rank) const {
-  if (whole_ != none) return rank > whole_ ? n : 0;
+  if (place_ != even) return rank > only_rank() ? n : 0;
   return static_cast<Index>(static_cast<Offset>(n) * rank / ranks().size());
 }
 
@@ -31,7 +28,7 @@ OwnItems Division::own_items(Index n) const {
 }
 
 int Division::rank_of_item(Index n, Index item) const {
-  if (whole_ != none) return whole_;
+  if (place_ != even) return only_rank();
   auto rank = static_cast<int>(static_cast<Offset>(item) * ranks().size() / n);
   while (item >= first_item(n, rank + 1)) ++rank;
   return rank;
@@ -50,7 +47,7 @@ OwnItems Division::own_rows(Index n) const {
 }
 
 int Division::rank_of_row(Index n, Index row) const {
-  if (whole_ != none) return whole_;
+  if (place_ != even) return only_rank();
   auto chunk = static_cast<int>(static_cast<Offset>(row) * chunk_count(n) / n);
   while (row >= chunk_begin(n, chunk + 1)) ++chunk;
   return rank_of_item(chunk_count(n), chunk);
@@ -91,7 +88,7 @@ std::vector<Division> divide(std::span<const Index> rows) {
   if (ranks().alone()) return divisions;
   constexpr Real bearable = 1.05;
   const Offset all = std::accumulate(rows.begin(), rows.end(), Offset{0});
-  Index largest = static_cast<Index>(all / (4 * ranks().size()));
+  Index largest = static_cast<Index>(all / (2 * ranks().size()));
   while (largest > 0 && place_whole(rows, largest, divisions) > bearable) {
     // Without those that were the largest.
     Index next = 0;

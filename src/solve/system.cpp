@@ -64,6 +64,13 @@ void System<D>::share_steps(StepReads reads) {
 }
 
 template <int D>
+void System<D>::complete(State& state) {
+  if (!in_halo()) return;
+  halo->leave({&state.u, &state.v, &state.force});
+  for (auto& term : terms) term->complete_history();
+}
+
+template <int D>
 bool System<D>::reads_changed() const {
   return std::any_of(terms.begin(), terms.end(),
                      [](const auto& term) { return term->reads_changed(); });
@@ -124,7 +131,7 @@ Report System<D>::add_up(const Motion& motion, Forces force) {
   for (auto& term : terms) reports_.push_back(term->add_force(motion, force));
   for (auto& field : carried) field->add_reaction(motion, force);
   spread(force);
-  if (force.leave_chunks) add_chunks(motion, force);
+  if (force.leave_chunks) complete_reports(motion, force);
   Report all;
   for (std::size_t k = 0; k < terms.size(); ++k) {
     Report& report = reports_[k];
@@ -134,15 +141,17 @@ Report System<D>::add_up(const Motion& motion, Forces force) {
   return all;
 }
 
-/// Waits for other ranks once, however many terms there are.
+/// Waits for other ranks once for chunks and once for what a rank alone knows, however many terms
+/// there are.
 template <int D>
-void System<D>::add_chunks(const Motion& motion, Forces force) {
+void System<D>::complete_reports(const Motion& motion, Forces force) {
   left_.clear();
   for (const Report& report : reports_)
     if (report.chunks) left_.push_back(report.chunks);
   exchange_.complete(left_);
   for (std::size_t k = 0; k < terms.size(); ++k)
     if (reports_[k].chunks) terms[k]->add_chunks(motion, force, reports_[k]);
+  of_ranks_.complete(reports_);
 }
 
 template <int D>

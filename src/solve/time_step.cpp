@@ -86,6 +86,9 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
       may_jump_(std::any_of(
           system.terms.begin(), system.terms.end(),
           [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
+      keeps_to_halo_(std::none_of(
+          system.terms.begin(), system.terms.end(),
+          [](const std::unique_ptr<ForceTerm>& term) { return term->may_outgrow_halo(); })),
       spacing_(least_spacing(system.bodies)),
       trial_size_(smallest_trial),
       critical_(system.mass, system.halo),

@@ -4,10 +4,12 @@
 #include "meniscus/core/divided.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/shared_items.hpp"
+#include "meniscus/physics/rank_reports.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "straight_grid.hpp"
@@ -73,7 +75,8 @@ TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
   const std::vector<Index> equal(8, 500);
   as_each_of(2, [&](int) {
     EXPECT_EQ(owners(equal), (Owners{0, 0, 0, 0, 1, 1, 1, 1}));
-    EXPECT_EQ(owners({500, 500, 500, 500}), (Owners{-1, -1, -1, -1})) << "a half of a share each";
+    EXPECT_EQ(owners({500, 500, 500, 500}), (Owners{0, 0, 1, 1})) << "half a share each";
+    EXPECT_EQ(owners({500, 500, 500}), (Owners{-1, -1, -1})) << "two thirds of a share each";
     EXPECT_EQ(owners({10000}), Owners{-1});
     // The first rank would have 5000 of the large one, the second one what is on it besides.
     EXPECT_EQ(owners({10000, 500}), (Owners{-1, 1})) << "1.048 shares";
@@ -81,7 +84,7 @@ TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
     EXPECT_EQ(owners({600, 10000, 50, 600}), (Owners{0, -1, 1, 1}));
     EXPECT_EQ(owners({10000, 600, 50}), (Owners{-1, -1, 1})) << "without the larger one";
   });
-  as_each_of(3, [&](int) { EXPECT_EQ(owners(equal), Owners(8, -1)) << "more than a quarter"; });
+  as_each_of(3, [&](int) { EXPECT_EQ(owners(equal), Owners(8, -1)) << "1.125 shares on one"; });
   as_each_of(1, [&](int) { EXPECT_EQ(owners(equal), Owners(8, 0)); });
 }
 
@@ -93,6 +96,22 @@ TEST(Divided, RowsOfAWholeBodyAreOfOneRank) {
     EXPECT_EQ(items.end - items.begin, rank == 1 ? 5 : 0);
     EXPECT_EQ(division.first_row(70, 3), 70);
     EXPECT_EQ(division.rank_of_row(70, 69), 1);
+  });
+}
+
+TEST(Divided, WhatEachHasIsNotBrought) {
+  as_each_of(3, [&](int rank) {
+    const Division division = Division::to_each();
+    const OwnItems items = division.own_items(5);
+    EXPECT_EQ(items.begin, 0);
+    EXPECT_EQ(items.end, 5);
+    EXPECT_EQ(division.rank_of_item(5, 4), rank);
+    std::vector<Index> values(5, rank);
+    division.complete_items(5, values.data(), sizeof values[0]);
+    divided_for(
+        division, 5, [&](Index k) { at(values, k) += k; }, [](Index) { return 0; },
+        [](Index, int) { ADD_FAILURE(); });
+    for (Index k = 0; k < 5; ++k) EXPECT_EQ(at(values, k), rank + k);
   });
 }
 
@@ -115,6 +134,29 @@ TEST(Divided, ItemsAreBroughtFromTheirRanks) {
       const int owner = evenly.rank_of_row(48, row);
       EXPECT_EQ(at(rows, row), owner == rank ? 7 : owner * 0x0101);
     }
+  });
+}
+
+TEST(RankReports, AreBroughtFromTheRankThatKnowsThem) {
+  const Real strange = std::bit_cast<Real>(std::uint64_t{0x0101010101010101});
+  as_each_of(2, [&](int rank) {
+    std::vector<Report> reports(3);
+    for (std::size_t k = 0; k < 3; ++k) reports[k].heat = reports[k].demand.longest = Real(k + 1);
+    reports[1].known_by = 0;
+    reports[1].failure = Failure{7, "of the first rank", true};
+    reports[2].known_by = 1;
+    RankReports().complete(reports);
+    EXPECT_EQ(reports[0].heat, 1);
+    EXPECT_EQ(reports[1].heat, rank == 0 ? 2 : 0);
+    EXPECT_EQ(reports[1].failure.has_value(), rank == 0) << "the other says that it has none";
+    if (reports[1].failure) {
+      EXPECT_EQ(reports[1].failure->cause, "of the first rank");
+      EXPECT_EQ(reports[1].failure->particle, 7);
+      EXPECT_TRUE(reports[1].failure->of_step);
+    }
+    EXPECT_EQ(reports[2].heat, rank == 1 ? 3 : strange);
+    EXPECT_EQ(reports[2].demand.longest, rank == 1 ? 3 : strange);
+    for (const Report& report : reports) EXPECT_FALSE(report.known_by.has_value());
   });
 }
 

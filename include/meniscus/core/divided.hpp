@@ -12,16 +12,23 @@ namespace meniscus {
 /// The items that a rank does of n, a neighbouring part.
 using OwnItems = ItemRange;
 
-/// How items and rows are divided between the ranks: evenly, or, those of a small body, all to one.
-/// Rows are divided in their chunks.
+/// How items and rows are divided between the ranks: evenly, or, those of a small body, all to one,
+/// or all to each. Rows are divided in their chunks.
 class Division {
  public:
   constexpr Division() = default;
   /// All to one rank.
-  constexpr explicit Division(int rank) : whole_(rank) {}
+  constexpr explicit Division(int rank) : place_(rank) {}
+  /// All to each rank, which all do the same: nothing is brought.
+  static constexpr Division to_each() { return Division(each); }
 
+  /// Whether all are of one rank.
+  bool is_whole() const { return place_ >= 0; }
+  /// That has all, as this rank sees it; of a division that is not even.
+  int only_rank() const { return place_ == each ? ranks().rank() : place_; }
+  bool is_to_each() const { return place_ == each; }
   /// Whether this rank may have rows or items.
-  bool has_some() const { return whole_ == none || whole_ == ranks().rank(); }
+  bool has_some() const { return place_ == even || only_rank() == ranks().rank(); }
   /// Items of this rank.
   OwnItems own_items(Index n) const;
   /// With which those of a rank begin; of the number of ranks: n.
@@ -32,7 +39,7 @@ class Division {
   void complete_items(Index n, void* values, std::size_t bytes_per_value) const;
   /// The same for those only that may have rows: nothing is sent of a whole body.
   void complete_where_rows_are(Index n, void* values, std::size_t bytes_per_value) const {
-    if (whole_ == none) complete_items(n, values, bytes_per_value);
+    if (place_ == even) complete_items(n, values, bytes_per_value);
   }
 
   // The same of rows.
@@ -78,14 +85,17 @@ class Division {
         n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; }, complete);
   }
 
-  static constexpr int none = -1;
+  static constexpr int even = -1, each = -2;
 
-  int whole_ = none;  // the rank that has all
+  template <class First>
+  void complete(void* values, std::size_t bytes_per_value, First&& first) const;
+
+  int place_ = even;  // or the rank that has all, or each
 };
 
 inline constexpr Division evenly{};
 
-/// Of bodies with so many rows each. A small body, of at most a quarter of what a rank has, is
+/// Of bodies with so many rows each. A small body, of at most half of what a rank has, is
 /// whole: its exchanges would cost more than its rows. As many are as leave no rank with more than
 /// 5 % over its share, neighbours among them on the same rank.
 std::vector<Division> divide(std::span<const Index> rows);
@@ -101,14 +111,15 @@ std::vector<T> said_by_ranks(const T& mine) {
 /// Calls f(k) for the items k of this rank out of n; what record(k) then says of each, a copy of
 /// memory, is handed to others by take(k, record).
 template <class F, class Record, class Take>
-void divided_for(Index n, F&& f, Record&& record, Take&& take, int grain = 64) {
-  const OwnItems own = evenly.own_items(n);
+void divided_for(const Division& division, Index n, F&& f, Record&& record, Take&& take,
+                 int grain = 64) {
+  const OwnItems own = division.own_items(n);
   parallel_for(
       own.end - own.begin, [&](Index i) { f(own.begin + i); }, grain);
-  if (ranks().alone()) return;
+  if (ranks().alone() || division.is_to_each()) return;
   std::vector<decltype(record(0))> records(static_cast<std::size_t>(n));
   for (Index k = own.begin; k < own.end; ++k) at(records, k) = record(k);
-  evenly.complete_items(n, records.data(), sizeof records[0]);
+  division.complete_items(n, records.data(), sizeof records[0]);
   for (Index k = 0; k < n; ++k)
     if (k < own.begin || k >= own.end) take(k, at(records, k));
 }

@@ -58,9 +58,9 @@ class ContactFacets {
   /// force_A += sum over the corners of N_A `pull`, which is [corner].
   void add_force(const std::vector<Vec<D>>& pull, std::span<NodalVector> force);
 
-  /// Every rank reads the motion of all facets.
-  void tell_reads(StepReads& reads) {
-    reads.particles(rows_.particle, body_.first);
+  /// This rank reads the motion of all facets, or, but for its own rows, of none.
+  void tell_reads(StepReads& reads, bool reads_all) {
+    if (reads_all) reads.particles(rows_.particle, body_.first);
     reads.rows(windows_, body_.first);
   }
 

@@ -150,6 +150,8 @@ class ContactPoints {
   /// Every rank reads the motion of all points, or of these clusters.
   void tell_reads(StepReads& reads);
   void tell_reads(StepReads& reads, std::span<const Index> clusters);
+  /// This rank does, or has nothing to do with them: no rank asks others how far they have moved.
+  void tell_reads_alone(StepReads& reads, bool reads_all);
 
   std::size_t bytes() const;
   Offset pairs() const;
@@ -163,6 +165,7 @@ class ContactPoints {
   void build_rows(RowContent content);
   void list_particles();
   void tell_sums(StepReads& reads);
+  void learn_halo(StepReads& reads);
   template <class F>
   void take_weights(F&& weight_of);
   void take_inertia();

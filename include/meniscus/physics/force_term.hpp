@@ -84,6 +84,8 @@ struct Report {
   std::optional<Failure> failure = {};
   /// What is left to be brought to all ranks and added by ForceTerm::add_chunks().
   ChunkReports* chunks = nullptr;
+  /// The rank that alone knows the above, which is left to be brought to all; none: all do.
+  std::optional<int> known_by = {};
 
   /// Sums; the first failure stays.
   Report& operator+=(Report other) {
@@ -138,15 +140,19 @@ class ForceTerm {
   /// the forces on the particles that it follows, and know the motion of no other. False: it may be
   /// that of all, whatever was said. All ranks call this.
   virtual bool tell_reads(StepReads&) { return false; }
-  /// Whether it would say something else by now: what is near to what has changed. A term that
-  /// needs more than it said in the middle of a step throws HaloOutgrown on all ranks, if
-  /// may_reject_steps().
+  /// Whether it would say something else by now: what is near to what has changed.
   virtual bool reads_changed() const { return false; }
+  /// Whether a term may come to need more than it said in the middle of a step, where it throws
+  /// HaloOutgrown on all ranks.
+  virtual bool may_outgrow_halo() const { return false; }
 
   /// The step to `motion` stands: a term with history makes this its past.
   virtual void commit(const Motion&) {}
   /// Keeps the history; without one, nothing.
   virtual void archive(const Archive&) {}
+  /// After steps in a halo: brings all ranks the history that some of them have kept for all. All
+  /// ranks call this.
+  virtual void complete_history() {}
 
   /// Whether the force depends on the velocity, of which it is then a linear function.
   virtual bool viscous() const { return false; }

@@ -4,6 +4,7 @@
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/carried_field.hpp"
+#include "meniscus/physics/rank_reports.hpp"
 #include "meniscus/solve/constraints.hpp"
 #include "meniscus/solve/state.hpp"
 
@@ -61,9 +62,7 @@ struct System {
   void enter_halo(State& state) {
     if (halo) halo->enter({&state.u, &state.v, &state.force});
   }
-  void complete(State& state) {
-    if (halo) halo->leave({&state.u, &state.v, &state.force});
-  }
+  void complete(State& state);
   bool in_halo() const { return is_entered(halo); }
   /// After terms have added to `sums`, [particle]: brings them to all that follow a particle.
   void spread(std::span<NodalVector> sums) const {
@@ -100,13 +99,14 @@ struct System {
   const Body<D>& body_of(Index particle) const;
 
  private:
-  /// To the reports of all terms what their chunks of all ranks say.
-  void add_chunks(const Motion& motion, Forces force);
+  /// Brings the reports of all terms what other ranks say.
+  void complete_reports(const Motion& motion, Forces force);
   Index first_not_finite(std::span<const NodalVector> force) const;
 
   std::vector<Report> reports_;      // of the last call, [term]
   std::vector<ChunkReports*> left_;  // by reports
   ReportExchange exchange_;
+  RankReports of_ranks_;
 };
 
 }  // namespace meniscus

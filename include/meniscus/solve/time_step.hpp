@@ -36,8 +36,8 @@ class StableStepEstimator {
   /// without it the velocity is taken for zero.
   explicit StableStepEstimator(System<D>& system, bool viscous = true);
 
-  /// Whether it can be asked in a halo: contacts, whose forces may jump, may need more.
-  bool keeps_to_halo() const { return !may_jump_; }
+  /// Whether it can be asked in a halo: contacts may need more.
+  bool keeps_to_halo() const { return keeps_to_halo_; }
   /// Vectors that it keeps from estimate to estimate.
   void tell_reads(StepReads& reads);
 
@@ -75,7 +75,8 @@ class StableStepEstimator {
 
   System<D>& system_;
   bool viscous_counts_;
-  bool may_jump_;    ///< forces of some term
+  bool may_jump_;  ///< forces of some term
+  bool keeps_to_halo_;
   Real spacing_;     ///< smallest particle distance
   Real trial_size_;  ///< of the trial displacements, part of the spacing
   CriticalMode critical_;

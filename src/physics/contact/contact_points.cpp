@@ -137,6 +137,13 @@ void ContactPoints<D>::tell_reads(StepReads& reads) {
   told_all_ = true;
   reads.particles(particles_, body_->first);
   tell_sums(reads);
+  learn_halo(reads);
+}
+
+template <int D>
+void ContactPoints<D>::tell_reads_alone(StepReads& reads, bool reads_all) {
+  if (reads_all) reads.particles(particles_, body_->first);
+  tell_sums(reads);
 }
 
 template <int D>
@@ -148,6 +155,7 @@ void ContactPoints<D>::tell_reads(StepReads& reads, std::span<const Index> clust
   told_all_ = false;
   reads.particles(moving, body_->first);
   tell_sums(reads);
+  learn_halo(reads);
 }
 
 template <int D>
@@ -156,6 +164,10 @@ void ContactPoints<D>::tell_sums(StepReads& reads) {
     patches_->tell_sums(reads, body_->first);
   else
     reads.sums(windows_, body_->first);
+}
+
+template <int D>
+void ContactPoints<D>::learn_halo(StepReads& reads) {
   reads.when_shared([this](const auto& halo) {
     halo_ = halo;
     own_particles_.clear();

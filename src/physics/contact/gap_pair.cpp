@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "contact_ranks.hpp"
 #include "gap_side.hpp"
 
 namespace meniscus {
@@ -38,7 +39,8 @@ class GapPair final : public ForceTerm, public ContactVisits {
         first_(first, second, law_.range(), choice, 0),
         second_(second, first, law_.range(), choice, 1),
         now_first_(first_, law_.pattern()),
-        now_second_(second_, law_.pattern()) {
+        now_second_(second_, law_.pattern()),
+        ranks_({first.division, second.division}) {
     if (law_.up()) ground_ = first_.facets.facing(*law_.up());
     if (law_.placed()) require_adhesion();
   }
@@ -48,6 +50,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
 
   Report add_force(const Motion& motion, Forces force) override {
     work_.begin(motion.time);
+    if (ranks_.is_absent()) return ranks_.report({});
     Offset visited = 0;
     for (auto [side, now] : {std::pair{&first_, &now_first_}, std::pair{&second_, &now_second_}}) {
       if (side == &second_ && law_.up()) break;
@@ -60,7 +63,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
     }
     count(visited);
     supply_ = supply(motion.time);
-    return report(motion);
+    return ranks_.report(report(motion));
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
@@ -71,14 +74,19 @@ class GapPair final : public ForceTerm, public ContactVisits {
   }
   /// The last force was that of this motion.
   void commit(const Motion& motion) override {
-    if (law_.pattern()) work_.commit(motion.time, supply_);
+    if (law_.pattern() && !ranks_.is_absent()) work_.commit(motion.time, supply_);
   }
   void archive(const Archive& a) override {
     if (law_.pattern()) work_.archive(a, D);
   }
+  void complete_history() override {
+    if (law_.pattern()) ranks_.complete(work_);
+  }
   bool tell_reads(StepReads& reads) override {
-    first_.tell_reads(reads);
-    second_.tell_reads(reads);
+    ranks_.learn_halo(reads);
+    const bool reads_all = !ranks_.are_few() || ranks_.takes_part();
+    first_.tell_reads(reads, reads_all);
+    second_.tell_reads(reads, reads_all);
     return true;
   }
   bool may_reject_steps() const override { return true; }
@@ -156,6 +164,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
   std::vector<Index> ground_;            // facets of the second that face up in the reference
   GapForces<D> now_first_, now_second_;  // work space of a force
   AdhesionSupply supply_;                // by the last force
+  ContactRanks ranks_;
 };
 
 /// Before a run, that W can be taken all over the ground.

@@ -25,9 +25,10 @@ struct GapSide {
         facets(other),
         // No point of a facet that has not doubled its size is farther than that from its samples.
         list(range + facets.longest_edge(), choice.skin * range / 4) {}
-  void tell_reads(StepReads& reads) {
-    points.tell_reads(reads);
-    facets.tell_reads(reads);
+  /// All of it, or nothing.
+  void tell_reads(StepReads& reads, bool reads_all) {
+    points.tell_reads_alone(reads, reads_all);
+    facets.tell_reads(reads, reads_all);
   }
   std::size_t bytes() const { return points.bytes() + facets.bytes() + list.bytes(); }
   Offset pairs() const { return points.pairs() + facets.pairs() + list.pairs(); }

@@ -47,19 +47,23 @@ class PairContact final : public ForceTerm, public ContactVisits {
   std::string_view energy_kind() const override { return "contact"; }
 
   Report add_force(const Motion& motion, Forces force) override {
+    const ContactRanks& ranks = visits_.ranks();
+    if (ranks.is_absent()) return ranks.report({});
     visits_.visit(motion);
     count(visits_.point_pairs());
     const VisitedPair<D>& now = visits_.now();
     for (std::size_t g = 0; g < visits_.grades(); ++g) {
       const FacetRows<D> first = now.of_first(g), second = now.of_second(g);
-      sums_->evaluate(now.first[g], first, now.second[g], first_result_[g]);
-      sums_->evaluate(now.second[g], second, now.first[g], second_result_[g]);
-      visits_.first(g).add_force(now.first[g], first.clusters, first_result_[g].T,
-                                 first_result_[g].S, force);
+      if (ranks.reports()) {
+        sums_->evaluate(now.first[g], first, now.second[g], division(), first_result_[g]);
+        visits_.first(g).add_force(now.first[g], first.clusters, first_result_[g].T,
+                                   first_result_[g].S, force);
+      }
+      sums_->evaluate(now.second[g], second, now.first[g], division(), second_result_[g]);
       visits_.second(g).add_force(now.second[g], second.clusters, second_result_[g].T,
                                   second_result_[g].S, force);
     }
-    return report(motion);
+    return ranks.report(ranks.reports() ? report(motion) : Report());
   }
 
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
@@ -83,7 +87,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
       Real energy = 0;
       for (std::size_t g = 0; g < visits_.grades(); ++g)
         energy += sums_->energy(visited.first[g], visits_.first(g).clusters(), visited.of_first(g),
-                                visited.second[g]);
+                                visited.second[g], division());
       return energy;
     });
   }
@@ -99,6 +103,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
     return true;
   }
   bool reads_changed() const override { return visits_.reads_changed(); }
+  bool may_outgrow_halo() const override { return !visits_.ranks().are_few(); }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
@@ -125,12 +130,14 @@ class PairContact final : public ForceTerm, public ContactVisits {
   }
 
  private:
+  const Division& division() const { return visits_.ranks().division(); }
   /// On the first, by grade.
   std::vector<PairEvaluation<D>> evaluated(const VisitedPair<D>& visited) const {
     std::vector<PairEvaluation<D>> results;
     for (std::size_t g = 0; g < visits_.grades(); ++g) {
       results.emplace_back(visits_.first(g).clusters(), sums_->moment());
-      sums_->evaluate(visited.first[g], visited.of_first(g), visited.second[g], results.back());
+      sums_->evaluate(visited.first[g], visited.of_first(g), visited.second[g], division(),
+                      results.back());
     }
     return results;
   }

@@ -24,10 +24,11 @@ class PairSumsOf final : public PairSums<D> {
   }
 
   void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
-                const ContactPlaces<D>& others, PairEvaluation<D>& result) const override {
+                const ContactPlaces<D>& others, const Division& division,
+                PairEvaluation<D>& result) const override {
     result.nearest.resize(rows.clusters.size());
     divided_for(
-        static_cast<Index>(rows.clusters.size()),
+        division, static_cast<Index>(rows.clusters.size()),
         [&](Index k) {
           const Index c = at(rows.clusters, k);
           Lanes T[D], S[D];
@@ -81,9 +82,9 @@ class PairSumsOf final : public PairSums<D> {
   }
 
   Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
-              const ContactPlaces<D>& others) const override {
+              const ContactPlaces<D>& others, const Division& division) const override {
     // Over all clusters: the order of summation must not depend on which are active.
-    return evenly.sum(clusters, 0.0, [&](Index c) {
+    return division.sum(clusters, 0.0, [&](Index c) {
       Lanes T[D], S[1];
       T[0] = Lanes::zero();
       contact::sum_over_partners<contact::Potential<D, Form::components>, D>(

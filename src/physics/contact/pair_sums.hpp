@@ -38,15 +38,16 @@ class PairSums {
   virtual bool moment() const = 0;
   /// Whether its force is minus the gradient of its energy.
   virtual bool conservative() const = 0;
-  /// Forces of `others` on `points`, which has these partners.
+  /// Forces of `others` on `points`, which has these partners; of ranks, clusters are divided so.
   virtual void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
-                        const ContactPlaces<D>& others, PairEvaluation<D>& result) const = 0;
+                        const ContactPlaces<D>& others, const Division& division,
+                        PairEvaluation<D>& result) const = 0;
   virtual PairChange change(const ContactPlaces<D>& points, const ContactChanges<D>& changes,
                             const FacetRows<D>& rows, const ContactPlaces<D>& others,
                             const ContactChanges<D>& other_changes) const = 0;
   /// Potential energy of all `clusters` of the points.
   virtual Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
-                      const ContactPlaces<D>& others) const = 0;
+                      const ContactPlaces<D>& others, const Division& division) const = 0;
 };
 
 /// Throws InputError if the kernel of the law has another dimension.

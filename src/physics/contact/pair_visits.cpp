@@ -77,6 +77,7 @@ PairVisits<D>::PairVisits(const ContactBody<D>& first, const ContactBody<D>& sec
       grades_(grades_of(first, second, interaction, choice)),
       first_(points_of(first, choice, 0, grades_)),
       second_(points_of(second, choice, 1, grades_)),
+      ranks_({first.body.division, second.body.division}),
       list_(reach_ + overhang(first, second, grades_), choice.skin * law.sigma0),
       now_(at_rest()) {}
 
@@ -143,6 +144,12 @@ void PairVisits<D>::bring_others(const Motion& motion, VisitedPair<D>& at_motion
 
 template <int D>
 void PairVisits<D>::tell_reads(StepReads& reads) {
+  ranks_.learn_halo(reads);
+  if (ranks_.are_few()) {
+    for (auto* side : {&first_, &second_})
+      for (ContactPoints<D>& points : *side) points.tell_reads_alone(reads, ranks_.takes_part());
+    return;
+  }
   told_list_ = list_.builds();
   if (told_list_ == 0) {
     for (auto* side : {&first_, &second_})

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact_ranks.hpp"
 #include "facet_pairs.hpp"
 #include "moved_since.hpp"
 
@@ -74,7 +75,9 @@ class PairVisits {
     return f(std::as_const(at_motion));
   }
 
-  /// The points of the list, once there is one.
+  const ContactRanks& ranks() const { return ranks_; }
+  /// Of ranks that make the contact by themselves all, else the points of the list, once there is
+  /// one.
   void tell_reads(StepReads& reads);
   /// Whether there is another list since then.
   bool reads_changed() const { return told_list_ && list_.builds() != *told_list_; }
@@ -93,6 +96,7 @@ class PairVisits {
   Real reach_;
   FacetGrades grades_;
   GradedPoints<D> first_, second_;
+  ContactRanks ranks_;
   ContactList<D> list_;                       // of the coarsest points
   MovedSince<D> first_since_, second_since_;  // that was made
   VisitedPair<D> now_;

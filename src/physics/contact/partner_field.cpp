@@ -83,7 +83,7 @@ void take_forces(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLay
       points.move(layer.visited, motion, layer.places);
     points.update_weights(layer.visited, motion, layer.places);
     divided_for(
-        static_cast<Index>(layer.visited.size()),
+        pair.ranks.division(), static_cast<Index>(layer.visited.size()),
         [&](Index k) { take_forces(pair, points, at(layer.visited, k), shift, layer); },
         [&](Index k) { return AtCluster<D>(layer, at(layer.visited, k)); },
         [&](Index k, const AtCluster<D>& of_other) { of_other.put(at(layer.visited, k), layer); },

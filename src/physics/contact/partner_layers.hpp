@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "contact_ranks.hpp"
+
 namespace meniscus {
 
 /// What stays the same as they move.
@@ -20,6 +22,7 @@ struct BodyAndPartner {
   ContactForm form;
   FacetGrades grades;
   std::vector<ContactPoints<D>> points;  ///< of the body, by grade
+  ContactRanks ranks;
 
   BodyAndPartner(const ContactBody<D>& body, MovingPartner<D> moving_partner,
                  std::shared_ptr<const Interaction> law, const ContactChoice& choice)
@@ -27,7 +30,8 @@ struct BodyAndPartner {
         interaction(std::move(law)),
         form(choice.form),
         grades(choice.points, *interaction, facet_edges(body.body).least),
-        points(graded_contact_points(body.body, body.beta, choice, 0, grades)) {}
+        points(graded_contact_points(body.body, body.beta, choice, 0, grades)),
+        ranks({body.body.division}) {}
 
   const ContactPoints<D>& finest() const { return points.front(); }
   const ContactPoints<D>& coarsest() const { return points.back(); }

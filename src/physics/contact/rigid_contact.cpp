@@ -54,6 +54,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
 
   Report add_force(const Motion& motion, Forces force) override {
     effects_.begin(motion.time);
+    if (pair_.ranks.is_absent()) return pair_.ranks.report({});
     choose_visited(pair_, motion, list_, layers_);
     count(points_visited());
     take_forces(pair_, motion, layers_);
@@ -64,7 +65,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
                                 force);
     }
     find_near(pair_, motion, layers_);
-    return report(motion);
+    return pair_.ranks.report(report(motion));
   }
 
   /// Adhesion that varies, and friction, have the difference of their forces.
@@ -93,6 +94,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
 
   /// The last force was that of this motion.
   void commit(const Motion& motion) override {
+    if (pair_.ranks.is_absent()) return;
     effects_.commit(motion.time, sums_);
     if (pair_.partner.motion.moves())
       work_.commit(spatial<D>(pair_.shift(motion)), spatial<D>(net_force(layers_)));
@@ -101,7 +103,17 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     effects_.archive(a);
     if (pair_.partner.motion.moves()) work_.archive(a, D);
   }
+  void complete_history() override {
+    effects_.complete_history(pair_.ranks);
+    if (pair_.partner.motion.moves()) pair_.ranks.complete(work_);
+  }
   bool tell_reads(StepReads& reads) override {
+    pair_.ranks.learn_halo(reads);
+    if (pair_.ranks.are_few()) {
+      for (ContactPoints<D>& points : pair_.points)
+        points.tell_reads_alone(reads, pair_.ranks.takes_part());
+      return true;
+    }
     told_ = visited_parts();
     if (told_->touches)
       pair_.points.front().tell_reads(reads, layers_.front().visited);
@@ -110,12 +122,14 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     return true;
   }
   bool reads_changed() const override { return told_ && *told_ != visited_parts(); }
+  bool may_outgrow_halo() const override { return !pair_.ranks.are_few(); }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
   bool viscous() const override { return effects_.rubs(); }
   /// Friction by this velocity at the places of the last force, whose T are not needed any more.
   void add_viscous(const Motion& motion, Forces force) override {
+    if (pair_.ranks.is_absent()) return;
     take_friction(pair_, effects_, motion, layers_);
     for (std::size_t g = 0; g < layers_.size(); ++g)
       pair_.points[g].add_force(layers_[g].places, layers_[g].near, layers_[g].T, {}, force);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "adhesion_work.hpp"
+#include "contact_ranks.hpp"
 
 namespace meniscus {
 
@@ -93,10 +94,14 @@ class WallEffects {
   /// The step to `time`, with these sums, stands.
   void commit(Real time, const WallSums& sums) { work_.commit(time, sums.supply); }
   void archive(const Archive& a) {
-    if (pattern_ && pattern_->depends_on_time()) work_.archive(a, D);
+    if (keeps_work()) work_.archive(a, D);
+  }
+  void complete_history(const ContactRanks& ranks) {
+    if (keeps_work()) ranks.complete(work_);
   }
 
  private:
+  bool keeps_work() const { return pattern_ && pattern_->depends_on_time(); }
   /// From the forces of unit adhesion to those of W(x, t): E = W e, so that
   ///   dE/dV = W S,   dE/dx = W T + (S.V) grad W.
   /// Nearer than the equilibrium gap there is the core beside it, which does not vary: there the
