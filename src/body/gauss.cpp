@@ -4,6 +4,8 @@
 
 #include "meniscus/core/error.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -29,12 +31,9 @@ Legendre legendre(int k, Extended x) {
   return {current, k * (previous - x * current) / (1 - x * x)};
 }
 
-}  // namespace
+constexpr int most_points = 20;
 
-GaussRule gauss_rule(int k) {
-  if (k < 1 || k > 20)
-    throw InputError("a Gauss rule has 1 to 20 points per direction, not " + std::to_string(k) +
-                     ".");
+GaussRule find_gauss_rule(int k) {
   GaussRule rule{std::vector<Real>(static_cast<std::size_t>(k)),
                  std::vector<Real>(static_cast<std::size_t>(k))};
   for (int i = 0; 2 * i < k; ++i) {
@@ -52,6 +51,20 @@ GaussRule gauss_rule(int k) {
     at(rule.w, i) = at(rule.w, k - 1 - i) = static_cast<Real>(2 / ((1 - x * x) * slope * slope));
   }
   return rule;
+}
+
+}  // namespace
+
+const GaussRule& gauss_rule(int k) {
+  if (k < 1 || k > most_points)
+    throw InputError(
+        fmt::format("a Gauss rule has 1 to {} points per direction, not {}.", most_points, k));
+  static const std::vector<GaussRule> all = [] {
+    std::vector<GaussRule> rules;
+    for (int points = 1; points <= most_points; ++points) rules.push_back(find_gauss_rule(points));
+    return rules;
+  }();
+  return at(all, k - 1);
 }
 
 }  // namespace meniscus

@@ -155,8 +155,10 @@ struct Contact final : Load<D>, Keys {
  private:
   ContactChoice choice(const Assembly<D>& assembly) const;
   ContactSurfaces surfaces(const Assembly<D>& assembly) const;
-  PlaneContact flat(const Assembly<D>& assembly) const {
-    return model->flat(partner.has_value(), surfaces(assembly));
+  /// Looked for once in build(), which asks for it many times.
+  const PlaneContact& flat(const Assembly<D>& assembly) const {
+    if (!flat_) flat_ = model->flat(partner.has_value(), surfaces(assembly));
+    return *flat_;
   }
   ContactResolution resolution(const Assembly<D>& assembly) const;
   int points_chosen(const Assembly<D>& assembly) const;
@@ -171,6 +173,8 @@ struct Contact final : Load<D>, Keys {
   void measure_soft_wetting(Assembly<D>& assembly) const;
   bool soft_wetting(const Assembly<D>& assembly) const;
   std::string folding(const Assembly<D>& assembly) const;
+
+  mutable std::optional<PlaneContact> flat_;
 };
 
 template <int D>
@@ -205,6 +209,7 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
 
 template <int D>
 void Contact<D>::build(Assembly<D>& assembly) const {
+  flat_.reset();
   require_points_to_meet(assembly);
   std::unique_ptr<ForceTerm> term = this->term(assembly);
   const StateCheck inside = containment(assembly);
@@ -349,7 +354,7 @@ StateCheck Contact<D>::containment(const Assembly<D>& assembly) const {
 template <int D>
 void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   const auto unit = [&](Dimension d) { return assembly.units().symbol(d); };
-  const PlaneContact flat = this->flat(assembly);
+  const PlaneContact& flat = this->flat(assembly);
   std::string note = fmt::format("contact '{}', {}, form {}: adhesion W = {:.6g} {}", name,
                                  interaction, form, flat.adhesion, unit(dimension::tension));
   if (flat.lost_adhesion() > 0)
@@ -427,7 +432,7 @@ bool Contact<D>::soft_wetting(const Assembly<D>& assembly) const {
 template <int D>
 std::string Contact<D>::folding(const Assembly<D>& assembly) const {
   constexpr Real largest = 1.0 / 3, peak_of_chi = 1.875;
-  const PlaneContact flat = this->flat(assembly);
+  const PlaneContact& flat = this->flat(assembly);
   const Real W = model->greatest_adhesion(surfaces(assembly), assembly.end_time()),
              range = peak_of_chi * flat.adhesion / flat.peak_traction;
   const Real mu = assembly.shear_modulus(bodies[1]), K = assembly.bulk_modulus(bodies[1]),
@@ -449,7 +454,7 @@ std::string Contact<D>::folding(const Assembly<D>& assembly) const {
 template <int D>
 void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
   if (!soft_wetting(assembly)) return;
-  const PlaneContact flat = this->flat(assembly);
+  const PlaneContact& flat = this->flat(assembly);
   // Where adhesion varies the contact has it.
   if (!assembly.has_measure(name + ".wetted_area"))
     assembly.measure(name, {"wetted_area", D == 3 ? dimension::area : dimension::length,

@@ -79,26 +79,32 @@ Real Assembly<D>::bulk_modulus(const std::string& name) const {
   return scene_.bulk_modulus.at(number_of(name));
 }
 
+/// Many contacts ask for that of one body.
 template <int D>
 Real Assembly<D>::shear_modulus(const std::string& name) const {
+  const auto [known, is_new] = shear_modulus_.try_emplace(name);
+  if (is_new) known->second = find_shear_modulus(name);
+  return known->second;
+}
+
+template <int D>
+Real Assembly<D>::find_shear_modulus(const std::string& name) const {
   constexpr Real small = 1e-4;
   const Body<D>& sheared = body(name);
-  const NodalVectors rest(scene_.system.mass.size(), Lanes::zero());
-  Real volume = 0, energy = 0;
-  const auto strain_energy = [&](const NodalVectors& u) {
-    Real sum = 0;
-    for (const auto& term : scene_.system.terms)
-      if (term->energy_kind() == "strain") sum += term->stored_energy({0, u, rest}).value_or(0);
-    return sum;
+  const ForceTerm& force = *scene_.internal_forces.at(number_of(name));
+  // Kept at rest from body to body: they are as long as all bodies together.
+  rest_.resize(scene_.system.mass.size(), Lanes::zero());
+  sheared_.resize(rest_.size(), Lanes::zero());
+  const std::span<NodalVector> u = sheared.part(std::span(sheared_));
+  const auto strain_energy = [&](Real shear) {
+    for (Index A = 0; A < sheared.size(); ++A) at(u, A).set(0, shear * sheared.origin(A)[1]);
+    return force.stored_energy({0, sheared_, rest_}).value_or(0);
   };
-  for (const Real shear : {small, -small}) {  // what is linear in it is of a stressed reference
-    NodalVectors u = rest;
-    for (Index A = 0; A < sheared.size(); ++A)
-      at(u, sheared.first + A).set(0, shear * sheared.origin(A)[1]);
-    energy += strain_energy(u) / 2;
-  }
+  // What is linear in the shear is of a stressed reference.
+  const Real energy = (strain_energy(small) + strain_energy(-small)) / 2;
+  Real volume = 0;
   for (Index A = 0; A < sheared.size(); ++A) volume += sheared.cells.volume(A);
-  return 2 * (energy - strain_energy(rest)) / (small * small * volume);
+  return 2 * (energy - strain_energy(0)) / (small * small * volume);
 }
 
 template <int D>

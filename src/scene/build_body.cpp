@@ -176,6 +176,7 @@ std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned, Body<D>& 
   report(body, built, settings, assembly);
   scene.viscosity.push_back(std::move(built.viscosity));
   scene.bulk_modulus.push_back(built.bulk_modulus);
+  scene.internal_forces.push_back(built.force.get());
   if (!planned.material->fluid())
     assembly.keep_reference(body.name, "the stress of a solid depends on its first reference");
   if (settings.integration != "q_scni")

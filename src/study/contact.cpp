@@ -28,7 +28,7 @@ ContactLaw cut_law() {
 /// Composite Gauss quadrature of f over [a, b], refined towards a.
 template <class F>
 Real integral(Real a, Real b, F&& f) {
-  static const GaussRule rule = gauss_rule(16);
+  const GaussRule& rule = gauss_rule(16);
   constexpr int pieces = 24;
   Real sum = 0, left = a;
   for (int k = 1; k <= pieces; ++k) {

@@ -45,7 +45,7 @@ struct Boundary {
   std::vector<Vec<2>> x, V;
 
   Boundary() {
-    static const GaussRule rule = gauss_rule(8);
+    const GaussRule& rule = gauss_rule(8);
     constexpr int arcs = 160, pieces = 60;
     const auto add = [&](int n, auto&& point) {
       for (int k = 0; k < n; ++k)

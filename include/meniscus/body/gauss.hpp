@@ -14,7 +14,7 @@ struct GaussRule {
 };
 
 /// k points, exact for polynomials of degree 2 k - 1; 1 <= k <= 20, else InputError.
-GaussRule gauss_rule(int k);
+const GaussRule& gauss_rule(int k);
 
 /// A rule on [-1, 1]^P; the first coordinate varies fastest.
 template <int P>
@@ -26,10 +26,10 @@ struct TensorRule {
 /// k[d] points in direction d.
 template <int P>
 TensorRule<P> tensor_rule(const std::array<int, P>& k) {
-  std::array<GaussRule, P> lines;
+  std::array<const GaussRule*, P> lines;
   int count = 1;
   for (int d = 0; d < P; ++d) {
-    at(lines, d) = gauss_rule(at(k, d));
+    at(lines, d) = &gauss_rule(at(k, d));
     count *= at(k, d);
   }
   TensorRule<P> rule;
@@ -37,8 +37,8 @@ TensorRule<P> tensor_rule(const std::array<int, P>& k) {
     Vec<P> x;
     Real w = 1;
     for (int d = 0, rest = q; d < P; rest /= at(k, d++)) {
-      x[d] = at(at(lines, d).x, rest % at(k, d));
-      w *= at(at(lines, d).w, rest % at(k, d));
+      x[d] = at(at(lines, d)->x, rest % at(k, d));
+      w *= at(at(lines, d)->w, rest % at(k, d));
     }
     rule.x.push_back(x);
     rule.w.push_back(w);

@@ -103,6 +103,7 @@ class Assembly {
 
  private:
   std::size_t number_of(const std::string& body) const;
+  Real find_shear_modulus(const std::string& body) const;
 
   Scene<D>& scene_;
   bool begins_;
@@ -110,6 +111,8 @@ class Assembly {
   std::shared_ptr<std::map<std::string, Real>> surface_energy_ =
       std::make_shared<std::map<std::string, Real>>();
   std::map<std::string, std::string> tension_form_;
+  mutable std::map<std::string, Real> shear_modulus_;
+  mutable NodalVectors rest_, sheared_;
 };
 
 }  // namespace meniscus

@@ -75,6 +75,7 @@ struct Scene : RunSettings {
   State initial;
   std::vector<std::vector<Real>> viscosity;        ///< [body][particle]; empty: a solid
   std::vector<Real> bulk_modulus;                  ///< [body], the least of each
+  std::vector<const ForceTerm*> internal_forces;   ///< [body]
   std::map<std::string, CarriedField*> directors;  ///< [body], of nematics
   std::vector<Drop<D>> drops;
   std::vector<StateCheck> checks;

@@ -22,7 +22,7 @@ struct EllipseArc {
   Real speed(Real t) const { return std::hypot(a * std::cos(t), c * std::sin(t)); }
 
   Real arc_length(Real t) const {
-    static const GaussRule rule = gauss_rule(20);
+    const GaussRule& rule = gauss_rule(20);
     constexpr int panels = 4;
     const Real half = t / (2 * panels);
     Real sum = 0;

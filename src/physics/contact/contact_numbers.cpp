@@ -22,7 +22,7 @@ Real over_plane(const ContactLaw& law, Real gap, F&& f) {
   constexpr Real pi = std::numbers::pi;
   const auto rho_of = [gap](Real r) { return r > gap ? std::sqrt((r - gap) * (r + gap)) : 0; };
   const std::array<Real, 2> ends{rho_of(switch_begin * law.reach()), rho_of(law.reach())};
-  const GaussRule rule = gauss_rule(20);
+  const GaussRule& rule = gauss_rule(20);
   const bool line = dimension_of(law.kernel) == 2;
   Real sum = 0, begin = 0;
   for (const Real end : ends)

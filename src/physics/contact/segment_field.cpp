@@ -31,7 +31,7 @@ struct Powers {
 };
 
 const GaussRule& rule() {
-  static const GaussRule points = gauss_rule(20);
+  const GaussRule& points = gauss_rule(20);
   return points;
 }
 

@@ -18,7 +18,7 @@ struct LegendreIntegrals {
     const int n = degree + 1;
     for (auto& row : integral)
       for (auto& matrix : row) matrix = Eigen::MatrixXd::Zero(n, n);
-    const GaussRule rule = gauss_rule(degree + 1);
+    const GaussRule& rule = gauss_rule(degree + 1);
     for (std::size_t q = 0; q < rule.x.size(); ++q) {
       const Real x = rule.x[q];
       Eigen::VectorXd p[2] = {Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
