@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of reports in one exchange; failures, which are rare, in words.
+// Numbers of reports in one exchange; words, which are rare, after them.
 #include "meniscus/physics/rank_reports.hpp"
+
+#include "meniscus/core/error.hpp"
 
 namespace meniscus {
 namespace {
@@ -16,6 +18,11 @@ Failure failure_of(int rank, const std::optional<Failure>& mine) {
 
 }  // namespace
 
+RankReports::Words RankReports::words_of(const Report& report) {
+  if (!report.error.empty()) return Words::of_error;
+  return report.failure ? Words::of_failure : Words::none;
+}
+
 void RankReports::complete(std::span<Report> reports) {
   items_.clear();
   numbers_.clear();
@@ -23,7 +30,7 @@ void RankReports::complete(std::span<Report> reports) {
     if (!report.known_by) continue;
     items_.add(*report.known_by);
     numbers_.push_back({report.heat, report.external_power, report.external_work, report.demand,
-                        report.failure.has_value()});
+                        words_of(report)});
   }
   if (numbers_.empty()) return;
   items_.complete(numbers_.data(), sizeof numbers_[0]);
@@ -32,9 +39,10 @@ void RankReports::complete(std::span<Report> reports) {
     if (!report.known_by) continue;
     const Numbers& numbers = *next++;
     const int rank = *report.known_by;
+    if (numbers.words == Words::of_error) throw SolveError(ranks().of_rank(rank, report.error));
     const std::optional<Failure> mine = std::move(report.failure);
     report = {numbers.heat, numbers.external_power, numbers.external_work, numbers.demand};
-    if (numbers.failed) report.failure = failure_of(rank, mine);
+    if (numbers.words == Words::of_failure) report.failure = failure_of(rank, mine);
   }
 }
 

@@ -160,6 +160,24 @@ TEST(RankReports, AreBroughtFromTheRankThatKnowsThem) {
   });
 }
 
+TEST(RankReports, AnErrorIsThrownByAll) {
+  as_each_of(2, [&](int rank) {
+    std::vector<Report> reports(1);
+    reports[0].known_by = 0;
+    if (rank > 0) {  // the first says nothing here
+      EXPECT_NO_THROW(RankReports().complete(reports));
+      return;
+    }
+    reports[0].error = "of the first rank";
+    try {
+      RankReports().complete(reports);
+      ADD_FAILURE();
+    } catch (const SolveError& e) {
+      EXPECT_STREQ(e.what(), "of the first rank");
+    }
+  });
+}
+
 TEST(Divided, AllValuesAreUsedInOrder) {
   std::vector<Index> used;
   evenly.for_all_in_order(

@@ -86,6 +86,9 @@ struct Report {
   ChunkReports* chunks = nullptr;
   /// The rank that alone knows the above, which is left to be brought to all; none: all do.
   std::optional<int> known_by = {};
+  /// What it would have thrown as SolveError, where others do not know it; it is thrown by all
+  /// then.
+  std::string error = {};
 
   /// Sums; the first failure stays.
   Report& operator+=(Report other) {

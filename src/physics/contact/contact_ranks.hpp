@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ranks that make a contact of small bodies by themselves (scaling note 2.4).
 #pragma once
+#include "meniscus/core/error.hpp"
 #include "meniscus/physics/force_term.hpp"
 
 #include <algorithm>
@@ -27,9 +28,9 @@ class ContactRanks {
   bool are_few() const { return few_; }
   bool takes_part() const { return takes_part_; }
   /// Has nothing to do now.
-  bool is_absent() const { return few_ && !takes_part_ && is_entered(halo_); }
+  bool is_absent() const { return only_few_know() && !takes_part_; }
   /// Whether all that the contact says is asked of this rank.
-  bool reports() const { return !few_ || !is_entered(halo_) || meniscus::ranks().rank() == first_; }
+  bool reports() const { return !only_few_know() || meniscus::ranks().rank() == first_; }
   /// By which loops over contact points are divided.
   const Division& division() const { return division_; }
 
@@ -41,10 +42,18 @@ class ContactRanks {
       division_ = Division::to_each();
     });
   }
-  /// With who knows it.
-  Report report(Report mine) const {
-    if (few_ && is_entered(halo_)) mine.known_by = first_;
-    return mine;
+  /// What add_force() says if it is not absent, with who knows it.
+  template <class F>
+  Report report_of(F&& add_force) const {
+    if (!only_few_know()) return add_force();
+    Report report;
+    try {
+      if (takes_part_) report = add_force();
+    } catch (const SolveError& e) {
+      report.error = e.what();
+    }
+    report.known_by = first_;
+    return report;
   }
   /// Brings what the rank of the first body has kept.
   template <class T>
@@ -53,6 +62,8 @@ class ContactRanks {
   }
 
  private:
+  bool only_few_know() const { return few_ && is_entered(halo_); }
+
   bool few_, takes_part_;
   int first_;  // rank of the first body
   Division division_ = evenly;

@@ -50,20 +50,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
 
   Report add_force(const Motion& motion, Forces force) override {
     work_.begin(motion.time);
-    if (ranks_.is_absent()) return ranks_.report({});
-    Offset visited = 0;
-    for (auto [side, now] : {std::pair{&first_, &now_first_}, std::pair{&second_, &now_second_}}) {
-      if (side == &second_ && law_.up()) break;
-      now->move(*side, motion);
-      side->list.update(now->places.x, now->others.samples);
-      visited += side->list.pairs() * Lanes::width;
-      take_forces(*side, side->list, law_, motion, *now);
-      side->points.add_force(now->places, side->list.of_first().active, now->T, now->S, force);
-      side->facets.add_force(now->pull, force);
-    }
-    count(visited);
-    supply_ = supply(motion.time);
-    return ranks_.report(report(motion));
+    return ranks_.report_of([&] { return add_known_force(motion, force); });
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
@@ -125,6 +112,22 @@ class GapPair final : public ForceTerm, public ContactVisits {
   Offset pairs() const override { return first_.pairs() + second_.pairs(); }
 
  private:
+  /// Of a rank that takes part.
+  Report add_known_force(const Motion& motion, Forces force) {
+    Offset visited = 0;
+    for (auto [side, now] : {std::pair{&first_, &now_first_}, std::pair{&second_, &now_second_}}) {
+      if (side == &second_ && law_.up()) break;
+      now->move(*side, motion);
+      side->list.update(now->places.x, now->others.samples);
+      visited += side->list.pairs() * Lanes::width;
+      take_forces(*side, side->list, law_, motion, *now);
+      side->points.add_force(now->places, side->list.of_first().active, now->T, now->S, force);
+      side->facets.add_force(now->pull, force);
+    }
+    count(visited);
+    supply_ = supply(motion.time);
+    return report(motion);
+  }
   void require_adhesion() const;
   /// The largest by the last force, at this time.
   Real largest_adhesion(Real time) const {

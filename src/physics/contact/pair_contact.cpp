@@ -47,23 +47,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
   std::string_view energy_kind() const override { return "contact"; }
 
   Report add_force(const Motion& motion, Forces force) override {
-    const ContactRanks& ranks = visits_.ranks();
-    if (ranks.is_absent()) return ranks.report({});
-    visits_.visit(motion);
-    count(visits_.point_pairs());
-    const VisitedPair<D>& now = visits_.now();
-    for (std::size_t g = 0; g < visits_.grades(); ++g) {
-      const FacetRows<D> first = now.of_first(g), second = now.of_second(g);
-      if (ranks.reports()) {
-        sums_->evaluate(now.first[g], first, now.second[g], division(), first_result_[g]);
-        visits_.first(g).add_force(now.first[g], first.clusters, first_result_[g].T,
-                                   first_result_[g].S, force);
-      }
-      sums_->evaluate(now.second[g], second, now.first[g], division(), second_result_[g]);
-      visits_.second(g).add_force(now.second[g], second.clusters, second_result_[g].T,
-                                  second_result_[g].S, force);
-    }
-    return ranks.report(ranks.reports() ? report(motion) : Report());
+    return visits_.ranks().report_of([&] { return add_known_force(motion, force); });
   }
 
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
@@ -131,6 +115,25 @@ class PairContact final : public ForceTerm, public ContactVisits {
 
  private:
   const Division& division() const { return visits_.ranks().division(); }
+  /// Of a rank that takes part.
+  Report add_known_force(const Motion& motion, Forces force) {
+    const bool reports = visits_.ranks().reports();
+    visits_.visit(motion);
+    count(visits_.point_pairs());
+    const VisitedPair<D>& now = visits_.now();
+    for (std::size_t g = 0; g < visits_.grades(); ++g) {
+      const FacetRows<D> first = now.of_first(g), second = now.of_second(g);
+      if (reports) {
+        sums_->evaluate(now.first[g], first, now.second[g], division(), first_result_[g]);
+        visits_.first(g).add_force(now.first[g], first.clusters, first_result_[g].T,
+                                   first_result_[g].S, force);
+      }
+      sums_->evaluate(now.second[g], second, now.first[g], division(), second_result_[g]);
+      visits_.second(g).add_force(now.second[g], second.clusters, second_result_[g].T,
+                                  second_result_[g].S, force);
+    }
+    return reports ? report(motion) : Report();
+  }
   /// On the first, by grade.
   std::vector<PairEvaluation<D>> evaluated(const VisitedPair<D>& visited) const {
     std::vector<PairEvaluation<D>> results;

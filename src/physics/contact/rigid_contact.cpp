@@ -54,18 +54,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
 
   Report add_force(const Motion& motion, Forces force) override {
     effects_.begin(motion.time);
-    if (pair_.ranks.is_absent()) return pair_.ranks.report({});
-    choose_visited(pair_, motion, list_, layers_);
-    count(points_visited());
-    take_forces(pair_, motion, layers_);
-    sums_ = add_effects(pair_, effects_, motion, layers_);
-    for (std::size_t g = 0; g < layers_.size(); ++g) {
-      const PartnerLayer<D>& layer = layers_[g];
-      pair_.points[g].add_force(layer.places, layer.visited, layer.T, layer.moment(pair_.form),
-                                force);
-    }
-    find_near(pair_, motion, layers_);
-    return pair_.ranks.report(report(motion));
+    return pair_.ranks.report_of([&] { return add_known_force(motion, force); });
   }
 
   /// Adhesion that varies, and friction, have the difference of their forces.
@@ -160,6 +149,20 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   }
 
  private:
+  /// Of a rank that takes part.
+  Report add_known_force(const Motion& motion, Forces force) {
+    choose_visited(pair_, motion, list_, layers_);
+    count(points_visited());
+    take_forces(pair_, motion, layers_);
+    sums_ = add_effects(pair_, effects_, motion, layers_);
+    for (std::size_t g = 0; g < layers_.size(); ++g) {
+      const PartnerLayer<D>& layer = layers_[g];
+      pair_.points[g].add_force(layer.places, layer.visited, layer.T, layer.moment(pair_.form),
+                                force);
+    }
+    find_near(pair_, motion, layers_);
+    return report(motion);
+  }
   Offset points_visited() const {
     Offset n = 0;
     for (const PartnerLayer<D>& layer : layers_)
