@@ -13,7 +13,8 @@ void StepReads::rows(ForceWindows& windows, Index first) {
 
 void StepReads::sums(ForceWindows& windows, Index first) {
   windows.mark_summed(std::span(read_).subspan(static_cast<std::size_t>(first)));
-  when_shared([&windows](const SharedHalo& halo) { windows.keep_to(halo); });
+  if (std::find(windows_.begin(), windows_.end(), &windows) == windows_.end())
+    windows_.push_back(&windows);
 }
 
 void StepReads::particles(std::span<const Index> numbers, Index first) {
@@ -32,6 +33,7 @@ std::shared_ptr<Halo> StepReads::share(ParticleOwners owners) {
   const auto halo = std::make_shared<Halo>(std::move(read_), std::move(owners));
   if (!halo->is_partial()) return nullptr;
   halo->keep(std::move(kept_));
+  for (ForceWindows* windows : windows_) windows->keep_to(halo);
   for (const auto& learn : learners_) learn(halo);
   return halo;
 }

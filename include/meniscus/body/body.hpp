@@ -9,6 +9,7 @@
 #include "meniscus/body/reference.hpp"
 #include "meniscus/body/sums_over_ranks.hpp"
 #include "meniscus/core/divided.hpp"
+#include "meniscus/core/shared_parts.hpp"
 
 #include <memory>
 #include <string>
@@ -37,6 +38,8 @@ struct Body {
   PointRows<D> at_particles;
   /// Rows of its cells that were made ahead, for the material to take; null: it makes them.
   std::unique_ptr<CellRows<D>> cell_rows;
+  /// What several terms need of it alike, as contact points.
+  mutable SharedParts shared;
   /// What it was referred to anew; null: it has the reference of its scene.
   std::shared_ptr<const Reference<D>> reference;
 

@@ -55,6 +55,23 @@ struct ContactChanges {
 template <int D>
 class PatchPoints;
 
+/// What points have in all contacts of their body: places in the reference and shape functions.
+/// Work space of a force is in it, too.
+template <int D>
+struct SharedContactPoints {
+  std::vector<Index> order;      ///< [lane] number among the points as they were made
+  std::vector<Index> points_in;  ///< [cluster]
+  PointRule<D> rule;             ///< a group is a cluster; lanes without a point have empty rows
+  ForceWindows windows;
+  std::shared_ptr<PatchPoints<D>> patches;   ///< null: points by shape functions
+  std::vector<std::vector<Index>> of_group;  ///< [group of patches] points
+  std::vector<Index> particles;
+  Real spacing = 0, inertia = 0, gain = 0;
+  AlignedVector<Lanes> X;  ///< [cluster][i]
+
+  std::size_t bytes() const;
+};
+
 /// Material points in clusters of four that are neighbours in space, a lane per point. The weight
 /// of a point is
 /// - on the surface the area vector V = b cof(F) N dA (constant density) or b F^-T N dA
@@ -75,26 +92,23 @@ class ContactPoints {
   /// `points` Gauss points per direction of every cell.
   static ContactPoints in_volume(const Body<D>& body, Real beta, int points);
 
-  ContactPoints(ContactPoints&&) noexcept;
-  ContactPoints& operator=(ContactPoints&&) noexcept;
-  ~ContactPoints();
-
   const Body<D>& body() const { return *body_; }
   /// Of lanes up to the last point.
-  Index size() const { return static_cast<Index>(rule_.point_weight.size()); }
-  Index clusters() const { return static_cast<Index>(points_in_.size()); }
-  Index points_in(Index cluster) const { return at(points_in_, cluster); }
+  Index size() const { return static_cast<Index>(made_->rule.point_weight.size()); }
+  Index clusters() const { return static_cast<Index>(made_->points_in.size()); }
+  Index points_in(Index cluster) const { return at(made_->points_in, cluster); }
   /// Root mean square distance of neighbouring points: (area or volume per point)^(1/dimension).
-  Real spacing() const { return spacing_; }
+  Real spacing() const { return made_->spacing; }
   /// Smallest mass per area (volume) that moves with a point: a stiffness k per area between the
   /// points and something at rest has frequencies up to sqrt(k / inertia).
-  Real inertia() const { return inertia_; }
+  Real inertia() const { return made_->inertia; }
 
   /// All points in the reference state.
   ContactPlaces<D> at_rest() const;
   Vec<D> reference_place(Index point) const {
     Vec<D> X;
-    for (int i = 0; i < D; ++i) X[i] = at(X_, point / Lanes::width * D + i)[point % Lanes::width];
+    for (int i = 0; i < D; ++i)
+      X[i] = at(made_->X, point / Lanes::width * D + i)[point % Lanes::width];
     return X;
   }
   /// Moves all points along with the body.
@@ -102,13 +116,13 @@ class ContactPoints {
   /// Moves the points of these clusters.
   void move(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places) const;
   /// No point moves farther than this times the largest change of a displacement coefficient.
-  Real gain() const { return gain_; }
+  Real gain() const { return made_->gain; }
   /// Brings the weights of these clusters up to date.
   void update_weights(std::span<const Index> clusters, const Motion& motion,
                       ContactPlaces<D>& places) const;
 
   /// The particle nearest to a point, counted over all bodies.
-  Index particle_at(Index point) const { return body_->first + at(rule_.point_owner, point); }
+  Index particle_at(Index point) const { return body_->first + at(made_->rule.point_owner, point); }
 
   /// To be called before velocity() for these clusters.
   void prepare_velocities(std::span<const Index> clusters, const Motion& motion,
@@ -135,7 +149,7 @@ class ContactPoints {
                         std::span<const Lanes> dS, std::span<NodalVector> force);
 
   /// The particles that move the points, in ascending order, of the body.
-  std::span<const Index> particles() const { return particles_; }
+  std::span<const Index> particles() const { return made_->particles; }
   /// Calls f(k) for those of them, particles()[k], that this rank looks at to find the largest of
   /// something over all: in a halo its own, else all.
   template <class F>
@@ -143,7 +157,7 @@ class ContactPoints {
     if (in_halo())
       for (const Index k : own_particles_) f(k);
     else
-      for (Index k = 0; k < static_cast<Index>(particles_.size()); ++k) f(k);
+      for (Index k = 0; k < static_cast<Index>(made_->particles.size()); ++k) f(k);
   }
   bool in_halo() const { return is_entered(halo_); }
   bool follows_all() const { return !in_halo() || told_all_; }
@@ -153,14 +167,18 @@ class ContactPoints {
   /// This rank does, or has nothing to do with them: no rank asks others how far they have moved.
   void tell_reads_alone(StepReads& reads, bool reads_all);
 
+  /// What another contact of the body has made is counted there.
   std::size_t bytes() const;
   Offset pairs() const;
 
  private:
-  ContactPoints(const Body<D>& body, int components);
+  ContactPoints(const Body<D>& body, int components) : body_(&body), components_(components) {}
+  template <class Make>
+  void share(const std::string& name, Make&& make);
   /// The points X, which come facet by facet and carry `measure`.
   void place_points(const std::vector<Vec<D>>& X, const std::vector<Real>& measure,
                     Clusters clusters);
+  void place_points_of_patches(Clusters clusters);
   bool has_point(Index lane) const { return lane % Lanes::width < points_in(lane / Lanes::width); }
   void build_rows(RowContent content);
   void list_particles();
@@ -200,20 +218,14 @@ class ContactPoints {
   const Body<D>* body_;
   int components_;  // of a weight: D on the surface, 1 in the volume
   SiteDensity density_ = SiteDensity::referential;
-  Real beta_ = 1;                 // of patches: weight per area
-  std::vector<Index> order_;      // [lane] number among the points as they were made
-  std::vector<Index> points_in_;  // [cluster]
-  PointRule<D> rule_;             // a group is a cluster; lanes without a point have empty rows
-  ForceWindows windows_;
-  std::unique_ptr<PatchPoints<D>> patches_;   // null: points by shape functions
-  std::vector<std::vector<Index>> of_group_;  // [group of patches] points
-  std::vector<Index> particles_;
+  Real beta_ = 1;  // of patches: weight per area
+  std::shared_ptr<SharedContactPoints<D>> made_;
+  bool is_first_ = false;  // to have them
   std::shared_ptr<const Halo> halo_;
-  std::vector<Index> own_particles_;  // in the halo, numbers in particles_
+  std::vector<Index> own_particles_;  // in the halo, numbers in particles()
   bool told_all_ = false;             // when reads were told last
-  Real spacing_ = 0, inertia_ = 0, gain_ = 0;
-  AlignedVector<Lanes> X_, reference_;  // [cluster][i]: places, weights in the reference state
-  std::vector<std::uint8_t> pushed_;    // [cluster] 1 while its force is added
+  AlignedVector<Lanes> reference_;    // [cluster][i]: weights in the reference state
+  std::vector<std::uint8_t> pushed_;  // [cluster] 1 while its force is added
 };
 
 }  // namespace meniscus

@@ -5,6 +5,8 @@
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/box.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -57,23 +59,13 @@ std::vector<Index> facets_in_space(const Grid<D>& grid) {
 }  // namespace
 
 template <int D>
-ContactPoints<D>::ContactPoints(const Body<D>& body, int components)
-    : body_(&body), components_(components) {}
-template <int D>
-ContactPoints<D>::ContactPoints(ContactPoints&&) noexcept = default;
-template <int D>
-ContactPoints<D>& ContactPoints<D>::operator=(ContactPoints&&) noexcept = default;
-template <int D>
-ContactPoints<D>::~ContactPoints() = default;
-
-template <int D>
 void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vector<Real>& measure,
                                     Clusters clusters) {
   const auto append = [&](std::span<const Index> points) {
     for (std::size_t k = 0; k < points.size(); k += Lanes::width)
-      points_in_.push_back(
+      made_->points_in.push_back(
           static_cast<Index>(std::min<std::size_t>(Lanes::width, points.size() - k)));
-    order_.insert(order_.end(), points.begin(), points.end());
+    made_->order.insert(made_->order.end(), points.begin(), points.end());
   };
   std::vector<Index> order = numbers(X.size());
   if (clusters == Clusters::of_neighbours) {
@@ -86,27 +78,27 @@ void ContactPoints<D>::place_points(const std::vector<Vec<D>>& X, const std::vec
       const std::span<Index> points(&at(order, facet * static_cast<Index>(per_facet)), per_facet);
       order_in_space<D>(X, points, Lanes::width);
       append(points);
-      order_.resize(points_in_.size() * Lanes::width, points.back());
+      made_->order.resize(made_->points_in.size() * Lanes::width, points.back());
     }
   }
   const auto& search = body_->particles.search();
   std::vector<Index> nearest;
-  for (Index q = 0; q < static_cast<Index>(order_.size()); ++q) {
-    const Vec<D>& x = at(X, at(order_, q));
-    rule_.point_weight.push_back(has_point(q) ? at(measure, at(order_, q)) : 0);
+  for (Index q = 0; q < static_cast<Index>(made_->order.size()); ++q) {
+    const Vec<D>& x = at(X, at(made_->order, q));
+    made_->rule.point_weight.push_back(has_point(q) ? at(measure, at(made_->order, q)) : 0);
     search.within(x, search.distance_of_nearest(x, 1) * (1 + 1e-12), nearest);
-    rule_.point_owner.push_back(nearest.front());
+    made_->rule.point_owner.push_back(nearest.front());
   }
   const Real total = std::accumulate(measure.begin(), measure.end(), Real{0});
-  spacing_ = std::pow(total / static_cast<Real>(X.size()), 1.0 / (components_ == 1 ? D : D - 1));
-  X_.assign(offset(this->clusters(), D), Lanes::zero());
+  made_->spacing =
+      std::pow(total / static_cast<Real>(X.size()), 1.0 / (components_ == 1 ? D : D - 1));
+  made_->X.assign(offset(this->clusters(), D), Lanes::zero());
   for (Index c = 0; c < this->clusters(); ++c)
     for (int lane = 0; lane < Lanes::width; ++lane)
       for (int i = 0; i < D; ++i)
-        at(X_, c * D + i)
-            .set(lane, at(X, at(order_, c * Lanes::width + std::min(lane, points_in(c) - 1)))[i]);
-  reference_.assign(offset(this->clusters(), components_), Lanes::zero());
-  pushed_.assign(points_in_.size(), 0);
+        at(made_->X, c * D + i)
+            .set(lane,
+                 at(X, at(made_->order, c * Lanes::width + std::min(lane, points_in(c) - 1)))[i]);
 }
 
 template <int D>
@@ -114,35 +106,33 @@ void ContactPoints<D>::build_rows(RowContent content) {
   std::vector<Vec<D>> places;
   for (Index q = 0; q < size(); ++q)
     if (has_point(q)) places.push_back(reference_place(q));
-  rule_.rows = build_point_rows<D>(body_->particles, places, content, body_->name);
-  const std::vector<Offset> start = std::exchange(rule_.rows.start, {0});
+  made_->rule.rows = build_point_rows<D>(body_->particles, places, content, body_->name);
+  const std::vector<Offset> start = std::exchange(made_->rule.rows.start, {0});
   for (Index q = 0, point = 0; q < size(); ++q)
-    rule_.rows.start.push_back(at(start, has_point(q) ? ++point : point));
-  windows_ = rule_.windows(body_->size(), body_->division);
-  list_particles();
-  take_inertia();
+    made_->rule.rows.start.push_back(at(start, has_point(q) ? ++point : point));
+  made_->windows = made_->rule.windows(body_->size(), body_->division);
 }
 
 template <int D>
 void ContactPoints<D>::list_particles() {
   std::vector<bool> moves(static_cast<std::size_t>(body_->size()));
-  for (const Index A : (patches_ ? patches_->rows() : rule_.rows).particle)
+  for (const Index A : (made_->patches ? made_->patches->rows() : made_->rule.rows).particle)
     moves[static_cast<std::size_t>(A)] = true;
   for (Index A = 0; A < body_->size(); ++A)
-    if (moves[static_cast<std::size_t>(A)]) particles_.push_back(A);
+    if (moves[static_cast<std::size_t>(A)]) made_->particles.push_back(A);
 }
 
 template <int D>
 void ContactPoints<D>::tell_reads(StepReads& reads) {
   told_all_ = true;
-  reads.particles(particles_, body_->first);
+  reads.particles(made_->particles, body_->first);
   tell_sums(reads);
   learn_halo(reads);
 }
 
 template <int D>
 void ContactPoints<D>::tell_reads_alone(StepReads& reads, bool reads_all) {
-  if (reads_all) reads.particles(particles_, body_->first);
+  if (reads_all) reads.particles(made_->particles, body_->first);
   tell_sums(reads);
 }
 
@@ -160,10 +150,10 @@ void ContactPoints<D>::tell_reads(StepReads& reads, std::span<const Index> clust
 
 template <int D>
 void ContactPoints<D>::tell_sums(StepReads& reads) {
-  if (patches_)
-    patches_->tell_sums(reads, body_->first);
+  if (made_->patches)
+    made_->patches->tell_sums(reads, body_->first);
   else
-    reads.sums(windows_, body_->first);
+    reads.sums(made_->windows, body_->first);
 }
 
 template <int D>
@@ -171,8 +161,8 @@ void ContactPoints<D>::learn_halo(StepReads& reads) {
   reads.when_shared([this](const auto& halo) {
     halo_ = halo;
     own_particles_.clear();
-    for (Index k = 0; k < static_cast<Index>(particles_.size()); ++k)
-      if (halo->owners().owner(body_->first + at(particles_, k)) == ranks().rank())
+    for (Index k = 0; k < static_cast<Index>(made_->particles.size()); ++k)
+      if (halo->owners().owner(body_->first + at(made_->particles, k)) == ranks().rank())
         own_particles_.push_back(k);
   });
 }
@@ -180,8 +170,8 @@ void ContactPoints<D>::learn_halo(StepReads& reads) {
 template <int D>
 template <class F>
 void ContactPoints<D>::for_shape_functions(Index point, F&& f) const {
-  if (patches_) return patches_->for_shape_functions(at(order_, point), f);
-  const PointRows<D>& rows = rule_.rows;
+  if (made_->patches) return made_->patches->for_shape_functions(at(made_->order, point), f);
+  const PointRows<D>& rows = made_->rule.rows;
   for (Offset e = at(rows.start, point); e < at(rows.start, point + 1); ++e)
     f(at(rows.particle, e), at(rows.value, e));
 }
@@ -200,15 +190,29 @@ void ContactPoints<D>::take_inertia() {
     });
     Real row = 0;
     for (const Index A : touched) row += std::abs(at(sum, A));
-    gain_ = std::max(gain_, row);
+    made_->gain = std::max(made_->gain, row);
     for (const Index A : touched) {
-      at(carried, A) += at(rule_.point_weight, q) * std::abs(at(sum, A)) * row;
+      at(carried, A) += at(made_->rule.point_weight, q) * std::abs(at(sum, A)) * row;
       at(sum, A) = 0;
     }
   }
-  inertia_ = std::numeric_limits<Real>::infinity();
+  made_->inertia = std::numeric_limits<Real>::infinity();
   for (std::size_t A = 0; A < carried.size(); ++A)
-    if (carried[A] > 0) inertia_ = std::min(inertia_, body_->mass[A] / carried[A]);
+    if (carried[A] > 0) made_->inertia = std::min(made_->inertia, body_->mass[A] / carried[A]);
+}
+
+/// The points of this name that another contact has made, or what make() fills.
+template <int D>
+template <class Make>
+void ContactPoints<D>::share(const std::string& name, Make&& make) {
+  made_ = body_->shared.template get<SharedContactPoints<D>>("contact points " + name, [&] {
+    made_ = std::make_shared<SharedContactPoints<D>>();
+    make();
+    list_particles();
+    take_inertia();
+    is_first_ = true;
+    return made_;
+  });
 }
 
 template <int D>
@@ -217,8 +221,10 @@ ContactPoints<D> ContactPoints<D>::on_surface(const Body<D>& body, Real beta, Si
   const SurfacePoints<D> surface = surface_points(body.geometry, points);
   ContactPoints contact(body, D);
   contact.density_ = density;
-  contact.place_points(surface.X, surface.area, clusters);
-  contact.build_rows({.value = true, .gradient = true});
+  contact.share(fmt::format("on the surface {} {}", points, static_cast<int>(clusters)), [&] {
+    contact.place_points(surface.X, surface.area, clusters);
+    contact.build_rows({.value = true, .gradient = true});
+  });
   contact.take_weights(
       [&](Index point) { return Vec<D>(beta * at(surface.area, point) * at(surface.N, point)); });
   return contact;
@@ -230,32 +236,40 @@ ContactPoints<D> ContactPoints<D>::on_patches(const Body<D>& body, Real beta, in
   ContactPoints contact(body, D);
   contact.density_ = SiteDensity::constant;
   contact.beta_ = beta;
-  contact.patches_ = std::make_unique<PatchPoints<D>>(body, points);
-  const PatchPoints<D>& patches = *contact.patches_;
-  std::vector<Vec<D>> X, V;
+  contact.share(fmt::format("on patches {} {}", points, static_cast<int>(clusters)), [&] {
+    contact.made_->patches = std::make_shared<PatchPoints<D>>(body, points);
+    contact.place_points_of_patches(clusters);
+  });
+  const PatchPoints<D>& patches = *contact.made_->patches;
+  contact.take_weights([&](Index point) {
+    return Vec<D>(beta * patches.area_vector(point, patches.reference_nodes()));
+  });
+  return contact;
+}
+
+template <int D>
+void ContactPoints<D>::place_points_of_patches(Clusters clusters) {
+  const PatchPoints<D>& patches = *made_->patches;
+  std::vector<Vec<D>> X;
   std::vector<Real> area;
   for (Index q = 0; q < patches.size(); ++q) {
     X.push_back(patches.place(q, patches.reference_nodes()));
-    V.push_back(patches.area_vector(q, patches.reference_nodes()));
-    area.push_back(V.back().norm());
+    area.push_back(patches.area_vector(q, patches.reference_nodes()).norm());
   }
-  contact.place_points(X, area, clusters);
-  contact.list_particles();
-  contact.take_inertia();
-  contact.of_group_.resize(static_cast<std::size_t>(patches.group_count()));
-  for (Index q = 0; q < contact.size(); ++q)
-    if (contact.has_point(q))
-      at(contact.of_group_, patches.group(at(contact.order_, q))).push_back(q);
-  contact.take_weights([&](Index point) { return Vec<D>(beta * at(V, point)); });
-  return contact;
+  place_points(X, area, clusters);
+  made_->of_group.resize(static_cast<std::size_t>(patches.group_count()));
+  for (Index q = 0; q < size(); ++q)
+    if (has_point(q)) at(made_->of_group, patches.group(at(made_->order, q))).push_back(q);
 }
 
 template <int D>
 ContactPoints<D> ContactPoints<D>::in_volume(const Body<D>& body, Real beta, int points) {
   const CellPoints<D> cells = cell_gauss_points(body.geometry.grid, points);
   ContactPoints contact(body, 1);
-  contact.place_points(cells.X, cells.weight, Clusters::of_neighbours);
-  contact.build_rows({.value = true});
+  contact.share(fmt::format("in the volume {}", points), [&] {
+    contact.place_points(cells.X, cells.weight, Clusters::of_neighbours);
+    contact.build_rows({.value = true});
+  });
   contact.take_weights(
       [&](Index point) { return Eigen::Matrix<Real, 1, 1>(beta * at(cells.weight, point)); });
   return contact;
@@ -265,9 +279,11 @@ ContactPoints<D> ContactPoints<D>::in_volume(const Body<D>& body, Real beta, int
 template <int D>
 template <class F>
 void ContactPoints<D>::take_weights(F&& weight_of) {
+  reference_.assign(offset(clusters(), components_), Lanes::zero());
+  pushed_.assign(made_->points_in.size(), 0);
   for (Index q = 0; q < size(); ++q) {
     if (!has_point(q)) continue;
-    const auto weight = weight_of(at(order_, q));
+    const auto weight = weight_of(at(made_->order, q));
     for (int i = 0; i < components_; ++i)
       at(reference_, q / Lanes::width * components_ + i).set(q % Lanes::width, weight[i]);
   }
@@ -275,9 +291,9 @@ void ContactPoints<D>::take_weights(F&& weight_of) {
 
 template <int D>
 ContactPlaces<D> ContactPoints<D>::at_rest() const {
-  ContactPlaces<D> places{size(), components_, X_, reference_, {}};
-  if (patches_) {
-    places.nodes = patches_->reference_nodes();
+  ContactPlaces<D> places{size(), components_, made_->X, reference_, {}};
+  if (made_->patches) {
+    places.nodes = made_->patches->reference_nodes();
     places.wanted.assign(places.nodes.size(), 0);
   } else if (components_ == D) {
     places.inverse.assign(static_cast<std::size_t>(clusters()), Tensor<Lanes>::identity());
@@ -302,15 +318,16 @@ template <int D>
 void ContactPoints<D>::move(Index c, const NodalVector* u, ContactPlaces<D>& places) const {
   for_points(c, [&](Index q, auto&& set) {
     const Index lane = q % Lanes::width;
-    const Lanes moved = value_at(rule_.rows, q, u);
-    for (int i = 0; i < D; ++i) set(at(places.x, c * D + i), at(X_, c * D + i)[lane] + moved[i]);
+    const Lanes moved = value_at(made_->rule.rows, q, u);
+    for (int i = 0; i < D; ++i)
+      set(at(places.x, c * D + i), at(made_->X, c * D + i)[lane] + moved[i]);
   });
 }
 
 template <int D>
 void ContactPoints<D>::move_on_patches(Index c, ContactPlaces<D>& places) const {
   for_points(c, [&](Index q, auto&& set) {
-    const Vec<D> x = patches_->place(at(order_, q), places.nodes);
+    const Vec<D> x = made_->patches->place(at(made_->order, q), places.nodes);
     for (int i = 0; i < D; ++i) set(at(places.x, c * D + i), x[i]);
   });
 }
@@ -318,9 +335,10 @@ void ContactPoints<D>::move_on_patches(Index c, ContactPlaces<D>& places) const 
 template <int D>
 void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places) const {
   const NodalVector* u = motion.u.data() + body_->first;
-  if (patches_) patches_->place_nodes(u, {}, places.nodes);
+  if (made_->patches) made_->patches->place_nodes(u, {}, places.nodes);
   for_chunks(clusters(), [&](Index, Index begin, Index end) {
-    for (Index c = begin; c < end; ++c) patches_ ? move_on_patches(c, places) : move(c, u, places);
+    for (Index c = begin; c < end; ++c)
+      made_->patches ? move_on_patches(c, places) : move(c, u, places);
   });
 }
 
@@ -328,15 +346,15 @@ template <int D>
 void ContactPoints<D>::move(std::span<const Index> clusters, const Motion& motion,
                             ContactPlaces<D>& places) const {
   const NodalVector* u = motion.u.data() + body_->first;
-  if (patches_) {
+  if (made_->patches) {
     want_nodes(clusters, places);
-    patches_->place_nodes(u, places.wanted, places.nodes);
+    made_->patches->place_nodes(u, places.wanted, places.nodes);
   }
   parallel_for(
       static_cast<Index>(clusters.size()),
       [&](Index k) {
         const Index c = at(clusters, k);
-        patches_ ? move_on_patches(c, places) : move(c, u, places);
+        made_->patches ? move_on_patches(c, places) : move(c, u, places);
       },
       16);
 }
@@ -354,16 +372,16 @@ void ContactPoints<D>::update_weights(std::span<const Index> clusters, const Mot
 template <int D>
 void ContactPoints<D>::update_weights(Index c, const NodalVector* u,
                                       ContactPlaces<D>& places) const {
-  if (patches_) {
+  if (made_->patches) {
     for (Index lane = 0; lane < points_in(c); ++lane) {
-      const Vec<D> V =
-          beta_ * patches_->area_vector(at(order_, c * Lanes::width + lane), places.nodes);
+      const Vec<D> V = beta_ * made_->patches->area_vector(
+                                   at(made_->order, c * Lanes::width + lane), places.nodes);
       for (int i = 0; i < D; ++i) at(places.weight, c * D + i).set(lane, V[i]);
     }
     return;
   }
   Tensor<Lanes> H;
-  rule_.gather(c, u, H);
+  made_->rule.gather(c, u, H);
   Tensor<Lanes> cof = cofactor_of_deformation(H);
   const Lanes one_over_J = 1.0 / (1.0 + volume_change(H));
   at(places.inverse, c) = one_over_J * transpose(cof);
@@ -381,24 +399,24 @@ void ContactPoints<D>::want_nodes(std::span<const Index> clusters, ContactPlaces
   std::fill(places.wanted.begin(), places.wanted.end(), std::uint8_t{0});
   for (const Index c : clusters)
     for (Index lane = 0; lane < points_in(c); ++lane)
-      patches_->want(at(order_, c * Lanes::width + lane), places.wanted);
+      made_->patches->want(at(made_->order, c * Lanes::width + lane), places.wanted);
 }
 
 template <int D>
 void ContactPoints<D>::prepare_velocities(std::span<const Index> clusters, const Motion& motion,
                                           ContactPlaces<D>& places) const {
-  if (!patches_) return;
+  if (!made_->patches) return;
   want_nodes(clusters, places);
   places.node_v.resize(places.nodes.size());
-  patches_->values(motion.v.data() + body_->first, places.wanted, places.node_v);
+  made_->patches->values(motion.v.data() + body_->first, places.wanted, places.node_v);
 }
 
 template <int D>
 void ContactPoints<D>::velocity(Index cluster, const Motion& motion, const ContactPlaces<D>& places,
                                 Lanes* v) const {
-  if (!patches_) return velocity_nearby(cluster, motion, v);
+  if (!made_->patches) return velocity_nearby(cluster, motion, v);
   for_points(cluster, [&](Index q, auto&& set) {
-    const Vec<D> rate = patches_->place(at(order_, q), places.node_v);
+    const Vec<D> rate = made_->patches->place(at(made_->order, q), places.node_v);
     for (int i = 0; i < D; ++i) set(v[i], rate[i]);
   });
 }
@@ -407,8 +425,8 @@ template <int D>
 void ContactPoints<D>::velocity_nearby(Index cluster, const Motion& motion, Lanes* v) const {
   const NodalVector* field = motion.v.data() + body_->first;
   for_points(cluster, [&](Index q, auto&& set) {
-    const Lanes rate =
-        patches_ ? patches_->velocity_nearby(at(order_, q), field) : value_at(rule_.rows, q, field);
+    const Lanes rate = made_->patches ? made_->patches->velocity_nearby(at(made_->order, q), field)
+                                      : value_at(made_->rule.rows, q, field);
     for (int i = 0; i < D; ++i) set(v[i], rate[i]);
   });
 }
@@ -434,16 +452,16 @@ void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const
                                  std::span<const Lanes> T, std::span<const Lanes> S,
                                  std::span<NodalVector> force) {
   if (clusters.empty()) return;
-  if (patches_) return add_force_on_patches(places, clusters, T, S, force);
+  if (made_->patches) return add_force_on_patches(places, clusters, T, S, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
-  windows_.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
+  made_->windows.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
     for (Index c = begin; c < end; ++c) {
       if (!at(pushed_, c)) continue;
       const Lanes* pull = T.data() + offset(c, D);
       const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
       for (Index lane = 0; lane < points_in(c); ++lane)
-        scatter_value(rule_.rows, c * Lanes::width + lane, -at(by_point, lane), f);
-      if (!S.empty()) rule_.scatter(c, -1.0 * stress(places, c, S.data() + offset(c, D)), f);
+        scatter_value(made_->rule.rows, c * Lanes::width + lane, -at(by_point, lane), f);
+      if (!S.empty()) made_->rule.scatter(c, -1.0 * stress(places, c, S.data() + offset(c, D)), f);
     }
   });
   for (const Index c : clusters) at(pushed_, c) = 0;
@@ -455,9 +473,9 @@ void ContactPoints<D>::add_force_on_patches(const ContactPlaces<D>& places,
                                             std::span<const Lanes> T, std::span<const Lanes> S,
                                             std::span<NodalVector> force) {
   for (const Index c : clusters) at(pushed_, c) = 1;
-  parallel_for(static_cast<Index>(of_group_.size()), [&](Index group) {
-    patches_->begin_force(group);
-    for (const Index q : at(of_group_, group)) {
+  parallel_for(static_cast<Index>(made_->of_group.size()), [&](Index group) {
+    made_->patches->begin_force(group);
+    for (const Index q : at(made_->of_group, group)) {
       const Index c = q / Lanes::width, lane = q % Lanes::width;
       if (!at(pushed_, c)) continue;
       Vec<D> pull, turn = Vec<D>::Zero();
@@ -465,23 +483,28 @@ void ContactPoints<D>::add_force_on_patches(const ContactPlaces<D>& places,
         pull[i] = T[offset(c, D) + static_cast<std::size_t>(i)][lane];
         if (!S.empty()) turn[i] = beta_ * S[offset(c, D) + static_cast<std::size_t>(i)][lane];
       }
-      patches_->add(at(order_, q), pull, turn, places.nodes);
+      made_->patches->add(at(made_->order, q), pull, turn, places.nodes);
     }
   });
-  patches_->end_force(body_->part(force));
+  made_->patches->end_force(body_->part(force));
   for (const Index c : clusters) at(pushed_, c) = 0;
 }
 
 template <int D>
 Offset ContactPoints<D>::pairs() const {
-  return patches_ ? patches_->pairs() : rule_.rows.entries();
+  return made_->patches ? made_->patches->pairs() : made_->rule.rows.entries();
+}
+
+template <int D>
+std::size_t SharedContactPoints<D>::bytes() const {
+  return rule.bytes() + windows.bytes() + X.size() * sizeof(Lanes) +
+         (order.size() + points_in.size() + particles.size()) * sizeof(Index) +
+         (patches ? patches->bytes() : 0);
 }
 
 template <int D>
 std::size_t ContactPoints<D>::bytes() const {
-  return rule_.bytes() + windows_.bytes() + (X_.size() + reference_.size()) * sizeof(Lanes) +
-         (order_.size() + points_in_.size() + particles_.size()) * sizeof(Index) +
-         (patches_ ? patches_->bytes() : 0);
+  return (is_first_ ? made_->bytes() : 0) + reference_.size() * sizeof(Lanes);
 }
 
 template class ContactPoints<2>;

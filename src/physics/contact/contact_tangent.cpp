@@ -14,8 +14,8 @@ template <int D>
 typename ContactPoints<D>::Turned ContactPoints<D>::turned(Index c, const Motion& motion,
                                                            const Motion& change) const {
   Tensor<Lanes> H, dH;
-  rule_.gather(c, motion.u.data() + body_->first, H);
-  rule_.gather(c, change.u.data() + body_->first, dH);
+  made_->rule.gather(c, motion.u.data() + body_->first, H);
+  made_->rule.gather(c, change.u.data() + body_->first, dH);
   const Tensor<Dual<Lanes>> moved = dual(H, dH);
   Tensor<Dual<Lanes>> cof = cofactor_of_deformation(moved);
   const Dual<Lanes> one_over_J = 1.0 / (1.0 + volume_change(moved));
@@ -54,10 +54,10 @@ ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
   all.x.assign(offset(this->clusters(), D), Lanes::zero());
   all.weight.assign(offset(this->clusters(), components_), Lanes::zero());
   NodalVectors ahead, behind;
-  if (patches_) {
+  if (made_->patches) {
     const std::vector<std::uint8_t> wanted(places.nodes.size(), 1);
     all.nodes.resize(places.nodes.size());
-    patches_->values(du, wanted, all.nodes);
+    made_->patches->values(du, wanted, all.nodes);
     ahead = behind = places.nodes;
     for (std::size_t a = 0; a < ahead.size(); ++a) {
       ahead[a] += all.nodes[a];
@@ -71,21 +71,21 @@ ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
         for (Index lane = 0; lane < Lanes::width; ++lane) {
           const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
           Vec<D> dx;
-          if (patches_) {
-            dx = patches_->place(at(order_, q), all.nodes);
+          if (made_->patches) {
+            dx = made_->patches->place(at(made_->order, q), all.nodes);
           } else {
-            const Lanes moved = value_at(rule_.rows, q, du);
+            const Lanes moved = value_at(made_->rule.rows, q, du);
             for (int i = 0; i < D; ++i) dx[i] = moved[i];
           }
           for (int i = 0; i < D; ++i) at(all.x, c * D + i).set(lane, dx[i]);
-          if (!patches_ || lane >= points_in(c)) continue;
+          if (!made_->patches || lane >= points_in(c)) continue;
           // Of second degree in the places of the nodes: central differences are exact.
           const Vec<D> dV = 0.5 * beta_ *
-                            (patches_->area_vector(at(order_, q), ahead) -
-                             patches_->area_vector(at(order_, q), behind));
+                            (made_->patches->area_vector(at(made_->order, q), ahead) -
+                             made_->patches->area_vector(at(made_->order, q), behind));
           for (int i = 0; i < D; ++i) at(all.weight, c * D + i).set(lane, dV[i]);
         }
-        if (patches_ || components_ == 1) return;
+        if (made_->patches || components_ == 1) return;
         const auto now = turned(c, motion, change);
         for (int i = 0; i < D; ++i) at(all.weight, c * D + i) = at(now.V, i).d;
       },
@@ -100,22 +100,22 @@ void ContactPoints<D>::add_force_change(const ContactPlaces<D>& places,
                                         std::span<const Lanes> dT, std::span<const Lanes> S,
                                         std::span<const Lanes> dS, std::span<NodalVector> force) {
   if (clusters.empty()) return;
-  if (patches_) return add_change_on_patches(places, changes, clusters, dT, S, dS, force);
+  if (made_->patches) return add_change_on_patches(places, changes, clusters, dT, S, dS, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
-  windows_.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
+  made_->windows.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
     for (Index c = begin; c < end; ++c) {
       if (!at(pushed_, c)) continue;
       const Lanes* pull = dT.data() + offset(c, D);
       const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
       for (Index lane = 0; lane < points_in(c); ++lane)
-        scatter_value(rule_.rows, c * Lanes::width + lane, -at(by_point, lane), f);
+        scatter_value(made_->rule.rows, c * Lanes::width + lane, -at(by_point, lane), f);
       if (S.empty()) continue;
       const auto now = turned(c, motion, change);
       std::array<Dual<Lanes>, D> turn;
       for (int i = 0; i < D; ++i)
         at(turn, i) = {S[offset(c, D) + static_cast<std::size_t>(i)],
                        dS[offset(c, D) + static_cast<std::size_t>(i)]};
-      rule_.scatter(c, -1.0 * stress_change(now, turn), f);
+      made_->rule.scatter(c, -1.0 * stress_change(now, turn), f);
     }
   });
   for (const Index c : clusters) at(pushed_, c) = 0;
@@ -129,9 +129,9 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
                                              std::span<const Lanes> dS,
                                              std::span<NodalVector> force) {
   for (const Index c : clusters) at(pushed_, c) = 1;
-  parallel_for(static_cast<Index>(of_group_.size()), [&](Index group) {
-    patches_->begin_force(group);
-    for (const Index q : at(of_group_, group)) {
+  parallel_for(static_cast<Index>(made_->of_group.size()), [&](Index group) {
+    made_->patches->begin_force(group);
+    for (const Index q : at(made_->of_group, group)) {
       const Index c = q / Lanes::width, lane = q % Lanes::width;
       if (!at(pushed_, c)) continue;
       Vec<D> pull, turn = Vec<D>::Zero(), turned_by = turn;
@@ -142,12 +142,12 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
         turn[i] = beta_ * S[k][lane];
         turned_by[i] = beta_ * dS[k][lane];
       }
-      patches_->add(at(order_, q), pull, turned_by, places.nodes);
+      made_->patches->add(at(made_->order, q), pull, turned_by, places.nodes);
       // What S does through the tangents is linear in them; in the plane there is no other tangent.
-      if (D == 3) patches_->add(at(order_, q), Vec<D>::Zero(), turn, changes.nodes);
+      if (D == 3) made_->patches->add(at(made_->order, q), Vec<D>::Zero(), turn, changes.nodes);
     }
   });
-  patches_->end_force(body_->part(force));
+  made_->patches->end_force(body_->part(force));
   for (const Index c : clusters) at(pushed_, c) = 0;
 }
 
