@@ -51,7 +51,7 @@ auto ParticleSet<D>::press(const Mat<D>& stretch, std::span<const Vec<D>> X)
   const Mat<D> inverse_stretch = inverse<D>(stretch);
   std::vector<Vec<D>> places;
   for (const Vec<D>& x : X) places.push_back(inverse_stretch * x);
-  NeighborSearch<D> search(places);
+  auto search = NeighborSearch<D>::in_order(places);
   return Pressed{inverse_stretch, symmetric_eigenvalues<D>(inverse_stretch)[D - 1],
                  std::move(places), std::move(search)};
 }
@@ -62,7 +62,7 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, 
     : X_(std::move(X)),
       support_(X_.size()),
       window_(window),
-      search_(X_),
+      search_(NeighborSearch<D>::in_order(X_)),
       pressed_(press(stretch, X_)) {
   const OwnItems own = evenly.own_rows(size());
   parallel_for(own.end - own.begin, [&](Index k) {
@@ -82,7 +82,7 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
       support_(X_.size(), support),
       largest_support_(support),
       window_(window),
-      search_(X_),
+      search_(NeighborSearch<D>::in_order(X_)),
       pressed_(press(stretch, X_)) {}
 
 template <int D>
@@ -92,7 +92,7 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support
       support_(support.begin(), support.end()),
       largest_support_(*std::max_element(support_.begin(), support_.end())),
       window_(window),
-      search_(X_),
+      search_(NeighborSearch<D>::in_order(X_)),
       pressed_(press(stretch, X_)) {}
 
 template <int D>

@@ -11,6 +11,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -38,14 +39,33 @@ ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& g
   return {geometry.grid.X, rule, window, stretch};
 }
 
-/// Where the deficiency monitor looks: particles, cell centres, and a point per surface facet.
+/// Where the deficiency monitor looks: particles, cell centres, and a point per surface facet, in
+/// the order of the particles, so that neighbours in it are neighbours in space.
 template <int D>
 std::vector<Vec<D>> probe_points(const Geometry<D>& geometry) {
-  std::vector<Vec<D>> points = geometry.grid.X;
-  const auto centres = cell_gauss_points(geometry.grid, 1).X;
-  points.insert(points.end(), centres.begin(), centres.end());
-  const auto surface = surface_points(geometry, 1);
-  points.insert(points.end(), surface.X.begin(), surface.X.end());
+  const Grid<D>& grid = geometry.grid;
+  const auto centres = cell_gauss_points(grid, 1).X;
+  const auto surface = surface_points(geometry, 1).X;
+  std::vector<Vec<D>> points;
+  points.reserve(grid.X.size() + centres.size() + surface.size());
+  std::size_t facet = 0;
+  Index cell = 0;
+  const auto lowest = [&grid](Index e) {
+    return *std::min_element(at(grid.cells, e).begin(), at(grid.cells, e).end());
+  };
+  const auto add_cells = [&](Index up_to) {
+    for (; cell < grid.cell_count() && lowest(cell) <= up_to; ++cell) {
+      points.push_back(at(centres, cell));
+      for (; facet < surface.size() && grid.facets[facet].cell <= cell; ++facet)
+        points.push_back(surface[facet]);
+    }
+  };
+  for (Index A = 0; A < grid.node_count(); ++A) {
+    points.push_back(at(grid.X, A));
+    add_cells(A);
+  }
+  add_cells(grid.node_count());
+  points.insert(points.end(), surface.begin() + static_cast<std::ptrdiff_t>(facet), surface.end());
   return points;
 }
 

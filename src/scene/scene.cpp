@@ -60,12 +60,15 @@ std::vector<Division> divide_bodies(const Plan<D>& plan, const References<D>& re
 template <int D>
 void warn_of_overlaps(Scene<D>& scene) {
   const auto& bodies = scene.system.bodies;
+  std::vector<Index> found;
   for (std::size_t a = 0; a < bodies.size(); ++a)
     for (std::size_t b = a + 1; b < bodies.size(); ++b) {
       const Real near = 0.5 * mean_spacing(bodies[b].geometry.grid);
       Index count = 0;
-      for (const Vec<D>& X : bodies[a].particles.X())
-        count += bodies[b].particles.search().distance_of_nearest(X, 1) < near;
+      for (const Vec<D>& X : bodies[a].particles.X()) {
+        bodies[b].particles.search().within_unsorted(X, near, found);
+        count += found.empty() ? 0 : 1;
+      }
       if (count > 0)
         scene.warnings.push_back(
             fmt::format("bodies '{}' and '{}' overlap: {} particles of the first "

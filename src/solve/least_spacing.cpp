@@ -12,15 +12,18 @@ template <int D>
 Real least_spacing(const std::deque<Body<D>>& bodies) {
   Real least = unbounded;
   for (const Body<D>& body : bodies) {
-    std::vector<Real> of_chunk(static_cast<std::size_t>(chunk_count(body.size())), unbounded);
-    for_chunks(body.size(), [&](Index chunk, Index begin, Index end) {
+    const OwnItems own = body.division.own_rows(body.size());
+    std::vector<Real> of_chunk(static_cast<std::size_t>(chunk_count(own.end - own.begin)),
+                               unbounded);
+    for_chunks(own.end - own.begin, [&](Index chunk, Index begin, Index end) {
       Real& spacing = at(of_chunk, chunk);
-      for (Index A = begin; A < end; ++A)
+      for (Index A = own.begin + begin; A < own.begin + end; ++A)
         spacing = std::min(
             spacing, body.particles.search().distance_of_nearest(at(body.particles.X(), A), 2));
     });
-    least = std::min(least, *std::min_element(of_chunk.begin(), of_chunk.end()));
+    for (const Real spacing : of_chunk) least = std::min(least, spacing);
   }
+  for (const Real of_rank : said_by_ranks(least)) least = std::min(least, of_rank);
   return least;
 }
 

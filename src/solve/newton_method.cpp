@@ -4,6 +4,7 @@
 
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
+#include "meniscus/solve/least_spacing.hpp"
 
 #include <fmt/core.h>
 
@@ -21,14 +22,10 @@ constexpr int most_directions = 60, most_tangents = 400;
 
 template <int D>
 NewtonMethod<D>::NewtonMethod(System<D>& system, ImplicitEuler<D>* step, Real tolerance)
-    : system_(system), step_(step), tolerance_(tolerance) {
+    : system_(system), step_(step), tolerance_(tolerance), spacing_(least_spacing(system.bodies)) {
   still_.assign(static_cast<std::size_t>(system.size()), Lanes::zero());
   if (system.constraints) lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
   r_ = trial_r_ = s_ = g_ = z_ = p_ = q_ = scaled_ = still_;
-  for (const Body<D>& body : system.bodies)
-    for (Index A = 0; A < body.size(); ++A)
-      spacing_ = std::min(
-          spacing_, body.particles.search().distance_of_nearest(at(body.particles.X(), A), 2));
 }
 
 template <int D>

@@ -102,5 +102,70 @@ TYPED_TEST(NeighborSearchTest, FollowsAMovedCloud) {
   }
 }
 
+/// A lattice in blocks of `per_block` points that follow each other.
+template <int D>
+std::vector<Vec<D>> lattice_of_blocks(int blocks, int per_side) {
+  std::vector<Vec<D>> points;
+  const int per_block = D == 3 ? per_side * per_side * per_side : per_side * per_side;
+  for (int b = 0; b < blocks; ++b)
+    for (int k = 0; k < per_block; ++k) {
+      Vec<D> x = Vec<D>::Constant(0.1 * (k % per_side));
+      x[0] = 0.1 * (b * per_side + k % per_side);
+      x[1] = 0.1 * (k / per_side % per_side);
+      if constexpr (D == 3) x[2] = 0.1 * (k / (per_side * per_side));
+      points.push_back(x);
+    }
+  return points;
+}
+
+TYPED_TEST(NeighborSearchTest, FindsTheSameInManyTreesAsInOne) {
+  constexpr int D = TypeParam::value;
+  std::mt19937_64 generator(9);
+  // Without an order in space, with places taken twice, and a last tree of few points.
+  std::vector<Vec<D>> points = random_cloud<D>(400, generator);
+  for (std::size_t i = 0; i < 60; ++i) points.push_back(points[i]);
+  const NeighborSearch<D> one(points);
+  for (const Index per_tree : {1, 7, 64, 459, 460, 1000}) {
+    const auto many = NeighborSearch<D>::in_order(points, per_tree);
+    std::uniform_real_distribution<Real> size(0, 1.2);
+    std::vector<Index> found, expected;
+    for (const Vec<D>& x : random_cloud<D>(60, generator)) {
+      const Real radius = size(generator);
+      many.within(x, radius, found);
+      one.within(x, radius, expected);
+      EXPECT_EQ(found, expected);
+      for (const int k : {1, 3, 21, 460, 1000})
+        EXPECT_EQ(many.distance_of_nearest(x, k), one.distance_of_nearest(x, k));
+      EXPECT_EQ(many.distance_of_nearest(3 * x, 5), one.distance_of_nearest(3 * x, 5));
+    }
+    for (std::size_t i = 0; i < 20; ++i)  // exactly on the sphere
+      for (const Vec<D>& y : points) {
+        const Real radius = (y - points[i]).norm();
+        many.within(points[i], radius, found);
+        one.within(points[i], radius, expected);
+        ASSERT_EQ(found, expected);
+      }
+    EXPECT_EQ(many.trees(), (460 + per_tree - 1) / per_tree);
+  }
+}
+
+TYPED_TEST(NeighborSearchTest, HasTreesWhereItWasAsked) {
+  constexpr int D = TypeParam::value;
+  constexpr int blocks = 8, per_side = 6;
+  const auto points = lattice_of_blocks<D>(blocks, per_side);
+  const auto per_block = static_cast<Index>(points.size() / blocks);
+  const auto search = NeighborSearch<D>::in_order(points, per_block);
+  EXPECT_EQ(search.trees(), 0);
+  std::vector<Index> found;
+  search.within(points[static_cast<std::size_t>(per_block / 2)], 0.05, found);
+  EXPECT_EQ(search.trees(), 1);
+  search.distance_of_nearest(points.back(), 2);
+  EXPECT_EQ(search.trees(), 2);
+  search.within(points.back(), 0.7, found);  // reaches the block before
+  EXPECT_EQ(search.trees(), 3);
+  search.within(Vec<D>::Constant(1e3), 1, found);
+  EXPECT_EQ(search.trees(), 3);
+}
+
 }  // namespace
 }  // namespace meniscus::test_neighbor_search

@@ -9,12 +9,17 @@
 
 namespace meniscus {
 
-/// A kd-tree over a cloud. Queries are const and may run on several threads at once.
+/// kd-trees over a cloud. Queries are const and may run on several threads at once.
 template <int D>
 requires SpaceDim<D>
 class NeighborSearch {
  public:
+  /// One tree over a copy of the points.
   explicit NeighborSearch(std::span<const Vec<D>> points);
+  /// A tree for each so many points that follow each other, made when a query first comes near
+  /// them: of a cloud ordered in space (order_spatially()), a rank has the trees where its rows
+  /// are and around. The points stay where they are.
+  static NeighborSearch in_order(std::span<const Vec<D>> points, Index points_per_tree = 2048);
   ~NeighborSearch();
   NeighborSearch(NeighborSearch&&) noexcept;
   NeighborSearch& operator=(NeighborSearch&&) noexcept;
@@ -29,12 +34,16 @@ class NeighborSearch {
   /// fewer than k points give the distance of the farthest.
   Real distance_of_nearest(const Vec<D>& x, int k) const;
 
-  /// The cloud moved, its point count did not: rebuilds the tree in place.
+  /// The cloud moved, its point count did not: rebuilds the one tree in place.
   void rebuild(std::span<const Vec<D>> points);
 
+  /// How many trees there are so far.
+  Index trees() const;
+
  private:
-  struct Tree;
-  std::unique_ptr<Tree> tree_;
+  class Trees;
+  explicit NeighborSearch(std::unique_ptr<Trees> trees);
+  std::unique_ptr<Trees> trees_;
 };
 
 extern template class NeighborSearch<2>;

@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// Of all bodies, in their references; length.
+/// Of all bodies, in their references; length. All ranks call this.
 template <int D>
 Real least_spacing(const std::deque<Body<D>>& bodies);
 

@@ -90,7 +90,7 @@ class NewtonMethod {
 
   System<D>& system_;
   ImplicitEuler<D>* step_;
-  Real tolerance_, spacing_ = unbounded;
+  Real tolerance_, spacing_;
   std::optional<HeldPreconditioner<D>> preconditioner_;
   FreeMotions<D> free_;
   NodalVectors still_, r_, trial_r_, s_, g_, z_, p_, q_, scaled_;
