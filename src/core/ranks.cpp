@@ -25,10 +25,12 @@ int number_in(const char* variable, int otherwise) {
   return text && end != text && *end == '\0' ? static_cast<int>(number) : otherwise;
 }
 
-/// Of Open MPI, and of what speaks the process management interface (Slurm, Hydra).
+/// Of Open MPI's mpirun, of what speaks the process management interface (Hydra, srun --mpi=pmi2),
+/// and of srun --mpi=pmix.
 Launch launch_in_environment() {
   constexpr const char* names[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
-                                      {"PMI_RANK", "PMI_SIZE"}};
+                                      {"PMI_RANK", "PMI_SIZE"},
+                                      {"PMIX_RANK", "SLURM_STEP_NUM_TASKS"}};
   for (const auto& [rank, size] : names)
     if (const Launch found{number_in(rank, -1), number_in(size, 0)};
         found.rank >= 0 && found.rank < found.size)
