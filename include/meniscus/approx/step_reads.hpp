@@ -37,7 +37,7 @@ class StepReads {
   std::shared_ptr<Halo> share(ParticleOwners owners);
 
  private:
-  std::vector<std::uint8_t> read_;  // [particle]
+  std::vector<std::uint8_t> read_;      // [particle]
   std::vector<ForceWindows*> windows_;  // each once, in the order in which they were told
   std::vector<NodalVectors*> kept_;
   std::vector<std::function<void(const SharedHalo&)>> learners_;
