@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ranks by MPI, their exchanges by PETSc's star forests; no other file sees them.
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/ranks.hpp"
 
 #include <fmt/core.h>
@@ -93,6 +94,12 @@ class PetscRanks final : public Ranks {
     require(PetscInitializeNoArguments());
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
     MPI_Comm_size(PETSC_COMM_WORLD, &size_);
+    // Each would be a run of its own, all in one directory.
+    if (size_ != launch().size)
+      throw FileError(fmt::format(
+          "rank {} of {} as it was started, but MPI knows of {} in all; expected is the mpirun of "
+          "the MPI that meniscus-mpi is built with, or srun --mpi=pmix",
+          launch().rank, launch().size, size_));
     // Apart from what a rank that failed alone leaves the others waiting in.
     MPI_Comm_dup(PETSC_COMM_WORLD, &at_the_end_);
   }

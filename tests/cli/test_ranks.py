@@ -456,6 +456,18 @@ class Failures(RanksTest):
         self.assert_said_once(self.ranks(2, "run", scene, "--wrong", code=2), "--wrong")
         self.assert_said_once(self.ranks(2, "check", scene, code=3), "several ranks")
 
+    def test_ranks_that_mpi_does_not_know(self):
+        """As of a launcher that speaks another interface: none becomes a run of its own."""
+        scene = self.scene(SHORT_BLOCK)
+        for names in (("PMIX_RANK", "SLURM_STEP_NUM_TASKS"), ("PMI_RANK", "PMI_SIZE")):
+            started = {**RANKS_ENVIRONMENT, **dict(zip(names, ("0", "2")))}
+            done = subprocess.run([program.PROGRAM, "run", scene, "--output", "out"],
+                                  cwd=self.directory, text=True, capture_output=True, env=started,
+                                  timeout=100)
+            self.assertEqual(done.returncode, 5, done.stderr)
+            self.assert_said_once(done, "rank 0 of 2 as it was started, but MPI knows of 1 in all")
+            self.assertFalse((self.directory / "out").exists())
+
     def test_existing_output(self):
         """Files are refused by the first rank, which has them."""
         scene = self.scene(SHORT_BLOCK)
