@@ -126,11 +126,9 @@ void renumber(Grid<D>& grid, std::span<const Index> order) {
 
   std::vector<Index> cell_order(grid.cells.size());
   std::iota(cell_order.begin(), cell_order.end(), 0);
-  const auto lowest = [&](Index e) {
-    return *std::min_element(at(grid.cells, e).begin(), at(grid.cells, e).end());
-  };
-  std::stable_sort(cell_order.begin(), cell_order.end(),
-                   [&](Index a, Index b) { return lowest(a) < lowest(b); });
+  std::stable_sort(cell_order.begin(), cell_order.end(), [&](Index a, Index b) {
+    return lowest_node(at(grid.cells, a)) < lowest_node(at(grid.cells, b));
+  });
   grid.cells = permuted(grid.cells, cell_order);
   if (!grid.bulge_of.empty()) grid.bulge_of = permuted(grid.bulge_of, cell_order);
   const std::vector<Index> cell_number = inverse_order(cell_order);

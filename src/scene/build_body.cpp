@@ -11,7 +11,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -50,22 +49,14 @@ std::vector<Vec<D>> probe_points(const Geometry<D>& geometry) {
   points.reserve(grid.X.size() + centres.size() + surface.size());
   std::size_t facet = 0;
   Index cell = 0;
-  const auto lowest = [&grid](Index e) {
-    return *std::min_element(at(grid.cells, e).begin(), at(grid.cells, e).end());
-  };
-  const auto add_cells = [&](Index up_to) {
-    for (; cell < grid.cell_count() && lowest(cell) <= up_to; ++cell) {
+  for (Index A = 0; A < grid.node_count(); ++A) {
+    points.push_back(at(grid.X, A));
+    for (; cell < grid.cell_count() && lowest_node(at(grid.cells, cell)) <= A; ++cell) {
       points.push_back(at(centres, cell));
       for (; facet < surface.size() && grid.facets[facet].cell <= cell; ++facet)
         points.push_back(surface[facet]);
     }
-  };
-  for (Index A = 0; A < grid.node_count(); ++A) {
-    points.push_back(at(grid.X, A));
-    add_cells(A);
   }
-  add_cells(grid.node_count());
-  points.insert(points.end(), surface.begin() + static_cast<std::ptrdiff_t>(facet), surface.end());
   return points;
 }
 

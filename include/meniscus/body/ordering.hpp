@@ -3,6 +3,7 @@
 #pragma once
 #include "meniscus/body/geometry.hpp"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,12 @@ std::vector<Index> spatial_order(std::span<const Vec<D>> points);
 /// exchange two changes it by some of their distance, rounding of places by no more than theirs.
 template <int D>
 Vec<D> mark_of_order(std::span<const Vec<D>> points);
+
+/// The corner of a cell with the lowest number.
+template <class Cell>
+Index lowest_node(const Cell& cell) {
+  return *std::min_element(cell.begin(), cell.end());
+}
 
 /// Gives node order[i] the number i. Cells are then sorted by their lowest node and facets by cell.
 /// `order` must be a permutation of the nodes, else InputError.
