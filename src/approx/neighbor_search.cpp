@@ -95,7 +95,8 @@ class NeighborSearch<D>::Trees {
         parts_.begin(), parts_.end(), [](const Part<D>& part) { return part.made != nullptr; }));
   }
   void rebuild(std::span<const Vec<D>> points) {
-    std::copy(points.begin(), points.end(), points_.begin());
+    points_.assign(points.begin(), points.end());
+    parts_.front().cloud.points = points_;
     parts_.front().tree().buildIndex();
   }
 
@@ -126,8 +127,7 @@ class NeighborSearch<D>::Trees {
     enclose(first, begin, middle(begin, end));
     enclose(second, middle(begin, end), end);
     at(boxes_, box) = at(boxes_, first);
-    at(boxes_, box).include(at(boxes_, second).low);
-    at(boxes_, box).include(at(boxes_, second).high);
+    at(boxes_, box).include(at(boxes_, second));
   }
 
   template <class Near, class F>

@@ -65,8 +65,7 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, 
       search_(NeighborSearch<D>::in_order(X_)),
       pressed_(press(stretch, X_)) {
   const OwnItems own = evenly.own_rows(size());
-  parallel_for(own.end - own.begin, [&](Index k) {
-    const Index A = own.begin + k;
+  parallel_for(own, [&](Index A) {
     // The particle is its own nearest point.
     at(support_, A) =
         rule.factor * kernel_search().distance_of_nearest(at(kernel_X(), A), rule.rank + 1);
@@ -165,8 +164,7 @@ void ParticleSet<D>::find_quality(std::span<const Vec<D>> points, std::span<cons
   using Qualities = std::array<Real, together>;
   std::vector<Qualities> found(static_cast<std::size_t>((count + together - 1) / together));
   const OwnItems own = evenly.own_rows(static_cast<Index>(found.size()));
-  parallel_for(own.end - own.begin, [&](Index item) {
-    const Index batch = own.begin + item;
+  parallel_for(own, [&](Index batch) {
     thread_local std::vector<Candidate<D>> reaching;
     thread_local ReproducingKernel<D> kernel(window_);
     kernel.use(window_);

@@ -184,8 +184,7 @@ template <int D>
 void check_jacobians(const Grid<D>& grid, const std::string& cause) {
   const OwnItems own = evenly.own_items(grid.cell_count());
   on_each_rank([&] {
-    parallel_for(own.end - own.begin, [&](Index k) {
-      const Index e = own.begin + k;
+    parallel_for(own, [&](Index e) {
       if (const auto fold = find_fold(grid, e))
         throw InputError(
             fmt::format("{} folds cell {} at {}: its Jacobian is {:g} there, but must be positive",

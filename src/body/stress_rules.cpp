@@ -42,8 +42,7 @@ PointRule<D> make_point_rule(const Body<D>& body, std::span<const Vec<D>> points
   });
   rule.point_weight = std::move(weight);
   rule.point_owner.resize(static_cast<std::size_t>(groups * per_group));
-  parallel_for(own.end - own.begin, [&](Index k) {
-    const Index q = own.begin + k;
+  parallel_for(own, [&](Index q) {
     at(rule.point_owner, q) = nearest<D>(body, rule.rows, q, at(points, q));
   });
   body.division.complete_rows(groups, rule.point_owner.data(),

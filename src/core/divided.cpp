@@ -38,6 +38,11 @@ void Division::complete_items(Index n, void* values, std::size_t bytes_per_value
   complete(values, bytes_per_value, [&](int rank) { return first_item(n, rank); });
 }
 
+void Division::complete_runs(Index n, std::span<const Offset> start, void* values,
+                             std::size_t bytes_per_value) const {
+  complete(values, bytes_per_value, [&](int rank) { return at(start, first_item(n, rank)); });
+}
+
 Index Division::first_row(Index n, int rank) const {
   return chunk_begin(n, first_item(chunk_count(n), rank));
 }

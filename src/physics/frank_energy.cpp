@@ -95,8 +95,7 @@ std::optional<Real> FrankEnergy<D>::stored_energy(const Motion& motion) const {
 template <int D>
 void FrankEnergy<D>::hold_places(const NodalVector* u) {
   const OwnItems own = body_.division.own_rows(rule_.groups());
-  parallel_for(own.end - own.begin, [&](Index k) {
-    const Index P = own.begin + k;
+  parallel_for(own, [&](Index P) {
     Tensor<Lanes> H;
     rule_.gather(P, u, H);
     const Lanes J = 1.0 + volume_change(H);

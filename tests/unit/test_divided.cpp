@@ -12,18 +12,16 @@
 #include <bit>
 #include <cstring>
 
+#include "some_ranks.hpp"
 #include "straight_grid.hpp"
 #include "support.hpp"
 
 namespace meniscus::test_divided {
 namespace {
 
-/// One of several ranks whose others say nothing, and bring their number in each byte.
-class OneOf final : public Ranks {
+/// Whose others bring their number in each byte.
+class OneOf final : public OneOfRanks {
  public:
-  static inline int number = 0, all = 1;
-  int rank() const override { return number; }
-  int size() const override { return all; }
   void gather(void* values, std::span<const std::size_t> begin) override {
     for (std::size_t r = 0; r + 1 < begin.size(); ++r)
       if (static_cast<int>(r) != number)
@@ -32,22 +30,11 @@ class OneOf final : public Ranks {
   }
 };
 
-/// Calls f as each of so many ranks.
-template <class F>
-void as_each_of(int size, F&& f) {
-  register_ranks([]() -> std::unique_ptr<Ranks> { return std::make_unique<OneOf>(); });
-  join_ranks();
-  OneOf::all = size;
-  for (OneOf::number = 0; OneOf::number < size; ++OneOf::number) f(OneOf::number);
-  register_ranks([] { return std::make_unique<Ranks>(); });
-  join_ranks();
-}
-
 TEST(Divided, EachRowIsOfOneRankInOrder) {
   for (const Index n : {0, 1, 5, 100, 40000})
     for (const int size : {1, 2, 3, 20}) {
       Index next = 0;
-      as_each_of(size, [&](int rank) {
+      as_each_of<OneOf>(size, [&](int rank) {
         const OwnItems own = evenly.own_rows(n);
         EXPECT_EQ(own.begin, next);
         for (Index row = own.begin; row < own.end; row += 7)
@@ -73,7 +60,7 @@ std::vector<int> owners(const std::vector<Index>& rows) {
 TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
   using Owners = std::vector<int>;
   const std::vector<Index> equal(8, 500);
-  as_each_of(2, [&](int) {
+  as_each_of<OneOf>(2, [&](int) {
     EXPECT_EQ(owners(equal), (Owners{0, 0, 0, 0, 1, 1, 1, 1}));
     EXPECT_EQ(owners({500, 500, 500, 500}), (Owners{0, 0, 1, 1})) << "half a share each";
     EXPECT_EQ(owners({500, 500, 500}), (Owners{-1, -1, -1})) << "two thirds of a share each";
@@ -84,12 +71,13 @@ TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
     EXPECT_EQ(owners({600, 10000, 50, 600}), (Owners{0, -1, 1, 1}));
     EXPECT_EQ(owners({10000, 600, 50}), (Owners{-1, -1, 1})) << "without the larger one";
   });
-  as_each_of(3, [&](int) { EXPECT_EQ(owners(equal), Owners(8, -1)) << "1.125 shares on one"; });
-  as_each_of(1, [&](int) { EXPECT_EQ(owners(equal), Owners(8, 0)); });
+  as_each_of<OneOf>(3,
+                    [&](int) { EXPECT_EQ(owners(equal), Owners(8, -1)) << "1.125 shares on one"; });
+  as_each_of<OneOf>(1, [&](int) { EXPECT_EQ(owners(equal), Owners(8, 0)); });
 }
 
 TEST(Divided, RowsOfAWholeBodyAreOfOneRank) {
-  as_each_of(3, [&](int rank) {
+  as_each_of<OneOf>(3, [&](int rank) {
     const Division division(1);
     const OwnItems rows = division.own_rows(70), items = division.own_items(5);
     EXPECT_EQ(rows.end - rows.begin, rank == 1 ? 70 : 0);
@@ -100,7 +88,7 @@ TEST(Divided, RowsOfAWholeBodyAreOfOneRank) {
 }
 
 TEST(Divided, WhatEachHasIsNotBrought) {
-  as_each_of(3, [&](int rank) {
+  as_each_of<OneOf>(3, [&](int rank) {
     const Division division = Division::to_each();
     const OwnItems items = division.own_items(5);
     EXPECT_EQ(items.begin, 0);
@@ -122,12 +110,19 @@ TEST(Divided, ItemsAreBroughtFromTheirRanks) {
   items.add(2, Division(0));
   items.add(3, evenly);  // as long as there is one rank only: all to the first
   items.add(1);
-  as_each_of(3, [&](int rank) {
+  as_each_of<OneOf>(3, [&](int rank) {
     Values values(7, 7);
     items.complete(values.data(), sizeof values[0]);
     const std::vector<int> of{2, 0, 0, 0, 0, 0, 1};
     for (std::size_t k = 0; k < values.size(); ++k)
       EXPECT_EQ(values[k], of[k] == rank ? 7 : of[k] * 0x0101) << rank << " " << k;
+    const std::vector<Offset> start{0, 0, 2, 5, 6};
+    Values runs(6, 7);
+    evenly.complete_runs(4, start, runs.data(), sizeof runs[0]);
+    for (Index k = 0; k < 6; ++k) {
+      const int owner = k < 2 ? 1 : 2;
+      EXPECT_EQ(at(runs, k), owner == rank ? 7 : owner * 0x0101);
+    }
     Values rows(48, 7);
     evenly.complete_rows(48, rows.data(), sizeof rows[0]);
     for (Index row = 0; row < 48; ++row) {
@@ -139,7 +134,7 @@ TEST(Divided, ItemsAreBroughtFromTheirRanks) {
 
 TEST(RankReports, AreBroughtFromTheRankThatKnowsThem) {
   const Real strange = std::bit_cast<Real>(std::uint64_t{0x0101010101010101});
-  as_each_of(2, [&](int rank) {
+  as_each_of<OneOf>(2, [&](int rank) {
     std::vector<Report> reports(3);
     for (std::size_t k = 0; k < 3; ++k) reports[k].heat = reports[k].demand.longest = Real(k + 1);
     reports[1].known_by = 0;
@@ -161,7 +156,7 @@ TEST(RankReports, AreBroughtFromTheRankThatKnowsThem) {
 }
 
 TEST(RankReports, AnErrorIsThrownByAll) {
-  as_each_of(2, [&](int rank) {
+  as_each_of<OneOf>(2, [&](int rank) {
     std::vector<Report> reports(1);
     reports[0].known_by = 0;
     if (rank > 0) {  // the first says nothing here
@@ -191,7 +186,7 @@ TEST(Divided, AllValuesAreUsedInOrder) {
 }
 
 TEST(Divided, WhatFailsOnOneRankFailsOnAllAsTheSame) {
-  as_each_of(2, [](int) {
+  as_each_of<OneOf>(2, [](int) {
     EXPECT_NO_THROW(on_each_rank([] {}));
     EXPECT_THROW(on_each_rank([] { throw InputError("input"); }), InputError);
     EXPECT_THROW(on_each_rank([] { throw FileError("file"); }), FileError);
@@ -257,7 +252,7 @@ void expect_parts_of_point_rule(Index per_group) {
   const auto body = test::body_of<D>(test::potato<D>());
   const PointRule<D> all = build_gauss_rule(*body, 2, per_group);
   Index points = 0;
-  as_each_of(3, [&](int) {
+  as_each_of<OneOf>(3, [&](int) {
     const PointRule<D> some = build_gauss_rule(*body, 2, per_group);
     ASSERT_EQ(some.rows.size(), all.rows.size());
     const OwnItems own = evenly.own_rows(all.groups());

@@ -34,7 +34,7 @@ class NeighborSearch {
   /// fewer than k points give the distance of the farthest.
   Real distance_of_nearest(const Vec<D>& x, int k) const;
 
-  /// The cloud moved, its point count did not: rebuilds the one tree in place.
+  /// Makes the one tree over other points, in its place.
   void rebuild(std::span<const Vec<D>> points);
 
   /// How many trees there are so far.

@@ -13,6 +13,19 @@ struct Box {
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
+  void include(const Box& other) {
+    include(other.low);
+    include(other.high);
+  }
+  /// Makes it larger by so much on every side.
+  void grow(Real margin) {
+    low.array() -= margin;
+    high.array() += margin;
+  }
+  /// Whether they have a point in common.
+  bool meets(const Box& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
   Vec<D> extent() const { return high - low; }
   Vec<D> centre() const { return 0.5 * (low + high); }
 };

@@ -41,6 +41,10 @@ class Division {
   void complete_where_rows_are(Index n, void* values, std::size_t bytes_per_value) const {
     if (place_ == even) complete_items(n, values, bytes_per_value);
   }
+  /// Of items with several values each, those of item i from values[start[i]] to
+  /// values[start[i + 1]].
+  void complete_runs(Index n, std::span<const Offset> start, void* values,
+                     std::size_t bytes_per_value) const;
 
   // The same of rows.
   OwnItems own_rows(Index n) const;
@@ -114,8 +118,7 @@ template <class F, class Record, class Take>
 void divided_for(const Division& division, Index n, F&& f, Record&& record, Take&& take,
                  int grain = 64) {
   const OwnItems own = division.own_items(n);
-  parallel_for(
-      own.end - own.begin, [&](Index i) { f(own.begin + i); }, grain);
+  parallel_for(own, f, grain);
   if (ranks().alone() || division.is_to_each()) return;
   std::vector<decltype(record(0))> records(static_cast<std::size_t>(n));
   for (Index k = own.begin; k < own.end; ++k) at(records, k) = record(k);

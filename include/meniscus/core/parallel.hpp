@@ -57,6 +57,18 @@ void parallel_for(Index n, F&& f, Index grain = 64) {
   if (failure) std::rethrow_exception(failure);
 }
 
+/// Items begin to end - 1.
+struct ItemRange {
+  Index begin, end;
+};
+
+/// The same for the items of a range.
+template <class F>
+void parallel_for(const ItemRange& items, F&& f, Index grain = 64) {
+  parallel_for(
+      items.end - items.begin, [&](Index k) { f(items.begin + k); }, grain);
+}
+
 /// What it costs to do a row.
 enum class Cost {
   much,
@@ -99,11 +111,6 @@ class PerChunk {
  private:
   std::size_t size_;
   alignas(T) std::byte memory_[most_chunks * sizeof(T)];
-};
-
-/// Items begin to end - 1.
-struct ItemRange {
-  Index begin, end;
 };
 
 /// Sum of f(i) over some items of n, added in the order of the chunks of n. Here `count` of them

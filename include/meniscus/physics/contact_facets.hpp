@@ -23,8 +23,8 @@ class ContactFacets {
     std::vector<Real> radius;      ///< [facet] of its corners about its middle
   };
   Places at_rest() const;
-  /// Moves all facets along with the body. Takes no memory.
-  void move(const Motion& motion, Places& places) const;
+  /// Moves all facets along with the body, divided so. Takes no memory.
+  void move(const Motion& motion, Places& places, const Division& division) const;
 
   /// The nearest point of the surface: sum_k share_k x_k over the corners of a facet. Moving the
   /// corners by dx_k changes the distance by -normal . sum_k share_k dx_k.

@@ -111,8 +111,9 @@ class ContactPoints {
       X[i] = at(made_->X, point / Lanes::width * D + i)[point % Lanes::width];
     return X;
   }
-  /// Moves all points along with the body.
-  void move(const Motion& motion, ContactPlaces<D>& places) const;
+  /// Moves all points along with the body; ranks that all call this may divide them.
+  void move(const Motion& motion, ContactPlaces<D>& places,
+            const Division& division = Division::to_each()) const;
   /// Moves the points of these clusters.
   void move(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places) const;
   /// No point moves farther than this times the largest change of a displacement coefficient.

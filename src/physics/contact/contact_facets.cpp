@@ -95,12 +95,13 @@ typename ContactFacets<D>::Places ContactFacets<D>::at_rest() const {
 }
 
 template <int D>
-void ContactFacets<D>::move(const Motion& motion, Places& places) const {
+void ContactFacets<D>::move(const Motion& motion, Places& places, const Division& division) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  parallel_for(rows_.size(), [&](Index B) {
+  parallel_for(division.own_items(rows_.size()), [&](Index B) {
     const Lanes moved = value_at(rows_, B, u);
     for (int i = 0; i < D; ++i) at(places.corner, B)[i] = at(X_, B)[i] + moved[i];
   });
+  division.complete_items(rows_.size(), places.corner.data(), sizeof(Vec<D>));
   sample(places);
 }
 

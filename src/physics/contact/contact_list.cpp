@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace meniscus {
 namespace {
@@ -53,6 +54,18 @@ Real radius_of(const Lanes* x, const Vec<D>& centre) {
   return std::sqrt(largest(square));
 }
 
+/// Around four points.
+template <int D>
+Box<D> box_of(const Lanes* x) {
+  Box<D> box;
+  for (int lane = 0; lane < Lanes::width; ++lane) {
+    Vec<D> point;
+    for (int i = 0; i < D; ++i) point[i] = x[i][lane];
+    box.include(point);
+  }
+  return box;
+}
+
 /// Whether a point of one cluster lies within `distance` of a point of the other.
 template <int D>
 bool near(const Lanes* x, const Lanes* y, Real distance) {
@@ -79,9 +92,10 @@ void find_active(const std::vector<Offset>& start, std::vector<Index>& active) {
 }  // namespace
 
 template <int D>
-bool ContactList<D>::update(std::span<const Lanes> first, std::span<const Lanes> second) {
+bool ContactList<D>::update(std::span<const Lanes> first, std::span<const Lanes> second,
+                            const Division& division) {
   if (valid(first, second)) return false;
-  build(first, second);
+  build(first, second, division);
   return true;
 }
 
@@ -93,12 +107,13 @@ bool ContactList<D>::valid(std::span<const Lanes> first, std::span<const Lanes> 
 }
 
 template <int D>
-void ContactList<D>::build(std::span<const Lanes> first, std::span<const Lanes> second) {
+void ContactList<D>::build(std::span<const Lanes> first, std::span<const Lanes> second,
+                           const Division& division) {
   first_.active.reserve(first.size() / D);
   second_.active.reserve(second.size() / D);
   built_first_.assign(first.begin(), first.end());
   built_second_.assign(second.begin(), second.end());
-  find_partners(first, second);
+  find_partners(first, second, division);
   transpose(clusters_of<D>(second));
   find_active(first_.start, first_.active);
   find_active(second_.start, second_.active);
@@ -106,54 +121,88 @@ void ContactList<D>::build(std::span<const Lanes> first, std::span<const Lanes> 
 }
 
 template <int D>
-void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const Lanes> second) {
-  const Real distance = reach_ + skin_;
-  centre_.resize(second.size() / D);
-  Real radius = 0;  // of the largest cluster
-  for (std::size_t c = 0; c < centre_.size(); ++c) {
-    centre_[c] = centre_of<D>(&at(second, c * D));
-    radius = std::max(radius, radius_of<D>(&at(second, c * D), centre_[c]));
+void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const Lanes> second,
+                                   const Division& division) {
+  const Index clusters = clusters_of<D>(first);
+  const OwnItems own = division.own_items(clusters);
+  Box<D> box;
+  for (Index c = own.begin; c < own.end; ++c) box.include(box_of<D>(&at(first, c * D)));
+  box.grow((reach_ + skin_) * (1 + 1e-12));
+  // The first search is over all of them, so that later ones, which are over fewer, find their
+  // room.
+  if (!search_) box.grow(unbounded);
+  const Real radius = find_met(box, second);
+  first_.start.assign(static_cast<std::size_t>(clusters) + 1, 0);
+  find_partners_of(own, radius, first, second);
+  take_rows(own, clusters, division);
+}
+
+/// Those of the second cloud that meet a box; returns the radius of the largest of them.
+template <int D>
+Real ContactList<D>::find_met(const Box<D>& box, std::span<const Lanes> second) {
+  Real radius = 0;
+  met_.clear();
+  centre_.clear();
+  for (Index c = 0; c < clusters_of<D>(second); ++c) {
+    const Lanes* x = &at(second, c * D);
+    if (!box.meets(box_of<D>(x))) continue;
+    met_.push_back(c);
+    centre_.push_back(centre_of<D>(x));
+    radius = std::max(radius, radius_of<D>(x, centre_.back()));
   }
   if (search_)
     search_->rebuild(centre_);
   else
     search_ = std::make_unique<NeighborSearch<D>>(centre_);
+  return radius;
+}
 
-  const Index clusters = clusters_of<D>(first);
-  found_.resize(static_cast<std::size_t>(chunk_count(clusters)));
-  for_chunks(clusters, [&](Index chunk, Index begin, Index end) {
+/// Among those met, by chunks; first_.start gets how many each has, one place after its own.
+template <int D>
+void ContactList<D>::find_partners_of(OwnItems own, Real radius, std::span<const Lanes> first,
+                                      std::span<const Lanes> second) {
+  const Real distance = reach_ + skin_;
+  found_.resize(static_cast<std::size_t>(chunk_count(own.end - own.begin)));
+  for_chunks(own.end - own.begin, [&](Index chunk, Index begin, Index end) {
     Found& found = at(found_, chunk);
     found.partner.clear();
-    found.count.clear();
-    for (Index c = begin; c < end; ++c) {
+    for (Index c = own.begin + begin; c < own.begin + end; ++c) {
       const Lanes* x = &at(first, c * D);
       const Vec<D> centre = centre_of<D>(x);
       search_->within(centre, distance + radius + radius_of<D>(x, centre), found.candidates);
       const std::size_t before = found.partner.size();
-      for (const Index other : found.candidates)
-        if (near<D>(x, &at(second, other * D), distance)) found.partner.push_back(other);
-      found.count.push_back(static_cast<Index>(found.partner.size() - before));
+      for (const Index candidate : found.candidates)
+        if (const Index other = at(met_, candidate); near<D>(x, &at(second, other * D), distance))
+          found.partner.push_back(other);
+      at(first_.start, c + 1) = static_cast<Offset>(found.partner.size() - before);
     }
   });
-  first_.start.assign(1, 0);
-  first_.partner.clear();
+}
+
+/// Of all ranks, from what chunks have found and how many partners each cluster has.
+template <int D>
+void ContactList<D>::take_rows(OwnItems own, Index clusters, const Division& division) {
+  std::vector<Offset>& start = first_.start;
+  division.complete_items(clusters, start.data() + 1, sizeof(Offset));
+  std::partial_sum(start.begin(), start.end(), start.begin());
   // A contact that moves on over the surface needs in other chunks what it needs in these.
-  std::size_t pairs = 0, most_pairs = 0, most_candidates = 0;
+  std::size_t most_partners = 0, most_candidates = 0;
   for (const Found& found : found_) {
-    pairs += found.partner.size();
-    most_pairs = std::max(most_pairs, found.partner.size());
+    most_partners = std::max(most_partners, found.partner.size());
     most_candidates = std::max(most_candidates, found.candidates.capacity());
   }
   for (Found& found : found_) {
-    make_room(found.partner, most_pairs);
+    make_room(found.partner, most_partners);
     found.candidates.reserve(most_candidates);
   }
+  const auto pairs = static_cast<std::size_t>(start.back());
   make_room(first_.partner, pairs);
   make_room(second_.partner, pairs);
-  for (const Found& found : found_) {
-    first_.partner.insert(first_.partner.end(), found.partner.begin(), found.partner.end());
-    for (const Index count : found.count) first_.start.push_back(first_.start.back() + count);
-  }
+  first_.partner.resize(pairs);
+  auto next = first_.partner.begin() + at(start, own.begin);
+  for (const Found& found : found_)
+    next = std::copy(found.partner.begin(), found.partner.end(), next);
+  division.complete_runs(clusters, start, first_.partner.data(), sizeof(Index));
 }
 
 /// The rows of the second cloud; partners ascend because the rows of the first are read in order.

@@ -333,13 +333,18 @@ void ContactPoints<D>::move_on_patches(Index c, ContactPlaces<D>& places) const 
 }
 
 template <int D>
-void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places) const {
+void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places,
+                            const Division& division) const {
   const NodalVector* u = motion.u.data() + body_->first;
-  if (made_->patches) made_->patches->place_nodes(u, {}, places.nodes);
-  for_chunks(clusters(), [&](Index, Index begin, Index end) {
-    for (Index c = begin; c < end; ++c)
-      made_->patches ? move_on_patches(c, places) : move(c, u, places);
-  });
+  if (made_->patches) {
+    made_->patches->place_nodes(u, division, places.nodes);
+    parallel_for(
+        clusters(), [&](Index c) { move_on_patches(c, places); }, 16);
+  } else {
+    parallel_for(
+        division.own_items(clusters()), [&](Index c) { move(c, u, places); }, 16);
+    division.complete_items(clusters(), places.x.data(), D * sizeof(Lanes));
+  }
 }
 
 template <int D>

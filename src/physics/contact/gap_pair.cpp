@@ -98,9 +98,8 @@ class GapPair final : public ForceTerm, public ContactVisits {
     for (int i = 0; i < D; ++i)
       all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the first body",
                      [this, i](const Motion& motion) {
-                       const Real on_second = forces_at(motion, first_, law_).force_on_facets(i);
-                       return (!law_.up() ? forces_at(motion, second_, law_).force_on_facets(i)
-                                          : 0) -
+                       const Real on_second = forces_at(motion, first_).force_on_facets(i);
+                       return (!law_.up() ? forces_at(motion, second_).force_on_facets(i) : 0) -
                               on_second;
                      }});
     return all;
@@ -117,16 +116,19 @@ class GapPair final : public ForceTerm, public ContactVisits {
     Offset visited = 0;
     for (auto [side, now] : {std::pair{&first_, &now_first_}, std::pair{&second_, &now_second_}}) {
       if (side == &second_ && law_.up()) break;
-      now->move(*side, motion);
-      side->list.update(now->places.x, now->others.samples);
+      now->move(*side, motion, ranks_.division());
+      side->list.update(now->places.x, now->others.samples, ranks_.division());
       visited += side->list.pairs() * Lanes::width;
-      take_forces(*side, side->list, law_, motion, *now);
+      take_forces(*side, side->list, law_, motion, ranks_.division(), *now);
       side->points.add_force(now->places, side->list.of_first().active, now->T, now->S, force);
       side->facets.add_force(now->pull, force);
     }
     count(visited);
     supply_ = supply(motion.time);
     return report(motion);
+  }
+  GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side) const {
+    return meniscus::forces_at(motion, side, law_, ranks_.division());
   }
   void require_adhesion() const;
   /// The largest by the last force, at this time.
@@ -145,12 +147,12 @@ class GapPair final : public ForceTerm, public ContactVisits {
   }
   /// Over the surfaces that have energy.
   Real sum_of(const Motion& motion, Real (GapForces<D>::*number)() const) const {
-    const Real of_first = (forces_at(motion, first_, law_).*number)();
-    return !law_.up() ? of_first + (forces_at(motion, second_, law_).*number)() : of_first;
+    const Real of_first = (forces_at(motion, first_).*number)();
+    return !law_.up() ? of_first + (forces_at(motion, second_).*number)() : of_first;
   }
   Real gap(const Motion& motion) const {
-    const Real of_first = std::min(forces_at(motion, first_, law_).gap, law_.range());
-    return !law_.up() ? std::min(of_first, forces_at(motion, second_, law_).gap) : of_first;
+    const Real of_first = std::min(forces_at(motion, first_).gap, law_.range());
+    return !law_.up() ? std::min(of_first, forces_at(motion, second_).gap) : of_first;
   }
   Real spacing() const {
     return !law_.up() ? std::max(first_.points.spacing(), second_.points.spacing())

@@ -3,6 +3,45 @@
 #include "gap_side.hpp"
 
 namespace meniscus {
+namespace {
+
+/// What other ranks are told of a cluster; only of adhesion that is not placed.
+template <int D>
+struct OfCluster {
+  struct Point {
+    typename ContactFacets<D>::Foot foot;
+    Real stored, unit;
+  };
+  Lanes T[D], S[D];
+  std::array<Point, Lanes::width> point;
+
+  OfCluster() = default;
+  OfCluster(const GapForces<D>& forces, Index c) {
+    for (int i = 0; i < D; ++i) {
+      T[i] = at(forces.T, c * D + i);
+      S[i] = at(forces.S, c * D + i);
+    }
+    for (Index lane = 0; lane < Lanes::width; ++lane) {
+      const Index q = c * Lanes::width + lane;
+      at(point, lane) = {at(forces.foot, q), at(forces.stored, q),
+                         forces.unit.empty() ? 0 : at(forces.unit, q)};
+    }
+  }
+  void put(Index c, GapForces<D>& forces) const {
+    for (int i = 0; i < D; ++i) {
+      at(forces.T, c * D + i) = T[i];
+      at(forces.S, c * D + i) = S[i];
+    }
+    for (Index lane = 0; lane < Lanes::width; ++lane) {
+      const Index q = c * Lanes::width + lane;
+      at(forces.foot, q) = at(point, lane).foot;
+      at(forces.stored, q) = at(point, lane).stored;
+      if (!forces.unit.empty()) at(forces.unit, q) = at(point, lane).unit;
+    }
+  }
+};
+
+}  // namespace
 
 template <int D>
 GapForces<D>::GapForces(const GapSide<D>& side, const AdhesionPattern* pattern)
@@ -45,7 +84,7 @@ Real GapForces<D>::force_on_facets(int i) const {
 
 template <int D>
 void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
-                 const Motion& motion, GapForces<D>& forces) {
+                 const Motion& motion, const Division& division, GapForces<D>& forces) {
   const auto& active = list.of_first().active;
   const std::optional<Vec<D>>& up = law.up();
   const AdhesionPattern* pattern = law.pattern();
@@ -55,8 +94,9 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
   std::fill(forces.stored.begin(), forces.stored.end(), 0.0);
   std::fill(forces.unit.begin(), forces.unit.end(), 0.0);
   std::fill(forces.W.begin(), forces.W.end(), 0.0);
-  parallel_for(
-      static_cast<Index>(active.size()),
+  divided_for(
+      // A place without adhesion is to fail on all ranks.
+      law.placed() ? Division::to_each() : division, static_cast<Index>(active.size()),
       [&](Index k) {
         const Index c = at(active, k);
         for (int i = 0; i < D; ++i)
@@ -90,7 +130,8 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
           if (pattern) at(forces.unit, q) = area * e.unit;
         }
       },
-      4);
+      [&](Index k) { return OfCluster<D>(forces, at(active, k)); },
+      [&](Index k, const OfCluster<D>& of_other) { of_other.put(at(active, k), forces); }, 4);
   // One after the other: many points push the same corner.
   std::fill(forces.pull.begin(), forces.pull.end(), Vec<D>::Zero());
   forces.gap = unbounded;
@@ -113,12 +154,13 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
 }
 
 template <int D>
-GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law) {
+GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law,
+                       const Division& division) {
   GapForces<D> forces(side, law.pattern());
-  forces.move(side, motion);
+  forces.move(side, motion, division);
   ContactList<D> list(side.list.reach(), side.list.skin());
-  list.update(forces.places.x, forces.others.samples);
-  take_forces(side, list, law, motion, forces);
+  list.update(forces.places.x, forces.others.samples, division);
+  take_forces(side, list, law, motion, division, forces);
   return forces;
 }
 
@@ -140,8 +182,9 @@ AdhesionSupply supply_of(const GapSide<D>& side, const GapForces<D>& forces,
 #define MENISCUS_INSTANTIATE(D)                                                         \
   template struct GapForces<D>;                                                         \
   template void take_forces(const GapSide<D>&, const ContactList<D>&, const GapLaw<D>&, \
-                            const Motion&, GapForces<D>&);                              \
-  template GapForces<D> forces_at(const Motion&, const GapSide<D>&, const GapLaw<D>&);  \
+                            const Motion&, const Division&, GapForces<D>&);             \
+  template GapForces<D> forces_at(const Motion&, const GapSide<D>&, const GapLaw<D>&,   \
+                                  const Division&);                                     \
   template AdhesionSupply supply_of(const GapSide<D>&, const GapForces<D>&,             \
                                     const AdhesionPattern&, const AdhesionWork&, Real);
 MENISCUS_INSTANTIATE(2)

@@ -50,9 +50,9 @@ struct GapForces {
   Index nearest = 0;  ///< point
 
   GapForces(const GapSide<D>& side, const AdhesionPattern* pattern);
-  void move(const GapSide<D>& side, const Motion& motion) {
-    side.points.move(motion, places);
-    side.facets.move(motion, others);
+  void move(const GapSide<D>& side, const Motion& motion, const Division& division) {
+    side.points.move(motion, places, division);
+    side.facets.move(motion, others, division);
   }
   std::size_t bytes() const;
   Real energy() const;
@@ -60,14 +60,15 @@ struct GapForces {
   Real force_on_facets(int i) const;
 };
 
-/// At this motion, at which places and the list are.
+/// At this motion, at which places and the list are; points of the list are divided so.
 template <int D>
 void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
-                 const Motion& motion, GapForces<D>& forces);
+                 const Motion& motion, const Division& division, GapForces<D>& forces);
 
 /// At any motion; takes memory.
 template <int D>
-GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law);
+GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law,
+                       const Division& division);
 
 /// Of adhesion that varies from place to place, at the time of the forces.
 template <int D>

@@ -120,9 +120,9 @@ void PairVisits<D>::move_listed(const Motion& motion, VisitedPair<D>& at_motion)
 template <int D>
 void PairVisits<D>::make_list(const Motion& motion, ContactList<D>& list,
                               VisitedPair<D>& at_motion) const {
-  first_.back().move(motion, at_motion.first.back());
-  second_.back().move(motion, at_motion.second.back());
-  list.build(at_motion.first.back().x, at_motion.second.back().x);
+  first_.back().move(motion, at_motion.first.back(), ranks_.division());
+  second_.back().move(motion, at_motion.second.back(), ranks_.division());
+  list.build(at_motion.first.back().x, at_motion.second.back().x, ranks_.division());
   at_motion.list = &list;
 }
 

@@ -61,15 +61,17 @@ void take_forces(const BodyAndPartner<D>& pair, const ContactPoints<D>& points, 
 template <int D>
 void take_distances(const BodyAndPartner<D>& pair, const ContactPoints<D>& points,
                     const Motion& motion, PartnerLayer<D>& layer) {
-  points.move(motion, layer.places);
+  const Division& division = pair.ranks.division();
+  points.move(motion, layer.places, division);
   const Vec<D> shift = pair.shift(motion);
   parallel_for(
-      points.clusters(),
+      division.own_items(points.clusters()),
       [&](Index c) {
         at(layer.distances, c) =
             pair.partner.shape->distances(place_beside(shift, layer.places, c));
       },
       16);
+  division.complete_items(points.clusters(), layer.distances.data(), sizeof(Lanes));
 }
 
 template <int D>

@@ -50,9 +50,16 @@ template <int D>
 void PatchPoints<D>::place_nodes(const NodalVector* u, std::span<const std::uint8_t> wanted,
                                  NodalVectors& places) const {
   parallel_for(node_count(), [&](Index a) {
-    if (wanted.empty() || at(wanted, a))
-      at(places, a) = at(reference_, a) + value_at(surface_.rows(), a, u);
+    if (at(wanted, a)) at(places, a) = place_of_node(a, u);
   });
+}
+
+template <int D>
+void PatchPoints<D>::place_nodes(const NodalVector* u, const Division& division,
+                                 NodalVectors& places) const {
+  parallel_for(division.own_items(node_count()),
+               [&](Index a) { at(places, a) = place_of_node(a, u); });
+  division.complete_items(node_count(), places.data(), sizeof(NodalVector));
 }
 
 template <int D>

@@ -22,9 +22,11 @@ class PatchPoints {
   /// Values of a nodal field at the nodes of patches with `wanted`.
   void values(const NodalVector* field, std::span<const std::uint8_t> wanted,
               NodalVectors& nodes) const;
-  /// Places of all nodes, or of those with `wanted` alone.
+  /// Places of those with `wanted`.
   void place_nodes(const NodalVector* u, std::span<const std::uint8_t> wanted,
                    NodalVectors& nodes) const;
+  /// Of all, divided so.
+  void place_nodes(const NodalVector* u, const Division& division, NodalVectors& nodes) const;
   /// wanted[node] = 1 for the nodes of the patch of a point.
   void want(Index point, std::span<std::uint8_t> wanted) const;
 
@@ -68,6 +70,9 @@ class PatchPoints {
  private:
   static constexpr int nodes = PatchFunctions<D>::nodes;
 
+  NodalVector place_of_node(Index node, const NodalVector* u) const {
+    return at(reference_, node) + value_at(surface_.rows(), node, u);
+  }
   Index per_patch() const { return static_cast<Index>(functions_.size()); }
   Index patch(Index point) const { return point / per_patch(); }
   const PatchFunctions<D>& functions(Index point) const {
