@@ -114,9 +114,13 @@ TEST(ContactList, IsEmptyWhenTheCloudsAreApart) {
   EXPECT_EQ(list.pairs(), 0);
   EXPECT_TRUE(list.of_first().active.empty());
   EXPECT_TRUE(list.of_second().active.empty());
-  for (std::size_t k = 0; k < b.size(); k += 3) b[k] += -10.0;  // and a fast approach is noticed
+  for (std::size_t k = 0; k < b.size(); k += 3) b[k] += -10.0;  // a fast approach is noticed,
   EXPECT_TRUE(list.update(a, b));
   EXPECT_GT(list.pairs(), 0);
+  for (std::size_t k = 0; k < b.size(); k += 3) b[k] += 10.0;  // and that they part again
+  EXPECT_TRUE(list.update(a, b));
+  EXPECT_EQ(list.pairs(), 0);
+  EXPECT_TRUE(list.of_first().active.empty());
 }
 
 /// Each finds the partners of its own clusters, in what of the other cloud is near them.
