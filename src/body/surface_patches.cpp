@@ -96,11 +96,15 @@ void SurfacePatches<D>::list_shares() {
 }
 
 template <int D>
+NodalVector SurfacePatches<D>::place_of(Index point, const NodalVector* u) const {
+  NodalVector place = value_at(rows_, point, u);
+  for (int i = 0; i < D; ++i) place.set(i, place[i] + at(X_, point)[i]);
+  return place;
+}
+
+template <int D>
 void SurfacePatches<D>::place(const NodalVector* u, NodalVectors& x) const {
-  parallel_for(point_count(), [&](Index q) {
-    Lanes& place = at(x, q) = value_at(rows_, q, u);
-    for (int i = 0; i < D; ++i) place.set(i, place[i] + at(X_, q)[i]);
-  });
+  parallel_for(point_count(), [&](Index q) { at(x, q) = place_of(q, u); });
 }
 
 template <int D>
@@ -214,8 +218,10 @@ Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
 
 template <int D>
 Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
-  if (!windows_.division().has_some()) return 0;
-  place(u, x_);
+  const Division& division = windows_.division();
+  if (!division.has_some()) return 0;
+  parallel_for(division.own_rows(point_count()), [&](Index q) { at(x_, q) = place_of(q, u); });
+  if (!division.is_whole()) division.complete_rows(point_count(), x_.data(), sizeof(NodalVector));
   return parallel_sum(group_count(), 0.0, [&](Index g) {
     return sum_of_patches(g,
                           group_size(size, corners(g, x_),

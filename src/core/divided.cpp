@@ -64,6 +64,25 @@ void Division::complete_rows(Index n, void* values, std::size_t bytes_per_value)
 
 namespace {
 
+/// The place in the list of the first row that is not below this one.
+Index place_of(std::span<const Index> listed, Index row) {
+  return static_cast<Index>(std::lower_bound(listed.begin(), listed.end(), row) - listed.begin());
+}
+
+}  // namespace
+
+ItemRange Division::own_listed(Index n, std::span<const Index> listed) const {
+  const ItemRange own = own_rows(n);
+  return {place_of(listed, own.begin), place_of(listed, own.end)};
+}
+
+void Division::complete_listed(Index n, std::span<const Index> listed, void* values,
+                               std::size_t bytes_per_value) const {
+  complete(values, bytes_per_value, [&](int rank) { return place_of(listed, first_row(n, rank)); });
+}
+
+namespace {
+
 /// The share of a rank that bodies up to `largest` rows leave the one with most if they are whole,
 /// and where they are.
 Real place_whole(std::span<const Index> rows, Index largest, std::vector<Division>& divisions) {

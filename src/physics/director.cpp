@@ -56,19 +56,18 @@ template <int D>
 void Director<D>::carry(const NodalVector* from, const NodalVector* to,
                         std::span<NodalVector> x) const {
   const Real lambda = numbers_.flow_alignment, nu2 = numbers_.dilatation_coupling;
-  for_chunks(body_.size(), [&](Index, Index begin, Index end) {
-    for (Index A = begin; A < end; ++A) {
-      const Tensor<Real> H0 = gradient_of(gradients_, A, from), H1 = gradient_of(gradients_, A, to);
-      const Tensor<Real> change = (H1 - H0) * inverse_of(deformation_gradient(0.5 * (H0 + H1)));
-      const Tensor<Real> half =
-          add_diagonal(Tensor<Real>::map([&](int i, int j) {
-                         return 0.25 * ((lambda + 1) * change(i, j) + (lambda - 1) * change(j, i));
-                       }),
-                       -0.5 * nu2 * trace(change));
-      const Tensor<Real> one = Tensor<Real>::identity();
-      at(x, A) = lanes_of(product(inverse_of(one - half), product(one + half, spatial(at(x, A)))));
-    }
+  parallel_for(body_.division.own_rows(body_.size()), [&](Index A) {
+    const Tensor<Real> H0 = gradient_of(gradients_, A, from), H1 = gradient_of(gradients_, A, to);
+    const Tensor<Real> change = (H1 - H0) * inverse_of(deformation_gradient(0.5 * (H0 + H1)));
+    const Tensor<Real> half =
+        add_diagonal(Tensor<Real>::map([&](int i, int j) {
+                       return 0.25 * ((lambda + 1) * change(i, j) + (lambda - 1) * change(j, i));
+                     }),
+                     -0.5 * nu2 * trace(change));
+    const Tensor<Real> one = Tensor<Real>::identity();
+    at(x, A) = lanes_of(product(inverse_of(one - half), product(one + half, spatial(at(x, A)))));
   });
+  body_.division.complete_rows(body_.size(), x.data(), sizeof x[0]);
 }
 
 template <int D>

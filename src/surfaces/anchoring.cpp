@@ -79,23 +79,21 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
     const NodalVector *u = motion.u.data() + body_.first, *x = director(motion);
-    return parallel_sum(surface_.groups(), 0.0, [&](Index g) {
+    return body_.division.sum(surface_.groups(), 0.0, [&](Index g) {
       const SurfaceState<Lanes> s = surface_.state(g, surface_.gradients(g, u));
       return energy(g, {s.m, s.stretch}, x);
     });
   }
 
   void hold_places(const NodalVector* u) override {
-    for_chunks(surface_.groups(), [&](Index, Index begin, Index end) {
-      for (Index g = begin; g < end; ++g) {
-        const SurfaceState<Lanes> s = surface_.state(g, surface_.gradients(g, u));
-        at(held_, g) = {s.m, s.stretch};
-      }
+    parallel_for(body_.division.own_rows(surface_.groups()), [&](Index g) {
+      const SurfaceState<Lanes> s = surface_.state(g, surface_.gradients(g, u));
+      at(held_, g) = {s.m, s.stretch};
     });
   }
   Real held_energy(const NodalVector* x) const override {
-    return parallel_sum(surface_.groups(), 0.0,
-                        [&](Index g) { return energy(g, at(held_, g), x); });
+    return body_.division.sum(surface_.groups(), 0.0,
+                              [&](Index g) { return energy(g, at(held_, g), x); });
   }
   /// dw/dh = W (Js h - m), or W (Js h - (h.n) m).
   void add_held_force(const NodalVector* x, std::span<NodalVector> f) override {

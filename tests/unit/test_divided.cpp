@@ -132,6 +132,35 @@ TEST(Divided, ItemsAreBroughtFromTheirRanks) {
   });
 }
 
+/// Of rows that are listed each rank does its own, also where it has none or all of them.
+TEST(Divided, ListedRowsAreOfTheRanksThatHaveThem) {
+  const std::vector<Index> listed{1, 14, 15, 33, 46, 47};
+  as_each_of<OneOf>(3, [&](int rank) {
+    std::vector<int> values(48, -1);
+    Index done = 0;
+    divided_for_rows(
+        evenly, 48, listed,
+        [&](Index row) {
+          EXPECT_EQ(evenly.rank_of_row(48, row), rank);
+          at(values, row) = row;
+          ++done;
+        },
+        [&](Index row) { return at(values, row); },
+        [&](Index row, int of_other) { at(values, row) = of_other; }, 1);
+    for (Index row = 0; row < 48; ++row) {
+      const int owner = evenly.rank_of_row(48, row),
+                expected = owner == rank ? row : owner * 0x01010101;
+      EXPECT_EQ(at(values, row),
+                std::binary_search(listed.begin(), listed.end(), row) ? expected : -1);
+    }
+    EXPECT_EQ(done, (std::vector<Index>{2, 1, 3}[static_cast<std::size_t>(rank)]));
+    const ItemRange whole = Division(1).own_listed(48, listed),
+                    each = Division::to_each().own_listed(48, listed);
+    EXPECT_EQ(whole.end - whole.begin, rank == 1 ? 6 : 0);
+    EXPECT_EQ(each.end - each.begin, 6);
+  });
+}
+
 TEST(RankReports, AreBroughtFromTheRankThatKnowsThem) {
   const Real strange = std::bit_cast<Real>(std::uint64_t{0x0101010101010101});
   as_each_of<OneOf>(2, [&](int rank) {

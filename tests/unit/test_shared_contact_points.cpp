@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact points that several contacts of a body have together.
+// Contact points that several contacts of a body, or ranks, have together.
 #include "meniscus/core/shared_parts.hpp"
+#include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_points.hpp"
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "contact_support.hpp"
+#include "some_ranks.hpp"
 
 namespace meniscus::test_shared_contact_points {
 namespace {
@@ -61,6 +65,65 @@ TEST(SharedContactPoints, GiveEachContactTheForceThatItHasAlone) {
   for (const ContactForm form : {ContactForm::energy, ContactForm::volume}) {
     expect_force_of_one_alone<2>(form);
     expect_force_of_one_alone<3>(form);
+  }
+}
+
+/// Each rank moves the points whose forces it adds up, with the bits of one that moves all.
+TEST(ContactPoints, OfAListAreDividedBetweenRanks) {
+  const auto pair = test::round_pair<3>(0.35);
+  const NodalVectors u = pair.random(0.05, 3);
+  const Motion motion{0, u, u};
+  const auto points = ContactPoints<3>::on_surface(*pair.first, 1, SiteDensity::constant, 2);
+  std::vector<Index> listed;
+  for (Index c = 0; c < points.clusters(); c += 3) listed.push_back(c);
+  const auto moved = [&](const Division& division) {
+    ContactPlaces<3> places = points.at_rest();
+    points.move(listed, motion, places, division);
+    points.update_weights(listed, motion, places, division);
+    return places;
+  };
+  const ContactPlaces<3> all = moved(Division::to_each());
+  Index checked = 0;
+  as_each_of(3, [&](int) {
+    const ContactPlaces<3> places = moved(evenly);
+    const ItemRange own = evenly.own_listed(points.clusters(), listed);
+    for (Index k = own.begin; k < own.end; ++k, ++checked)
+      for (int i = 0; i < 3; ++i)
+        for (int lane = 0; lane < Lanes::width; ++lane) {
+          const Index c = at(listed, k);
+          ASSERT_EQ(places.x_of(c)[i][lane], all.x_of(c)[i][lane]);
+          ASSERT_EQ(places.weight_of(c)[i][lane], all.weight_of(c)[i][lane]);
+          ASSERT_EQ(at(places.inverse, c)(i, 0)[lane], at(all.inverse, c)(i, 0)[lane]);
+        }
+  });
+  EXPECT_EQ(checked, static_cast<Index>(listed.size()));
+}
+
+ContactPlaces<3> cloud(Real from, Real to, int count, std::mt19937& generator) {
+  std::uniform_real_distribution<Real> along(from, to), across(-1, 1);
+  ContactPlaces<3> places{
+      count, 3, AlignedVector<Lanes>(static_cast<std::size_t>(count), Lanes::zero()), {}, {}};
+  for (Index c = 0; c < count / Lanes::width; ++c)
+    for (int lane = 0; lane < Lanes::width; ++lane) {
+      at(places.x, c * 3).set(lane, along(generator));
+      at(places.x, c * 3 + 1).set(lane, across(generator));
+      at(places.x, c * 3 + 2).set(lane, across(generator));
+    }
+  return places;
+}
+
+/// Clouds apart, side by side and through each other.
+TEST(Gap, IsTheLeastDistanceOfAnyTwoPoints) {
+  std::mt19937 generator(5);
+  for (const Real away : {3.0, 1.0, 0.9, 0.3, 0.0}) {
+    const ContactPlaces<3> first = cloud(-1, 0, 100, generator),
+                           second = cloud(away - 1, away, 140, generator);
+    Real least = unbounded;
+    for (Index p = 0; p < first.size; ++p)
+      for (Index q = 0; q < second.size; ++q)
+        least = std::min(least, (first.place(p) - second.place(q)).norm());
+    EXPECT_NEAR(gap_between(first, second), least, 1e-15 * (1 + least)) << away;
+    EXPECT_EQ(gap_between(first, second), gap_between(second, first)) << away;
   }
 }
 

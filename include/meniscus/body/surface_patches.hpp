@@ -33,8 +33,8 @@ class SurfacePatches {
   Real reference(Size size) const { return size == Size::area ? area_ : volume_; }
   /// A size at the displacement coefficients `u` of the body.
   Real measure(Size size, const NodalVector* u) const;
-  /// The same, and its gradient is remembered. Allocates nothing. A rank that has no rows of the
-  /// body does nothing and says zero.
+  /// The same, and its gradient is remembered; ranks move each a part of the points. Allocates
+  /// nothing. A rank that has no rows of the body does nothing and says zero.
   Real follow(Size size, const NodalVector* u);
   /// force_A += factor d(size)/du_A of what was followed last, over the particles of the body.
   void add_gradient(Real factor, std::span<NodalVector> force);
@@ -51,12 +51,9 @@ class SurfacePatches {
   void add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
                         std::span<NodalVector> force);
 
-  /// Every rank that may have rows of the body reads all places of its surface; its particles begin
-  /// at `first`.
-  void tell_reads(StepReads& reads, Index first) {
-    if (windows_.division().has_some()) reads.particles(rows_.particle, first);
-    tell_sums(reads, first);
-  }
+  /// Of follow() and add_gradient(): a rank reads what moves its own points. The particles of the
+  /// body begin at `first`.
+  void tell_reads(StepReads& reads, Index first) { reads.rows(windows_, first); }
   /// Of add_to_particles() alone.
   void tell_sums(StepReads& reads, Index first) { reads.sums(windows_, first); }
 
@@ -89,6 +86,7 @@ class SurfacePatches {
 
   void number_points(const Geometry<D>& geometry);
   void list_shares();
+  NodalVector place_of(Index point, const NodalVector* u) const;
   void place(const NodalVector* u, NodalVectors& x) const;
   /// Displacements of the points.
   NodalVectors values(const NodalVector* u) const;

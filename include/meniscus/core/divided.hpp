@@ -51,6 +51,11 @@ class Division {
   Index first_row(Index n, int rank) const;
   int rank_of_row(Index n, Index row) const;
   void complete_rows(Index n, void* values, std::size_t bytes_per_value) const;
+  /// Of some of n rows, listed in ascending order: those of this rank, places in the list.
+  ItemRange own_listed(Index n, std::span<const Index> listed) const;
+  /// Brings values, [place in the list].
+  void complete_listed(Index n, std::span<const Index> listed, void* values,
+                       std::size_t bytes_per_value) const;
 
   /// Calls use(i, value) for all i < n in ascending order on all ranks, with value = make(i) of the
   /// rank whose rows have i. Makes those of a chunk at a time.
@@ -125,6 +130,22 @@ void divided_for(const Division& division, Index n, F&& f, Record&& record, Take
   division.complete_items(n, records.data(), sizeof records[0]);
   for (Index k = 0; k < n; ++k)
     if (k < own.begin || k >= own.end) take(k, at(records, k));
+}
+
+/// The same for rows out of n, which are listed in ascending order: of each rank its own. f(row),
+/// record(row) and take(row, record).
+template <class F, class Record, class Take>
+void divided_for_rows(const Division& division, Index n, std::span<const Index> listed, F&& f,
+                      Record&& record, Take&& take, int grain) {
+  const ItemRange own = division.own_listed(n, listed);
+  parallel_for(
+      own, [&](Index k) { f(at(listed, k)); }, grain);
+  if (ranks().alone() || division.is_to_each()) return;
+  std::vector<decltype(record(0))> records(listed.size());
+  for (Index k = own.begin; k < own.end; ++k) at(records, k) = record(at(listed, k));
+  division.complete_listed(n, listed, records.data(), sizeof records[0]);
+  for (Index k = 0; k < static_cast<Index>(listed.size()); ++k)
+    if (k < own.begin || k >= own.end) take(at(listed, k), at(records, k));
 }
 
 }  // namespace meniscus

@@ -27,8 +27,10 @@ struct ContactPlaces {
   AlignedVector<Lanes> x, weight;  ///< [cluster][i], [cluster][component]
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> inverse;  ///< [cluster] F^-1
   // Of patches.
-  NodalVectors nodes = {}, node_v = {};   ///< places and velocities of their nodes
-  std::vector<std::uint8_t> wanted = {};  ///< [node] work space
+  NodalVectors nodes = {}, node_v = {};  ///< places and velocities of their nodes
+  // Work space: nodes that are asked for, and whether one is.
+  std::vector<Index> wanted = {};
+  std::vector<std::uint8_t> is_wanted = {};
 
   const Lanes* x_of(Index cluster) const { return &at(x, cluster * D); }
   const Lanes* weight_of(Index cluster) const { return &at(weight, cluster * components); }
@@ -93,6 +95,7 @@ class ContactPoints {
   static ContactPoints in_volume(const Body<D>& body, Real beta, int points);
 
   const Body<D>& body() const { return *body_; }
+  bool on_patches() const { return made_->patches != nullptr; }
   /// Of lanes up to the last point.
   Index size() const { return static_cast<Index>(made_->rule.point_weight.size()); }
   Index clusters() const { return static_cast<Index>(made_->points_in.size()); }
@@ -114,20 +117,25 @@ class ContactPoints {
   /// Moves all points along with the body; ranks that all call this may divide them.
   void move(const Motion& motion, ContactPlaces<D>& places,
             const Division& division = Division::to_each()) const;
-  /// Moves the points of these clusters.
-  void move(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places) const;
+  /// Moves the points of these clusters; not on patches.
+  void move(const ItemRange& clusters, const Motion& motion, ContactPlaces<D>& places) const;
+  /// Moves the points of these clusters, which are in ascending order. Ranks that all call this for
+  /// the same ones divide them, unless the division is to each.
+  void move(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places,
+            const Division& division) const;
   /// No point moves farther than this times the largest change of a displacement coefficient.
   Real gain() const { return made_->gain; }
-  /// Brings the weights of these clusters up to date.
+  /// Brings the weights of these clusters up to date, in the same way. A rank has F^-1 where it
+  /// adds up forces.
   void update_weights(std::span<const Index> clusters, const Motion& motion,
-                      ContactPlaces<D>& places) const;
+                      ContactPlaces<D>& places, const Division& division) const;
 
   /// The particle nearest to a point, counted over all bodies.
   Index particle_at(Index point) const { return body_->first + at(made_->rule.point_owner, point); }
 
-  /// To be called before velocity() for these clusters.
+  /// To be called before velocity() for these clusters; divided as in move().
   void prepare_velocities(std::span<const Index> clusters, const Motion& motion,
-                          ContactPlaces<D>& places) const;
+                          ContactPlaces<D>& places, const Division& division) const;
   /// Velocities of the points of a cluster.
   void velocity(Index cluster, const Motion& motion, const ContactPlaces<D>& places,
                 Lanes* v) const;
@@ -162,8 +170,10 @@ class ContactPoints {
   }
   bool in_halo() const { return is_entered(halo_); }
   bool follows_all() const { return !in_halo() || told_all_; }
-  /// Every rank reads the motion of all points, or of these clusters.
+  /// This rank reads the motion of all points; of its part, which all ranks have; of these
+  /// clusters.
   void tell_reads(StepReads& reads);
+  void tell_reads(StepReads& reads, const ItemRange& part);
   void tell_reads(StepReads& reads, std::span<const Index> clusters);
   /// This rank does, or has nothing to do with them: no rank asks others how far they have moved.
   void tell_reads_alone(StepReads& reads, bool reads_all);
@@ -193,6 +203,7 @@ class ContactPoints {
   void for_shape_functions(Index point, F&& f) const;
   template <class F>
   void for_points(Index cluster, F&& f) const;
+  /// Nodes of the patches of these clusters.
   void want_nodes(std::span<const Index> clusters, ContactPlaces<D>& places) const;
   void move(Index cluster, const NodalVector* u, ContactPlaces<D>& places) const;
   void move_on_patches(Index cluster, ContactPlaces<D>& places) const;
@@ -200,6 +211,10 @@ class ContactPoints {
   void add_force_on_patches(const ContactPlaces<D>& places, std::span<const Index> clusters,
                             std::span<const Lanes> T, std::span<const Lanes> S,
                             std::span<NodalVector> force);
+  /// How clusters are divided if they are not to each: as their forces are added up.
+  Division rows_for(const Division& division) const {
+    return division.is_to_each() ? division : made_->windows.division();
+  }
   static std::size_t offset(Index cluster, int count) {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);
   }

@@ -109,9 +109,28 @@ Real farthest_between(const Box<D>& a, const Box<D>& b) {
 
 }  // namespace
 
+/// Of two bodies few points can be the nearest: those within the distance of some point of the
+/// first from the second of the box around what is left of the other.
 template <int D>
 Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second) {
-  const std::vector<Vec<D>> x = list_of(first), y = list_of(second);
+  constexpr Real round_off = 1e-12;
+  std::vector<Vec<D>> x = list_of(first), y = list_of(second);
+  const auto from = [](const Box<D>& box) {
+    return [&box](const Vec<D>& p) { return distance_between({p, p}, box); };
+  };
+  const auto least = [](const std::vector<Vec<D>>& points, const auto& distance) {
+    return *std::ranges::min_element(points, {}, distance);
+  };
+  const auto keep = [](std::vector<Vec<D>>& points, Real bound, const auto& distance) {
+    std::erase_if(points, [&](const Vec<D>& p) { return distance(p) > bound; });
+  };
+  const Box<D> around_second = box_around<D>(y);
+  const Vec<D> start = least(x, from(around_second));
+  const auto from_start = [&](const Vec<D>& p) { return (p - start).norm(); };
+  const Real bound = (1 + round_off) * from_start(least(y, from_start));
+  keep(x, bound, from(around_second));
+  const Box<D> around_first = box_around<D>(x);
+  keep(y, bound, from(around_first));
   const NeighborSearch<D> search(y);
   Real gap = std::numeric_limits<Real>::max();
   for (const Vec<D>& point : x) gap = std::min(gap, search.distance_of_nearest(point, 1));

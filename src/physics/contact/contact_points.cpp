@@ -36,6 +36,20 @@ void order_in_space(const std::vector<Vec<D>>& X, std::span<Index> order, std::s
   order_in_space(X, order.subspan(half), together);
 }
 
+/// A vector at the points of a cluster, as it is told to other ranks.
+template <int D>
+struct VectorOf {
+  Lanes component[D];
+
+  VectorOf() = default;
+  VectorOf(const AlignedVector<Lanes>& of_clusters, Index c) {
+    for (int i = 0; i < D; ++i) component[i] = at(of_clusters, c * D + i);
+  }
+  void put(Index c, AlignedVector<Lanes>& of_clusters) const {
+    for (int i = 0; i < D; ++i) at(of_clusters, c * D + i) = component[i];
+  }
+};
+
 std::vector<Index> numbers(std::size_t count) {
   std::vector<Index> all(count);
   std::iota(all.begin(), all.end(), Index{0});
@@ -137,13 +151,35 @@ void ContactPoints<D>::tell_reads_alone(StepReads& reads, bool reads_all) {
 }
 
 template <int D>
+void ContactPoints<D>::tell_reads(StepReads& reads, const ItemRange& part) {
+  if (part.end - part.begin == clusters()) return tell_reads(reads);
+  std::vector<Index> of_part(static_cast<std::size_t>(part.end - part.begin));
+  std::iota(of_part.begin(), of_part.end(), part.begin);
+  tell_reads(reads, of_part);
+  told_all_ = true;
+}
+
+template <int D>
 void ContactPoints<D>::tell_reads(StepReads& reads, std::span<const Index> clusters) {
-  std::vector<Index> moving;
-  for (const Index c : clusters)
-    for (Index lane = 0; lane < points_in(c); ++lane)
-      for_shape_functions(c * Lanes::width + lane, [&](Index A, Real) { moving.push_back(A); });
+  const auto tell_row = [&](const PointRows<D>& rows, Index row) {
+    const Offset begin = at(rows.start, row), count = at(rows.start, row + 1) - begin;
+    reads.particles(std::span(rows.particle)
+                        .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(count)),
+                    body_->first);
+  };
+  if (made_->patches) {
+    std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(made_->patches->node_count()), 0);
+    for (const Index c : clusters)
+      for (Index lane = 0; lane < points_in(c); ++lane)
+        made_->patches->want(at(made_->order, c * Lanes::width + lane), is_wanted);
+    for (Index node = 0; node < made_->patches->node_count(); ++node)
+      if (at(is_wanted, node)) tell_row(made_->patches->rows(), node);
+  } else {
+    for (const Index c : clusters)
+      for (Index lane = 0; lane < points_in(c); ++lane)
+        tell_row(made_->rule.rows, c * Lanes::width + lane);
+  }
   told_all_ = false;
-  reads.particles(moving, body_->first);
   tell_sums(reads);
   learn_halo(reads);
 }
@@ -294,7 +330,8 @@ ContactPlaces<D> ContactPoints<D>::at_rest() const {
   ContactPlaces<D> places{size(), components_, made_->X, reference_, {}};
   if (made_->patches) {
     places.nodes = made_->patches->reference_nodes();
-    places.wanted.assign(places.nodes.size(), 0);
+    places.wanted.reserve(places.nodes.size());
+    places.is_wanted.assign(places.nodes.size(), 0);
   } else if (components_ == D) {
     places.inverse.assign(static_cast<std::size_t>(clusters()), Tensor<Lanes>::identity());
   }
@@ -348,30 +385,42 @@ void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places,
 }
 
 template <int D>
-void ContactPoints<D>::move(std::span<const Index> clusters, const Motion& motion,
+void ContactPoints<D>::move(const ItemRange& clusters, const Motion& motion,
                             ContactPlaces<D>& places) const {
+  const NodalVector* u = motion.u.data() + body_->first;
+  parallel_for(
+      clusters, [&](Index c) { move(c, u, places); }, 16);
+}
+
+template <int D>
+void ContactPoints<D>::move(std::span<const Index> clusters, const Motion& motion,
+                            ContactPlaces<D>& places, const Division& division) const {
   const NodalVector* u = motion.u.data() + body_->first;
   if (made_->patches) {
     want_nodes(clusters, places);
-    made_->patches->place_nodes(u, places.wanted, places.nodes);
+    made_->patches->place_nodes(u, places.wanted, division, places.nodes);
+    parallel_for(
+        static_cast<Index>(clusters.size()),
+        [&](Index k) { move_on_patches(at(clusters, k), places); }, 16);
+    return;
   }
-  parallel_for(
-      static_cast<Index>(clusters.size()),
-      [&](Index k) {
-        const Index c = at(clusters, k);
-        made_->patches ? move_on_patches(c, places) : move(c, u, places);
-      },
-      16);
+  divided_for_rows(
+      rows_for(division), this->clusters(), clusters, [&](Index c) { move(c, u, places); },
+      [&](Index c) { return VectorOf<D>(places.x, c); },
+      [&](Index c, const VectorOf<D>& of_other) { of_other.put(c, places.x); }, 16);
 }
 
 template <int D>
 void ContactPoints<D>::update_weights(std::span<const Index> clusters, const Motion& motion,
-                                      ContactPlaces<D>& places) const {
+                                      ContactPlaces<D>& places, const Division& division) const {
   if (components_ == 1) return;
   const NodalVector* u = motion.u.data() + body_->first;
-  parallel_for(
-      static_cast<Index>(clusters.size()),
-      [&](Index k) { update_weights(at(clusters, k), u, places); }, 16);
+  // On patches the places of the nodes say all.
+  divided_for_rows(
+      made_->patches ? Division::to_each() : rows_for(division), this->clusters(), clusters,
+      [&](Index c) { update_weights(c, u, places); },
+      [&](Index c) { return VectorOf<D>(places.weight, c); },
+      [&](Index c, const VectorOf<D>& of_other) { of_other.put(c, places.weight); }, 16);
 }
 
 template <int D>
@@ -401,19 +450,23 @@ void ContactPoints<D>::update_weights(Index c, const NodalVector* u,
 
 template <int D>
 void ContactPoints<D>::want_nodes(std::span<const Index> clusters, ContactPlaces<D>& places) const {
-  std::fill(places.wanted.begin(), places.wanted.end(), std::uint8_t{0});
+  std::fill(places.is_wanted.begin(), places.is_wanted.end(), std::uint8_t{0});
   for (const Index c : clusters)
     for (Index lane = 0; lane < points_in(c); ++lane)
-      made_->patches->want(at(made_->order, c * Lanes::width + lane), places.wanted);
+      made_->patches->want(at(made_->order, c * Lanes::width + lane), places.is_wanted);
+  places.wanted.clear();
+  for (Index a = 0; a < made_->patches->node_count(); ++a)
+    if (at(places.is_wanted, a)) places.wanted.push_back(a);
 }
 
 template <int D>
 void ContactPoints<D>::prepare_velocities(std::span<const Index> clusters, const Motion& motion,
-                                          ContactPlaces<D>& places) const {
+                                          ContactPlaces<D>& places,
+                                          const Division& division) const {
   if (!made_->patches) return;
   want_nodes(clusters, places);
   places.node_v.resize(places.nodes.size());
-  made_->patches->values(motion.v.data() + body_->first, places.wanted, places.node_v);
+  made_->patches->values(motion.v.data() + body_->first, places.wanted, division, places.node_v);
 }
 
 template <int D>

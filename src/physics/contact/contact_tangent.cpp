@@ -4,6 +4,7 @@
 #include "meniscus/physics/contact_points.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "patch_points.hpp"
 
@@ -55,9 +56,10 @@ ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
   all.weight.assign(offset(this->clusters(), components_), Lanes::zero());
   NodalVectors ahead, behind;
   if (made_->patches) {
-    const std::vector<std::uint8_t> wanted(places.nodes.size(), 1);
+    std::vector<Index> every(places.nodes.size());
+    std::iota(every.begin(), every.end(), Index{0});
     all.nodes.resize(places.nodes.size());
-    made_->patches->values(du, wanted, all.nodes);
+    made_->patches->values(du, every, Division::to_each(), all.nodes);
     ahead = behind = places.nodes;
     for (std::size_t a = 0; a < ahead.size(); ++a) {
       ahead[a] += all.nodes[a];

@@ -89,7 +89,7 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
   const std::optional<Vec<D>>& up = law.up();
   const AdhesionPattern* pattern = law.pattern();
   const Real even = law.adhesion(motion.time);
-  side.points.update_weights(active, motion, forces.places);
+  side.points.update_weights(active, motion, forces.places, division);
   std::fill(forces.foot.begin(), forces.foot.end(), typename ContactFacets<D>::Foot());
   std::fill(forces.stored.begin(), forces.stored.end(), 0.0);
   std::fill(forces.unit.begin(), forces.unit.end(), 0.0);

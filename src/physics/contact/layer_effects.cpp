@@ -13,6 +13,34 @@ struct Frame {
   Vec<D> shift, velocity;
 };
 
+/// Of the clusters of a grade: ranks that each do their own are to fail together.
+class FirstFailure {
+ public:
+  template <class F>
+  WallSums of(Index cluster, F&& add) {
+    try {
+      return add();
+    } catch (const SolveError&) {
+#pragma omp critical(meniscus_wall_effects)
+      if (cluster < first_) {
+        first_ = cluster;
+        failure_ = std::current_exception();
+      }
+    }
+    return {};
+  }
+  void fail(const Division& division) const {
+    const auto fail_here = [&] {
+      if (failure_) std::rethrow_exception(failure_);
+    };
+    division.is_to_each() ? fail_here() : on_each_rank(fail_here);
+  }
+
+ private:
+  Index first_ = std::numeric_limits<Index>::max();
+  std::exception_ptr failure_;
+};
+
 template <int D>
 WallPoints<D> wall_points(const ContactPoints<D>& of_grade, Index cluster, const Motion& motion,
                           const Frame<D>& frame, PartnerLayer<D>& layer) {
@@ -53,12 +81,14 @@ WallSums add_effects(const BodyAndPartner<D>& pair, const WallEffects<D>& effect
   const Frame<D> frame{pair.shift(motion), pair.velocity(motion)};
   for (std::size_t g = 0; g < layers.size(); ++g) {
     PartnerLayer<D>& layer = layers[g];
-    pair.points[g].prepare_velocities(layer.visited, motion, layer.places);
-    sums = sums + parallel_sum(pair.points[g].clusters(), WallSums(), [&](Index c) {
-             if (!(layer.nearest_of(c) < pair.interaction->range())) return WallSums();
-             WallPoints<D> points = wall_points(pair.points[g], c, motion, frame, layer);
-             return effects.add(points, motion.time);
-           });
+    pair.points[g].prepare_velocities(layer.visited, motion, layer.places, pair.parts());
+    FirstFailure failure;
+    sums = sums + pair.division.sum(pair.points[g].clusters(), WallSums(), [&](Index c) {
+      if (!(layer.nearest_of(c) < pair.interaction->range())) return WallSums();
+      WallPoints<D> points = wall_points(pair.points[g], c, motion, frame, layer);
+      return failure.of(c, [&] { return effects.add(points, motion.time); });
+    });
+    if (effects.pattern()) failure.fail(pair.division);
   }
   return sums;
 }
@@ -70,7 +100,7 @@ void take_friction(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
   for (std::size_t g = 0; g < layers.size(); ++g) {
     PartnerLayer<D>& layer = layers[g];
     std::fill(layer.T.begin(), layer.T.end(), Lanes::zero());
-    pair.points[g].prepare_velocities(layer.near, motion, layer.places);
+    pair.points[g].prepare_velocities(layer.near, motion, layer.places, pair.parts());
     parallel_for(static_cast<Index>(layer.near.size()), [&](Index k) {
       WallPoints<D> points = wall_points(pair.points[g], at(layer.near, k), motion, frame, layer);
       effects.rub(points);
@@ -85,8 +115,7 @@ Real unit_energy(const BodyAndPartner<D>& pair, const WallEffects<D>& effects, c
   Real sum_of_layers = 0;
   for (std::size_t g = 0; g < layers.size(); ++g) {
     const PartnerLayer<D>& layer = layers[g];
-    sum_of_layers += parallel_sum(static_cast<Index>(layer.visited.size()), 0.0, [&](Index k) {
-      const Index c = at(layer.visited, k);
+    sum_of_layers += sum_of_visited(pair, layers, g, 0.0, [&](Index c) {
       Real energy = 0;
       for (int lane = 0; lane < pair.points[g].points_in(c); ++lane) {
         Vec<D> V, S;
@@ -107,18 +136,21 @@ template <int D>
 Vec<D> mean_slip(const BodyAndPartner<D>& pair, const WallEffects<D>& effects, const Motion& motion,
                  PartnerLayers<D>& layers) {
   const Frame<D> frame{pair.shift(motion), pair.velocity(motion)};
-  Real area = 0;
-  Vec<D> sum = Vec<D>::Zero();
+  using AreaAndSlip = Eigen::Matrix<Real, D + 1, 1>;
+  const AreaAndSlip none = AreaAndSlip::Zero();
+  AreaAndSlip sum = none;
   for (std::size_t g = 0; g < layers.size(); ++g) {
     PartnerLayer<D>& layer = layers[g];
-    pair.points[g].prepare_velocities(layer.visited, motion, layer.places);
-    for (const Index c : layer.visited) {
-      const auto [part, slip] = effects.slip(wall_points(pair.points[g], c, motion, frame, layer));
-      area += part;
-      sum += slip;
-    }
+    pair.points[g].prepare_velocities(layer.visited, motion, layer.places, pair.parts());
+    sum += sum_of_visited(pair, layers, g, none, [&](Index c) {
+      const auto [area, slip] = effects.slip(wall_points(pair.points[g], c, motion, frame, layer));
+      AreaAndSlip both;
+      both << area, slip;
+      return both;
+    });
   }
-  return area > 0 ? Vec<D>(sum / area) : sum;
+  const Vec<D> slip = sum.template tail<D>();
+  return sum[0] > 0 ? Vec<D>(slip / sum[0]) : slip;
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                                 \

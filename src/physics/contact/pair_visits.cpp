@@ -112,8 +112,8 @@ void PairVisits<D>::visit(const Motion& motion) {
 /// The coarsest points that the list has.
 template <int D>
 void PairVisits<D>::move_listed(const Motion& motion, VisitedPair<D>& at_motion) const {
-  first_.back().move(list_.of_first().active, motion, at_motion.first.back());
-  second_.back().move(list_.of_second().active, motion, at_motion.second.back());
+  first_.back().move(list_.of_first().active, motion, at_motion.first.back(), ranks_.division());
+  second_.back().move(list_.of_second().active, motion, at_motion.second.back(), ranks_.division());
 }
 
 /// Of all coarsest points, which are moved.
@@ -134,11 +134,11 @@ void PairVisits<D>::bring_others(const Motion& motion, VisitedPair<D>& at_motion
   for (std::size_t g = 0; g < grades(); ++g) {
     const auto first = at_motion.of_first(g).clusters, second = at_motion.of_second(g).clusters;
     if (g + 1 < grades()) {
-      first_[g].move(first, motion, at_motion.first[g]);
-      second_[g].move(second, motion, at_motion.second[g]);
+      first_[g].move(first, motion, at_motion.first[g], ranks_.division());
+      second_[g].move(second, motion, at_motion.second[g], ranks_.division());
     }
-    first_[g].update_weights(first, motion, at_motion.first[g]);
-    second_[g].update_weights(second, motion, at_motion.second[g]);
+    first_[g].update_weights(first, motion, at_motion.first[g], ranks_.division());
+    second_[g].update_weights(second, motion, at_motion.second[g], ranks_.division());
   }
 }
 

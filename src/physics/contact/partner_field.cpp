@@ -59,33 +59,36 @@ void take_forces(const BodyAndPartner<D>& pair, const ContactPoints<D>& points, 
 }  // namespace
 
 template <int D>
-void take_distances(const BodyAndPartner<D>& pair, const ContactPoints<D>& points,
-                    const Motion& motion, PartnerLayer<D>& layer) {
-  const Division& division = pair.ranks.division();
-  points.move(motion, layer.places, division);
+void take_distances(const BodyAndPartner<D>& pair, std::size_t grade, const Motion& motion,
+                    PartnerLayer<D>& layer) {
+  const ContactPoints<D>& points = pair.points[grade];
   const Vec<D> shift = pair.shift(motion);
-  parallel_for(
-      division.own_items(points.clusters()),
-      [&](Index c) {
-        at(layer.distances, c) =
-            pair.partner.shape->distances(place_beside(shift, layer.places, c));
-      },
-      16);
-  division.complete_items(points.clusters(), layer.distances.data(), sizeof(Lanes));
+  const auto take = [&](Index c) {
+    at(layer.distances, c) = pair.partner.shape->distances(place_beside(shift, layer.places, c));
+  };
+  if (const Division parts = pair.parts(); pair.division.is_to_each()) {
+    points.move(motion, layer.places, parts);
+    parallel_for(parts.own_items(points.clusters()), take, 16);
+    parts.complete_items(points.clusters(), layer.distances.data(), sizeof(Lanes));
+  } else {
+    points.move(pair.moved_clusters(grade), motion, layer.places);
+    parallel_for(pair.moved_clusters(grade), take, 16);
+  }
 }
 
 template <int D>
 void take_forces(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers) {
   const Vec<D> shift = pair.shift(motion);
+  const Division parts = pair.parts();
   for (std::size_t g = 0; g < layers.size(); ++g) {
     const ContactPoints<D>& points = pair.points[g];
     PartnerLayer<D>& layer = layers[g];
     // The coarsest of several were moved to find the grades.
     if (layers.size() == 1 || g + 1 < layers.size())
-      points.move(layer.visited, motion, layer.places);
-    points.update_weights(layer.visited, motion, layer.places);
+      points.move(layer.visited, motion, layer.places, parts);
+    points.update_weights(layer.visited, motion, layer.places, parts);
     divided_for(
-        pair.ranks.division(), static_cast<Index>(layer.visited.size()),
+        parts, static_cast<Index>(layer.visited.size()),
         [&](Index k) { take_forces(pair, points, at(layer.visited, k), shift, layer); },
         [&](Index k) { return AtCluster<D>(layer, at(layer.visited, k)); },
         [&](Index k, const AtCluster<D>& of_other) { of_other.put(at(layer.visited, k), layer); },
@@ -93,9 +96,9 @@ void take_forces(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLay
   }
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                                  \
-  template void take_distances(const BodyAndPartner<D>&, const ContactPoints<D>&, const Motion&, \
-                               PartnerLayer<D>&);                                                \
+#define MENISCUS_INSTANTIATE(D)                                                      \
+  template void take_distances(const BodyAndPartner<D>&, std::size_t, const Motion&, \
+                               PartnerLayer<D>&);                                    \
   template void take_forces(const BodyAndPartner<D>&, const Motion&, PartnerLayers<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

@@ -5,10 +5,11 @@
 
 namespace meniscus {
 
-/// Moves all points of one grade and takes their distances.
+/// Moves the points of a grade, as far as this rank does (BodyAndPartner::moved_clusters()), and
+/// takes their distances.
 template <int D>
-void take_distances(const BodyAndPartner<D>& pair, const ContactPoints<D>& points,
-                    const Motion& motion, PartnerLayer<D>& layer);
+void take_distances(const BodyAndPartner<D>& pair, std::size_t grade, const Motion& motion,
+                    PartnerLayer<D>& layer);
 
 /// Places, weights, distances, T and S of the points that are visited (partner_visits.hpp): by the
 /// interaction of uniform strength.

@@ -30,17 +30,22 @@ Eigen::Vector3d vector_of(const Lanes* field, int lane) {
 /// Torque about the origin, -sum (x cross T + V cross S): turning the body turns x and V. In the
 /// plane its third component.
 template <int D>
-Eigen::Vector3d net_torque(const PartnerLayers<D>& layers, ContactForm form) {
+Eigen::Vector3d net_torque(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
-  for (const PartnerLayer<D>& layer : layers)
-    for (const Index c : layer.visited)
-      for (int lane = 0; lane < Lanes::width; ++lane) {
-        torque -= cross(vector_of<D>(layer.places.x_of(c), lane),
-                        vector_of<D>(&at(layer.T, c * D), lane));
-        if (form == ContactForm::energy)
-          torque -= cross(vector_of<D>(layer.places.weight_of(c), lane),
-                          vector_of<D>(&at(layer.S, c * D), lane));
-      }
+  for (std::size_t g = 0; g < layers.size(); ++g)
+    torque += sum_of_visited(pair, layers, g, Eigen::Vector3d(Eigen::Vector3d::Zero()),
+                             [&, &layer = layers[g]](Index c) {
+                               Eigen::Vector3d of_cluster = Eigen::Vector3d::Zero();
+                               for (int lane = 0; lane < Lanes::width; ++lane) {
+                                 of_cluster -= cross(vector_of<D>(layer.places.x_of(c), lane),
+                                                     vector_of<D>(&at(layer.T, c * D), lane));
+                                 if (pair.form == ContactForm::energy)
+                                   of_cluster -=
+                                       cross(vector_of<D>(layer.places.weight_of(c), lane),
+                                             vector_of<D>(&at(layer.S, c * D), lane));
+                               }
+                               return of_cluster;
+                             });
   return torque;
 }
 
@@ -49,7 +54,7 @@ Real wetted_area(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
                  const Motion& motion) {
   const PartnerLayers<D> uniform = layers_without_effects(pair, motion);
   const Real energy =
-      effects.pattern() ? unit_energy(pair, effects, motion, uniform) : energy_of(uniform);
+      effects.pattern() ? unit_energy(pair, effects, motion, uniform) : energy_of(pair, uniform);
   return std::max(0.0, -energy / effects.adhesion());
 }
 
@@ -64,34 +69,36 @@ PartnerLayers<D> layers_at(const BodyAndPartner<D>& pair, const WallEffects<D>& 
 }
 
 template <int D>
-Real energy_of(const PartnerLayers<D>& layers) {
-  Real sum_of_layers = 0;
-  for (const PartnerLayer<D>& layer : layers)
-    sum_of_layers += parallel_sum(static_cast<Index>(layer.visited.size()), 0.0, [&](Index k) {
-      const Index c = at(layer.visited, k);
+Real energy_of(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
+  Real energy = 0;
+  for (std::size_t g = 0; g < layers.size(); ++g)
+    energy += sum_of_visited(pair, layers, g, 0.0, [&layer = layers[g]](Index c) {
       Lanes E = Lanes::zero();
       for (int i = 0; i < D; ++i) E += at(layer.S, c * D + i) * layer.places.weight_of(c)[i];
       return sum(E);
     });
-  return sum_of_layers;
+  return energy;
 }
 
 template <int D>
-Vec<D> net_force(const PartnerLayers<D>& layers) {
+Vec<D> net_force(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
   Vec<D> force = Vec<D>::Zero();
-  for (const PartnerLayer<D>& layer : layers)
-    for (const Index c : layer.visited)
-      for (int i = 0; i < D; ++i) force[i] -= sum(at(layer.T, c * D + i));
+  for (std::size_t g = 0; g < layers.size(); ++g)
+    force -= sum_of_visited(pair, layers, g, Vec<D>(Vec<D>::Zero()), [&](Index c) {
+      Vec<D> T;
+      for (int i = 0; i < D; ++i) T[i] = sum(at(layers[g].T, c * D + i));
+      return T;
+    });
   return force;
 }
 
 template <int D>
 Real gap_at(const BodyAndPartner<D>& pair, const Motion& motion) {
-  PartnerLayer<D> layer(pair.finest());
-  take_distances(pair, pair.finest(), motion, layer);
+  PartnerLayer<D> layer(pair, 0);
+  take_distances(pair, 0, motion, layer);
   Real least = unbounded;
   for (const Index c : layer.visited) least = std::min(least, layer.nearest_of(c));
-  return least;
+  return -pair.largest(-least);
 }
 
 template <int D>
@@ -104,26 +111,28 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
   };
   std::vector<MeasureSource> all{
       {"energy", dimension::energy, "energy of the interaction",
-       looked_at([](const PartnerLayers<D>& layers) { return energy_of(layers); })},
+       looked_at([&pair](const PartnerLayers<D>& layers) { return energy_of(pair, layers); })},
       {"gap", dimension::length, "least distance of the points of the body from the partner",
        [&pair](const Motion& motion) { return gap_at(pair, motion); }},
       {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
        [&pair](const Motion& motion) { return gap_at(pair, motion) / pair.finest().spacing(); }}};
   for (int i = 0; i < D; ++i)
-    all.push_back(
-        {std::string("force_") + "xyz"[i], dimension::force, "force on the body",
-         looked_at([i](const PartnerLayers<D>& layers) { return net_force(layers)[i]; })});
+    all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the body",
+                   looked_at([i, &pair](const PartnerLayers<D>& layers) {
+                     return net_force(pair, layers)[i];
+                   })});
   for (int i = D == 3 ? 0 : 2; i < 3; ++i)
     all.push_back({std::string("torque_") + "xyz"[i], dimension::energy,
                    "torque on the body about the origin",
                    looked_at([i, &pair](const PartnerLayers<D>& layers) {
-                     return net_torque(layers, pair.form)[i];
+                     return net_torque(pair, layers)[i];
                    })});
   if (wets) {
     for (int i = 0; i < D; ++i)
-      all.push_back(
-          {std::string("reaction_") + "xyz"[i], dimension::force, "force on the partner",
-           looked_at([i](const PartnerLayers<D>& layers) { return -net_force(layers)[i]; })});
+      all.push_back({std::string("reaction_") + "xyz"[i], dimension::force, "force on the partner",
+                     looked_at([i, &pair](const PartnerLayers<D>& layers) {
+                       return -net_force(pair, layers)[i];
+                     })});
     all.push_back(
         {"wetted_area", D == 3 ? dimension::area : dimension::length,
          "area in full contact that has the energy of the interaction (2D: length)",
@@ -148,8 +157,8 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
 #define MENISCUS_INSTANTIATE(D)                                                                    \
   template PartnerLayers<D> layers_at(const BodyAndPartner<D>&, const WallEffects<D>&,             \
                                       const Motion&);                                              \
-  template Real energy_of(const PartnerLayers<D>&);                                                \
-  template Vec<D> net_force(const PartnerLayers<D>&);                                              \
+  template Real energy_of(const BodyAndPartner<D>&, const PartnerLayers<D>&);                      \
+  template Vec<D> net_force(const BodyAndPartner<D>&, const PartnerLayers<D>&);                    \
   template Real gap_at(const BodyAndPartner<D>&, const Motion&);                                   \
   template std::vector<MeasureSource> measures_of(const BodyAndPartner<D>&, const WallEffects<D>&, \
                                                   bool);

@@ -14,11 +14,11 @@ PartnerLayers<D> layers_at(const BodyAndPartner<D>& pair, const WallEffects<D>& 
 
 /// Sum of S.V.
 template <int D>
-Real energy_of(const PartnerLayers<D>& layers);
+Real energy_of(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers);
 
 /// On the body.
 template <int D>
-Vec<D> net_force(const PartnerLayers<D>& layers);
+Vec<D> net_force(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers);
 
 /// Least distance of all points of the finest grade.
 template <int D>

@@ -18,10 +18,9 @@ void choose_visited(const BodyAndPartner<D>& pair, const Motion& motion, ReachLi
 template <int D>
 void choose_grades(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers);
 
-/// Of the clusters visited those within the range. If there are none, every point has the distance
-/// of this motion afterwards, visited or not.
+/// Of the clusters visited those within the range.
 template <int D>
-void find_near(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers);
+void find_near(const BodyAndPartner<D>& pair, PartnerLayers<D>& layers);
 
 /// A point of a grade.
 struct NearestPoint {
@@ -29,7 +28,16 @@ struct NearestPoint {
   std::size_t grade = 0;
   Index point = 0;
 };
+
+/// Of all ranks.
+struct VisitedPoints {
+  NearestPoint nearest;
+  Offset count = 0;
+};
+/// If no point is within the range, every point has the distance of this motion afterwards, visited
+/// or not.
 template <int D>
-NearestPoint nearest_point(const PartnerLayers<D>& layers);
+VisitedPoints visited_points(const BodyAndPartner<D>& pair, const Motion& motion,
+                             PartnerLayers<D>& layers);
 
 }  // namespace meniscus

@@ -26,6 +26,16 @@ Vec<2> area_normal(const std::array<Vec<2>, 1>& t) {
 Vec<3> area_normal(const std::array<Vec<3>, 2>& t) {
   return cross(t[0], t[1]);
 }
+/// values[a] = value(a) of these nodes, of which each rank takes a part.
+template <class F>
+void take_at(std::span<const Index> wanted, const Division& division, NodalVectors& values,
+             F&& value) {
+  divided_for(
+      division, static_cast<Index>(wanted.size()),
+      [&](Index k) { at(values, at(wanted, k)) = value(at(wanted, k)); },
+      [&](Index k) { return at(values, at(wanted, k)); },
+      [&](Index k, const NodalVector& of_other) { at(values, at(wanted, k)) = of_other; });
+}
 /// c_k of b . dm = sum_k c_k . dt_k.
 std::array<Vec<2>, 1> through_tangents(const std::array<Vec<2>, 1>&, const Vec<2>& b) {
   return {Vec<2>(-b[1], b[0])};
@@ -47,11 +57,9 @@ PatchPoints<D>::PatchPoints(const Body<D>& body, int points)
 }
 
 template <int D>
-void PatchPoints<D>::place_nodes(const NodalVector* u, std::span<const std::uint8_t> wanted,
-                                 NodalVectors& places) const {
-  parallel_for(node_count(), [&](Index a) {
-    if (at(wanted, a)) at(places, a) = place_of_node(a, u);
-  });
+void PatchPoints<D>::place_nodes(const NodalVector* u, std::span<const Index> wanted,
+                                 const Division& division, NodalVectors& places) const {
+  take_at(wanted, division, places, [&](Index a) { return place_of_node(a, u); });
 }
 
 template <int D>
@@ -63,16 +71,15 @@ void PatchPoints<D>::place_nodes(const NodalVector* u, const Division& division,
 }
 
 template <int D>
-void PatchPoints<D>::values(const NodalVector* field, std::span<const std::uint8_t> wanted,
-                            NodalVectors& nodes_of_field) const {
-  parallel_for(node_count(), [&](Index a) {
-    if (at(wanted, a)) at(nodes_of_field, a) = value_at(surface_.rows(), a, field);
-  });
+void PatchPoints<D>::values(const NodalVector* field, std::span<const Index> wanted,
+                            const Division& division, NodalVectors& nodes_of_field) const {
+  take_at(wanted, division, nodes_of_field,
+          [&](Index a) { return value_at(surface_.rows(), a, field); });
 }
 
 template <int D>
-void PatchPoints<D>::want(Index point, std::span<std::uint8_t> wanted) const {
-  for (const Index node : surface_.points_of(patch(point))) at(wanted, node) = 1;
+void PatchPoints<D>::want(Index point, std::span<std::uint8_t> is_wanted) const {
+  for (const Index node : surface_.points_of(patch(point))) at(is_wanted, node) = 1;
 }
 
 template <int D>

@@ -19,16 +19,16 @@ class PatchPoints {
   /// In the reference.
   const NodalVectors& reference_nodes() const { return reference_; }
 
-  /// Values of a nodal field at the nodes of patches with `wanted`.
-  void values(const NodalVector* field, std::span<const std::uint8_t> wanted,
+  /// Values of a field at these nodes, of which each rank takes a part.
+  void values(const NodalVector* field, std::span<const Index> wanted, const Division& division,
               NodalVectors& nodes) const;
-  /// Places of those with `wanted`.
-  void place_nodes(const NodalVector* u, std::span<const std::uint8_t> wanted,
+  /// Their places.
+  void place_nodes(const NodalVector* u, std::span<const Index> wanted, const Division& division,
                    NodalVectors& nodes) const;
-  /// Of all, divided so.
+  /// Of all.
   void place_nodes(const NodalVector* u, const Division& division, NodalVectors& nodes) const;
-  /// wanted[node] = 1 for the nodes of the patch of a point.
-  void want(Index point, std::span<std::uint8_t> wanted) const;
+  /// is_wanted[node] = 1 for the nodes of the patch of a point.
+  void want(Index point, std::span<std::uint8_t> is_wanted) const;
 
   /// Of a point, by the places of the nodes; as well any other field by its values there.
   Vec<D> place(Index point, const NodalVectors& nodes) const;

@@ -66,7 +66,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
-    return energy_of(layers_at(pair_, effects_, motion));
+    return energy_of(pair_, layers_at(pair_, effects_, motion));
   }
   std::optional<Real> potential(const Motion& motion) override {
     if (pair_.form != ContactForm::energy || effects_.rubs()) return std::nullopt;
@@ -75,9 +75,10 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   Real work_between(const Motion& before, const Motion& after) const override {
     const Vec<D> way = pair_.shift(after) - pair_.shift(before);
     if (way.isZero(0)) return ForceTerm::work_between(before, after);
-    return 0.5 * (net_force(layers_at(pair_, effects_, before)) +
-                  net_force(layers_at(pair_, effects_, after)))
-                     .dot(way);
+    const auto force_at = [&](const Motion& motion) {
+      return net_force(pair_, layers_at(pair_, effects_, motion));
+    };
+    return 0.5 * (force_at(before) + force_at(after)).dot(way);
   }
   Real steady_after() const override { return steady_after_; }
 
@@ -86,7 +87,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     if (pair_.ranks.is_absent()) return;
     effects_.commit(motion.time, sums_);
     if (pair_.partner.motion.moves())
-      work_.commit(spatial<D>(pair_.shift(motion)), spatial<D>(net_force(layers_)));
+      work_.commit(spatial<D>(pair_.shift(motion)), spatial<D>(net_force(pair_, layers_)));
   }
   void archive(const Archive& a) override {
     effects_.archive(a);
@@ -107,7 +108,8 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     if (told_->touches)
       pair_.points.front().tell_reads(reads, layers_.front().visited);
     else
-      for (ContactPoints<D>& points : pair_.points) points.tell_reads(reads);
+      for (std::size_t g = 0; g < pair_.points.size(); ++g)
+        pair_.points[g].tell_reads(reads, pair_.moved_clusters(g));
     return true;
   }
   bool reads_changed() const override { return told_ && *told_ != visited_parts(); }
@@ -152,7 +154,6 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   /// Of a rank that takes part.
   Report add_known_force(const Motion& motion, Forces force) {
     choose_visited(pair_, motion, list_, layers_);
-    count(points_visited());
     take_forces(pair_, motion, layers_);
     sums_ = add_effects(pair_, effects_, motion, layers_);
     for (std::size_t g = 0; g < layers_.size(); ++g) {
@@ -160,14 +161,10 @@ class RigidContact final : public ForceTerm, public ContactVisits {
       pair_.points[g].add_force(layer.places, layer.visited, layer.T, layer.moment(pair_.form),
                                 force);
     }
-    find_near(pair_, motion, layers_);
-    return report(motion);
-  }
-  Offset points_visited() const {
-    Offset n = 0;
-    for (const PartnerLayer<D>& layer : layers_)
-      n += static_cast<Offset>(layer.visited.size()) * Lanes::width;
-    return n;
+    find_near(pair_, layers_);
+    const VisitedPoints visited = visited_points(pair_, motion, layers_);
+    count(visited.count);
+    return report(motion, visited.nearest);
   }
   /// Of an interaction that ends, a list of the clusters that may feel the partner, of which there
   /// are some that do; where there are none, the distances of all points are asked for.
@@ -177,9 +174,9 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     bool operator==(const VisitedParts&) const = default;
   };
   VisitedParts visited_parts() const {
-    return {list_.times(), pair_.interaction->ends() && !layers_.front().near.empty()};
+    return {list_.times(), pair_.interaction->ends() && touches_};
   }
-  Report report(const Motion& motion);
+  Report report(const Motion& motion, const NearestPoint& nearest);
   Failure describe_overlap(const NearestPoint& nearest) const;
   Real closing_speed_of(std::size_t grade, Real within, const Vec<D>& velocity,
                         const Motion& motion);
@@ -192,6 +189,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   // Of a force.
   PartnerLayers<D> layers_;
   WallSums sums_;
+  bool touches_ = false;  // some point is within the range
   PartnerWork work_;
   ReachList<D> list_;
   std::optional<VisitedParts> told_;  // when ranks shared steps
@@ -200,22 +198,22 @@ class RigidContact final : public ForceTerm, public ContactVisits {
 
 /// The work of the partner, and what the places and velocities of a force mean for the step.
 template <int D>
-Report RigidContact<D>::report(const Motion& motion) {
+Report RigidContact<D>::report(const Motion& motion, const NearestPoint& nearest) {
   Report report;
   Vec<D> velocity = Vec<D>::Zero();
   if (pair_.partner.motion.moves()) {
     velocity = pair_.velocity(motion);
     const Eigen::Vector3d shift = spatial<D>(pair_.shift(motion));
     work_.begin(shift);
-    report.external_work = work_.since_step(shift, spatial<D>(net_force(layers_)));
+    report.external_work = work_.since_step(shift, spatial<D>(net_force(pair_, layers_)));
   }
   report.external_work += effects_.work(sums_);
   report.heat = sums_.heat;
   const Interaction& interaction = *pair_.interaction;
-  const NearestPoint nearest = nearest_point(layers_);
   const Real gap = nearest.distance;
   const Approach any = approach<D>(pair_.finest(), gap, velocity, motion);
-  if (!(gap < interaction.range())) {
+  touches_ = gap < interaction.range();
+  if (!touches_) {
     report.demand = approach_demand(any, interaction.range());
     return report;
   }
@@ -224,6 +222,7 @@ Report RigidContact<D>::report(const Motion& motion) {
   Real speed = 0;
   for (std::size_t g = 0; g < layers_.size(); ++g)
     speed = std::max(speed, closing_speed_of(g, within, velocity, motion));
+  speed = pair_.largest(speed);
   const Real strength = effects_.varies_at(gap) ? sums_.adhesion : 1;
   report.demand = contact_demand({interaction, strength / pair_.finest().inertia(), 0, D}, gap,
                                  {speed, within, any.speed});
@@ -248,7 +247,9 @@ Real RigidContact<D>::closing_speed_of(std::size_t grade, Real within, const Vec
   close_.clear();
   for (const Index c : layer.near)
     if (layer.nearest_of(c) < within) close_.push_back(c);
-  return closing_speed<D>(pair_.points[grade], close_, nullptr, {}, velocity, motion);
+  const ItemRange part = pair_.parts().own_items(static_cast<Index>(close_.size()));
+  const std::span<const Index> mine(close_.data() + part.begin, close_.data() + part.end);
+  return closing_speed<D>(pair_.points[grade], mine, nullptr, {}, velocity, motion);
 }
 
 }  // namespace
