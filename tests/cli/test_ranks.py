@@ -418,6 +418,11 @@ class SameBits(RanksTest):
     def test_newton(self):
         self.assert_same_bits((2,), self.scene(BENT_SHEET))
 
+    def test_contact_without_some_ranks(self):
+        """Beside a rigid partner a rank knows its own points only, also where it has none."""
+        self.assert_same_bits((3,), INPUTS / "adhesion_cycle.toml", "--until", "0.75")
+        self.assert_same_bits((3,), INPUTS / "droplet_friction.toml", "--until", "0.5", "--overwrite")
+
     def test_scenes(self):
         for name, (scene, *options) in SCENES.items():
             with self.subTest(name):

@@ -144,7 +144,8 @@ class ContactPoints {
 
   /// Adds the forces -dE/du of these clusters, given dE/dx = T ([cluster][i]) and, on the surface,
   /// dE/dV = S: f_A = - sum_s { N_A T + (S.V) g_A [constant density only] - (S.g_A) V } with
-  /// g_A = F^-T grad N_A (CGCM note 4). Without S only the first.
+  /// g_A = F^-T grad N_A (CGCM note 4). Without S only the first. Not to be called on some ranks
+  /// only, as where there are no clusters; of those that others have as well, each adds its own.
   void add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
                  std::span<const Lanes> T, std::span<const Lanes> S, std::span<NodalVector> force);
 

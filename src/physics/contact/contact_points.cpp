@@ -509,7 +509,6 @@ template <int D>
 void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
                                  std::span<const Lanes> T, std::span<const Lanes> S,
                                  std::span<NodalVector> force) {
-  if (clusters.empty()) return;
   if (made_->patches) return add_force_on_patches(places, clusters, T, S, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
   made_->windows.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {

@@ -101,7 +101,6 @@ void ContactPoints<D>::add_force_change(const ContactPlaces<D>& places,
                                         const Motion& change, std::span<const Index> clusters,
                                         std::span<const Lanes> dT, std::span<const Lanes> S,
                                         std::span<const Lanes> dS, std::span<NodalVector> force) {
-  if (clusters.empty()) return;
   if (made_->patches) return add_change_on_patches(places, changes, clusters, dT, S, dS, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
   made_->windows.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {

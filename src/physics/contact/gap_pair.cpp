@@ -120,7 +120,8 @@ class GapPair final : public ForceTerm, public ContactVisits {
       side->list.update(now->places.x, now->others.samples, ranks_.division());
       visited += side->list.pairs() * Lanes::width;
       take_forces(*side, side->list, law_, motion, ranks_.division(), *now);
-      side->points.add_force(now->places, side->list.of_first().active, now->T, now->S, force);
+      if (const auto& active = side->list.of_first().active; !active.empty())
+        side->points.add_force(now->places, active, now->T, now->S, force);
       side->facets.add_force(now->pull, force);
     }
     count(visited);

@@ -125,12 +125,14 @@ class PairContact final : public ForceTerm, public ContactVisits {
       const FacetRows<D> first = now.of_first(g), second = now.of_second(g);
       if (reports) {
         sums_->evaluate(now.first[g], first, now.second[g], division(), first_result_[g]);
-        visits_.first(g).add_force(now.first[g], first.clusters, first_result_[g].T,
-                                   first_result_[g].S, force);
+        if (!first.clusters.empty())
+          visits_.first(g).add_force(now.first[g], first.clusters, first_result_[g].T,
+                                     first_result_[g].S, force);
       }
       sums_->evaluate(now.second[g], second, now.first[g], division(), second_result_[g]);
-      visits_.second(g).add_force(now.second[g], second.clusters, second_result_[g].T,
-                                  second_result_[g].S, force);
+      if (!second.clusters.empty())
+        visits_.second(g).add_force(now.second[g], second.clusters, second_result_[g].T,
+                                    second_result_[g].S, force);
     }
     return reports ? report(motion) : Report();
   }
@@ -163,6 +165,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
   void add_change(const Changing& own, const ContactPlaces<D>& others,
                   const ContactChanges<D>& changes, const Motion& motion, const Motion& change,
                   Forces force) const {
+    if (own.rows.clusters.empty()) return;
     const PairChange by = sums_->change(own.places, own.changes, own.rows, others, changes);
     own.points.add_force_change(own.places, own.changes, motion, change, own.rows.clusters, by.dT,
                                 by.S, by.dS, force);

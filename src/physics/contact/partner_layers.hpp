@@ -60,6 +60,10 @@ struct BodyAndPartner {
   }
   /// By which ranks divide what is for the same clusters of all of them.
   Division parts() const { return division.is_to_each() ? ranks.division() : Division::to_each(); }
+  /// Whether no rank has any of what this rank has none of.
+  bool without(const std::vector<Index>& clusters) const {
+    return clusters.empty() && (division.is_to_each() || meniscus::ranks().alone());
+  }
   /// Of what ranks have found that each looked at a part.
   Real largest(Real mine) const {
     if (ranks.division().is_to_each() || meniscus::ranks().alone()) return mine;

@@ -66,7 +66,8 @@ void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& lay
                             const Motion& motion, const Motion& change,
                             std::span<NodalVector> force) {
   for (std::size_t g = 0; g < layers.size(); ++g)
-    add_tangent_of_partner(pair.points[g], pair, layers[g], motion, change, force);
+    if (!pair.without(layers[g].visited))
+      add_tangent_of_partner(pair.points[g], pair, layers[g], motion, change, force);
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                                    \

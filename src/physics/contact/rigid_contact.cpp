@@ -123,7 +123,8 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     if (pair_.ranks.is_absent()) return;
     take_friction(pair_, effects_, motion, layers_);
     for (std::size_t g = 0; g < layers_.size(); ++g)
-      pair_.points[g].add_force(layers_[g].places, layers_[g].near, layers_[g].T, {}, force);
+      if (!pair_.without(layers_[g].near))
+        pair_.points[g].add_force(layers_[g].places, layers_[g].near, layers_[g].T, {}, force);
   }
 
   /// Fields of planes and spheres are smooth over many gaps, and exact: few points do no harm
@@ -158,6 +159,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     sums_ = add_effects(pair_, effects_, motion, layers_);
     for (std::size_t g = 0; g < layers_.size(); ++g) {
       const PartnerLayer<D>& layer = layers_[g];
+      if (pair_.without(layer.visited)) continue;
       pair_.points[g].add_force(layer.places, layer.visited, layer.T, layer.moment(pair_.form),
                                 force);
     }
