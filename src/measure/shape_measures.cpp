@@ -3,6 +3,7 @@
 // solution.
 #include "meniscus/measure/shape_measures.hpp"
 
+#include "meniscus/approx/row_sums.hpp"
 #include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/dense.hpp"
@@ -94,24 +95,53 @@ const bool shape_measures_registered =
     register_measures("shape", shape_measures<2>, shape_measures<3>);
 }
 
+namespace {
+
+/// Squares of what is wrong and of what should be, over volumes.
+struct ErrorAndSize {
+  Real error = 0, size = 0;
+};
+
+/// Of a particle with the displacement u and the velocity v.
+template <int D>
+void add_particle(const Body<D>& body, const ExactSolution& exact, Real time, Index A,
+                  const Lanes& u, const Lanes& v, ErrorAndSize& sum) {
+  const Eigen::Vector3d X = spatial<D>(at(body.particles.X(), A));
+  const Real V = body.cells.volume(A);
+  for (int i = 0; i < D; ++i) {
+    const Real u_exact = exact.rate * at(exact.displacement, i)(X, time);
+    const Real v_exact = at(exact.velocity, i)(X, time);
+    sum.error += V * (std::pow(exact.rate * u[i] - u_exact, 2) + std::pow(v[i] - v_exact, 2));
+    sum.size += V * (u_exact * u_exact + v_exact * v_exact);
+  }
+}
+
+}  // namespace
+
+/// Threads would take turns at the formulas; ranks do not.
 template <int D>
 MeasureSource state_error(const Body<D>& body, ExactSolution exact) {
   const auto compute = [&body, exact = std::move(exact)](const Motion& m) {
-    const NodalVectors u = values_at_particles(body, m.u.data() + body.first),
-                       v = values_at_particles(body, m.v.data() + body.first);
-    Real error = 0, size = 0;
-    for (Index A = 0; A < body.size(); ++A) {
-      const Eigen::Vector3d X = spatial<D>(at(body.particles.X(), A));
-      const Lanes &u_A = at(u, A), &v_A = at(v, A);
-      const Real V = body.cells.volume(A);
-      for (int i = 0; i < D; ++i) {
-        const Real u_exact = exact.rate * at(exact.displacement, i)(X, m.time);
-        const Real v_exact = at(exact.velocity, i)(X, m.time);
-        error += V * (std::pow(exact.rate * u_A[i] - u_exact, 2) + std::pow(v_A[i] - v_exact, 2));
-        size += V * (u_exact * u_exact + v_exact * v_exact);
-      }
+    const Index n = body.size();
+    NodalVectors u(static_cast<std::size_t>(n)), v(u.size());
+    parallel_for(body.division.own_rows(n), [&](Index A) {
+      at(u, A) = value_at(body.at_particles, A, m.u.data() + body.first);
+      at(v, A) = value_at(body.at_particles, A, m.v.data() + body.first);
+    });
+    std::vector<ErrorAndSize> of_chunk(static_cast<std::size_t>(chunk_count(n)));
+    on_each_rank([&] {
+      const OwnItems own = body.division.own_items(chunk_count(n));
+      for (Index c = own.begin; c < own.end; ++c)
+        for (Index A = chunk_begin(n, c); A < chunk_begin(n, c + 1); ++A)
+          add_particle(body, exact, m.time, A, at(u, A), at(v, A), at(of_chunk, c));
+    });
+    body.division.complete_items(chunk_count(n), of_chunk.data(), sizeof of_chunk[0]);
+    ErrorAndSize all;
+    for (const ErrorAndSize& sum : of_chunk) {
+      all.error += sum.error;
+      all.size += sum.size;
     }
-    return error > 0 ? std::sqrt(error / size) : 0;  // at rest both are 0
+    return all.error > 0 ? std::sqrt(all.error / all.size) : 0;  // at rest both are 0
   };
   return {"state_error", dimension::none,
           "error of places and velocities against the exact solution", compute};
