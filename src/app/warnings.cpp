@@ -70,7 +70,7 @@ void Warnings<D>::imbalance(const Ledger& ledger) {
   if (std::abs(change) < 1e-10 * size) return;
   bool is_news = false;
   for (const Real bearable : {0.01, 0.03, 0.1, 0.3, 1.0})
-    if (std::abs(error) >= bearable)
+    if (!(std::abs(error) < bearable))
       is_news |= said_.insert(fmt::format("energy balance {}", bearable)).second;
   if (!is_news) return;
   say_(fmt::format(

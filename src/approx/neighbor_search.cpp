@@ -207,6 +207,7 @@ const {
   trees_->for_near(
       x, [&](Real from_box) { return from_box <= nearest.worstDist() * (1 + box_rounding); },
       [&](Part<D>& part) { part.tree().findNeighbors(nearest, x.data(), unsorted); });
+  if (nearest.size() == 0) return unbounded;
   return std::sqrt(squared[nearest.size() - 1]);
 }
 

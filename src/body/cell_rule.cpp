@@ -124,16 +124,16 @@ std::array<Vec<D>, D + 1> simplex() {
   }
 }
 
-/// xi_q = sqrt(D) S^(1/2) t_q, a lane per q.
+/// xi_q = sqrt(D) S^(1/2) t_q, a lane per q. In 2D the fourth lane, which has weight zero, repeats
+/// the third point: its stress is finite wherever that of the cell is.
 template <int D>
 std::array<Lanes, D> stress_points(const Mat<D>& S) {
   const Mat<D> root = square_root<D>(S);
   const auto t = simplex<D>();
   std::array<Lanes, D> xi;
-  xi.fill(Lanes::zero());
-  for (int q = 0; q <= D; ++q)
+  for (int q = 0; q < static_cast<int>(Lanes::width); ++q)
     for (int M = 0; M < D; ++M)
-      at(xi, M).set(q, std::sqrt(Real(D)) * (root.row(M) * at(t, q)).value());
+      at(xi, M).set(q, std::sqrt(Real(D)) * (root.row(M) * at(t, std::min(q, D))).value());
   return xi;
 }
 

@@ -123,6 +123,12 @@ class Functions::Expansion {
   /// `done` is behind the name, and then behind the call.
   std::string call(const Function& function, std::string_view formula, std::size_t& done,
                    const Arguments& known) {
+    constexpr int most_calls = 10'000;
+    if (++calls_ > most_calls)
+      throw InputError(
+          fmt::format("formula '{}' calls functions more than {} times; expected are "
+                      "functions that call each other less often",
+                      formula.substr(0, 60), most_calls));
     const std::size_t open = std::min(formula.find_first_not_of(' ', done), formula.size());
     std::vector<std::string> given;
     if (open < formula.size() && formula[open] == '(') given = arguments_at(formula, open, done);
@@ -145,6 +151,7 @@ class Functions::Expansion {
 
   const Functions& functions_;
   std::vector<std::string> trail_;  ///< each calls the next
+  int calls_ = 0;
 };
 
 Functions::Function Functions::signature(const std::string& key) {

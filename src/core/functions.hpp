@@ -38,7 +38,8 @@ class Functions {
   bool in(std::string_view formula) const;
 
   /// The formula without calls. Throws InputError (without a place): a function that needs itself,
-  /// a wrong count of arguments, a bracket that does not close, a formula that becomes too long.
+  /// a wrong count of arguments, a bracket that does not close, a formula that becomes too long or
+  /// calls functions too often.
   std::string expanded(const std::string& formula) const;
   /// The formula of a function without calls, its arguments as they are.
   std::string body(const Function& function) const;

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 namespace meniscus {
 namespace {
@@ -77,18 +79,24 @@ std::string kept_part(const std::filesystem::path& path, const std::vector<Histo
 
 HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::vector<HistoryColumn> columns,
                              std::optional<Real> continue_after)
-    : path_(file), columns_(columns.size()), file_(nullptr, std::fclose) {
+    : path_(file), columns_(std::move(columns)), file_(nullptr, std::fclose) {
   const bool continuing = continue_after && std::filesystem::exists(path_);
   replace_file(path_,
-               continuing ? kept_part(path_, columns, *continue_after) : header_text(columns));
+               continuing ? kept_part(path_, columns_, *continue_after) : header_text(columns_));
   file_.reset(std::fopen(path_.c_str(), "ab"));
   if (!file_) throw_file_error("write", path_, errno);
 }
 
 void HistoryWriter::write(std::span<const Real> values) {
-  if (values.size() != columns_)
+  if (values.size() != columns_.size())
     throw std::invalid_argument(
-        fmt::format("{} values for {} history columns", values.size(), columns_));
+        fmt::format("{} values for {} history columns", values.size(), columns_.size()));
+  for (std::size_t c = 0; c < values.size(); ++c)
+    if (!std::isfinite(values[c]))
+      throw SolveError(
+          fmt::format("{} = {:.9g}: the column '{}' of {} would be {}; expected is a finite number",
+                      columns_[0].name, values[0], columns_[c].name, path_.filename().string(),
+                      std::isnan(values[c]) ? "not a number" : "infinite"));
   const std::string row = row_text(values);
   if (std::fwrite(row.data(), 1, row.size(), file_.get()) != row.size() ||
       std::fflush(file_.get()) != 0)

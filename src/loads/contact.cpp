@@ -155,9 +155,12 @@ struct Contact final : Load<D>, Keys {
  private:
   ContactChoice choice(const Assembly<D>& assembly) const;
   ContactSurfaces surfaces(const Assembly<D>& assembly) const;
-  /// Looked for once in build(), which asks for it many times.
+  /// Computed once in build(), which uses it many times. Throws InputError if it is not finite.
   const PlaneContact& flat(const Assembly<D>& assembly) const {
-    if (!flat_) flat_ = model->flat(partner.has_value(), surfaces(assembly));
+    if (!flat_) {
+      flat_ = model->flat(partner.has_value(), surfaces(assembly));
+      require_finite(*flat_, this->place);
+    }
     return *flat_;
   }
   ContactResolution resolution(const Assembly<D>& assembly) const;

@@ -27,9 +27,16 @@ Real height_at(std::span<const Real> r, std::span<const Real> z, Real where) {
   return z[where < r.front() ? 0 : r.size() - 1];
 }
 
-/// Largest value of a sampled function: the vertex of the parabola through the largest sample and
-/// its neighbours.
-Real vertex(Real left, Real largest, Real right) {
+/// Number of the largest sample that has neighbours on both sides.
+std::size_t largest_inside(const std::vector<Real>& samples) {
+  return static_cast<std::size_t>(std::max_element(samples.begin() + 1, samples.end() - 1) -
+                                  samples.begin());
+}
+
+/// Largest value of a sampled function: the vertex of the parabola through the sample `k` and its
+/// neighbours.
+Real vertex(const std::vector<Real>& samples, std::size_t k) {
+  const Real left = samples[k - 1], largest = samples[k], right = samples[k + 1];
   const Real bend = 2 * largest - left - right;
   return bend > 0 ? largest + (right - left) * (right - left) / (8 * bend) : largest;
 }
@@ -105,13 +112,11 @@ MeanMeridian Meridians::mean(const Motion& motion) const {
       mean.r[k] += r.back() / meridians;
       mean.z[k] += y[2] / meridians;
     }
-    const auto top = static_cast<std::size_t>(std::max_element(r.begin(), r.end()) - r.begin());
-    mean.rim_radius.push_back(vertex(r[top - 1], r[top], r[top + 1]));
+    mean.rim_radius.push_back(vertex(r, largest_inside(r)));
   }
   mean.r.front() = mean.r.back() = 0;  // all meridians meet there
-  mean.rim =
-      static_cast<std::size_t>(std::max_element(mean.r.begin(), mean.r.end()) - mean.r.begin());
-  mean.radius_at_rim = vertex(mean.r[mean.rim - 1], mean.r[mean.rim], mean.r[mean.rim + 1]);
+  mean.rim = largest_inside(mean.r);
+  mean.radius_at_rim = vertex(mean.r, mean.rim);
   return mean;
 }
 

@@ -2,7 +2,10 @@
 // Stages of the relaxation of carried fields.
 #include "meniscus/physics/carried_field.hpp"
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +13,13 @@
 
 namespace meniscus {
 
-CarriedField::CarriedField(std::size_t number, Index first, std::vector<Real> capacity)
-    : number_(number), first_(first), capacity_(std::move(capacity)) {
+CarriedField::CarriedField(std::size_t number, Index first, std::vector<Real> capacity,
+                           std::string name, std::string slower)
+    : number_(number),
+      first_(first),
+      capacity_(std::move(capacity)),
+      name_(std::move(name)),
+      slower_(std::move(slower)) {
   for (NodalVectors* array : {&from_, &middle_, &start_, &first_rate_, &before_, &force_})
     array->assign(capacity_.size(), Lanes::zero());
 }
@@ -54,9 +62,15 @@ Real CarriedField::arrive(std::span<const NodalVector> u, Real dt, std::span<Nod
 /// s stages are stable up to (s^2 + s - 2)/4 Euler steps (Meyer, Balsara & Aslam 2014); the limit
 /// is that of the last estimate.
 int CarriedField::stages(Real dt) const {
-  constexpr Real safety = 0.8;
+  constexpr Real safety = 0.8, most = 10'000;
   const Real steps = dt / (safety * limit_);
-  return std::max(2, static_cast<int>(std::ceil((std::sqrt(9 + 16 * steps) - 1) / 2)));
+  const Real needed = std::max(2.0, std::ceil((std::sqrt(9 + 16 * steps) - 1) / 2));
+  if (!(needed <= most))
+    throw SolveError(fmt::format(
+        "the {} would relax in {:.3g} stages per step, and the most are {:.0f}; expected is {}, or "
+        "a shorter time.step",
+        name_, needed, most, slower_));
+  return static_cast<int>(needed);
 }
 
 /// RKL2: Y_1 = x + m_1 dt R_0, Y_j = m Y_j-1 + n Y_j-2 + (1 - m - n) x + k dt R_j-1 + g dt R_0.

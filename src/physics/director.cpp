@@ -40,7 +40,9 @@ std::vector<Real> resistance(const NematicNumbers& numbers, std::vector<Real> vo
 
 template <int D>
 Director<D>::Director(const Body<D>& body, std::size_t number, const NematicBody<D>& nematic)
-    : CarriedField(number, body.first, resistance(nematic.numbers, nematic.volume)),
+    : CarriedField(number, body.first, resistance(nematic.numbers, nematic.volume),
+                   "director of body '" + body.name + "'",
+                   "a lower frank_constant, a larger rotational_viscosity"),
       body_(body),
       numbers_(nematic.numbers),
       gradients_(

@@ -117,7 +117,9 @@ std::vector<MeasureSource> stress_measures(const VisitStressPoints& visit, int s
   };
   const auto least_jacobian = [visit](const Motion& motion) {
     Real least = std::numeric_limits<Real>::max();
-    visit(motion, [&](const StressPoint& point) { least = std::min(least, jacobian(point)); });
+    visit(motion, [&](const StressPoint& point) {
+      least = std::min(least, point.volume_ratio * jacobian(point));
+    });
     return least;
   };
   // J tr(sigma) = P : F, and J times the weight is the current volume.
@@ -132,7 +134,9 @@ std::vector<MeasureSource> stress_measures(const VisitStressPoints& visit, int s
   return {
       {"volume", space_dimension == 3 ? dimension::volume : dimension::area,
        "current volume (2D: area)", volume},
-      {"min_J", dimension::none, "smallest det F of all stress points", least_jacobian},
+      {"min_J", dimension::none,
+       "smallest J of all stress points, volume / that in the reference of the scene",
+       least_jacobian},
       {"mean_pressure", dimension::pressure, "pressure, mean over the current volume",
        mean_pressure},
   };

@@ -104,7 +104,7 @@ std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
   Tensor<Lanes> H = gradients(group, motion.u.data() + body_.first);
   ranks().hand_out(body_.division.rank_of_row(rule_.groups(), group), &H, sizeof H);
   int lane = 0;
-  while (1 + volume_change(lane_of(H, lane)) > 0) ++lane;
+  while (lane + 1 < rule_.points_per_group() && 1 + volume_change(lane_of(H, lane)) > 0) ++lane;
   const Tensor<Real> F = deformation_gradient(lane_of(H, lane));
   return Failure{
       body_.first + rule_.owner(group, lane),

@@ -57,6 +57,9 @@ std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
   std::vector<Index> near;
   for (const Vec<D>& place : x) {
     search.within(place, search.distance_of_nearest(place, 1) * (1 + 1e-12), near);
+    if (near.empty())
+      throw SolveError(fmt::format(
+          "body '{}': the place of a node of its new reference is not a finite number", body.name));
     X.push_back(at(reference, near.front()));
   }
   std::vector<Real> left(X.size());

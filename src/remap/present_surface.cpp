@@ -4,6 +4,7 @@
 
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/dense.hpp"
+#include "meniscus/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ typename PresentSurface<D>::Foot PresentSurface<D>::nearest_in(const Vec<D>& p, 
         right[k] = 0;
       }
     Vec<D - 1> next = foot.xi + inverse<D - 1>(metric) * right;
+    if (!next.allFinite()) break;  // the patch has no area here
     next = next.cwiseMax(-1).cwiseMin(1);
     const bool there = (next - foot.xi).cwiseAbs().maxCoeff() < 1e-12;
     foot.xi = next;
@@ -68,12 +70,15 @@ typename PresentSurface<D>::Foot PresentSurface<D>::nearest_in(const Vec<D>& p, 
 
 template <int D>
 typename PresentSurface<D>::Foot PresentSurface<D>::nearest(const Vec<D>& p, Index patch) const {
+  if (!p.allFinite())
+    throw SolveError("the new place of a node of the surface is not a finite number");
   Foot best = nearest_in(p, patch);
+  // Each patch comes nearer than all before it, so that none is visited twice.
   for (bool nearer = true; nearer;) {
     nearer = false;
     for (const Index other : at(beside_, best.patch)) {
       const Foot foot = nearest_in(p, other);
-      if (foot.distance >= best.distance * (1 - 1e-12)) continue;
+      if (!(foot.distance < best.distance * (1 - 1e-12))) continue;
       best = foot;
       nearer = true;
       break;

@@ -177,7 +177,8 @@ bool NewtonMethod<D>::search(Real time, Point& point, Real decrement) {
     add(trial.u, a, s_);
     if (!evaluate(time, trial, trial_r_)) continue;
     const Real released = point.potential - trial.potential;
-    if (released < 2 * least_share * a * decrement - noise * std::abs(point.potential)) continue;
+    const Real enough = 2 * least_share * a * decrement - noise * std::abs(point.potential);
+    if (!(released >= enough)) continue;  // also where the energy is not a number
     energy_scale_ = std::max(energy_scale_, released);
     point = std::move(trial);
     r_.swap(trial_r_);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two half spaces: derived numbers of an interaction, closed and with a cut-off.
+#include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
+#include "meniscus/physics/facet_grades.hpp"
+
+#include <cmath>
 
 #include "contact_reference.hpp"
 
@@ -84,6 +88,31 @@ TEST(ContactNumbers, HoldForTheLeastCutoff) {
     EXPECT_GT(c.lost_adhesion(), 0.1);
     EXPECT_LT(c.lost_adhesion(), 0.5);
   }
+}
+
+/// Whatever the size of its numbers, an interaction has finite numbers or is refused.
+TEST(ContactNumbers, AreFiniteOrRefused) {
+  int refused = 0;
+  for (const Real epsilon : {5e-324, 1e-200, 1.0, 1e200, 1e308})
+    for (const Real sigma0 : {5e-324, 1e-110, 1.0, 1e110, 1e308})
+      for (const Real beta : {5e-324, 1e-110, 1.0, 1e110, 1e308})
+        for (const Real cutoff : {4.0, std::numeric_limits<Real>::infinity()}) {
+          const ContactLaw law{PairKernel::space, epsilon, sigma0, cutoff};
+          const PlaneContact c = plane_contact(law, beta * beta);
+          FacetGrades(4, LennardJones(law, beta * beta), 1);
+          FacetGrades::of_pairs(8, LennardJones(law, beta * beta), 1);
+          try {
+            require_finite(c, "s.toml:3");
+            for (const Real x : {c.adhesion, c.equilibrium_gap, c.peak_traction, c.peak_gap})
+              EXPECT_TRUE(x > 0 && std::isfinite(x)) << epsilon << " " << sigma0 << " " << beta;
+          } catch (const InputError& error) {
+            ++refused;
+            EXPECT_TRUE(std::string(error.what()).starts_with("s.toml:3: the ")) << error.what();
+          }
+        }
+  EXPECT_GT(refused, 100);
+  EXPECT_LT(refused, 250);
+  EXPECT_NO_THROW(require_finite(plane_contact({PairKernel::space, 1, 1, 4}, 1), ""));
 }
 
 TEST(ContactNumbers, CutHalfSpaceIsTheClosedFormInSpace) {

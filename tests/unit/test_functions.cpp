@@ -3,6 +3,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,6 +84,18 @@ TEST(Functions, NumbersAndConstantsMayCallThem) {
   EXPECT_NE(other.find("'depth' by [functions]: formula '(radius*(1 + (0.5)))' is "),
             std::string::npos)
       << other;
+}
+
+/// Each of 60 functions calls the one before it twice: 2^60 calls.
+TEST(Functions, CallsAreCounted) {
+  std::string lines = "'f0(a)' = 'a'\n";
+  for (int k = 1; k < 60; ++k) lines += fmt::format("'f{}(a)' = 'f{}(f{}(a))'\n", k, k - 1, k - 1);
+  const std::string said = wrong(lines, "f59(x)");
+  EXPECT_NE(said.find("calls functions more than 10000 times"), std::string::npos) << said;
+  // Where each is called once, all is well.
+  lines = "'f0(a)' = 'a'\n";
+  for (int k = 1; k < 60; ++k) lines += fmt::format("'f{}(a)' = '1 + f{}(a)'\n", k, k - 1);
+  EXPECT_EQ(wrong(lines, "f59(x)"), "");
 }
 
 TEST(Functions, SettingsReplaceThem) {

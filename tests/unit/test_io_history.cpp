@@ -74,10 +74,15 @@ TEST_F(Histories, DamagedFilesAreNamedByLine) {
   EXPECT_THROW_WITH(History::read(path() / "absent"), FileError, "cannot read");
 }
 
-TEST_F(Histories, NotANumberIsKept) {
+TEST_F(Histories, WhatIsNotFiniteIsRefusedAndNotWritten) {
   HistoryWriter history(file(), columns_);
-  history.write(std::vector<Real>{0, std::nan("")});
-  EXPECT_TRUE(std::isnan(History::read(file()).column("aspect")[0]));
+  history.write(std::vector<Real>{0, 2});
+  const std::string before = content(file());
+  EXPECT_THROW_WITH(history.write(std::vector<Real>{0.5, std::nan("")}), SolveError,
+                    "time = 0.5: the column 'aspect' of history.csv would be not a number");
+  EXPECT_THROW_WITH(history.write(std::vector<Real>{0.5, -1 / 0.0}), SolveError,
+                    "would be infinite");
+  EXPECT_EQ(content(file()), before);
 }
 
 TEST_F(Histories, LogGoesToFileAndWarningsToStderr) {

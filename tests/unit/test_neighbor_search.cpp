@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace meniscus::test_neighbor_search {
@@ -87,6 +88,17 @@ TYPED_TEST(NeighborSearchTest, OrdersDistances) {
     EXPECT_NEAR(search.distance_of_nearest(x, 1000), distance.back(), 1e-15);
   }
   EXPECT_EQ(search.distance_of_nearest(points[3], 1), 0);
+}
+
+TYPED_TEST(NeighborSearchTest, FindsNothingNearAPlaceThatIsNotANumber) {
+  constexpr int D = TypeParam::value;
+  std::mt19937_64 generator(11);
+  const NeighborSearch<D> search(random_cloud<D>(50, generator));
+  const Vec<D> nowhere = Vec<D>::Constant(std::nan(""));
+  EXPECT_EQ(search.distance_of_nearest(nowhere, 1), unbounded);
+  std::vector<Index> found;
+  search.within(nowhere, unbounded, found);
+  EXPECT_TRUE(found.empty());
 }
 
 TYPED_TEST(NeighborSearchTest, FollowsAMovedCloud) {

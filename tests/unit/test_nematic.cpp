@@ -380,6 +380,25 @@ TEST(Nematic, TheStableStepTakesTheDirectorAlong) {
   EXPECT_LT(limit(-2.5), 0.6 * limit(0));
 }
 
+/// The number of stages grows with the square root of the step over the limit of the field.
+TEST(Nematic, RelaxesInABoundedNumberOfStages) {
+  Disturbed<2> drop("");
+  CarriedField& field = *drop.scene.system.carried.front();
+  field.set_limit(1);
+  EXPECT_EQ(field.stages(0), 2);
+  EXPECT_EQ(field.stages(1e6), 2236);
+  for (const Real limit : {1e-300, 0.0, std::nan("")}) {
+    field.set_limit(limit);
+    try {
+      field.stages(1e6);
+      FAIL() << limit;
+    } catch (const SolveError& error) {
+      EXPECT_NE(std::string(error.what()).find("a lower frank_constant"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Nematic, RefusesWhatCannotBe) {
   const auto complaint = [](const NematicDrop& drop, const std::string& more = "") -> std::string {
     try {

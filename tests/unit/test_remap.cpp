@@ -3,6 +3,7 @@
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/remap/nodal_values.hpp"
+#include "meniscus/remap/present_surface.hpp"
 #include "meniscus/scene/epochs.hpp"
 
 #include <fmt/core.h>
@@ -109,6 +110,32 @@ void expect_identity() {
 TEST(Remap, OntoTheOwnReferenceIsTheIdentity) {
   expect_identity<2>();
   expect_identity<3>();
+}
+
+/// A place that is not a number is refused wherever its neighbours are searched.
+template <int D>
+void expect_finite_places() {
+  Epochs<D> epochs = begun<D>(drop<D>(4, bend(D), no_displacement(D)));
+  const Body<D>& body = epochs.scene().system.bodies.front();
+  const NodalVector* u = epochs.simulation().state().u.data();
+  Vec<D> nowhere = Vec<D>::Zero();
+  nowhere[D - 1] = std::nan("");
+  const PresentSurface<D> surface(body, u);
+  for (const Real x : {std::nan(""), std::numeric_limits<Real>::infinity()}) {
+    nowhere[D - 1] = x;
+    EXPECT_THROW(surface.nearest(nowhere, 0), SolveError);
+  }
+  nowhere[D - 1] = std::nan("");
+  EXPECT_THROW(pre_images<D>(body, u, std::vector<Vec<D>>{nowhere}), SolveError);
+  std::vector<Vec<D>> nodes = nodes_of(epochs);
+  nodes[3] = nowhere;
+  EXPECT_THROW(epochs.new_epoch({{"drop", nodes}}), SolveError);
+  EXPECT_EQ(epochs.simulation().state().epoch, 0);
+}
+
+TEST(Remap, RefusesPlacesThatAreNotNumbers) {
+  expect_finite_places<2>();
+  expect_finite_places<3>();
 }
 
 /// A rotation and a dilatation, then again: the second time J_0 is not 1, and the surface is one

@@ -246,6 +246,21 @@ void expect_moments(Geometry<D> geometry) {
   }
 }
 
+/// In 2D a cell has three stress points. The fourth lane repeats one of them, so that it is folded
+/// or not finite only where a stress point is.
+TEST(CellRule, RepeatsAPointWhereALaneIsLeft) {
+  const auto body = test::body_of<2>(test::disk(4, 2));
+  const CellRule<2> rule = build_cell_rule(*body).rule;
+  const NodalVectors u = test::random_field<2>(body->size(), 1, 4);
+  for (Index L = 0; L < rule.groups(); ++L) {
+    Tensor<Lanes> H;
+    rule.gather(L, u.data(), H);
+    EXPECT_EQ(rule.weight(L)[3], 0);
+    for (int i = 0; i < 2; ++i)
+      for (int K = 0; K < 2; ++K) EXPECT_EQ(H(i, K)[3], H(i, K)[2]);
+  }
+}
+
 TEST(CellRule, PointsHaveTheMomentsOfTheCell) {
   expect_moments<2>(test::disk(4, 2));
   expect_moments<3>(test::brick<3>({3, 3, 4}, 0.3));

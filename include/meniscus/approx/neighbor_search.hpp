@@ -31,7 +31,8 @@ class NeighborSearch {
   void within_unsorted(const Vec<D>& x, Real radius, std::vector<Index>& found) const;
 
   /// Distance from x to its k-th nearest point (x itself counts if it is in the cloud). Clouds of
-  /// fewer than k points give the distance of the farthest.
+  /// fewer than k points give the distance of the farthest. Infinite if x is not a number: no point
+  /// is near it.
   Real distance_of_nearest(const Vec<D>& x, int k) const;
 
   /// Makes the one tree over other points, in its place.

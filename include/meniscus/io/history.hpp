@@ -36,12 +36,13 @@ class HistoryWriter {
   HistoryWriter(const std::filesystem::path& file, std::vector<HistoryColumn> columns,
                 std::optional<Real> continue_after = {});
 
-  /// Adds one row, a value per column. Throws FileError.
+  /// Adds one row, a value per column. Throws SolveError that names the first column whose value is
+  /// infinite or not a number, and writes nothing then; throws FileError if writing fails.
   void write(std::span<const Real> values);
 
  private:
   std::filesystem::path path_;
-  std::size_t columns_;
+  std::vector<HistoryColumn> columns_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 

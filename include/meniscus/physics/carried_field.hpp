@@ -26,9 +26,10 @@ class FieldEnergy {
 /// and is carried on: second order, with one force per step (cells note 5.4).
 class CarriedField {
  public:
-  /// `number` by System::add_field; the particles of the body are `first`... of all, with
-  /// `capacity` c.
-  CarriedField(std::size_t number, Index first, std::vector<Real> capacity);
+  /// `number` is that of System::add_field. The body has the particles from `first` on, with the
+  /// capacities c. `name` and `slower`, keys that make the field slower, are for messages.
+  CarriedField(std::size_t number, Index first, std::vector<Real> capacity, std::string name,
+               std::string slower);
   virtual ~CarriedField() = default;
 
   std::size_t number() const { return number_; }
@@ -59,7 +60,8 @@ class CarriedField {
 
   /// The longest step of explicit Euler, dx' = f/c, from which the number of stages follows.
   void set_limit(Real limit) { limit_ = limit; }
-  /// Of the relaxation over dt, by super time steps of second order (RKL2).
+  /// Number of stages in which the field relaxes over dt, by super time steps of second order
+  /// (RKL2). Throws SolveError if they are more than 10,000.
   int stages(Real dt) const;
   virtual void archive(const Archive& a);
 
@@ -72,6 +74,7 @@ class CarriedField {
   std::size_t number_;
   Index first_;
   std::vector<Real> capacity_;
+  std::string name_, slower_;
   std::vector<FieldEnergy*> energies_;
   Real limit_ = 0;
   NodalVectors from_, middle_;                        // places

@@ -14,6 +14,11 @@ namespace meniscus {
 /// with one all is exact to rounding, but softening_gap to half the digits.
 PlaneContact plane_contact(const ContactLaw& law, Real beta_product);
 
+/// Throws InputError that begins with `place` if a number of the contact is infinite or not a
+/// number, or if its adhesion, gap or traction is not positive: the numbers of the interaction are
+/// then too large or too small for floating-point arithmetic.
+void require_finite(const PlaneContact& contact, const std::string& place);
+
 /// Two half spaces (half planes) at the gap g > 0. The kernel `planar` counts per length and depth.
 PlaneState plane_state(const ContactLaw& law, Real beta_product, Real gap);
 

@@ -22,7 +22,8 @@ class PresentSurface {
     Real distance = 0;  ///< from the point whose foot it is
   };
   /// A point of the surface that is nearest to p among those near by: the search begins in `patch`
-  /// and goes on to patches that share a point for as long as it comes nearer.
+  /// and goes on to patches that share a point for as long as it comes nearer. Throws SolveError if
+  /// p is not finite.
   Foot nearest(const Vec<D>& p, Index patch) const;
 
   /// Points of the patches, by the numbers of PatchNodes.

@@ -3,6 +3,7 @@
 #include "meniscus/physics/contact_numbers.hpp"
 
 #include "meniscus/body/gauss.hpp"
+#include "meniscus/core/error.hpp"
 
 #include <fmt/core.h>
 
@@ -44,7 +45,7 @@ Real bisect(Real a, Real b, F&& f) {
   const bool rises = f(b) > 0;
   while (true) {
     const Real middle = a + (b - a) / 2;
-    if (middle == a || middle == b) return middle;
+    if (!(a < middle && middle < b)) return middle;  // also where one of them is not a number
     ((f(middle) > 0) == rises ? b : a) = middle;
   }
 }
@@ -96,6 +97,24 @@ PlaneContact plane_contact(const ContactLaw& law, Real beta_product) {
   c.peak_traction = -state(c.peak_gap).pressure;
   c.softening = -state(c.softening_gap).stiffness;
   return c;
+}
+
+void require_finite(const PlaneContact& contact, const std::string& place) {
+  const auto require = [&](const char* name, Real value, bool may_be_zero) {
+    if (std::isfinite(value) && (may_be_zero ? value >= 0 : value > 0)) return;
+    throw InputError(fmt::format(
+        "{}: the {} of this contact is {:.4g}, which no calculation can use; expected are numbers "
+        "of the interaction (epsilon, sigma0, beta, adhesion, range, offset) of a usual size: look "
+        "at their units",
+        place, name, value));
+  };
+  require("adhesion", contact.adhesion, false);
+  require("adhesion without cut-off", contact.uncut_adhesion, false);
+  require("equilibrium gap", contact.equilibrium_gap, false);
+  require("peak traction", contact.peak_traction, false);
+  require("gap of the peak traction", contact.peak_gap, false);
+  require("stiffness", contact.stiffness, true);
+  require("softening", contact.softening, true);
 }
 
 std::optional<Real> contact_angle(Real adhesion, Real gamma) {

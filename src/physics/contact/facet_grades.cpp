@@ -25,9 +25,10 @@ Real distance_for(const Interaction& interaction, Real bearable, F&& error) {
   const auto enough = [&](Real a) {
     return error(a) * std::abs(interaction.at(a).pressure) < bearable * flat.peak_traction;
   };
-  // Beyond the largest traction the error falls with the distance.
+  // Beyond the largest traction the error falls with the distance. A law without a finite traction
+  // has no such distance: then `far` becomes infinite and no grade is used.
   Real near = flat.peak_gap, far = near;
-  while (!enough(far)) far *= 2;
+  while (std::isfinite(far) && !enough(far)) far *= 2;
   while (far - near > 1e-6 * far) {
     const Real middle = (near + far) / 2;
     (enough(middle) ? far : near) = middle;
