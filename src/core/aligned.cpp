@@ -24,7 +24,7 @@ std::align_val_t alignment_of(std::size_t bytes) {
 void* allocate_lines(std::size_t bytes) {
   const std::align_val_t alignment = alignment_of(bytes);
   void* const p = ::operator new(bytes, alignment);
-  // A wish: where the system has no such pages, others do.
+  // This is a hint: a system without large pages uses others.
   if (static_cast<std::size_t>(alignment) == large_page) madvise(p, bytes, MADV_HUGEPAGE);
   return p;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Named numbers of a scene, the table [constants], and what formulas of them are.
+// Named numbers of a scene, the table [constants], and the values of formulas with them.
 #include "constants.hpp"
 
 #include "meniscus/core/error.hpp"
@@ -18,8 +18,8 @@
 namespace meniscus {
 namespace {
 
-/// Formulas are made with the constants that occur in them, as there may be a thousand; with all,
-/// if one is to be said that was meant.
+/// The expression of a formula. Only the constants that occur in it are passed, since there may be
+/// a thousand of them. If the formula is wrong, all are passed, for the suggestion in the message.
 Expression expression_of(const std::string& formula, const NamedNumbers& constants) {
   const std::vector<std::string> names = names_in(formula);
   NamedNumbers used;
@@ -117,7 +117,8 @@ Real Constants::value(const std::string& formula, Dimension expected) const {
   return value;
 }
 
-/// Their values in other units are no numbers; but what is compared with no number is one again.
+/// True if the dimension of the formula is unknown because it uses a plain number. The NaN in
+/// numbers_[1 .. 3] alone do not show this: a comparison with NaN gives a number.
 bool Constants::plain_number_in(std::string_view formula) const {
   const std::vector<std::string> names = names_in(formula);
   return std::any_of(numbers_[1].begin(), numbers_[1].end(), [&](const auto& c) {

@@ -14,7 +14,7 @@ Real determinant(const Mat<D>& A) {
   return A.determinant();
 }
 
-// In the order of Eigen's.
+// In the same order of operations as in Eigen.
 template <std::size_t D>
 Lanes determinant(const std::array<std::array<Lanes, D>, D>& A) {
   const auto a = [&](std::size_t i, std::size_t j) { return A[i][j].v; };
@@ -48,7 +48,8 @@ Mat<3> square_root(const Mat<3>& S) {
   return Eigen::SelfAdjointEigenSolver<Mat<3>>(S).operatorSqrt();
 }
 
-/// By that in three dimensions: to compile Eigen's in two takes longer than all else here.
+/// Uses the 3D function: compiling Eigen's solver for 2 x 2 matrices takes longer than the whole
+/// file.
 template <>
 Mat<2> square_root(const Mat<2>& S) {
   Mat<3> in_space = Mat<3>::Zero();
@@ -73,7 +74,7 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& S, const Eigen::VectorXd&
   return S.ldlt().solve(b);
 }
 
-/// By bisection: the signs of the pivots of A - x I tell how many eigenvalues are below x (Sturm).
+/// By bisection: the signs of the pivots of A - x I give the number of eigenvalues below x (Sturm).
 Real least_eigenvalue(const std::vector<Real>& diagonal, const std::vector<Real>& beside) {
   const auto any_below = [&](Real x) {
     Real pivot = 1;
@@ -89,7 +90,7 @@ Real least_eigenvalue(const std::vector<Real>& diagonal, const std::vector<Real>
     const Real radius =
         (k > 0 ? std::abs(beside[k - 1]) : 0) + (k + 1 < diagonal.size() ? std::abs(beside[k]) : 0);
     low = std::min(low, diagonal[k] - radius);
-    high = std::min(high, diagonal[k]);  // not below the least
+    high = std::min(high, diagonal[k]);  // the smallest eigenvalue is not above this
   }
   for (int halvings = 0; halvings < 60; ++halvings) {
     const Real middle = 0.5 * (low + high);

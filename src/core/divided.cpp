@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Items and rows divided between the ranks, and what each has of them brought to all.
+// Items and rows divided between the ranks, and their exchange.
 #include "meniscus/core/divided.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// Brings parts of an array of values, of rank r those from first(r) to first(r + 1).
+/// Gathers values: rank r provides those from first(r) to first(r + 1) - 1.
 template <class First>
 void Division::complete(void* values, std::size_t bytes_per_value, First&& first) const {
   if (ranks().alone() || is_to_each()) return;
@@ -64,7 +64,7 @@ void Division::complete_rows(Index n, void* values, std::size_t bytes_per_value)
 
 namespace {
 
-/// The place in the list of the first row that is not below this one.
+/// The place in the list of the first row that is not below `row`.
 Index place_of(std::span<const Index> listed, Index row) {
   return static_cast<Index>(std::lower_bound(listed.begin(), listed.end(), row) - listed.begin());
 }
@@ -83,8 +83,8 @@ void Division::complete_listed(Index n, std::span<const Index> listed, void* val
 
 namespace {
 
-/// The share of a rank that bodies up to `largest` rows leave the one with most if they are whole,
-/// and where they are.
+/// Places bodies with up to `largest` rows on one rank each and divides the others evenly. Returns
+/// the rows of the rank with most of them, relative to an even share.
 Real place_whole(std::span<const Index> rows, Index largest, std::vector<Division>& divisions) {
   const int size = ranks().size();
   Offset small = 0, all = 0;
@@ -114,7 +114,7 @@ std::vector<Division> divide(std::span<const Index> rows) {
   const Offset all = std::accumulate(rows.begin(), rows.end(), Offset{0});
   Index largest = static_cast<Index>(all / (2 * ranks().size()));
   while (largest > 0 && place_whole(rows, largest, divisions) > bearable) {
-    // Without those that were the largest.
+    // Divide the largest of the bodies evenly, too.
     Index next = 0;
     for (const Index n : rows)
       if (n <= largest) next = std::max(next, n);

@@ -21,14 +21,14 @@
 
 namespace meniscus {
 
-/// muParser keeps its stack and our variables in memory shared by all copies, hence the lock.
+/// muParser keeps its stack and the variables in memory shared by all copies: hence the lock.
 struct Expression::Parsed {
   std::mutex lock;
   std::array<Real, 4> variables{};  ///< x, y, z, t
   mu::Parser parser;
   std::string place;
   NamedNumbers constants;
-  std::optional<ExpressionJets> jets;  ///< once they were asked for
+  std::optional<ExpressionJets> jets;  ///< made at the first call of jet()
 };
 
 namespace {
@@ -54,7 +54,8 @@ Real greatest(const Real* values, int count) {
   return *std::max_element(values, values + count);
 }
 
-/// Our own list of functions: what a scene means must not depend on the version of a library.
+/// Defines all functions here, so that the meaning of a scene does not depend on the muParser
+/// version.
 void define_language(mu::Parser& parser, std::array<Real, 4>& variables) {
   parser.ClearFun();
   parser.ClearConst();
@@ -94,8 +95,8 @@ std::vector<std::string> known_names(const mu::Parser& parser) {
   return names;
 }
 
-/// Refuses what muParser would misread without a word: a control character ends the formula for it,
-/// and a single = assigns to x, y, z or t.
+/// Refuses formulas that muParser would misread silently: a control character ends the formula, and
+/// a single = assigns to x, y, z or t.
 void refuse_traps(const std::string& formula) {
   constexpr std::string_view partners = "=!<>";
   for (std::size_t i = 0; i < formula.size(); ++i) {
@@ -112,7 +113,7 @@ void refuse_traps(const std::string& formula) {
   }
 }
 
-/// What muParser found, in our words.
+/// The error of muParser as a message of this program.
 std::string explain(const mu::ParserError& error, const mu::Parser& parser,
                     const std::string& formula) {
   const std::string& token = error.GetToken();

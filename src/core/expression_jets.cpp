@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derivatives of formulas. muParser knows plain numbers only: a number that depends on the place is
-// handed through it as a NaN whose bits are the number of a jet.
+// Derivatives of formulas. muParser computes with doubles only. A jet is passed through it as a NaN
+// whose bits are an index into a list of jets.
 #include "expression_jets.hpp"
 
 #include <muParser.h>
@@ -20,7 +20,7 @@ using Number = Jet<3>;
 
 constexpr std::uint64_t tag = 0x7ff94a4500000000, low_half = 0xffffffff;
 
-/// The jets of the evaluation under way in this thread.
+/// The jets of the current evaluation in this thread.
 thread_local std::vector<Number> jets;
 
 Real handle(const Number& jet) {
@@ -34,7 +34,7 @@ Number number(Real value) {
   return (bits & ~low_half) == tag ? at(jets, bits & low_half) : Number(value);
 }
 
-/// Derivatives of a function of one number.
+/// Value and derivatives of a function of one number.
 struct Slopes {
   Real f, first, second;
 };
@@ -125,7 +125,7 @@ Real multiply(Real a, Real b) {
 }
 Real divide(Real a, Real b) {
   Number quotient = number(a) / number(b);
-  quotient.value = number(a).value / number(b).value;  // to the last bit that of numbers
+  quotient.value = number(a).value / number(b).value;  // bitwise as for numbers
   return handle(quotient);
 }
 Real negative(Real a) {
@@ -157,7 +157,7 @@ Real angle(Real a, Real b) {
                       (y.value * y.value - x.value * x.value) / (r2 * r2), twist));
 }
 
-/// The least with std::less, the greatest with std::greater.
+/// The smallest value with std::less, the largest with std::greater.
 template <class Before>
 Real first_by(const Real* values, int count) {
   return *std::min_element(values, values + count, [](Real a, Real b) {
@@ -190,7 +190,7 @@ Real either(Real a, Real b) {
   return number(a).value != 0 || number(b).value != 0;
 }
 
-/// The language of Expression, of jets.
+/// Defines the functions and operators of Expression for jets.
 void define_language(mu::Parser& parser) {
   parser.ClearFun();
   parser.ClearConst();

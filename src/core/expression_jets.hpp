@@ -6,8 +6,7 @@
 
 namespace meniscus {
 
-/// A formula that was read once already, read again with jets in the place of numbers. One thread
-/// at a time.
+/// Parses a valid formula again, with jets in place of numbers. One thread at a time.
 class ExpressionJets {
  public:
   ExpressionJets(const std::string& formula, const NamedNumbers& constants);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of particles that are followed, and the rest brought back.
+// Ranges of followed particles, and the exchange of the others at the end of steps in a halo.
 #include "meniscus/core/halo.hpp"
 
 #include <limits>

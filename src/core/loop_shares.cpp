@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Taking parts of a loop from the share of a thread, and from those of others.
+// Threads take parts of a loop from their own share, then from others.
 #include "meniscus/core/loop_shares.hpp"
 
 #include <omp.h>
@@ -21,7 +21,7 @@ std::uint32_t end_of(Parts parts) {
   return static_cast<std::uint32_t>(parts >> 32);
 }
 
-/// What a part says is written before the loop and read after it: these need no order of their own.
+/// Relaxed order is enough: the data of a part are written before the loop and read after it.
 Index take_first(std::atomic<Parts>& share) {
   Parts parts = share.load(std::memory_order_relaxed);
   while (next_of(parts) < end_of(parts))

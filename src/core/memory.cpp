@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory as Linux tells it.
+// Memory use and limits, read from Linux.
 #include "meniscus/core/memory.hpp"
 
 #include <sys/resource.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr Real unlimited = std::numeric_limits<Real>::infinity();
 
-/// The number behind `word` in a file of the system.
+/// The number behind `word` in a file of the system; infinite if there is none.
 Real number_behind(const char* file, const std::string& word) {
   std::ifstream in(file);
   for (std::string found; in >> found;)
@@ -29,7 +29,7 @@ Real only_number(const char* file) {
   return in >> value ? value : unlimited;
 }
 
-/// What the limit on the address space leaves.
+/// The bytes that the limit on the address space leaves.
 Real left_of_addresses() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Owners of the chunks of all particles, and exchanges by them.
+// The owners of the chunks of all particles, and exchanges between them.
 #include "meniscus/core/particle_owners.hpp"
 
 #include <algorithm>

@@ -9,26 +9,27 @@
 
 namespace meniscus {
 
-/// `factor` * 10^`tens` in SI. Powers of ten are kept apart so that they stay exact.
+/// A unit: `factor` * 10^`tens` in SI. Powers of ten are kept apart so that they stay exact.
 struct Unit {
   Dimension dimension;
   int tens = 0;
   Real factor = 1;
   int angle = 0;  ///< the power of rad and deg in it
 };
-/// In rad.
+/// One degree in rad.
 inline constexpr Real degree = std::numbers::pi / 180;
 
 /// The unit called `symbol`, prefix included, e.g. "mPa". Throws InputError (without a place) that
-/// names the units that look or sound like it.
+/// names units with a similar spelling or sound.
 Unit unit_called(std::string_view symbol);
-/// Whether there is one.
+/// True if unit_called() finds the symbol.
 bool is_unit(std::string_view symbol);
 
-/// "a pressure (kg/(m s^2))": always in base units, so that two of them can be compared.
+/// The dimension as text, "a pressure (kg/(m s^2))", always in base units so that two can be
+/// compared.
 std::string name_of(Dimension);
 
-/// digits * 10^exponent times a unit.
+/// A number and its unit: digits * 10^exponent * unit.
 struct Quantity {
   std::string_view digits;  ///< points into the text
   int exponent = 0;

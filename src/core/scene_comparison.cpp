@@ -32,7 +32,7 @@ bool same_scalar(const Value& a, const Value& b) {
   return true;
 }
 
-/// Adds the names of what differs between two values; nothing stands for one that is absent.
+/// Adds the names of differing values to `differing`. A null pointer is an absent value.
 class Comparison {
  public:
   void compare(const std::string& name, const Value* a, const Value* b) {

@@ -21,7 +21,7 @@
 namespace meniscus {
 namespace {
 
-/// Throws InputError (without a place) if formulas could not tell the name from something else.
+/// Throws InputError (without a place) if the name has another meaning in formulas.
 void require_free_name(const std::string& name) {
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return c < 0x80 && (std::isalnum(c) != 0 || c == '_');
@@ -42,7 +42,7 @@ void require_free_name(const std::string& name) {
 
 }  // namespace
 
-/// Evaluates constants in the order in which they need each other.
+/// Evaluates constants in the order of their dependencies.
 class Block::Node::ConstantsReader {
  public:
   explicit ConstantsReader(Node& table) : table_(table) {}
@@ -61,7 +61,8 @@ class Block::Node::ConstantsReader {
   Constants& constants() { return table_.document->constants; }
   const UnitSystem& units() const { return table_.document->units; }
 
-  /// Whether there is one; if not, the problem was noted at the constant that it needs.
+  /// Adds the constant. Returns false if a constant that it needs is broken, which is already
+  /// reported.
   bool number(const std::string& name, const scene_tree::Value& value) {
     require_free_name(name);
     if (constants().functions.find(name) != nullptr)
@@ -87,7 +88,7 @@ class Block::Node::ConstantsReader {
     input_values::refuse_kind(value, "a number, a text with a unit, or a formula of [constants]");
   }
 
-  /// Reads the constants that occur in a text; whether all are in order.
+  /// Reads the constants that occur in a text. Returns true if all of them are valid.
   bool read_needed(const std::string& text) {
     for (const std::string& needed : names_in(text)) {
       const scene_tree::Entry* entry = table_.table->find(needed);
@@ -104,7 +105,7 @@ class Block::Node::ConstantsReader {
     return !constants().broken_in(text);
   }
 
-  /// A formula if one of the constants occurs in it, else a quantity if it can be one.
+  /// Reads a text as a formula if a constant occurs in it, else as a quantity if possible.
   void add(const std::string& name, const std::string& text) {
     if (constants().in(text)) return constants().add_formula(name, text);
     std::optional<Unit> unit;
@@ -129,7 +130,7 @@ class Block::Node::ConstantsReader {
 
   Node& table_;
   std::set<std::string> begun_;
-  std::vector<std::string> under_way_;  ///< each needs the next
+  std::vector<std::string> under_way_;  ///< each depends on the next
 };
 
 void Block::Node::read_constants() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `--set key.path=value`: finding the place in the tree and putting the value there.
+// `--set key.path=value`: finds the place in the tree and sets the value.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From TOML to a tree of values. The only file that sees toml++.
+// From TOML to a tree of values. This is the only file that includes toml++.
 #include "scene_tree.hpp"
 
 #include "meniscus/core/error.hpp"
@@ -24,7 +24,8 @@ Place place_of(const toml::source_region& source) {
   throw InputError(fmt::format("{}:{}:{}: {}", name, place.line, place.column, what));
 }
 
-/// From the nodes of the parser, with limits that no scene meets and that keep searches short.
+/// Converts the nodes of the parser, with limits that no scene reaches and that keep searches
+/// short.
 class Converter {
  public:
   explicit Converter(const std::string& name) : name_(name) {}
@@ -72,7 +73,8 @@ class Converter {
       refuse(name_, place, fmt::format("has {} {}; allowed are at most {}", count, of, most));
   }
 
-  /// A NUL would end every message about the text, and other control characters command terminals.
+  /// Refuses control characters: NUL would end messages that show the text, others control
+  /// terminals.
   void require_plain(std::string_view text, const Place& place) const {
     for (const char c : text)
       if ((static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') ||
@@ -86,7 +88,7 @@ class Converter {
   const std::string& name_;
 };
 
-/// Passes over comments and texts of a document, which may hold anything.
+/// Reads a document character by character and skips comments and texts, which may hold anything.
 class Skimmer {
  public:
   explicit Skimmer(std::string_view toml) : toml_(toml) {}
@@ -106,7 +108,8 @@ class Skimmer {
   bool at(std::string_view mark) const { return toml_.substr(position_).starts_with(mark); }
   void skip_line() { position_ = std::min(toml_.find('\n', position_), toml_.size()); }
 
-  /// Behind its first quote; one that is never closed ends with its line, as for the parser.
+  /// Skips a text, from behind its first quote. A text without closing quote ends with its line, as
+  /// in the parser.
   void skip_text(char quote) {
     const std::string three(3, quote);
     const bool many_lines = at(three.substr(1));
@@ -120,7 +123,7 @@ class Skimmer {
       position_ += toml_[position_] == '\\' && quote == '"' ? 2 : 1;
     }
     position_ = std::min(position_ + close.size(), toml_.size());
-    // Two more quotes before the end belong to a text of many lines.
+    // Up to two more quotes before the closing ones belong to a multi-line text.
     for (int k = 0; many_lines && k < 2 && !at_end() && toml_[position_] == quote; ++k) ++position_;
   }
 
@@ -129,8 +132,9 @@ class Skimmer {
   int line_ = 1;
 };
 
-/// The parser limits nested values but not dotted keys, a.a.a...; each dot is a level of recursion
-/// when the tables are taken apart, and enough of them overflow the stack.
+/// Refuses keys with many dots. The parser limits nested values but not dotted keys, a.a.a...: each
+/// dot is a level of recursion when the tables are destroyed, and enough of them overflow the
+/// stack.
 void refuse_deep_keys(std::string_view toml, const std::string& name) {
   constexpr int max_dots = 10;
   constexpr std::string_view separators = ",=[]{}\n";
@@ -144,7 +148,7 @@ void refuse_deep_keys(std::string_view toml, const std::string& name) {
   }
 }
 
-/// "; write \"10 ms\"" if what the parser could not read is a quantity without quotes.
+/// "; write \"10 ms\"" if the value that the parser could not read is a quantity without quotes.
 std::string missing_quotes(std::string_view toml, const Place& place) {
   for (int line = 1; line < place.line && !toml.empty(); ++line)
     toml.remove_prefix(std::min(toml.find('\n'), toml.size() - 1) + 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene as a tree of values with their places: what the TOML parser delivers, in file order.
+// A scene as a tree of values with their places, in file order, made by the TOML parser.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -12,7 +12,7 @@
 
 namespace meniscus::scene_tree {
 
-/// Where something stands: in the file (setting 0) or in the n-th `--set` (line and column 0).
+/// Where a value stands: in the file (setting 0) or in the n-th `--set` (line and column 0).
 struct Place {
   int setting = 0, line = 1, column = 1;
   friend auto operator<=>(const Place&, const Place&) = default;
@@ -28,7 +28,7 @@ struct Table {
   Entry* find(std::string_view key);
   std::vector<std::string> keys() const;
 };
-struct Date {};  ///< dates and times: no key of a scene takes one
+struct Date {};  ///< a date or time, which no key accepts
 
 struct Value {
   std::variant<bool, std::int64_t, Real, std::string, Date, Array, Table> data;
@@ -40,10 +40,10 @@ struct Entry {
   Value value;
 };
 
-/// "an integer", "a text", ...: what a value is, for messages.
+/// The type of a value for messages: "an integer", "a text", ...
 std::string_view kind(const Value& value);
 
-/// Parses a document. Throws InputError "name:line:column: what the parser says".
+/// Parses a document. Throws InputError "name:line:column: message of the parser".
 Value parse(std::string_view toml, const std::string& name);
 
 /// Applies "key.path=value" as the n-th setting (n from 1). A path leads through tables, `name[i]`

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SHA-256. The only file that sees OpenSSL.
+// SHA-256. This is the only file that includes OpenSSL.
 #include "meniscus/core/sha256.hpp"
 
 #include <fmt/core.h>

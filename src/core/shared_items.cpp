@@ -14,7 +14,7 @@ void SharedItems::complete(void* values, std::size_t bytes_per_value) {
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   sorted_.resize(begin_.back());
   auto* bytes = static_cast<std::byte*>(values);
-  // Calls copy(sorted, in order) for the items that are or are not of this rank.
+  // Calls copy(place in sorted_, place in values) for the items of this rank, or for all others.
   const auto for_items = [&](bool own, auto&& copy) {
     next_.assign(begin_.begin(), begin_.end() - 1);
     for (std::size_t k = 0; k < rank_.size(); ++k) {

@@ -28,7 +28,7 @@ constexpr std::pair<Dimension, std::string_view> dimension_names[] = {
     {dimension::momentum, "a momentum"}, {dimension::angular_momentum, "an angular momentum"},
 };
 
-/// Products of base units as text: mass, length, time; those with negative powers below the bar.
+/// A product of base units as text: mass, length, time; negative powers follow the slash.
 std::string composed(Dimension d, std::string_view length, std::string_view time,
                      std::string_view mass) {
   std::string above, below;

@@ -10,12 +10,13 @@
 
 namespace meniscus {
 
-/// Memory that starts a cache line; from 4 MB on it starts a page of 2 MB and the system is asked
-/// for such pages, of which the processor finds the address sooner (performance note 2).
+/// Allocates memory that starts on a cache line. From 4 MB on it starts on a page of 2 MB, and the
+/// system is asked for pages of that size: they need fewer address translations (performance note
+/// 2).
 void* allocate_lines(std::size_t bytes);
 void release_lines(void* p, std::size_t bytes);
-/// Has the system fill pages of memory that is allocated and not used yet, on all threads: one
-/// alone waits for it as long as for what it writes there.
+/// Touches the pages of allocated, unused memory on all threads, so that the system provides them
+/// in parallel. One thread alone would wait for them about as long as for writing the data.
 void take_pages(void* begin, std::size_t bytes);
 
 template <class T>
@@ -36,7 +37,7 @@ struct CacheLineAllocator {
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
-/// Leaves new elements as the memory is: who makes them writes them.
+/// Leaves new elements uninitialised: the caller has to write them.
 template <class T>
 struct UnsetAllocator : CacheLineAllocator<T> {
   UnsetAllocator() = default;
@@ -52,11 +53,12 @@ struct UnsetAllocator : CacheLineAllocator<T> {
   }
 };
 
-/// A long vector that is filled by all threads.
+/// A long vector that all threads fill.
 template <class T>
 using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 
-/// Resizes a vector, quickly where it is empty or that much is reserved.
+/// Resizes a vector. The pages of new elements are touched in parallel if the vector is empty or
+/// enough memory is reserved.
 template <class T>
 void grow(UnsetVector<T>& v, std::size_t size) {
   if (v.empty()) v.reserve(size);
@@ -65,13 +67,13 @@ void grow(UnsetVector<T>& v, std::size_t size) {
   v.resize(size);
 }
 
-/// A vector of one particle, padded to four doubles (2D and 3D alike), so that it is one register.
+/// A vector of one particle in 2D or 3D, padded to four doubles so that it fits one register.
 /// Components beyond D are zero and stay zero.
 using NodalVector = Lanes;
 /// One vector per particle.
 using NodalVectors = AlignedVector<NodalVector>;
-/// The same for intermediate results, which are written before they are read: pages of particles
-/// that a rank does not follow take no memory.
+/// One vector per particle for intermediate results, which are written before they are read. Pages
+/// of particles that a rank does not follow take no memory.
 using NodalScratch = UnsetVector<NodalVector>;
 
 /// The first D components of entry i.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The archive: one description of what an object keeps, for saving it and for restoring it.
+// The archive: one list of the values that an object keeps, for saving and for restoring them.
 #pragma once
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/snapshot.hpp"
@@ -11,30 +11,31 @@
 
 namespace meniscus {
 
-/// A place in a snapshot that values are written to or read from by the same lines, so that nothing
-/// can be saved in one way and restored in another:
+/// A part of a snapshot. One function writes the values of an object to it and reads them from it,
+/// so saving and restoring cannot differ:
 ///
-///   void Clock::archive(const Archive& a) {
-///     a("time", time_, dimension::time);
-///     hand_.archive(a.in("hand"));
-///   }
+///     void Clock::archive(const Archive& a) {
+///       a("time", time_, dimension::time);
+///       hand_.archive(a.in("hand"));
+///     }
 ///
-/// Reading throws FileError that names what is absent, of another type or of another size than the
-/// object has; writing throws std::logic_error where a name is taken.
+/// Reading throws FileError that names an array that is absent, has another type or another size
+/// than the object. Writing throws std::logic_error if a name is taken.
 class Archive {
  public:
   using Symbol = std::function<std::string(Dimension)>;
 
-  /// `symbol` writes the units beside the values; without it there are none.
+  /// `symbol` returns the unit that is written beside the values; without it the unit is "1".
   static Archive writing(Snapshot& snapshot, Symbol symbol = {});
   static Archive reading(const Snapshot& snapshot);
-  /// Writes nowhere: of a rank whose part in writing is what the first rank asks of it.
+  /// Writes nothing. Ranks other than the first use it: they take part in the exchanges that saving
+  /// needs, and the first rank writes.
   static Archive nowhere() { return {}; }
 
   bool is_reading() const { return from_ != nullptr; }
   /// The archive of a part; its names begin with "group/".
   Archive in(std::string_view group) const;
-  /// Whether the snapshot that is read has anything of that part.
+  /// True if the snapshot to read has an array in that group.
   bool has(std::string_view group) const;
 
   void operator()(std::string_view name, Real& x, Dimension dimension = {}) const;
@@ -42,14 +43,14 @@ class Archive {
   void operator()(std::string_view name, bool& x) const;
   void operator()(std::string_view name, std::string& x) const;
   void operator()(std::string_view name, Eigen::Vector3d& x, Dimension dimension = {}) const;
-  /// Nothing is kept of an empty one.
+  /// Writes nothing if x is empty; reads an absent value as empty.
   void operator()(std::string_view name, std::optional<Real>& x, Dimension dimension = {}) const;
-  /// A number for each key that the object has.
+  /// One number for each key of x.
   void operator()(std::string_view name, std::map<std::string, Real>& x,
                   Dimension dimension = {}) const;
-  /// As many numbers as the object has.
+  /// x.size() numbers.
   void operator()(std::string_view name, std::vector<Real>& x, Dimension dimension = {}) const;
-  /// The first `components` of as many vectors as the object has.
+  /// The first `components` of each of the x.size() vectors.
   void operator()(std::string_view name, NodalVectors& x, int components,
                   Dimension dimension = {}) const;
 
@@ -58,7 +59,7 @@ class Archive {
   std::string full(std::string_view name) const { return prefix_ + std::string(name); }
   bool is_nowhere() const { return !to_ && !from_; }
   void numbers(std::string_view name, std::span<Real> x, Dimension dimension) const;
-  /// The full name of something new.
+  /// The full name of a new array; throws std::logic_error if it is taken.
   std::string unused(std::string_view name) const;
 
   Snapshot* to_ = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box around points, its faces along the axes.
+// Bounding boxes of points, with faces normal to the axes.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -17,12 +17,12 @@ struct Box {
     include(other.low);
     include(other.high);
   }
-  /// Makes it larger by so much on every side.
+  /// Moves each face outwards by `margin`.
   void grow(Real margin) {
     low.array() -= margin;
     high.array() += margin;
   }
-  /// Whether they have a point in common.
+  /// True if the boxes have a point in common.
   bool meets(const Box& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
@@ -30,7 +30,7 @@ struct Box {
   Vec<D> centre() const { return 0.5 * (low + high); }
 };
 
-/// Around a range of Vec<D>.
+/// The bounding box of a range of Vec<D>.
 template <int D, class Points>
 Box<D> box_around(const Points& points) {
   Box<D> box;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Items sorted by a number that each of them has.
+// Counting sort: items sorted by the number of their bucket.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -8,10 +8,11 @@
 
 namespace meniscus {
 
-/// Sorts items by the bucket they belong to, 0 .. count - 1; in a bucket they keep their order.
-/// `visit(f)` is called twice and calls f(bucket, item) for every item, in the same order;
-/// in between, `make_room` is told the number of items, and `put(k, item)` then the place k of
-/// each. Returns the places at which the buckets begin, and behind them the number of items.
+/// Sorts items by bucket, 0 .. count - 1; within a bucket their order is kept. `visit(f)` is called
+/// twice and has to call f(bucket, item) for every item, in the same order both times. Between the
+/// two passes make_room(number of items) is called. In the second pass put(k, item) is called with
+/// the place k of each item. Returns the begin of each bucket, and the number of items as last
+/// entry.
 template <class Place, class Visit, class MakeRoom, class Put>
 std::vector<Place> sort_into_buckets(Index count, Visit&& visit, MakeRoom&& make_room, Put&& put) {
   std::vector<Place> begin(static_cast<std::size_t>(count) + 1, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops over what all ranks of a run hold, of which each rank does a part (scaling note 2).
+// Loops over items that all ranks hold; each rank computes a part of them (scaling note 2).
 #pragma once
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/core/ranks.hpp"
@@ -9,56 +9,58 @@
 
 namespace meniscus {
 
-/// The items that a rank does of n, a neighbouring part.
+/// The range of items out of n that one rank computes.
 using OwnItems = ItemRange;
 
-/// How items and rows are divided between the ranks: evenly, or, those of a small body, all to one,
-/// or all to each. Rows are divided in their chunks.
+/// How the rows and items of a body are divided between the ranks: evenly, all on one rank (a small
+/// body), or all on each rank. Rows are divided at the borders of their chunks.
 class Division {
  public:
   constexpr Division() = default;
-  /// All to one rank.
+  /// All items on one rank.
   constexpr explicit Division(int rank) : place_(rank) {}
-  /// All to each rank, which all do the same: nothing is brought.
+  /// Each rank computes all items, so nothing is exchanged.
   static constexpr Division to_each() { return Division(each); }
 
-  /// Whether all are of one rank.
+  /// True if one rank has all items.
   bool is_whole() const { return place_ >= 0; }
-  /// That has all, as this rank sees it; of a division that is not even.
+  /// The rank that has all items, for a division that is not even. With to_each() this is the
+  /// calling rank.
   int only_rank() const { return place_ == each ? ranks().rank() : place_; }
   bool is_to_each() const { return place_ == each; }
-  /// Whether this rank may have rows or items.
+  /// True if this rank can have rows or items.
   bool has_some() const { return place_ == even || only_rank() == ranks().rank(); }
-  /// Items of this rank.
+  /// The items of this rank.
   OwnItems own_items(Index n) const;
-  /// With which those of a rank begin; of the number of ranks: n.
+  /// The first item of a rank; n for rank = number of ranks.
   Index first_item(Index n, int rank) const;
-  /// The rank that does an item of n.
+  /// The rank that computes an item out of n.
   int rank_of_item(Index n, Index item) const;
-  /// Brings values of so many bytes, [item], of the others.
+  /// Gathers values[item], of `bytes_per_value` bytes each: each rank gets the items of all others.
   void complete_items(Index n, void* values, std::size_t bytes_per_value) const;
-  /// The same for those only that may have rows: nothing is sent of a whole body.
+  /// Like complete_items(), but does nothing if one rank has all items: nobody else needs them.
   void complete_where_rows_are(Index n, void* values, std::size_t bytes_per_value) const {
     if (place_ == even) complete_items(n, values, bytes_per_value);
   }
-  /// Of items with several values each, those of item i from values[start[i]] to
-  /// values[start[i + 1]].
+  /// Like complete_items() for items with several values each: item i has values[start[i]] to
+  /// values[start[i + 1] - 1].
   void complete_runs(Index n, std::span<const Offset> start, void* values,
                      std::size_t bytes_per_value) const;
 
-  // The same of rows.
+  // The same functions for rows instead of items.
   OwnItems own_rows(Index n) const;
   Index first_row(Index n, int rank) const;
   int rank_of_row(Index n, Index row) const;
   void complete_rows(Index n, void* values, std::size_t bytes_per_value) const;
-  /// Of some of n rows, listed in ascending order: those of this rank, places in the list.
+  /// The part of a list that belongs to this rank. `listed` has some of n rows in ascending order;
+  /// the result is a range of places in the list.
   ItemRange own_listed(Index n, std::span<const Index> listed) const;
-  /// Brings values, [place in the list].
+  /// Gathers values[place in the list].
   void complete_listed(Index n, std::span<const Index> listed, void* values,
                        std::size_t bytes_per_value) const;
 
-  /// Calls use(i, value) for all i < n in ascending order on all ranks, with value = make(i) of the
-  /// rank whose rows have i. Makes those of a chunk at a time.
+  /// Calls use(i, value) on all ranks for all i < n in ascending order. The rank that has row i
+  /// computes value = make(i). Values are made and sent one chunk at a time.
   template <class Make, class Use>
   void for_all_in_order(Index n, Make&& make, Use&& use) const {
     std::vector<decltype(make(0))> values;
@@ -73,13 +75,14 @@ class Division {
     }
   }
 
-  /// parallel_sum() with the same bits, of which each rank does the chunks of its rows.
+  /// parallel_sum() with the same bits. Each rank adds up the chunks of its rows, then sums are
+  /// gathered.
   template <class T, class F>
   T sum(Index n, T zero, F&& f) const {
     return sum_of_own(n, zero, f,
                       [&](T* sums) { complete_items(chunk_count(n), sums, sizeof(T)); });
   }
-  /// The same for those only that may have rows.
+  /// Like sum(), but if one rank has all rows, only that rank gets the result.
   template <class T, class F>
   T sum_where_rows_are(Index n, T zero, F&& f) const {
     return sum_of_own(n, zero, f,
@@ -99,17 +102,18 @@ class Division {
   template <class First>
   void complete(void* values, std::size_t bytes_per_value, First&& first) const;
 
-  int place_ = even;  // or the rank that has all, or each
+  int place_ = even;  // the rank that has all, or even or each
 };
 
 inline constexpr Division evenly{};
 
-/// Of bodies with so many rows each. A small body, of at most half of what a rank has, is
-/// whole: its exchanges would cost more than its rows. As many are as leave no rank with more than
-/// 5 % over its share, neighbours among them on the same rank.
+/// Divides bodies with rows[body] rows each between the ranks. A body with at most half of the rows
+/// of a rank goes to one rank: its exchanges would cost more than its rows. Only as many bodies are
+/// placed so as leave no rank with more than 5 % over its share. Bodies that follow each other tend
+/// to the same rank.
 std::vector<Division> divide(std::span<const Index> rows);
 
-/// What each rank says, [rank].
+/// The value `mine` of each rank, [rank].
 template <class T>
 std::vector<T> said_by_ranks(const T& mine) {
   std::vector<T> all(static_cast<std::size_t>(ranks().size()), mine);
@@ -117,8 +121,8 @@ std::vector<T> said_by_ranks(const T& mine) {
   return all;
 }
 
-/// Calls f(k) for the items k of this rank out of n; what record(k) then says of each, a copy of
-/// memory, is handed to others by take(k, record).
+/// Calls f(k) in parallel for the items k of this rank out of n. record(k) then returns a trivially
+/// copyable result; other ranks get it as take(k, record).
 template <class F, class Record, class Take>
 void divided_for(const Division& division, Index n, F&& f, Record&& record, Take&& take,
                  int grain = 64) {
@@ -132,8 +136,8 @@ void divided_for(const Division& division, Index n, F&& f, Record&& record, Take
     if (k < own.begin || k >= own.end) take(k, at(records, k));
 }
 
-/// The same for rows out of n, which are listed in ascending order: of each rank its own. f(row),
-/// record(row) and take(row, record).
+/// Like divided_for() for some of n rows, `listed` in ascending order: f(row), record(row) and
+/// take(row, record). Each rank computes the rows that it owns.
 template <class F, class Record, class Take>
 void divided_for_rows(const Division& division, Index n, std::span<const Index> listed, F&& f,
                       Record&& record, Take&& take, int grain) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dual numbers: a value and its derivative along one direction. A function that is written for any
-// scalar, evaluated with them, gives its exact derivative.
+// Dual numbers: a value and its derivative along one direction. A function template evaluated with
+// dual numbers returns its exact derivative.
 #pragma once
 #include "meniscus/core/elementary.hpp"
 #include "meniscus/core/tensor.hpp"
@@ -81,7 +81,7 @@ inline Dual<Real> sum(const Dual<Lanes>& a) {
   return {sum(a.v), sum(a.d)};
 }
 
-/// What a comparison looks at.
+/// The value without the derivative, which comparisons use.
 inline Lanes value(Lanes x) {
   return x;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elementary functions: log(1 + x), e^x - 1 and their remainders, for every scalar that materials
-// are evaluated with. All are accurate near x = 0.
+// Elementary functions: log(1 + x), e^x - 1 and their remainders, for all scalar types of material
+// laws. All are accurate near x = 0.
 #pragma once
 #include "meniscus/core/simd.hpp"
 
@@ -16,8 +16,8 @@ namespace meniscus {
 /// The scalar of complex-step derivatives.
 using Complex = std::complex<Real>;
 
-// Series that are exact to rounding near zero, and for Lanes the reduction of any argument to them:
-// without branches or calls, so that values of the time loop stay in registers.
+// Series that are exact to rounding near zero and, for Lanes, the reduction of any argument to that
+// range. They have no branches and no calls, so values of the time loop stay in registers.
 namespace series {
 
 inline bool log_converges(Real x) {
@@ -27,7 +27,7 @@ inline bool exp_converges(Real x) {
   return x > -0.35 && x < 0.35;
 }
 
-/// atanh(z)/z - 1 of y = z^2: y/3 + y^2/5 + ... + y^10/21.
+/// atanh(z)/z - 1 with y = z^2: y/3 + y^2/5 + ... + y^10/21.
 template <class T>
 [[gnu::always_inline]] inline T atanh_tail(T y) {
   const T y2 = y * y, y4 = y2 * y2, y8 = y4 * y4;
@@ -44,7 +44,7 @@ template <class T>
   return 2.0 * z + (2.0 * z) * atanh_tail(z * z);
 }
 
-/// log(1 + x) - x; here x - 2 z = x z.
+/// log(1 + x) - x, with x - 2 z = x z.
 template <class T>
 [[gnu::always_inline]] inline T log1p_remainder(T x) {
   const T z = x / (2.0 + x);

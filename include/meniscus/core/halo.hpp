@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The particles that a rank follows in the steps of a run: its own and its ghosts, those of other
-// ranks that its rows and sums read (scaling note 2.3).
+// The particles whose motion a rank follows during a step: its own and its ghosts. Ghosts are
+// particles of other ranks that its rows and sums read (scaling note 2.3).
 #pragma once
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/particle_owners.hpp"
@@ -16,35 +16,37 @@ namespace meniscus {
 
 class Halo {
  public:
-  /// `read`: which of all particles the rows of this rank read. Its own, for sums over particles,
-  /// are followed anyway. All ranks call this.
+  /// `read`: 1 for each particle that the rows of this rank read, [particle]. Particles that the
+  /// rank owns are added. All ranks have to call this.
   Halo(std::vector<std::uint8_t> read, ParticleOwners owners);
 
-  /// Whether some rank follows fewer than all particles.
+  /// True if some rank follows fewer than all particles.
   bool is_partial() const { return partial_; }
   bool follows(Index A) const { return at(read_, A) != 0; }
   const ParticleOwners& owners() const { return owners_; }
-  /// Of particles that are followed.
+  /// Number of particles that this rank follows.
   Index size() const { return size_; }
-  /// Those of them that it does not own.
+  /// Number of followed particles that other ranks own.
   Index ghosts() const { return ghosts_; }
 
-  /// Vectors over all particles that steps keep up, beside the motion.
+  /// Registers nodal vectors that steps update beside the motion: enter() and leave() treat them
+  /// alike.
   void keep(std::vector<NodalVectors*> kept) { kept_ = std::move(kept); }
 
-  /// From now on only what is followed is right on this rank. The rest of the motion and of what is
-  /// kept becomes not a number, so that it is seen if somebody reads it.
+  /// Starts steps in the halo: from now on only followed particles are valid on this rank. All
+  /// others become NaN in `motion` and in the vectors of keep(), so that a wrong read is noticed.
   void enter(std::initializer_list<NodalVectors*> motion);
-  /// All ranks know all of these vectors again. All ranks call this.
+  /// Ends steps in the halo: gathers `motion` and the vectors of keep() on all ranks. All ranks
+  /// have to call this.
   void leave(std::initializer_list<NodalVectors*> motion);
-  /// Between the two.
+  /// True between enter() and leave().
   bool is_entered() const { return entered_; }
 
-  /// Brings sums over rows, [particle], from the rank that adds them up to those that follow the
-  /// particle. All ranks call this.
+  /// Sends the sums over rows, [particle], from the rank that adds them up to the ranks that follow
+  /// the particle. All ranks have to call this.
   void spread(std::span<NodalVector> sums) const;
 
-  /// Calls f(begin, end) on all threads for the particles that are followed, in parts.
+  /// Calls f(begin, end) on all threads for ranges of followed particles.
   template <class F>
   void for_particles(F&& f) const {
     for_parts<Cost::little>(static_cast<Index>(parts_.size()), size_,
@@ -61,23 +63,25 @@ class Halo {
   bool partial_ = false, entered_ = false;
 };
 
-/// Thrown on all ranks where a step in a halo comes to need the motion of more than that: it has to
-/// be taken back, and made again when all ranks know the state.
+/// Thrown on all ranks if a step in a halo needs the motion of particles outside of it. The caller
+/// takes the step back, calls leave() and repeats the step.
 struct HaloOutgrown {};
 
-/// Whether a step is made in a halo; null: there is none.
+/// True if `halo` is not null and entered.
 inline bool is_entered(const std::shared_ptr<const Halo>& halo) {
   return halo && halo->is_entered();
 }
 
-/// Calls f(begin, end) on all threads for n particles, in parts; in a halo for those it follows.
+/// Calls f(begin, end) on all threads for ranges of the n particles; in a halo, of the followed
+/// ones.
 template <class F>
 void for_particles(const std::shared_ptr<const Halo>& halo, Index n, F&& f) {
   if (is_entered(halo)) return halo->for_particles(f);
   sweep(n, f);
 }
 
-/// Sum over some of n particles, in the chunks of all; in a halo each rank looks at its own.
+/// Sum of f(A) over a part of n particles, added in the order of the chunks of all n. In a halo
+/// each rank adds up the chunks that it owns, then sums are gathered.
 template <class T, class F>
 T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, ItemRange part, T zero, F&& f) {
   const ParticleOwners* owners = is_entered(halo) ? &halo->owners() : nullptr;
@@ -89,7 +93,7 @@ T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, ItemRange part
       });
 }
 
-/// parallel_sum() over n particles, of which in a halo each rank knows its own.
+/// parallel_sum() over n particles with the same bits; in a halo each rank adds up its own chunks.
 template <class T, class F>
 T sum_over_particles(const std::shared_ptr<const Halo>& halo, Index n, T zero, F&& f) {
   return is_entered(halo) ? sum_over_part(halo, n, {0, n}, zero, f)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums and copies of nodal vectors over all particles, of which in a halo each rank knows those it
-// follows: the same bits as those of nodal_algebra.
+// Sums and copies of nodal vectors over all particles. In a halo each rank uses the particles that
+// it follows. Results have the same bits as those of nodal_algebra.
 #pragma once
 #include "meniscus/core/halo.hpp"
 
@@ -28,7 +28,7 @@ inline Real largest(const std::shared_ptr<const Halo>& halo, std::span<const Nod
       }).square);
 }
 
-/// to = from; both are as long.
+/// to = from; both have the same length.
 inline void copy(const std::shared_ptr<const Halo>& halo, std::span<const NodalVector> from,
                  std::span<NodalVector> to) {
   for_particles(halo, static_cast<Index>(from.size()), [&](Index begin, Index end) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows: the keys of a struct, written once, for reading, checking, defaults and documentation.
+// Rows: each describes one key of a struct for reading, checking, defaults and documentation.
 // Included at the end of input.hpp, whose names it uses.
 #pragma once
 #include "meniscus/core/text.hpp"
@@ -10,27 +10,28 @@
 
 namespace meniscus {
 
-/// One key of the struct M. What a row states (range, fallback, typical) is in SI and converted
-/// when a scene uses other units; what it reads is in the units of the scene.
+/// One key of the struct M. The range, fallback and typical value of a row are in SI and converted
+/// to the units of the scene; read() stores numbers in the units of the scene.
 template <class M>
 struct Row {
   std::string key, type, unit, range, fallback, meaning;  ///< as `meniscus keys` prints them
   std::function<void(M&, const Block&)> read;
-  /// For parameters of materials only, which may be given as a formula; and for tests of laws.
+  /// The members below are set for material parameters only, which may be formulas, and are used by
+  /// tests of laws.
   Real M::*member = nullptr;
   Dimension dimension{};
   Range allowed{};
   Real typical = 0;
-  std::optional<Real> number{};  ///< fallback of a parameter
+  std::optional<Real> number{};  ///< default of a parameter
 };
 template <class M>
 using Rows = std::vector<Row<M>>;
 
-// Makers of rows. `fallback` absent: the key is required.
+// Functions that make rows. Without `fallback` the key is required.
 template <class M>
 Row<M> real_row(std::string key, Real M::*member, Dimension, Range, std::string meaning,
                 std::optional<Real> fallback = {});
-/// A number of a material: `typical` is used by the generic tests of laws.
+/// A material parameter: `typical` is its value in the generic tests of laws.
 template <class M>
 Row<M> parameter_row(std::string key, Real M::*member, Dimension, Range, std::string meaning,
                      Real typical, std::optional<Real> fallback = {});
@@ -49,19 +50,19 @@ Row<M> choice_row(std::string key, std::string M::*member, std::vector<std::stri
 template <class M>
 Row<M> texts_row(std::string key, std::vector<std::string> M::*member, std::string meaning,
                  std::optional<std::vector<std::string>> fallback = {});
-/// `count` numbers; any number of them for 0.
+/// `count` numbers, or any number of them if count = 0.
 template <class M>
 Row<M> reals_row(std::string key, std::vector<Real> M::*member, std::size_t count, Dimension, Range,
                  std::string meaning, std::optional<std::vector<Real>> fallback = {});
-/// `count` numbers or formulas; any number of them for 0. Fallbacks that are formulas must not
-/// depend on the units.
+/// `count` numbers or formulas, or any number of them if count = 0. Fallbacks that are formulas
+/// must not depend on the units.
 template <class M>
 Row<M> expressions_row(std::string key, std::vector<Expression> M::*member, std::size_t count,
                        Dimension, std::string meaning,
                        std::optional<std::vector<Expression>> fallback = {});
 
-/// Reads M by its rows M::rows(). The caller reads the further keys of the same table, if there are
-/// any, and then calls block.done().
+/// Reads M by its rows M::rows(). The caller then reads further keys of the same table, if there
+/// are any, and calls block.done().
 template <class M>
 M read(const Block& block) {
   M m{};
@@ -82,7 +83,8 @@ struct Varying {
   std::vector<Formula> formulas;  ///< empty: uniform
 
   bool uniform() const { return formulas.empty(); }
-  /// Throws InputError naming key, position and value if a formula leaves its range there.
+  /// The parameters at reference position X. Throws InputError naming key, position and value if a
+  /// formula leaves its range.
   M at(const Eigen::Vector3d& X) const;
 };
 
@@ -102,7 +104,7 @@ std::string fallback_text(const Expression&);
 /// "3 numbers" or "numbers".
 std::string counted(std::size_t count, const std::string& what);
 std::string si_symbol(Dimension);
-/// `range` given in SI, in units of `block`.
+/// `range`, given in SI, converted to the units of `block`.
 Range in_scene_units(const Range& range, Dimension, const Block& block);
 [[noreturn]] void throw_out_of_range(const std::string& place, Real value, const Range& allowed,
                                      const Eigen::Vector3d& X);

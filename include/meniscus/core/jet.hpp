@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jets: numbers with exact first and second derivatives with respect to the place.
+// Jets: numbers with exact first and second derivatives with respect to the position.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// A number with its gradient and Hessian with respect to X: formulas written with it yield exact
-/// derivatives.
+/// A number with its gradient and Hessian with respect to X. A formula written with jets returns
+/// exact derivatives.
 template <int D>
 struct Jet {
   Real value;
@@ -20,7 +20,7 @@ struct Jet {
   /// The coordinate X_k itself.
   static Jet variable(const Vec<D>& X, int k) { return {X[k], Vec<D>::Unit(k), Mat<D>::Zero()}; }
 
-  /// f(*this) for a function with this value, slope and second derivative.
+  /// f(*this) for a function f with value f, derivative `slope` and second derivative `second`.
   Jet chain(Real f, Real slope, Real second) const {
     return {f, slope * gradient, slope * hessian + second * gradient * gradient.transpose()};
   }
@@ -46,7 +46,8 @@ struct Jet {
   }
 };
 
-/// f(a, b) for a function of two numbers with these derivatives.
+/// f(a, b) for a function with value f, derivatives f_a and f_b and second derivatives f_aa, f_ab
+/// and f_bb.
 template <int D>
 Jet<D> chain(const Jet<D>& a, const Jet<D>& b, Real f, Real f_a, Real f_b, Real f_aa, Real f_ab,
              Real f_bb) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference of input keys that `meniscus keys` prints, made of the rows that also read them.
+// The reference of input keys that `meniscus keys` prints. It is made from the rows that read them.
 #pragma once
 #include "meniscus/core/input.hpp"
 
@@ -30,8 +30,8 @@ std::vector<KeyText> key_texts(const Rows<M>& rows) {
   return keys;
 }
 
-/// The example that T brings for scenes: lines with its own keys, those that have to be given at
-/// least. Empty if it brings none; the tests refuse that.
+/// The lines of T::example: a scene table with at least the required keys of T. Empty if T has no
+/// example, which a test reports.
 template <class T>
 constexpr std::string_view example_of() {
   if constexpr (requires { T::example; })

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which thread does which part of a loop: the same one in every loop over the same rows, as long as
-// all are equally fast.
+// The parts of a parallel loop for each thread. Loops over the same rows give a thread the same
+// parts, as long as all threads are equally fast.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -9,18 +9,18 @@
 
 namespace meniscus {
 
-/// The parts of a loop, in shares of neighbouring ones for the threads. Who has done its own share
-/// takes from the ends of others'. What a thread has written in the loop before is in its cache,
-/// and the next one finds it there.
+/// Shares of neighbouring parts of a loop, one share for each thread. A thread that has done its
+/// share takes parts from the ends of other shares. The data that a thread wrote in the previous
+/// loop are in its cache and are used by the same thread again.
 class LoopShares {
  public:
   explicit LoopShares(Index parts);
-  /// A part for the calling thread, each of them once; -1 if all are taken.
+  /// Returns a part for the calling thread, each part once; -1 if all are taken.
   Index take();
 
  private:
-  /// The part that its thread takes next, and above it the one behind the last. A cache line each,
-  /// since the line of another thread has to be fetched.
+  /// The next part of the owner in the low half, one past the last part in the high half. Each
+  /// share has its own cache line: taking from the share of another thread fetches that line only.
   struct alignas(64) Share {
     std::atomic<std::uint64_t> parts;
   };

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that the program has used, and that is left to it.
+// Memory that the program has used and memory that is available to it.
 #pragma once
 #include "meniscus/core/types.hpp"
 
 namespace meniscus {
 
-/// Bytes that the process can still ask for: what the machine has free, within the limits of the
-/// process (ulimit -v) and of its control group. Infinite where nothing is known.
+/// Bytes that the process can still allocate: the free memory of the machine, within the limits of
+/// the process (ulimit -v) and of its control group. Infinite if none of them is known.
 Real available_memory();
 
-/// Bytes that the process has had in memory at most, since forget_peak_memory() where that was
-/// called.
+/// The peak of resident memory in bytes since the start, or since the last forget_peak_memory().
 Real peak_memory();
-/// Does nothing where the system keeps the peak of the whole process only.
+/// Restarts the measurement of peak_memory(). Has no effect if the system does not support it.
 void forget_peak_memory();
 
 }  // namespace meniscus

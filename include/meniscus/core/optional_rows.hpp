@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of keys that may be left out and then have no value at all.
+// Rows of keys that may be left out; the member then has no value.
 #pragma once
 #include "meniscus/core/input.hpp"
 
 namespace meniscus {
 
-/// A number that stays absent. `fallback`: what `meniscus keys` says of its absence.
+/// A number without a default value. `fallback` is the text of `meniscus keys` for an absent key.
 template <class M>
 Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension dimension,
                     Range range, std::string fallback, std::string meaning) {
@@ -17,7 +17,7 @@ Row<M> optional_row(std::string key, std::optional<Real> M::*member, Dimension d
   return row;
 }
 
-/// A number, of which the range is checked, or a formula of place and time; may stay absent.
+/// A number, whose range is checked, or a formula of place and time; the key may be absent.
 template <class M>
 Row<M> optional_expression_row(std::string key, std::optional<Expression> M::*member,
                                Dimension dimension, Range range, std::string fallback,
@@ -31,7 +31,8 @@ Row<M> optional_expression_row(std::string key, std::optional<Expression> M::*me
   return row;
 }
 
-/// `count` formulas of these variables (0: any number of them); none if left out, which means zero.
+/// `count` formulas of these variables, or any number of them if count = 0. An absent key gives an
+/// empty vector, which means zero.
 template <class M>
 Row<M> optional_expressions_row(std::string key, std::vector<Expression> M::*member,
                                 std::size_t count, Dimension dimension, Variables variables,

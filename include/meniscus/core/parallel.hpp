@@ -14,22 +14,22 @@ namespace meniscus {
 
 inline constexpr int most_chunks = 4096;
 
-/// Number of chunks of n rows. From the size alone, never the number of threads: it decides the
-/// order of summation, and so the last bits of every result.
+/// Number of chunks of n rows. It depends on n only, never on the number of threads, since it
+/// decides the order of summation and so the last bits of every result.
 inline constexpr int chunk_count(Index n) {
   constexpr Index rows_per_chunk = 2048, least = 16;
   return std::clamp<Index>(n / rows_per_chunk, least, most_chunks);
 }
 
-/// Row number at which chunk c of n rows begins.
+/// The row at which chunk c of n rows begins.
 inline Index chunk_begin(Index n, int c) {
   return static_cast<Index>(static_cast<Offset>(n) * c / chunk_count(n));
 }
 
-/// Calls f(i) for i in [0, n) on all threads, `grain` neighbouring i at a time, and rethrows the
-/// exception of the least i afterwards (one that leaves an OpenMP region would end the program).
-/// What one thread would do is a plain loop: a region takes a third of a microsecond even if it
-/// wakes no other thread.
+/// Calls f(i) for i in [0, n) on all threads, `grain` neighbouring i at a time. If calls throw, the
+/// exception of the smallest i is rethrown at the end (an exception must not leave an OpenMP
+/// region). For n <= grain a plain loop is used, since opening a region takes time even on one
+/// thread.
 template <class F>
 void parallel_for(Index n, F&& f, Index grain = 64) {
   if (n <= grain) {
@@ -57,26 +57,26 @@ void parallel_for(Index n, F&& f, Index grain = 64) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Items begin to end - 1.
+/// The items begin, ..., end - 1.
 struct ItemRange {
   Index begin, end;
 };
 
-/// The same for the items of a range.
+/// parallel_for() over the items of a range.
 template <class F>
 void parallel_for(const ItemRange& items, F&& f, Index grain = 64) {
   parallel_for(
       items.end - items.begin, [&](Index k) { f(items.begin + k); }, grain);
 }
 
-/// What it costs to do a row.
+/// The cost of one row.
 enum class Cost {
   much,
   little  // a few operations
 };
 
-/// Calls f(k) for k in [0, parts), which together do n rows, on all threads. Few rows of little
-/// cost are done by one: others would take longer to fetch them.
+/// Calls f(k) for k in [0, parts) on all threads; the parts together have n rows. Few rows of
+/// little cost are done by the calling thread: other threads would take longer to fetch the data.
 template <Cost cost, class F>
 void for_parts(Index parts, [[maybe_unused]] Index n, F&& f) {
   constexpr Index few = cost == Cost::little ? 4096 : 0;
@@ -96,7 +96,8 @@ void sweep(Index n, F&& f) {
   for_chunks<Cost::little>(n, [&](Index, Index begin, Index end) { f(begin, end); });
 }
 
-/// A value per chunk on the stack; memory that no chunk needs is not touched.
+/// An array on the stack with one value per chunk. Memory beyond the number of chunks is not
+/// touched.
 template <class T>
 class PerChunk {
  public:
@@ -113,8 +114,9 @@ class PerChunk {
   alignas(T) std::byte memory_[most_chunks * sizeof(T)];
 };
 
-/// Sum of f(i) over some items of n, added in the order of the chunks of n. Here `count` of them
-/// are added up, those with the numbers chunk(k); complete(sums) brings the sums of the others.
+/// Sum of f(i) over a range of items, added in the order of the chunks of n. This rank adds up
+/// `count` chunks, chunk(k) for k = 0 .. count - 1; complete(sums) has to fill in the sums of the
+/// others.
 template <Cost cost, class T, class F, class Chunk, class Complete>
 T sum_by_chunks(Index n, ItemRange items, T zero, F&& f, Index count, Chunk&& chunk,
                 Complete&& complete) {

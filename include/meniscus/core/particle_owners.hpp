@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rank looks at which particles of all bodies, in sums over them and for the others.
+// Owners of particles: a rank adds up the sums over particles that it owns, and sends their motion
+// to the other ranks.
 #pragma once
 #include "meniscus/core/shared_items.hpp"
 
@@ -8,25 +9,26 @@
 
 namespace meniscus {
 
-/// The chunks of sums over all particles, each with one owner: the rank that has the row in the
-/// middle of the chunk if the body has a row for each particle. So of each body a rank owns about
-/// the part over which it also adds up windows.
+/// Chunks of sums over all particles, each owned by one rank. The owner is the rank that has the
+/// row in the middle of the chunk, with one row per particle. A rank so owns about the particles
+/// over which it also adds up the chunk sums of forces.
 class ParticleOwners {
  public:
-  /// Of n particles; `first`: those with which bodies begin, in ascending order; `division`: of
-  /// their rows. All ranks call this.
+  /// `n`: number of particles; `first`: the first particle of each body, ascending; `division`: the
+  /// division of the rows of each body. All ranks have to call this.
   ParticleOwners(Index n, std::vector<Index> first, std::vector<Division> division);
 
   Index particles() const { return n_; }
   int owner(Index A) const;
-  /// The rank that adds up the windows over a particle.
+  /// The rank that adds up the chunk sums of forces over a particle.
   int adds_up(Index A) const;
-  /// Neighbouring particles of this rank, in ascending order.
+  /// The ranges of particles that this rank owns, in ascending order.
   std::span<const OwnItems> own() const { return own_; }
-  /// Chunks of sums over all particles.
+  /// The chunks that this rank owns and adds up, in sums over all particles.
   std::span<const Index> own_chunks() const { return own_chunks_; }
 
-  // Bring what their owners have of so many bytes, [chunk] and [particle]. All ranks call these.
+  // Gather values of `bytes_per_value` bytes, [chunk] and [particle], from their owners. All ranks
+  // have to call these.
   void complete_chunks(void* values, std::size_t bytes_per_value) const {
     chunks_.complete(values, bytes_per_value);
   }
@@ -44,7 +46,7 @@ class ParticleOwners {
   std::vector<Run> runs_;
   std::vector<OwnItems> own_;
   std::vector<Index> own_chunks_;
-  mutable SharedItems chunks_;  // what they are sorted in changes
+  mutable SharedItems chunks_;  // mutable: it sorts in a buffer
 };
 
 }  // namespace meniscus

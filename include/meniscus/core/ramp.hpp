@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// The fraction x^2 (3 - 2 x) of a change, x = (t - begin)/(end - begin) between 0 and 1. The
-/// default is that all has changed at all times.
+/// The fraction x^2 (3 - 2 x) of a change, with x = (t - begin)/(end - begin) limited to [0, 1]. By
+/// default the fraction is 1 at all times.
 struct Ramp {
   Real begin = 0, end = 0;
 
@@ -28,7 +28,8 @@ struct Ramp {
   }
 };
 
-/// `key = [begin, end]`; left out, what is ramped has its final value from the start.
+/// The row of `key = [begin, end]`. If it is left out, the fraction is 1 from the start. `what`
+/// names the quantity that changes, for the documentation.
 template <class M>
 Row<M> ramp_row(std::string key, Ramp M::*member, const std::string& what) {
   Row<M> row = reals_row<M>(

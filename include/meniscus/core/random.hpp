@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers that are the same with every standard library.
+// Random numbers that do not depend on the standard library.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// Uniform in [0, 1), from the top 53 bits.
+/// Uniform in [0, 1), from the upper 53 bits.
 inline Real uniform(std::mt19937_64& bits) {
   return static_cast<Real>(bits() >> 11) * 0x1p-53;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry: things of one kind by name. Each enters itself from its own file before main()
-// begins, so that a new one is one new file and no other change.
+// The registry: entries of one kind by name. Each entry registers itself from its own file before
+// main() begins, so adding one means adding one file.
 #pragma once
 #include <functional>
 #include <map>
@@ -16,12 +16,12 @@ namespace registry {
                                 const std::vector<std::string>& known);
 }  // namespace registry
 
-/// All entries of a kind, sorted by name. An Entry is a struct with `name` and the text
-/// `static constexpr const char* kind` that messages call it by, e.g. "material law".
+/// All entries of a kind, sorted by name. An Entry is a struct with `name` and the text `static
+/// constexpr const char* kind` that names the kind in messages, e.g. "material law".
 template <class Entry>
 class Registry {
  public:
-  /// The one of this kind. A local static, because files register in unknown order.
+  /// The registry of this kind. It is a local static because the order of registration is unknown.
   static Registry& all() {
     static Registry registry;
     return registry;
@@ -35,12 +35,13 @@ class Registry {
     return true;
   }
 
-  /// The entry of that name; null if there is none.
+  /// The entry called `name`, or null.
   const Entry* find(std::string_view name) const {
     const auto found = entries_.find(name);
     return found == entries_.end() ? nullptr : &found->second;
   }
-  /// Throws InputError (without a place) that lists the known names and guesses the meant one.
+  /// The entry called `name`. Throws InputError (without a place) that lists the known names and
+  /// suggests the nearest.
   const Entry& at(std::string_view name) const {
     if (const Entry* entry = find(name)) return *entry;
     registry::throw_unknown(Entry::kind, name, names());
@@ -60,7 +61,7 @@ class Registry {
   std::map<std::string, Entry, std::less<>> entries_;
 };
 
-/// Enters an entry: the last line of the file of the thing, `const bool registered = ...;`.
+/// Registers an entry. A leaf file ends with `const bool registered = register_entry(...);`.
 template <class Entry>
 bool register_entry(Entry entry) {
   return Registry<Entry>::all().add(std::move(entry));

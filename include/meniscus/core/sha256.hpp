@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SHA-256, by which the input of a run is recognised.
+// SHA-256 hash, which identifies the input of a run.
 #pragma once
 #include <string>
 #include <string_view>

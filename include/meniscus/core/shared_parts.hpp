@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts that several users of one thing need alike: made by the first of them, kept as long as one
-// has it.
+// Parts that several users share: the first user makes a part, and it lives as long as it has
+// users.
 #pragma once
 #include <map>
 #include <memory>
@@ -10,8 +10,8 @@ namespace meniscus {
 
 class SharedParts {
  public:
-  /// The part of this name, or what make() returns, a std::shared_ptr<T>. Parts of one name have
-  /// one type. Not for several threads at once.
+  /// Returns the part called `name`. If it does not exist, make() has to return it as
+  /// std::shared_ptr<T>. All parts of one name have one type. Not thread safe.
   template <class T, class Make>
   std::shared_ptr<T> get(const std::string& name, Make&& make) {
     std::weak_ptr<void>& kept = parts_[name];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Four doubles that are computed together. The compiler maps them to one AVX register, or to two
-// registers of SSE or NEON: the arithmetic is the same. The few operations that g++ has no portable
-// name for are instructions of AVX where there are any, and plain C++ elsewhere.
+// registers of SSE or NEON, with the same arithmetic. A few operations have no portable form in
+// g++: they use AVX instructions where available, else plain C++.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -67,7 +67,7 @@ struct Lanes {
   friend Lanes operator/(Real a, Lanes b) { return a / b.v; }
 };
 
-/// Four numbers as they are stored in single precision.
+/// Four numbers in single precision.
 struct SingleLanes {
   using Native = float __attribute__((vector_size(16)));
 
@@ -76,7 +76,7 @@ struct SingleLanes {
   static SingleLanes rounded(Lanes x) { return {__builtin_convertvector(x.v, Native)}; }
   Lanes widened() const {
 #ifdef __AVX__
-    // g++ 12 makes seven instructions of the other form, in which each entry waits for the last.
+    // g++ 12 makes seven dependent instructions from __builtin_convertvector.
     return _mm256_cvtps_pd(v);
 #else
     return __builtin_convertvector(v, Lanes::Native);
@@ -84,7 +84,7 @@ struct SingleLanes {
   }
 };
 
-/// The first three lanes as a vector in space.
+/// The first three lanes as a vector.
 inline Eigen::Vector3d spatial(const Lanes& x) {
   return {x[0], x[1], x[2]};
 }
@@ -94,7 +94,7 @@ inline Lanes select(Lanes::Mask mask, Lanes yes, Lanes no) {
   return mask ? yes.v : no.v;
 }
 
-/// Lane by lane; b where either is not a number.
+/// Lane by lane; b if either is NaN.
 inline Lanes min(Lanes a, Lanes b) {
   return select(a.v < b.v, a, b);
 }
@@ -116,7 +116,7 @@ inline Lanes sqrt(Lanes a) {
 #endif
 }
 
-/// Bit l is whether the mask is set in lane l.
+/// Bit l is set if the mask is set in lane l.
 inline unsigned lane_bits(Lanes::Mask mask) {
 #ifdef __AVX__
   return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
@@ -127,13 +127,13 @@ inline unsigned lane_bits(Lanes::Mask mask) {
 #endif
 }
 
-/// Whether the mask is set in any lane.
+/// True if the mask is set in any lane.
 inline bool any(Lanes::Mask mask) {
   return lane_bits(mask) != 0;
 }
 
-/// The same number, kept in a register from here on: where several products have it as a factor,
-/// the compiler reads it from memory for each of them otherwise.
+/// Returns a, kept in a register from here on. Without this the compiler reads a factor of several
+/// products from memory each time.
 [[gnu::always_inline]] inline Lanes in_register(Lanes a) {
 #ifdef __AVX__
   asm("" : "+x"(a.v));
@@ -141,10 +141,9 @@ inline bool any(Lanes::Mask mask) {
   return a;
 }
 
-/// Asks for the cache line of `p` in the second level, from where reading it soon costs little. The
-/// first level has few places for lines that are on their way: with all taken by what is asked for
-/// ahead, reading waits as well (performance note 2). Inlined before anything is optimised: g++ 12
-/// takes a function that does nothing else for one without effect and drops the call.
+/// Prefetches the cache line of `p` into the second-level cache. The first level has few places for
+/// lines on their way: when all are taken, ordinary reads wait too (performance note 2).
+/// always_inline is needed: g++ 12 would drop the call of a function without visible effect.
 [[gnu::always_inline]] inline void prefetch(const void* p) {
   __builtin_prefetch(p, 0, 2);
 }
@@ -161,7 +160,7 @@ inline std::array<Lanes, 4> by_lane(Lanes a, Lanes b, Lanes c) {
       __builtin_shufflevector(ab0, c0, 2, 3, 6, 7), __builtin_shufflevector(ab1, c1, 2, 3, 6, 7)};
 }
 
-/// The sums of the lanes of a, b, c and d.
+/// (sum of the lanes of a, of b, of c, of d).
 inline Lanes sums(Lanes a, Lanes b, Lanes c, Lanes d) {
   const Lanes::Native ab =
       __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6) + __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The complete state of a run as named arrays: what a restart needs and what two runs are compared
-// by.
+// The complete state of a run as named arrays, for restarts and for comparing two runs.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -24,9 +23,9 @@ class Fnv1a {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-/// Named arrays of numbers, integers or text. Whoever owns a part of the state (time loop, force
-/// terms) adds it under a name of its own and takes it back on a restart. A '/' in a name groups
-/// names ("drop/contact/gap").
+/// Named arrays of numbers, integers or text. Each owner of a part of the state (time loop, force
+/// terms) adds arrays under names of its own and reads them back on a restart. A '/' in a name
+/// groups names ("drop/contact/gap").
 class Snapshot {
  public:
   using Values = std::variant<std::vector<Real>, std::vector<std::int64_t>, std::string>;
@@ -45,15 +44,15 @@ class Snapshot {
   /// Sorted by name.
   const std::map<std::string, Array, std::less<>>& arrays() const { return arrays_; }
 
-  // The array of that name. Throws FileError, with the names there are, if it is absent or of
-  // another type: a snapshot that lacks an array was written by another scene or version.
+  // The array called `name`. Throws FileError, listing the names there are, if it is absent or has
+  // another type: such a snapshot was written by another scene or version.
   const std::vector<Real>& reals(std::string_view name) const;
   const std::vector<std::int64_t>& integers(std::string_view name) const;
   const std::string& text(std::string_view name) const;
-  /// The only number of that array; FileError also if it holds another count.
+  /// The only number of the array; also throws FileError if the array has another length.
   Real real(std::string_view name) const;
   std::int64_t integer(std::string_view name) const;
-  /// Copies the array into `target`; FileError also if the sizes differ.
+  /// Copies the array into `target`; also throws FileError if the sizes differ.
   void copy_to(std::string_view name, std::span<Real> target) const;
 
   /// Hash over names, types, lengths and bytes, in the order of the names. Equal states have equal

@@ -10,7 +10,7 @@
 
 namespace meniscus {
 
-/// What one surface point of the deformed body knows from F and the reference unit normal N alone.
+/// Quantities of a deformed surface point that follow from F and the reference unit normal N alone.
 template <class T>
 struct SurfaceFrame {
   std::array<T, 3> n;  ///< current outward unit normal, n = F^-T N / s
@@ -21,7 +21,7 @@ struct SurfaceFrame {
   Tensor<T> metric;
 };
 
-/// `N` is a unit vector; F may be deformation_gradient(H). No check that det F > 0.
+/// `N` is a unit vector; F may be deformation_gradient(H). Does not check that det F > 0.
 template <class T>
 SurfaceFrame<T> surface_frame(const Tensor<T>& F, const std::array<T, 3>& N) {
   using std::sqrt;
@@ -44,7 +44,7 @@ SurfaceFrame<T> surface_frame(const Tensor<T>& F, const std::array<T, 3>& N) {
   return f;
 }
 
-/// n_i G_iKL, all that curvature needs of the 27 numbers G[i](K, L) = x_i,KL.
+/// n_i G_iKL, the only combination of the 27 numbers G[i](K, L) = x_i,KL that curvature needs.
 template <class T>
 Tensor<T> contract_normal(const std::array<T, 3>& n, const std::array<Tensor<T>, 3>& G) {
   return n[0] * G[0] + n[1] * G[1] + n[2] * G[2];
@@ -57,8 +57,8 @@ T twice_mean_curvature(const SurfaceFrame<T>& f, const Tensor<T>& nG, const Tens
   return contract(f.metric, nG) - contract(f.metric, grad_N) / f.s;
 }
 
-/// grad_s n = P F^-T (sym(grad N)/s - n_i G_i) F^-1 P with P = I - n n^T; symmetric, and
-/// -trace of it is 2 kappa. It is grad N of the surface when the current state becomes reference.
+/// grad_s n = P F^-T (sym(grad N)/s - n_i G_i) F^-1 P with P = I - n n^T. It is symmetric, and its
+/// trace is -2 kappa. It is the new grad N of the surface after an update of the reference.
 template <class T>
 Tensor<T> normal_gradient(const SurfaceFrame<T>& f, const Tensor<T>& nG, const Tensor<T>& grad_N) {
   const Tensor<T> bending = Tensor<T>::map([&](int K, int L) {
@@ -78,8 +78,8 @@ T gauss_curvature(const Tensor<T>& B) {
   return T(0.5) * (tr * tr - contract(B, transpose(B)));
 }
 
-/// The plane-strain (D = 2) or identical (D = 3) three-dimensional form: `diagonal` is the 33
-/// component in 2D, 1 for F and 0 for grad N or G_i.
+/// A matrix or vector in 3D. In 2D (plane strain) the 33 component becomes `diagonal`: 1 for F, 0
+/// for grad N or G_i.
 template <int D>
 Tensor<Real> embed(const Mat<D>& x, Real diagonal) {
   return Tensor<Real>::map(

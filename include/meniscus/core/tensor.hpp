@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A 3x3 tensor of any scalar: double in tests and output, four stress points at once in the time
-// loop, complex for the complex-step derivative. Materials are written with it, always in three
-// dimensions (2D is plane strain: F33 = 1), so that no trace or deviator can be wrong in 2D.
+// A 3x3 tensor of any scalar: double in tests and output, four quadrature points at once in the
+// time loop, complex for the complex-step derivative. Material laws use it always in 3D (2D is
+// plane strain: F33 = 1), so that traces and deviators are right in 2D too.
 //
-// Everything is inlined by force: g++ keeps some of these as calls in a large stress function,
-// which then takes twice as long because common subexpressions and registers are lost at each call.
+// All functions are always_inline: g++ keeps some of them as calls in a large stress function. The
+// function then takes twice as long, since each call loses registers and common subexpressions.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -96,7 +96,7 @@ template <class T>
   return add_diagonal(H, T(1.0));
 }
 
-/// J - 1 - tr H from H = F - I: (tr^2 H - tr H^2)/2 + det H, the volume change beyond first order.
+/// J - 1 - tr H = (tr^2 H - tr H^2)/2 + det H for H = F - I: the volume change beyond first order.
 template <class T>
 [[gnu::always_inline]] inline T higher_volume_change(const Tensor<T>& H) {
   const T second = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0) + H(1, 1) * H(2, 2) - H(1, 2) * H(2, 1) +
@@ -116,7 +116,7 @@ template <class T>
   return add_diagonal(cofactor(H) - transpose(H), 1.0 + trace(H));
 }
 
-/// Green strain E = (H + H^T + H^T H)/2 from H = F - I, accurate near the identity.
+/// E = (H + H^T + H^T H)/2, the Green strain for H = F - I, accurate near the identity.
 template <class T>
 [[gnu::always_inline]] inline Tensor<T> green_strain(const Tensor<T>& H) {
   const Tensor<T> HtH = transpose(H) * H;

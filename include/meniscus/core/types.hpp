@@ -12,7 +12,7 @@ using Real = double;
 using Index = std::int32_t;   ///< particle, point, cell number
 using Offset = std::int64_t;  ///< position inside a compressed-row value array
 
-/// The dimensions of a scene.
+/// The space dimensions that a scene can have.
 template <int D>
 concept SpaceDim = (D == 2 || D == 3);
 
@@ -24,7 +24,7 @@ using Vec = Eigen::Matrix<Real, D, 1>;
 template <int D>
 using Mat = Eigen::Matrix<Real, D, D>;
 
-/// X in space; in the plane z = 0.
+/// X as a vector in 3D; in 2D z = 0.
 template <int D>
 Eigen::Vector3d spatial(const Vec<D>& X) {
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
@@ -32,8 +32,8 @@ Eigen::Vector3d spatial(const Vec<D>& X) {
   return x;
 }
 
-/// More than any number of a scene, but finite: no bound, or the beginning of a search for the
-/// least.
+/// A finite number larger than any number of a scene. It means "no bound", or starts the search for
+/// a minimum.
 inline constexpr Real unbounded = 1e300;
 
 /// Array element access without sign-conversion noise: at(v, i) is v[i].

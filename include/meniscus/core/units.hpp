@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// Exponents of length, time and mass; or an angle whose number is one of degrees.
+/// Exponents of length, time and mass. `degrees` marks an angle whose number is in degrees.
 struct Dimension {
   int length = 0, time = 0, mass = 0;
   bool degrees = false;
@@ -23,19 +23,19 @@ inline constexpr Dimension none{}, length{1, 0, 0}, area{2, 0, 0}, volume{3, 0, 
     power{2, -3, 1}, momentum{1, -1, 1}, angular_momentum{2, -1, 1}, degrees{0, 0, 0, true};
 }
 
-/// The dimension of a sum over bodies (mass, force, energy): in the plane it is per unit depth.
+/// The dimension of a sum over bodies (mass, force, energy): in 2D it is per unit of depth.
 constexpr Dimension of_sum(Dimension d, int space_dimension) {
   if (space_dimension == 2) --d.length;
   return d;
 }
 
-/// The units of texts: "m, s, ... (prefixes ...), min, ...". kT is at 25 degrees Celsius.
+/// The units that texts may use: "m, s, ... (prefixes ...), min, ...". kT is at 25 degrees Celsius.
 std::string unit_list();
 
-/// The system in which plain numbers of a scene, all results, and all sums inside the program are
-/// written: "SI" (m, s, kg) or a length-time-mass triple such as "nm-ps-ag".
+/// The unit system of plain numbers of a scene, of all results and of all sums inside the program:
+/// "SI" (m, s, kg) or a length-time-mass triple such as "nm-ps-ag".
 ///
-/// Units are those of unit_list(). They are combined by spaces, *, a raised dot, /, brackets and
+/// unit_list() lists the units. They are combined by spaces, *, a raised dot, /, brackets and
 /// integer powers: "kg/(m s^2)", "g/cm3", "mPa s". A unit after a divisor needs brackets: "Pa/m s"
 /// is refused.
 class UnitSystem {
@@ -44,16 +44,16 @@ class UnitSystem {
   explicit UnitSystem(std::string_view name = "SI");
 
   /// The number of `text`, e.g. "72.8 mN/m" or "2.2 GPa", in this system. Powers of ten are moved
-  /// into the decimal exponent, so "72.8 mN/m" is exactly the double 0.0728 in SI. "2 rad" and
-  /// "115 deg" are numbers of radians, but where degrees are expected.
-  /// Throws InputError (without a place) on an unknown unit or one of another dimension.
+  /// into the decimal exponent, so "72.8 mN/m" is exactly the double 0.0728 in SI. Angles ("2 rad",
+  /// "115 deg") become radians, or degrees if degrees are expected. Throws InputError (without a
+  /// place) on an unknown unit or a unit of another dimension.
   Real quantity(std::string_view text, Dimension expected) const;
 
-  /// How a dimension is written in this system: "Pa" or "ag/(nm ps^2)"; "1" for none.
+  /// The unit of a dimension in this system: "Pa" or "ag/(nm ps^2)"; "1" for numbers without unit.
   std::string symbol(Dimension dimension) const;
 
   const std::string& name() const { return name_; }
-  /// One unit of `dimension` of this system in SI.
+  /// The size in SI of one unit of `dimension` of this system.
   Real in_si(Dimension dimension) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops that are written out at compile time, so that index tables turn into fixed registers.
+// Loops that are unrolled at compile time, so that entries of index tables become fixed registers.
 #pragma once
 #include <cstddef>
 #include <type_traits>
