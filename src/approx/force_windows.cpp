@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks of rows, the particles that they touch, and the ordered sum.
+// Chunks of rows, the particles that they touch, and the sum of windows in ascending order.
 #include "meniscus/approx/force_windows.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace meniscus {
 
 namespace {
 
-/// The numbers among `particle`, each once, in ascending order; all are below `particles`.
+/// The numbers that occur in `particle`, once each, in ascending order; all are below `particles`.
 std::vector<Index> distinct(std::span<const Index> particle, Index particles) {
   thread_local std::vector<bool> found;
   if (found.size() < static_cast<std::size_t>(particles))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances of four points from four candidates at a time.
+// Distances between four points and candidates, four candidates at a time.
 #include "meniscus/approx/near_candidates.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace meniscus {
 namespace {
 
-/// The lanes that are set in bits of a mask, in ascending order; any after these.
+/// lanes_of_bits[mask]: the lanes that are set in the mask in ascending order, then zeros.
 constexpr auto lanes_of_bits = [] {
   std::array<std::array<Index, Lanes::width>, 1 << Lanes::width> lanes{};
   for (std::size_t bits = 0; bits < lanes.size(); ++bits)
@@ -21,7 +21,7 @@ constexpr auto lanes_of_bits = [] {
 
 template <int D>
 void NearCandidates<D>::begin(std::span<const Candidate<D>> candidates) {
-  constexpr Real nowhere = -1;  // what no square is below
+  constexpr Real nowhere = -1;  // no squared distance is below this
   all_ = candidates;
   const std::size_t fours = (all_.size() + Lanes::width - 1) / Lanes::width;
   if (near_.size() < fours * Lanes::width) {
@@ -45,7 +45,7 @@ template <int D>
 void NearCandidates<D>::select(const std::array<Vec<D>, 4>& points) {
   const std::size_t fours = (all_.size() + Lanes::width - 1) / Lanes::width;
   std::size_t count = 0;
-  const std::array<Vec<D>, 4> all = points;  // which no store below can change
+  const std::array<Vec<D>, 4> all = points;  // a copy, which no store below can change
   for (std::size_t four = 0; four < fours; ++four) {
     Lanes::Mask reaches{};
     for (const Vec<D>& x : all) {
@@ -56,7 +56,7 @@ void NearCandidates<D>::select(const std::array<Vec<D>, 4>& points) {
       }
       reaches |= square.v <= square_[four].v;
     }
-    const unsigned bits = lane_bits(reaches);  // without a branch: it would be a guess
+    const unsigned bits = lane_bits(reaches);  // no branch: it could not be predicted
     std::array<Index, Lanes::width> numbers = lanes_of_bits[bits];
     for (Index& number : numbers) number += static_cast<Index>(four) * Lanes::width;
     std::copy(numbers.begin(), numbers.end(), numbers_.data() + count);

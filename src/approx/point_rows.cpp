@@ -11,7 +11,7 @@ namespace {
 
 constexpr Index group_size = 4;  // points of one batch of ReproducingKernel; they share a search
 
-/// Calls f(array, numbers of an entry) for the arrays of entries that rows of this content have.
+/// Calls f(array, numbers per entry) for each array that rows of this content have.
 template <int D, class F>
 void for_arrays(RowContent content, F&& f) {
   f(&PointRows<D>::particle, std::size_t{1});
@@ -20,7 +20,7 @@ void for_arrays(RowContent content, F&& f) {
   if (content.hessian) f(&PointRows<D>::hessian, static_cast<std::size_t>(hessian_count(D)));
 }
 
-/// So many, altogether.
+/// Sets the number of entries of all arrays.
 template <int D>
 void resize(PointRows<D>& rows, std::size_t entries, RowContent content) {
   for_arrays<D>(content,
@@ -52,7 +52,8 @@ void append_row(PointRows<D>& rows, const std::vector<Candidate<D>>& candidates,
   rows.start.push_back(static_cast<Offset>(e));
 }
 
-/// Derivatives at places G x, N,i = N,k G_ki, to those at x; G symmetric.
+/// Transforms derivatives with respect to kernel places G x to those with respect to x: N,i = N,k
+/// G_ki. G is symmetric.
 template <int D>
 void stretch_derivatives(PointRows<D>& rows, const Mat<D>& G) {
   for (std::size_t e = 0; e < rows.gradient.size() / D; ++e) {
@@ -76,13 +77,13 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   const Derivatives order = content.hessian    ? Derivatives::second
                             : content.gradient ? Derivatives::first
                                                : Derivatives::none;
-  std::array<Vec<D>, group_size> batch;  // the last point fills up
+  std::array<Vec<D>, group_size> batch;  // unused lanes repeat the last point
   for (std::size_t lane = 0; lane < group_size; ++lane)
     batch[lane] = points[std::min(lane, points.size() - 1)];
   thread_local std::vector<Candidate<D>> candidates;
   particles.candidates(batch, candidates);
 
-  // The limit is known for the quadratic basis; a cubic one is worse conditioned by nature.
+  // The limit is known for the quadratic basis. A cubic basis is worse conditioned.
   const Real least = Degree > 2 ? 1e-6 : ParticleSet<D>::unusable_quality;
   thread_local ReproducingKernel<D, Degree> kernel(particles.window());  // keeps its buffers
   kernel.use(particles.window());
@@ -100,8 +101,9 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   return rows;
 }
 
-/// For so many times the entries of some rows, and more where there are others: what is not filled
-/// takes no memory, but growing would take twice as much for a moment.
+/// Reserves memory for `times` as many entries as `some` rows have, with a factor of 2 in hand.
+/// Memory that is not filled takes no pages, while growing would need twice the memory for a
+/// moment.
 template <int D>
 void reserve(PointRows<D>& rows, std::span<const PointRows<D>> some, Real times,
              RowContent content) {
@@ -113,7 +115,7 @@ void reserve(PointRows<D>& rows, std::span<const PointRows<D>> some, Real times,
 
 template <int D>
 void append_rows(PointRows<D>& rows, std::span<const PointRows<D>> parts, RowContent content) {
-  std::vector<std::size_t> first{rows.particle.size()};  // [part] entries before it
+  std::vector<std::size_t> first{rows.particle.size()};  // number of entries before it, [part]
   for (const PointRows<D>& part : parts) {
     const Offset base = rows.start.back();
     for (std::size_t q = 1; q < part.start.size(); ++q) rows.start.push_back(base + part.start[q]);
@@ -143,7 +145,8 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
                               RowContent content, const std::string& body) {
   const auto n = static_cast<Index>(points.size());
   const Index groups = (n + group_size - 1) / group_size;
-  constexpr Index block = 1024;  // rows of all groups apart would take more than together
+  constexpr Index block = 1024;  // block by block: separate rows of all groups would take more
+                                 // memory
   std::vector<PointRows<D>> part(static_cast<std::size_t>(std::min(block, groups)));
   PointRows<D> rows;
   rows.start.reserve(points.size() + 1);
@@ -164,7 +167,7 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
   return rows;
 }
 
-/// Points are treated in the groups that they are in with all of them.
+/// Points stay in the groups that they have among all points, so that bits agree.
 template <int D>
 PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
                               RowContent content, const std::string& body, ItemRange some) {

@@ -40,9 +40,9 @@ template <int D, int Degree>
   return m;
 }
 
-/// sum[n] += m1 and m2, the values of monomial n at s1 and s2, and the same for all its multiples:
-/// depth first, so that only the factors of the current one are kept. Two points at once, because
-/// the sums do not fit into registers.
+/// Adds the values of monomial n and of all its multiples at s1 and s2 to `sum`; m1 and m2 are the
+/// values of monomial n. The recursion is depth first, so only the factors of the current monomial
+/// are kept. Two points are added at once, because the sums do not fit into registers.
 template <int D, int Degree, int n = 0>
 [[gnu::always_inline]] inline void add_monomials(std::array<Lanes, basis_length<D, Degree>>& sum,
                                                  const std::array<Lanes, D>& s1, Lanes m1,
@@ -86,7 +86,7 @@ void ReproducingKernel<D, Degree>::factorise_moments() {
     });
     Lanes pivot = factor_[a * n + a] * (scale_[a] * scale_[a]);
     unroll<a>([&](auto k) { pivot -= factor_[a * n + k] * factor_[a * n + k]; });
-    quality_ = select(pivot.v >= quality_.v, quality_, pivot);  // not a number stays visible
+    quality_ = select(pivot.v >= quality_.v, quality_, pivot);  // NaN stays
     inverse_pivot_[a] = 1.0 / sqrt(pivot);
   });
 }
@@ -118,7 +118,7 @@ void ReproducingKernel<D, Degree>::evaluate_windows(const std::array<Vec<D>, 4>&
   std::array<Lanes, D> x;
   for (int i = 0; i < D; ++i) at(x, i) = {points[0][i], points[1][i], points[2][i], points[3][i]};
   const Real inverse_H = 1 / H;
-  // One code for all orders, else the contraction of products would make their bits differ.
+  // One code for all orders of derivatives: otherwise fused multiply-adds could change the bits.
   kernel_.resize(candidates.size() + candidates.size() % 2);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     Kernel& kernel = kernel_[k];
@@ -136,7 +136,7 @@ void ReproducingKernel<D, Degree>::evaluate_windows(const std::array<Vec<D>, 4>&
     if (order == Derivatives::first) continue;
     kernel.b = w.beta * (ratio * ratio) / max(s2, 1e-300);
   }
-  if (kernel_.size() > candidates.size()) kernel_.back() = Kernel{};  // pairs: adds nothing
+  if (kernel_.size() > candidates.size()) kernel_.back() = Kernel{};  // adds zero to its pair
 }
 
 template <int D, int Degree>

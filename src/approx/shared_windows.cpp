@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rank does which chunks and adds up the sums of which particles.
+// Assigns chunks and sums over particles to ranks.
 #include "meniscus/approx/shared_windows.hpp"
 
 #include <algorithm>
@@ -9,7 +9,8 @@ namespace meniscus {
 SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Index> touched,
                              std::span<const Offset> start, Index particles,
                              const Division& division) {
-  // As all rows of the body, whoever does these: what a rank adds up it has to follow.
+  // The particles are divided like the rows of the body: a rank follows the particles that it adds
+  // up.
   for (int rank = 0; rank <= ranks().size(); ++rank)
     border_.push_back(division.first_row(particles, rank));
   const Touched by_chunks = touched_by_chunks(chunks, touched, start, division);
@@ -18,7 +19,7 @@ SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const In
   particles_ = exchange_of_forces();
 }
 
-/// Who does which chunk is known before its rows are.
+/// Gathers the particles that chunks touch. The rank of each chunk is known before its rows are.
 SharedWindows::Touched SharedWindows::touched_by_chunks(const std::vector<WindowChunk>& chunks,
                                                         std::span<const Index> touched,
                                                         std::span<const Offset> start,
@@ -48,7 +49,7 @@ SharedWindows::Touched SharedWindows::touched_by_chunks(const std::vector<Window
   return by_chunks;
 }
 
-/// In the sums of each rank those of its own windows come first.
+/// Sums of a rank are numbered with its own windows first, then received ones.
 void SharedWindows::share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched) {
   const int me = ranks().rank();
   const ItemRange particles = summed_particles();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marks of the particles that are read, and the halo that follows from them.
+// Marks of particles that are read, and the halo made from them.
 #include "meniscus/approx/step_reads.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A buffer of each thread, which stays.
+// A buffer of each thread, which is kept.
 #include "meniscus/approx/thread_sums.hpp"
 
 namespace meniscus {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adding up forces from rows on several threads and ranks with the same bits for any number of
-// them: row chunks, as many as their number asks for, each with its own sums for the particles that
-// its rows touch, added up in ascending order (performance note 5, scaling note 2).
+// Assembly of forces from rows on several threads and ranks, with the same bits for any number of
+// them. Rows are divided into chunks, whose number depends on the number of rows only. Each chunk
+// has its own sums (its window) for the particles that its rows touch. Windows are added to the
+// forces in ascending order of chunks (performance note 5, scaling note 2).
 #pragma once
 #include "meniscus/approx/shared_windows.hpp"
 #include "meniscus/approx/thread_sums.hpp"
@@ -14,19 +15,20 @@
 
 namespace meniscus {
 
-/// The chunks of a set of rows, each with the sums of the particles that its rows touch.
+/// The chunks of a set of rows, each with a window: its sums for the particles that its rows touch.
 class ForceWindows {
  public:
   ForceWindows() = default;
-  /// Windows for compressed rows. All ranks make them of the same number of rows, of which each has
-  /// those of its own chunks at least (Division::own_rows()).
+  /// Makes the windows of compressed rows. All ranks call this with the same number of rows. Each
+  /// rank needs the entries of the rows of its own chunks (Division::own_rows()); others may be
+  /// empty.
   ForceWindows(std::span<const Offset> start, std::span<const Index> particle, Index particles,
                const Division& division);
 
-  /// Calls work(chunk, begin row, end row, window) for each chunk of this rank; window[A] += ... is
-  /// allowed for the particles A of those rows. Then adds all windows to `force`, which is the same
-  /// on all ranks before and after; while a halo is entered, on the rank that adds up the sums of a
-  /// particle, until Halo::spread().
+  /// Calls work(chunk, begin row, end row, window) for each chunk of this rank; `work` may add to
+  /// window[A] for the particles A of those rows. Then all windows are added to `force`, which must
+  /// be the same on all ranks before and is so after. While a halo is entered, a particle gets its
+  /// force only on the rank that adds up its windows, until Halo::spread().
   template <class F>
   void accumulate(std::span<NodalVector> force, F&& work) {
     parallel_for(
@@ -44,17 +46,17 @@ class ForceWindows {
     if (shared_) shared_->spread_forces(force);
   }
 
-  /// Of SharedWindows, in a run of several ranks.
+  /// Forwarded to SharedWindows; only for runs on several ranks.
   void mark_touched(std::span<std::uint8_t> particles) const { shared_->mark_touched(particles); }
   void mark_summed(std::span<std::uint8_t> particles) const { shared_->mark_summed(particles); }
   void keep_to(std::shared_ptr<const Halo> halo) { shared_->keep_to(std::move(halo)); }
 
-  /// Also of those without rows.
+  /// Number of chunks, including chunks without rows.
   int chunks() const { return chunks_; }
   const Division& division() const { return division_; }
-  /// Pairs of the rows of all ranks and particles.
+  /// Number of (row, particle) pairs in the rows of all ranks.
   Offset pairs() const { return pairs_; }
-  /// Sums that this rank adds up.
+  /// Number of sums of chunks that this rank adds to forces.
   std::size_t sums() const { return sum_of_particle_.size(); }
   std::size_t bytes() const {
     return sums_.size() * sizeof(NodalVector) +
@@ -70,13 +72,13 @@ class ForceWindows {
   int chunks_ = 0;
   Index particles_ = 0;
   Offset pairs_ = 0;
-  std::vector<WindowChunk> own_;        // whose rows this rank does
-  std::vector<Index> touched_;          // particle of a sum of own chunks, [sum]
+  std::vector<WindowChunk> own_;        // chunks whose rows this rank computes
+  std::vector<Index> touched_;          // particle of each sum of own chunks, [sum]
   ItemRange summed_{0, 0};              // particles whose sums this rank adds up
   std::vector<Index> sum_start_;        // [particle of summed_ + 1]
-  std::vector<Index> sum_of_particle_;  // number of a sum, in ascending order of chunks
+  std::vector<Index> sum_of_particle_;  // numbers of sums, ascending chunks for each particle
   NodalVectors sums_;
-  std::shared_ptr<SharedWindows> shared_;  // null: there are no other ranks
+  std::shared_ptr<SharedWindows> shared_;  // null on a single rank
 };
 
 }  // namespace meniscus

@@ -25,8 +25,8 @@ constexpr int hessian_index(int D, int i, int j) {
   return a * D - a * (a - 1) / 2 + b - a;
 }
 
-/// Monomials sorted by degree, 1; x, y, z; xx, xy, xz, yy, yz, zz; ...: each one is an earlier
-/// one, `factor`, times the variable `variable`.
+/// The monomials sorted by degree, 1; x, y, z; xx, xy, xz, yy, yz, zz; ... Monomial n is the
+/// earlier monomial factor[n] times the variable number variable[n].
 template <int D, int Degree>
 struct Monomials {
   static constexpr int size = monomial_count(D, Degree);
@@ -54,7 +54,8 @@ struct Monomials {
     }
   }
 
-  /// The first of the monomials whose `factor` is n; they follow each other. 0 if there is none.
+  /// The first monomial k with factor[k] = n, or 0. All monomials with this factor follow each
+  /// other.
   constexpr int first_multiple(int n) const {
     for (int k = 1; k < size; ++k)
       if (factor[static_cast<std::size_t>(k)] == n) return k;

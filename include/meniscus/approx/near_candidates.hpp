@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the candidates around a cell reach the next four of its integration points.
+// Selects the particles around a cell whose support reaches the next four of its integration
+// points.
 #pragma once
 #include "meniscus/approx/reproducing_kernel.hpp"
 #include "meniscus/core/aligned.hpp"
@@ -10,24 +11,25 @@
 
 namespace meniscus {
 
-/// Chooses batch by batch from the same candidates, four of them at a time. Keeps its buffers.
+/// Selects from one list of candidates, batch after batch, four candidates at a time. Buffers are
+/// kept.
 template <int D>
 class NearCandidates {
  public:
-  /// The candidates, which stay where they are as long as select() is called.
+  /// Sets the list of candidates, which has to stay alive while select() is called.
   void begin(std::span<const Candidate<D>> candidates);
   std::span<const Candidate<D>> all() const { return all_; }
 
-  /// Finds those whose support reaches one of four kernel places, up to rounding of the distance.
+  /// Finds the candidates whose support reaches one of four kernel places, up to rounding.
   void select(const std::array<Vec<D>, 4>& points);
   std::span<const Candidate<D>> near() const { return std::span(near_).first(count_); }
-  /// Their numbers among all.
+  /// Their places in the list all().
   std::span<const Index> numbers() const { return std::span(numbers_).first(count_); }
 
  private:
   std::span<const Candidate<D>> all_;
   AlignedVector<Lanes> place_;   // [four candidates][i]
-  AlignedVector<Lanes> square_;  // [four candidates] of the support
+  AlignedVector<Lanes> square_;  // squared support, [four candidates]
   std::vector<Candidate<D>> near_;
   std::vector<Index> numbers_;
   std::size_t count_ = 0;

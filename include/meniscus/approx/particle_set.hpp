@@ -10,12 +10,12 @@
 
 namespace meniscus {
 
-/// Reference positions and supports, with the search tree over them. Never changes once rows are
-/// built on it.
+/// Reference positions and supports of particles, with the search tree over them. Must not change
+/// once rows are built on it.
 ///
-/// Supports are balls after the body has been pressed back by a stretch U: shape functions are
-/// those of the places U^-1 X, N_A(x) = M_A(U^-1 x), and lengths of supports are measured there.
-/// Those of a stretched ball are then as good as those of the ball.
+/// With a stretch U supports are ellipsoids: shape functions are evaluated at the kernel places
+/// U^-1 X, N_A(x) = M_A(U^-1 x), and supports are balls there, with their lengths measured there.
+/// The shape functions of a stretched ball are then as good as those of the ball.
 template <int D>
 class ParticleSet {
  public:
@@ -25,14 +25,14 @@ class ParticleSet {
     int rank = D == 3 ? 20 : 8;
   };
 
-  /// `stretch` U: symmetric, det U = 1.
+  /// Sets the supports by `rule`. The stretch U is symmetric with det U = 1.
   ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window,
               const Mat<D>& stretch = Mat<D>::Identity());
   /// The same support for all particles.
   ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
               const Mat<D>& stretch = Mat<D>::Identity());
 
-  /// A support for each particle.
+  /// Sets the supports to support[particle].
   ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support, Window window,
               const Mat<D>& stretch = Mat<D>::Identity());
 
@@ -42,9 +42,9 @@ class ParticleSet {
   Window window() const { return window_; }
   const NeighborSearch<D>& search() const { return search_; }
 
-  /// U^-1; null where supports are balls in space.
+  /// U^-1, or null without a stretch.
   const Mat<D>* pressed() const { return pressed_ ? &pressed_->inverse_stretch : nullptr; }
-  /// U^-1 x: where kernels are evaluated.
+  /// U^-1 x, the place at which kernels are evaluated.
   Vec<D> kernel_place(const Vec<D>& x) const {
     return pressed_ ? Vec<D>(pressed_->inverse_stretch * x) : x;
   }
@@ -55,27 +55,27 @@ class ParticleSet {
     return x;
   }
 
-  /// From now on no support exceeds `limit`, one number per particle, e.g. the distance to the
-  /// other side of a cavity. Returns how many supports were shortened.
+  /// Limits the supports to limit[particle] from now on, e.g. the distance to the other side of a
+  /// cavity. Returns how many supports were shortened.
   Index limit_supports(std::vector<Real> limit);
 
-  /// All particles whose support reaches into the ball around `centre`, by ascending number; with
-  /// stretched supports also some that do not. Places of candidates are kernel places.
+  /// Finds all particles whose support reaches into the ball around `centre`, in ascending order.
+  /// With a stretch some more are found. The X of candidates are kernel places.
   void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
-  /// The same from those of a ball that this one lies in.
+  /// Like the function above; `around` has the candidates of a larger ball that contains this ball.
   void candidates(const Vec<D>& centre, Real radius, std::span<const Candidate<D>> around,
                   std::vector<Candidate<D>>& found) const;
-  /// All particles whose support reaches one of the points, by ascending number.
+  /// Finds all particles whose support reaches one of the points, in ascending order.
   void candidates(const std::array<Vec<D>, 4>& points, std::vector<Candidate<D>>& found) const;
 
-  /// Deficiency monitor (RKPM note 2.4) at `points`: where the moment matrix is poor, the supports
-  /// of the particles around are enlarged in steps of 10 % until it is not, at most to 2.6 times
-  /// the support asked for and to the limit. Returns how many particles were enlarged. Throws
-  /// SolveError naming `body`, the point and its neighbour count when a point stays unusable.
+  /// Deficiency monitor (RKPM note 2.4) at `points`. Where the moment matrix is poor, the supports
+  /// of the particles around are enlarged in steps of 10 %, up to 2.6 times the original support
+  /// and up to the limit. Returns how many supports were enlarged. Throws SolveError naming `body`,
+  /// the point and its neighbour count if the matrix stays unusable.
   Index ensure_quality(std::span<const Vec<D>> points, const std::string& body);
 
   /// Throws SolveError naming `body`, the point x and its neighbour count if `quality` (of the
-  /// moment matrix at x) is below unusable_quality or not a number.
+  /// moment matrix at x) is below `least` or NaN.
   void require_quality(Real quality, const Vec<D>& x, const std::string& body,
                        Real least = unusable_quality) const {
     if (!(quality >= least)) refuse(quality, x, body);
@@ -85,10 +85,10 @@ class ParticleSet {
   static constexpr Real poor_quality = 1e-2;
 
  private:
-  /// The places U^-1 X of stretched supports.
+  /// Particles at the kernel places U^-1 X.
   struct Pressed {
     Mat<D> inverse_stretch;
-    Real growth;  ///< of a length at most
+    Real growth;  ///< largest factor by which U^-1 changes a length
     std::vector<Vec<D>> X;
     NeighborSearch<D> search;
   };
@@ -104,7 +104,7 @@ class ParticleSet {
 
   std::vector<Vec<D>> X_;
   std::vector<Real> support_;
-  std::vector<Real> limit_;  // empty: none
+  std::vector<Real> limit_;  // [particle]; empty without limits
   Real largest_support_ = 0;
   Window window_;
   NeighborSearch<D> search_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape functions at evaluation points, stored as compressed rows: a row per point, an entry per
-// particle that reaches it. Only the derivative orders asked for exist.
+// Shape functions at evaluation points, stored as compressed rows. A row belongs to a point and has
+// an entry for each particle whose support reaches it. Only requested derivatives are stored.
 #pragma once
 #include "meniscus/approx/particle_set.hpp"
 #include "meniscus/core/aligned.hpp"
@@ -12,7 +12,7 @@
 
 namespace meniscus {
 
-/// What a row stores. Second derivatives are packed as in hessian_index().
+/// The quantities that a row stores. Second derivatives are packed as in hessian_index().
 struct RowContent {
   bool value = false, gradient = false, hessian = false;
 };
@@ -28,7 +28,7 @@ struct PointRows {
 
   Index size() const { return static_cast<Index>(start.size()) - 1; }
   Offset entries() const { return start.back(); }
-  /// Particles of these rows.
+  /// The particles of the entries of rows begin, ..., end - 1.
   std::span<const Index> of_rows(Index begin, Index end) const {
     return std::span(particle).subspan(static_cast<std::size_t>(at(start, begin)),
                                        static_cast<std::size_t>(at(start, end) - at(start, begin)));
@@ -37,14 +37,14 @@ struct PointRows {
   std::size_t bytes() const;
 };
 
-/// Rows at `points` (neighbours in the array should be neighbours in space: points are treated in
-/// groups that share one search). Throws SolveError naming `body` and the point where the moment
+/// Builds the rows at `points`. Points that follow each other should be near each other, since
+/// groups of them share one search. Throws SolveError naming `body` and the point if the moment
 /// matrix is unusable.
 template <int D, int Degree = 2>
 PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
                               RowContent content, const std::string& body);
-/// The rows of some of the points, with the bits that they have among all; those of all others are
-/// empty.
+/// Builds the rows of the points in the range `some`, with the same bits as if all were built. The
+/// rows of all other points are empty.
 template <int D>
 PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
                               RowContent content, const std::string& body, ItemRange some);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reproducing-kernel shape functions N_A and their complete first and second derivatives at four
-// evaluation points at once (RKPM note 2.1, fixed-origin form: the derivatives of the moment matrix
-// are never formed).
+// Reproducing-kernel shape functions N_A with their exact first and second derivatives, at four
+// evaluation points at once. The derivatives of the moment matrix are never formed (RKPM note 2.1,
+// fixed-origin form).
 #pragma once
 #include "meniscus/approx/monomials.hpp"
 #include "meniscus/approx/window.hpp"
@@ -22,11 +22,12 @@ struct Candidate {
   Vec<D> X;
 };
 
-/// Shape functions of complete polynomials up to `Degree`, evaluated for batches of four points
+/// Shape functions that reproduce polynomials up to `Degree`, evaluated for batches of four points
 /// that share a list of candidate particles. Candidates that do not reach a point get N = 0 there.
 ///
-/// At each point x: p(s) are the monomials of s = (y - x)/H, P_A = p((x_A - x)/H), with one H for
-/// the whole batch, and
+/// At each point x, p(s) are the monomials of s = (y - x)/H and P_A = p((x_A - x)/H), with one H
+/// for the whole batch. Then
+///
 ///   M = sum P_A P_A^T Phi_A,                     M c     = e_0
 ///   M c,i  = p,i  - sum Phi_A,i P_A (P_A.c)
 ///   M c,ij = p,ij - sum P_A [Phi_A,ij (P_A.c) + Phi_A,i (P_A.c,j) + Phi_A,j (P_A.c,i)]
@@ -40,13 +41,14 @@ class ReproducingKernel {
   explicit ReproducingKernel(Window window) : window_(window) {}
   void use(Window window) { window_ = window; }
 
-  /// Evaluates at four points (repeat one to fill up). Results are valid until the next call.
+  /// Evaluates at four points (for fewer points, repeat one). Results are valid until the next
+  /// call.
   void evaluate(const std::array<Vec<D>, 4>& points, std::span<const Candidate<D>> candidates,
                 Derivatives order);
 
-  /// Whether candidate k reaches the point of this lane.
+  /// True if candidate k reaches the point of this lane.
   bool reaches(std::size_t k, int lane) const { return kernel_[k].phi[lane] > 0; }
-  /// N_A, N_A,i and N_A,ij (packed as in hessian_index) of candidate k, a lane per point.
+  /// N_A, N_A,i and N_A,ij (packed as in hessian_index) of candidate k, one lane per point.
   Lanes value(std::size_t k) const { return value_[k]; }
   Lanes gradient(std::size_t k, int i) const {
     return gradient_[k * D + static_cast<std::size_t>(i)];
@@ -54,14 +56,14 @@ class ReproducingKernel {
   Lanes hessian(std::size_t k, int ij) const {
     return hessian_[k * hessian_count(D) + static_cast<std::size_t>(ij)];
   }
-  /// Smallest squared pivot of the Jacobi-scaled moment matrix, a lane per point: the deficiency
-  /// monitor of RKPM note 2.4 (>= 3e-2 good; < 1e-3, or not a number, unusable).
+  /// Smallest squared pivot of the Jacobi-scaled moment matrix, one lane per point: the deficiency
+  /// monitor of RKPM note 2.4. Values >= 3e-2 are good; values < 1e-3 and NaN are unusable.
   Lanes quality() const { return quality_; }
 
   /// H of the last evaluation.
   Real scale() const { return scale_of_places_; }
-  /// At the points of the last evaluation, for each b the functions f_A = Phi_A P_A.(M^-1 b): those
-  /// of the shape functions with sum f_A p((x_A - x)/H) = b, of which b = e_0 gives N_A.
+  /// Evaluates, at the points of the last evaluation, the functions f_A = Phi_A P_A.(M^-1 b) for
+  /// each b. They satisfy sum f_A p((x_A - x)/H) = b; b = e_0 gives f_A = N_A.
   void evaluate_functionals(std::span<const BasisVector> b);
   /// f_A of candidate k for b[j].
   Lanes functional(std::size_t k, std::size_t j) const {
@@ -90,7 +92,7 @@ class ReproducingKernel {
       const BasisVector& c, const std::array<BasisVector, D>& c_i) const;
 
   Window window_;
-  std::vector<Kernel> kernel_;  // [candidate], one more if their number is odd
+  std::vector<Kernel> kernel_;  // [candidate], padded to an even number
   std::vector<Lanes> value_, gradient_, hessian_, functional_;
   std::vector<BasisVector> solved_;  // M^-1 b
   Real scale_of_places_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over one row of shape functions: a nodal field at an evaluation point, and the transpose.
+// Sums over one row of shape functions: the value of a nodal field at a point, and the transpose.
 #pragma once
 #include "meniscus/approx/point_rows.hpp"
 
@@ -20,7 +20,7 @@ NodalVector value_at(const PointRows<D>& rows, Index q, const NodalVector* field
   return even + odd;
 }
 
-/// Column K: sum_A f_A N_A,K at point q.
+/// The gradient of the field at point q: column K is sum_A f_A N_A,K.
 template <int D>
 [[gnu::always_inline]] inline std::array<Lanes, D> gradient_at(const PointRows<D>& rows, Index q,
                                                                const NodalVector* field) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a rank reads of the motion in a step: the stepper and each term of a system say their part,
-// and from all of them follows which particles the rank follows (scaling note 2.3).
+// The particles whose motion a rank reads in a step. The stepper and each force term register the
+// particles that they read; the halo is made from all of them (scaling note 2.3).
 #pragma once
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/core/halo.hpp"
@@ -16,29 +16,32 @@ class StepReads {
  public:
   using SharedHalo = std::shared_ptr<const Halo>;
 
-  /// Of all bodies together, none of which is read so far.
+  /// `particles`: number of particles of all bodies. None of them is marked as read.
   explicit StepReads(Index particles) : read_(static_cast<std::size_t>(particles), 0) {}
 
-  /// The particles that the rows of this rank touch, and those over which it adds up windows. Both
-  /// are numbered from `first` on. The windows know the halo once it is made.
+  /// Marks the particles that the rows of this rank touch, and the particles over which it adds up
+  /// windows. Both are numbered from `first` on. `windows` gets the halo from share().
   void rows(ForceWindows& windows, Index first);
-  /// The latter alone, where rows are given what they scatter.
+  /// Registers only the particles over which this rank adds up windows, for rows that read no
+  /// motion.
   void sums(ForceWindows& windows, Index first);
-  /// These particles, counted from `first` on: as a rule the same on all ranks.
+  /// Marks these particles, numbered from `first` on. They are usually the same on all ranks.
   void particles(std::span<const Index> numbers, Index first);
-  /// Those from begin to end.
+  /// Marks the particles begin, ..., end - 1.
   void range(Index begin, Index end);
-  /// A vector over all particles that steps keep up: of those that are followed.
+  /// Registers a vector over all particles that steps update, for Halo::keep().
   void keeps(NodalVectors& vector) { kept_.push_back(&vector); }
-  /// Is told the halo when it is made. What it is given stays until then.
+  /// Registers a function that share() calls with the halo. Objects it refers to must live until
+  /// then.
   void when_shared(std::function<void(const SharedHalo&)> learn);
 
-  /// Null: every rank reads all. All ranks call this, with what they read in the same order.
+  /// Makes the halo of all registered particles. Returns null if every rank reads all particles.
+  /// All ranks have to call this, with their registrations in the same order.
   std::shared_ptr<Halo> share(ParticleOwners owners);
 
  private:
   std::vector<std::uint8_t> read_;      // [particle]
-  std::vector<ForceWindows*> windows_;  // each once, in the order in which they were told
+  std::vector<ForceWindows*> windows_;  // without repetition, in order of registration
   std::vector<NodalVectors*> kept_;
   std::vector<std::function<void(const SharedHalo&)>> learners_;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two integration rules of the internal force as operators of the time loop. Both treat stress
-// points in groups of up to four: gather() turns a nodal field into its gradient at the points of a
-// group, a lane per point; scatter() is the exact transpose. Lanes without a point have weight
-// zero.
+// The two integration rules of the internal force, as operators of the time loop. Both treat
+// quadrature points in groups of up to four. gather() computes the gradient of a nodal field at the
+// points of a group, one lane per point; scatter() is the exact transpose. Lanes without a point
+// have weight zero.
 #pragma once
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/approx/row_sums.hpp"
@@ -32,31 +32,33 @@ void add_squares(const std::array<Tensor<Lanes>, D>& S, const std::array<Lanes, 
   }
 }
 
-/// Nodal cells with linear moments, "q_scni" (RKPM note 5.3): in cell L the gradient of a field is
-/// sum_A f_A (a_A + B_A xi), evaluated at D + 1 points xi_q of equal weight that reproduce volume,
-/// centroid and covariance of the cell. A group is a cell. Rows may have coefficients in single
-/// precision, behind those in double that make up for their rounding (performance note 2). Rows of
-/// other ranks are empty.
+/// Nodal cells with linear moments, "q_scni" (RKPM note 5.3). In cell L the gradient of a field is
+/// sum_A f_A (a_A + B_A xi). It is evaluated at D + 1 points xi_q of equal weight that reproduce
+/// volume, centroid and covariance of the cell. A group is a cell.
+///
+/// Coefficients may be in single precision. The entries of a row in double come first and make up
+/// for the rounding of the others (performance note 2). Rows of other ranks are empty.
 template <int D>
 struct CellRule {
   std::vector<Offset> start{0};         ///< [cell + 1]
-  std::vector<Offset> double_start{0};  ///< [cell + 1]: entries in double of the cells before
-  std::vector<Index> particle;          ///< [entry]; of a row, those in double first
+  std::vector<Offset> double_start{0};  ///< [cell + 1]: number of entries in double of all cells
+                                        ///< before
+  std::vector<Index> particle;          ///< [entry]; in a row, entries in double come first
   UnsetVector<Lanes> coefficient;       ///< [entry in double][K]: (a_AK, B_AK0, B_AK1, B_AK2)
-  UnsetVector<SingleLanes> rounded;     ///< [entry in single precision][K]: likewise
+  UnsetVector<SingleLanes> rounded;     ///< the same in single precision, [entry][K]
   AlignedVector<Lanes> point;           ///< [cell][M]: xi_qM, a lane per stress point q
   std::vector<Real> volume;             ///< [cell]
 
   Index groups() const { return static_cast<Index>(volume.size()); }
   Index points_per_group() const { return D + 1; }
-  /// Number of the cell (= particle) that a lane of a group belongs to.
+  /// Number of the cell, which is the number of its particle, for a lane of a group.
   Index owner(Index group, int) const { return group; }
   Lanes weight(Index group) const {
     const Real w = at(volume, group) / (D + 1);
     return {w, w, w, D == 3 ? w : 0.0};
   }
 
-  /// H_iK = f_i,K at the stress points of a cell.
+  /// H_iK = f_i,K at the quadrature points of a cell.
   [[gnu::always_inline]] void gather(Index cell, const NodalVector* field, Tensor<Lanes>& H) const {
     Lanes moment[D][D];
     for (auto& row : moment)
@@ -78,7 +80,7 @@ struct CellRule {
       }
   }
 
-  /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM), by vectors of coefficients whose lanes are
+  /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM). Lanes of products with the coefficients are
   /// added up at the end.
   [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P,
                                       NodalVector* force) const {
@@ -100,8 +102,8 @@ struct CellRule {
         });
   }
 
-  /// sum_A,i += sum_q S_i,KL(q) g_AK(q) g_AL(q), g the gradients of shape functions: the diagonal
-  /// of what gather, P_iK = S_i,KL H_iL and scatter do to a field.
+  /// sum_A,i += sum_q S_i,KL(q) g_AK(q) g_AL(q) with the gradients g of shape functions. This is
+  /// the diagonal of the operator gather(), P_iK = S_i,KL H_iL, scatter().
   void add_diagonal(Index cell, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     for_entries(cell, Half::first, [&](Index A, const std::array<Lanes, D>& coefficients) {
@@ -126,13 +128,13 @@ struct CellRule {
   }
 
  private:
-  // The time loop is bound by memory: coefficients are read once from memory and again from cache.
-  // Fetching those of the next cell, half of them by each reading, lets memory and arithmetic
-  // overlap.
+  // The time loop is bound by memory: gather() reads the coefficients of a cell from memory,
+  // scatter() reads them from cache. Each of the two prefetches one half of the coefficients of the
+  // next cell, so that memory access and arithmetic overlap.
   enum class Half : std::uint8_t { first, second };
   static constexpr std::ptrdiff_t bytes_ahead = 64, rounded_bytes_ahead = 32;  // per entry
 
-  /// work(particle, coefficients[K]) for the entries of a row.
+  /// Calls work(particle, coefficients[K]) for the entries of a row.
   template <class F>
   [[gnu::always_inline]] void for_entries(Index cell, Half half, F&& work) const {
     const Offset exact = at(double_start, cell), exact_end = at(double_start, cell + 1);
@@ -160,9 +162,9 @@ struct CellRule {
   }
 };
 
-/// Stress at evaluation points with gradients of shape functions: Gauss points, or the particles
-/// themselves. A group is `per_group` consecutive points (one where neighbouring points have
-/// different material numbers).
+/// Quadrature points with gradients of shape functions: Gauss points, or the particles themselves.
+/// A group has `per_group` consecutive points (one if neighbouring points have different material
+/// parameters).
 template <int D>
 struct PointRule {
   static constexpr Index most_per_group = 4;
@@ -213,7 +215,7 @@ struct PointRule {
     }
   }
 
-  /// As CellRule::add_diagonal.
+  /// See CellRule::add_diagonal().
   void add_diagonal(Index group, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
     for (int lane = 0; lane < count(group); ++lane) {
       const Index q = group * per_group + lane;
@@ -230,7 +232,7 @@ struct PointRule {
 
   Offset pairs() const { return rows.entries(); }
   ForceWindows windows(Index particles, const Division& division) const {
-    // Windows count groups as rows.
+    // Each group counts as one row.
     std::vector<Offset> group_start;
     for (Index g = 0; g < groups(); ++g) group_start.push_back(at(rows.start, g * per_group));
     group_start.push_back(rows.entries());
@@ -241,8 +243,7 @@ struct PointRule {
   }
 
  private:
-  // Gradients are read once from memory and again from cache: while they are read again, those of
-  // the next group are fetched.
+  // scatter() reads the gradients of a group from cache and prefetches those of the next group.
   std::ptrdiff_t distance_to_next(Index group) const {
     const Index first = group * per_group;
     return (at(rows.start, first + count(group)) - at(rows.start, first)) * D;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a thread adds up the forces of the rows of a chunk: a vector per particle of a body, of
-// which it touches few.
+// A buffer of each thread for the forces of one chunk: a vector for each particle of a body. A
+// chunk touches few of them.
 #pragma once
 #include "meniscus/core/aligned.hpp"
 
 namespace meniscus {
 
-/// Sums of the calling thread for that many particles, as it left them. Those of a body are valid
-/// until the thread asks for more particles.
+/// The buffer of the calling thread with at least `particles` vectors, whose values are left from
+/// earlier use. Valid until the thread calls this with a larger number.
 NodalVector* thread_sums(Index particles);
 
 }  // namespace meniscus

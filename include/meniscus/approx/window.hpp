@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Window functions Phi(z), z = |x - x_A| / support_A, zero for z >= 1 (RKPM note 2.1).
+// Kernel functions Phi(z), z = |x - x_A| / support_A, zero for z >= 1 (RKPM note 2.1).
 #pragma once
 #include "meniscus/core/simd.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// The window functions by their names in scenes.
+/// The kernel functions by their names in scenes.
 enum class Window { cubic_spline, quintic_spline, wendland_c2, wendland_c4, quartic_spline };
 
 inline constexpr std::array<std::string_view, 5> window_names{
@@ -82,7 +82,7 @@ struct QuarticSpline {
 
 }  // namespace window
 
-/// Calls f with an object of the window's type: the choice is made once, outside of all loops.
+/// Calls f with an object of the type of the kernel: it is chosen once, outside of all loops.
 template <class F>
 decltype(auto) with_window(Window window, F&& f) {
   switch (window) {
