@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integrals over the samples of cells and facets, and what these miss of polynomials.
+// Integrals over the samples of cells and facets, and corrections that make them exact for
+// polynomials.
 #include "cell_integrals.hpp"
 
 #include "meniscus/approx/near_candidates.hpp"
@@ -10,15 +11,15 @@
 namespace meniscus {
 namespace {
 
-/// Calls f(first, kernel) for fours of points, which are close together, beginning with `first`,
-/// with the values there of the candidates that reach one of them.
+/// Calls f(first, kernel) for each group of four near points, with the number `first` of its first
+/// point. The kernel has the values at these points of the candidates that reach one of them.
 template <int D, class F>
 void for_fours(const Body<D>& body, std::span<const Vec<D>> points, NearCandidates<D>& candidates,
                F&& f) {
   thread_local ReproducingKernel<D> kernel(body.particles.window());  // keeps its buffers
   kernel.use(body.particles.window());
   for (std::size_t first = 0; first < points.size(); first += 4) {
-    std::array<Vec<D>, 4> four;  // the last point fills up
+    std::array<Vec<D>, 4> four;  // unused lanes repeat the last point
     for (std::size_t lane = 0; lane < 4; ++lane)
       four[lane] = points[std::min(first + lane, points.size() - 1)];
     const auto places = body.particles.kernel_places(four);
@@ -31,7 +32,7 @@ void for_fours(const Body<D>& body, std::span<const Vec<D>> points, NearCandidat
   }
 }
 
-/// sum_k += sum_q weight_q N_k(x_q), q the lanes, for the candidates k that are near.
+/// sum_k += sum_q weight_q N_k(x_q) over the lanes q, for the near candidates k.
 template <int D, class Weight, class Sum>
 void add_four(const ReproducingKernel<D>& kernel, const NearCandidates<D>& candidates,
               const std::array<Weight, 4>& weight, std::vector<Sum>& sum) {
@@ -39,12 +40,13 @@ void add_four(const ReproducingKernel<D>& kernel, const NearCandidates<D>& candi
   for (std::size_t k = 0; k < numbers.size(); ++k) at(sum, numbers[k]).add(kernel.value(k), weight);
 }
 
-/// Functions of a batch: moments 0 and 1 of n_K.
+/// Number of functionals of a batch: moments 0 and 1 of each n_K.
 template <int D>
 constexpr std::size_t functional_count = D*(1 + D);
 
-/// Adds what the samples miss of the integrals of polynomials, by functions that reproduce it: to
-/// the volume and to facets, four at a time (RKPM note 5.6).
+/// Adds the differences between exact integrals of polynomials and their sums over samples. They
+/// are distributed to particles by reproducing functionals, for volume and facets in batches of
+/// four (RKPM note 5.6).
 template <int D>
 class MissingMoments {
  public:
@@ -108,7 +110,7 @@ class MissingMoments {
       }
   }
 
-  /// Right-hand sides of one lane.
+  /// Sets the right-hand sides of one lane.
   void fill(int part, Real H, int lane,
             std::array<typename Kernel::BasisVector, functional_count<D>>& right) const {
     if (part == volume_part) {
@@ -128,7 +130,7 @@ class MissingMoments {
     }
   }
 
-  /// Moments of X - centre as those of its kernel place over H.
+  /// Transforms moments of X - centre to moments of kernel places, in units of H.
   void set(const typename CellSamples<D>::template Missing<2>& moment, Real H, int lane,
            typename Kernel::BasisVector& b) const {
     Mat<D> T = body_.particles.pressed() ? *body_.particles.pressed() : Mat<D>::Identity();
@@ -151,10 +153,10 @@ class MissingMoments {
   const Body<D>& body_;
   Index cell_;
   const CellSamples<D>& samples_;
-  std::vector<int> parts_;  // facets, or the volume
+  std::vector<int> parts_;  // numbers of facets, or volume_part
 };
 
-/// Fluxes through the facets with these points.
+/// Fluxes through the facets, given by their points X and normals times weights dA.
 template <int D>
 void integrate_fluxes(const Body<D>& body, std::span<const Vec<D>> X, std::span<const Vec<D>> dA,
                       const Vec<D>& centre, NearCandidates<D>& candidates,
@@ -168,7 +170,8 @@ void integrate_fluxes(const Body<D>& body, std::span<const Vec<D>> X, std::span<
   });
 }
 
-/// Adds the points of a facet that are among the four that begin with `first`, from `next` on.
+/// Adds the points of a facet that are in the group of four that begins with `first`. Begins with
+/// facet point `next`, which is advanced.
 template <int D>
 void add_facet_points(const CellSamples<D>& samples, const typename CellSamples<D>::Facet& facet,
                       std::size_t first, const ReproducingKernel<D>& kernel,
@@ -189,13 +192,13 @@ void add_facet_points(const CellSamples<D>& samples, const typename CellSamples<
       at(flux, numbers[k]).add(kernel.value(k)[lane[p]], weight[p]);
 }
 
-/// Integrals over the volume and through the facets of a cell: each point is evaluated once for all
-/// of them.
+/// Integrals over the volume and the facets of a cell. Each point is evaluated once for all of
+/// them.
 template <int D>
 void add_integrals(const Body<D>& body, const CellSamples<D>& samples,
                    NearCandidates<D>& candidates, std::vector<VolumeIntegral>& volume,
                    std::span<std::vector<Flux<D>>> facets) {
-  thread_local std::vector<std::size_t> next;  // [facet] its first point that is to come
+  thread_local std::vector<std::size_t> next;  // [facet] its next point
   next.clear();
   for (const auto& facet : samples.facets) next.push_back(facet.begin);
   for_fours<D>(
@@ -212,19 +215,19 @@ void add_integrals(const Body<D>& body, const CellSamples<D>& samples,
       });
 }
 
-/// The candidates with a flux that is not zero.
+/// The numbers of the candidates with a flux that is not zero.
 template <int D>
 void list_with_flux(std::span<const Flux<D>> flux, std::vector<Index>& numbers) {
   numbers.resize(flux.size());
   std::size_t count = 0;
-  for (std::size_t k = 0; k < flux.size(); ++k) {  // without a branch: it would be a guess
+  for (std::size_t k = 0; k < flux.size(); ++k) {  // no branch: it could not be predicted
     numbers[count] = static_cast<Index>(k);
     count += !flux[k].is_zero();
   }
   numbers.resize(count);
 }
 
-/// The integrals through a facet, for the cell on its other side; `numbers` of candidates.
+/// The fluxes through a facet for the cell on its other side. `numbers`: candidates with a flux.
 template <int D>
 void pack_shared(const typename CellSamples<D>::Facet& facet,
                  std::span<const Candidate<D>> candidates, std::span<const Flux<D>> flux,
@@ -241,7 +244,7 @@ void pack_shared(const typename CellSamples<D>::Facet& facet,
   }
 }
 
-/// Integrals over the samples of a cell, its volume and facets.
+/// Integrals over the samples of a cell, over its volume and its facets.
 template <int D>
 void integrate_samples(const Body<D>& body, Index cell, const CellSamples<D>& samples,
                        OwnItems block, NearCandidates<D>& candidates, CellIntegrals<D>& own) {
@@ -273,15 +276,15 @@ Real reach(std::span<const Vec<D>> points, const Vec<D>& centre) {
   return radius * (1 + 1e-12);
 }
 
-/// What a nodal cell is integrated with.
+/// The quadrature points of a nodal cell.
 template <int D>
 struct SampledCell {
   CellSamples<D> samples;
-  CellQuadrature<D> boundary;  ///< points of loads on faces; none where there are no such loads
-  Real reach;                  ///< of all points from the centroid
+  CellQuadrature<D> boundary;  ///< points of loaded faces; empty if no face is loaded
+  Real reach;                  ///< largest distance of a point from the centroid
 };
 
-/// `first`: that of the cells whose integrals are computed along with this one's.
+/// Samples one cell. `first`: first cell of the block whose integrals are computed together.
 template <int D>
 void sample(const Body<D>& body, Index cell, Index first, SampledCell<D>& sampled) {
   body.cells.sample(cell, first, body.particles, !body.loaded_faces, sampled.samples);
@@ -293,7 +296,8 @@ void sample(const Body<D>& body, Index cell, Index first, SampledCell<D>& sample
       std::max(reach<D>(sampled.samples.X, centroid), reach<D>(sampled.boundary.facet_X, centroid));
 }
 
-/// The end of the group that begins with the first of these cells, and the mean of its centroids.
+/// The end of the group of near cells that begins with cells.begin, and the mean of their
+/// centroids.
 template <int D>
 std::pair<Index, Vec<D>> group_of(const Body<D>& body, OwnItems cells) {
   const Vec<D>& first = body.cells.centroid(cells.begin);

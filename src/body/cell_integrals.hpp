@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integrals of shape functions over nodal cells and through their facets, each of which is computed
-// once for the two cells that share it (RKPM note 5.6).
+// Integrals of shape functions over nodal cells and their facets. A facet is integrated once for
+// the two cells that share it (RKPM note 5.6).
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/divided.hpp"
@@ -19,8 +19,8 @@ struct VolumeIntegral {
   }
 };
 
-/// Integrals of N n_K (1, X - Xf) over facets, which is also the weight at a point: lane 0 the
-/// moment of order 0, lanes 1 + Q those of order 1.
+/// Integrals of N n_K (1, X - Xf) over facets: lane 0 has the moment of order 0, lanes 1 + Q have
+/// the moments of order 1. The same type holds the weight of a point.
 template <int D>
 struct Flux {
   std::array<Lanes, D> moment{};
@@ -41,7 +41,7 @@ struct Flux {
   void add(Real N, const Flux& weight) {
     for (int K = 0; K < D; ++K) at(moment, K) += N * at(weight.moment, K);
   }
-  /// Adds `sign` times another one, whose arms begin at Xf + arm; `from_centre`: (0, arm).
+  /// Adds `sign` times the integrals `other`, whose origin is Xf + arm; `from_centre` = (0, arm).
   void add_moved(const Flux& other, Lanes from_centre, Real sign) {
     for (int K = 0; K < D; ++K) {
       const Lanes& m = at(other.moment, K);
@@ -61,31 +61,31 @@ struct Flux {
   }
 };
 
-/// Integrals over the facet between two nodal cells, seen from the one of lower number.
+/// Integrals over the facet between two nodal cells, computed for the cell of lower number.
 template <int D>
 struct SharedFlux {
   Index neighbor;
-  Vec<D> centre;  ///< where the arms begin
+  Vec<D> centre;  ///< origin of the moments
   std::vector<Index> particle;
   std::vector<Flux<D>> flux;
 };
 
-/// What one nodal cell gets and gives away: the integrals over its volume, over the facets that no
-/// cell before it in its block has, and of these over those that it shares with cells after it in
-/// the block.
+/// Integrals of one nodal cell: over its volume and over its facets, without facets shared with
+/// lower cells of its block. `shared` has the integrals for higher cells of the block.
 template <int D>
 struct CellIntegrals {
   std::vector<Candidate<D>> candidates;
   std::vector<VolumeIntegral> volume;  // [candidate]
-  std::vector<Flux<D>> flux;           // [candidate], arms from the centroid
+  std::vector<Flux<D>> flux;           // [candidate], origin at the centroid
   std::vector<SharedFlux<D>> shared;
 };
 
-/// Cells that follow each other are mostly near each other, and then share a search.
+/// Most cells in a group that shares one search. Cells with near numbers are mostly near each
+/// other.
 constexpr Index most_in_group = 8;
 
-/// Of at most `most_in_group` cells of a block; `own` [cell - begin of the block]. Throws
-/// SolveError where shape functions cannot be determined.
+/// Computes own[cell - block.begin] for at most `most_in_group` cells of a block. Throws SolveError
+/// if shape functions cannot be determined.
 template <int D>
 void integrate_cells(const Body<D>& body, OwnItems cells, OwnItems block,
                      std::span<CellIntegrals<D>> own);

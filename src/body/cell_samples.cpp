@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples of nodal cells and of the facets between them, and what they miss.
+// Samples of nodal cells and of their facets, and the difference of their sums from exact
+// integrals.
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/core/unroll.hpp"
 
@@ -11,9 +12,10 @@
 namespace meniscus {
 namespace {
 
-/// What is missing counts where it is more than rounding leaves.
+/// Relative differences below this are rounding.
 constexpr Real rounding = 1e-12;
-/// Parts that share points miss more where they are unequal: then each has its own.
+/// Largest relative difference with shared samples. It is exceeded if parts are unequal; each part
+/// then gets samples of its own.
 constexpr Real most_missing = 0.01;
 
 /// sum += w f(arm) for all monomials f.
@@ -30,7 +32,7 @@ void add_monomials(const Weight& w, const Vec<D>& arm, std::array<Weight, count>
   });
 }
 
-/// The largest of them beside size * length^(degree of the monomial).
+/// The largest missing moment relative to size * length^(degree of the monomial).
 template <int D, int degree, class Missing>
 Real largest(const Missing& missing, Real size, Real length) {
   Real scale = size, most = 0;
@@ -41,7 +43,7 @@ Real largest(const Missing& missing, Real size, Real length) {
   return most;
 }
 
-/// The corner of the cell that direction k of an octant leads to.
+/// The corner of the cell at the end of direction k of an octant.
 template <int D>
 int corner_along(const typename Grid<D>::Cell& cell, int corner, int k) {
   return is_simplex<D>(cell)
@@ -54,7 +56,8 @@ Index node_of(const typename Grid<D>::Cell& cell, int corner, int k) {
   return at(cell, corner_along<D>(cell, corner, k));
 }
 
-/// The number of a point of a part among the samples; a new one at X where no part before has it.
+/// The number, among the samples, of a point of a part. A point that earlier parts do not have is
+/// added at X.
 template <int D>
 std::size_t number_of(const typename Grid<D>::Cell& cell, int corner,
                       const typename SampleTable<D>::Places& places, const Vec<D>& X,
@@ -65,7 +68,7 @@ std::size_t number_of(const typename Grid<D>::Cell& cell, int corner,
   key.fill(-1);
   if (std::any_of(places.begin(), places.end(), is(0)) ||
       std::all_of(places.begin(), places.end(), is(Table::end))) {
-    key.fill(0);  // which particles it lies towards, and how far: the same from each part
+    key.fill(0);  // the particles and distances that describe it: equal in each part
     for (int k = 0; k < D; ++k)
       if (at(places, k) != 0)
         at(key, k) = 1 + at(places, k) + Table::distances * node_of<D>(cell, corner, k);
@@ -78,7 +81,7 @@ std::size_t number_of(const typename Grid<D>::Cell& cell, int corner,
   return samples.X.size() - 1;
 }
 
-/// Fills up fours, so that the next points are in one.
+/// Adds padding points, so that the next points begin at a multiple of four.
 template <int D>
 void fill_up(CellSamples<D>& samples) {
   while (samples.X.size() % Lanes::width != 0) {
@@ -87,7 +90,7 @@ void fill_up(CellSamples<D>& samples) {
   }
 }
 
-/// Points of a facet, one per lane, with the normals times weights of each.
+/// Points of a facet, one per lane, with their normals times weights.
 template <int D>
 struct FourFacetPoints {
   std::array<Lanes, D> X;
@@ -95,8 +98,8 @@ struct FourFacetPoints {
   int count;
 };
 
-/// Points that integrate polynomials exactly over the end of direction k of the octant at a corner,
-/// or over its beginning on the boundary of the body (`outer`).
+/// Appends points that integrate polynomials exactly over a facet of the octant at `corner`: the
+/// end of direction k, or, if `outer`, its beginning on the boundary of the body.
 template <int D>
 void append_exact_points(const CellMap<D>& map, int corner, int k, bool outer,
                          std::vector<FourFacetPoints<D>>& points) {
@@ -170,7 +173,7 @@ void NodalCells<D>::lower_neighbors(Index node, std::vector<Index>& neighbors) c
 template <int D>
 bool NodalCells<D>::is_long(Index node, Index cell, int corner,
                             const ParticleSet<D>& particles) const {
-  constexpr Real longest = 0.25;  // half an edge, of the support
+  constexpr Real longest = 0.25;  // half an edge, relative to the support
   for (int k = 0; k < D; ++k) {
     const Index neighbor = node_of<D>(at(grid_->cells, cell), corner, k);
     const Vec<D> edge =
@@ -248,7 +251,7 @@ void NodalCells<D>::sample_facet(Index node, std::span<const FacetPart> parts,
   auto& facet = samples.facets.emplace_back();
   facet.neighbor = parts.front().neighbor;
   facet.begin = samples.facet_points.size();
-  // Seen from either side, so that a body and its mirror image have the same points.
+  // Both sides count, so that a body and its mirror image have the same points.
   const auto is_long_part = [&](const FacetPart& p) {
     const int beyond = corner_along<D>(at(grid_->cells, p.cell), p.corner, p.k);
     return is_long(node, p.cell, p.corner, particles) ||

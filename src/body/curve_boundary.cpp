@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curved boundary cells: distances of the exact surface from the middles of edges and facets.
+// Curved boundary cells: deviations of the exact surface from the middles of edges and facets.
 #include "meniscus/body/simplex.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/buckets.hpp"
@@ -15,7 +15,7 @@ namespace meniscus {
 
 namespace {
 
-/// An edge of the reference facet: its ends and its middle. In 2D it is the facet.
+/// An edge of the reference facet: its corners and its middle. In 2D the facet is the edge.
 template <int D>
 struct FacetEdge {
   std::array<int, 2> corners{0, 1};
@@ -42,7 +42,7 @@ bool is_rounding(Real deviation, Real length) {
   return deviation < 1e-9 * length;
 }
 
-/// Exact middles minus straight ones of the boundary edges that are curved.
+/// Deviations of boundary edges: the exact middle minus the straight one.
 template <int D>
 class EdgeDeviations {
  public:
@@ -56,7 +56,7 @@ class EdgeDeviations {
             for (const auto& edge : edges) {
               const auto [a, b] =
                   std::minmax({at(facet.nodes, edge.corners[0]), at(facet.nodes, edge.corners[1])});
-              if (a != b) f(a, Edge{b, &facet, edge.middle});  // equal: of a triangle
+              if (a != b) f(a, Edge{b, &facet, edge.middle});  // equal in a triangle
             }
         },
         [&](Offset count) { edges_.resize(static_cast<std::size_t>(count)); },
@@ -64,7 +64,7 @@ class EdgeDeviations {
     parallel_for(static_cast<Index>(grid.X.size()), [&](Index a) {
       const std::span<Edge> from_a = at_node(a);
       for (Edge& edge : from_a) {
-        // Of the facets that share it the first says where it is.
+        // The first of the facets that share the edge gives its middle.
         if (&edge != &*std::find_if(from_a.begin(), from_a.end(),
                                     [&](const Edge& first) { return first.end == edge.end; }))
           continue;
@@ -75,14 +75,14 @@ class EdgeDeviations {
     });
   }
 
-  /// Of the edge between two nodes, nullptr if it is straight or not on the boundary.
+  /// The deviation of the edge between two nodes. Null if it is straight or not on the boundary.
   const Vec<D>* find(Index a, Index b) const {
     for (const Edge& edge : at_node(std::min(a, b)))
       if (edge.curved && edge.end == std::max(a, b)) return &edge.deviation;
     return nullptr;
   }
 
-  /// [node] is it an end of a curved edge?
+  /// [node] 1 if the node is an end of a curved edge.
   std::vector<char> ends() const {
     std::vector<char> is_end(begin_.size() - 1, 0);
     for (Index a = 0; a < static_cast<Index>(is_end.size()); ++a)
@@ -92,7 +92,8 @@ class EdgeDeviations {
   }
 
  private:
-  /// Kept at its node of lower number, once for each facet that has it; `curved` for one of these.
+  /// A boundary edge at its node of lower number, once for each facet. `curved` is set for one of
+  /// these.
   struct Edge {
     Index end;
     const Facet<D>* facet;
@@ -112,7 +113,7 @@ class EdgeDeviations {
   std::vector<Edge> edges_;
 };
 
-/// Its columns are those of edge_functions().
+/// The bulge of a simplex: its first columns are the deviations for edge_functions().
 template <int D>
 Bulge<D> bulge_of_simplex(const typename Grid<D>::Cell& cell, const EdgeDeviations<D>& deviations,
                           const std::vector<char>& at_curved_edge) {
@@ -145,7 +146,7 @@ Bulge<D> bulge_of_edges(const typename Grid<D>::Cell& cell, const EdgeDeviations
   return bulge;
 }
 
-/// Adds the exact centre of a facet minus that of the cell with curved edges.
+/// Adds the deviation of a facet: its exact centre minus the centre of the cell with curved edges.
 void add_facet(const Geometry<3>& geometry, const Facet<3>& facet, Bulge<3>& bulge) {
   const int k = facet.side / 2;
   const BulgeMode wanted{7u & ~(1u << k), unsigned(facet.side % 2) << k};

@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-constexpr Real same_edge = 1e-13;  // of the longest one
+constexpr Real same_edge = 1e-13;  // relative to the longest edge
 
 template <int D>
 using Edges = std::array<Vec<D>, D>;  // [k] along xi_k

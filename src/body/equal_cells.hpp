@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of a grid that are equal parallelepipeds: what their samples miss need not be computed.
+// Finds equal parallelepipeds among the cells: their samples are exact without corrections.
 #pragma once
 #include "meniscus/body/grid.hpp"
 
@@ -7,10 +7,10 @@
 
 namespace meniscus {
 
-/// [cell] the same number for cells that are the same parallelepiped (2D: parallelogram) but for
-/// their place, to 1e-13 of its edges, and whose corners are numbered alike; -1 for cells that are
-/// none. Cells are compared with the one that differed last: equal ones further on may have another
-/// number.
+/// [cell] the same number for cells that are translations of one parallelepiped (2D:
+/// parallelogram), to 1e-13 of its edges, with corners in the same order; -1 for other cells. A
+/// cell is only compared with the last one that differed, so equal cells further on may have
+/// another number.
 template <int D>
 std::vector<Index> equal_cells(const Grid<D>& grid);
 

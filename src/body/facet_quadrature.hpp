@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// Normal whose length is the area spanned by the tangents; outward for outward facets.
+/// The normal whose length is the area spanned by the tangents; outward for facets of a boundary.
 template <int D>
 Vec<D> area_normal(const Eigen::Matrix<Real, D, D - 1>& tangents) {
   if constexpr (D == 3)
@@ -17,7 +17,7 @@ Vec<D> area_normal(const Eigen::Matrix<Real, D, D - 1>& tangents) {
     return Vec<2>(tangents(1, 0), -tangents(0, 0));
 }
 
-/// A point of a surface, as one of SurfacePoints.
+/// A point of a surface, with the quantities of SurfacePoints.
 template <int D>
 struct FacetPoint {
   Vec<D> X, N;
@@ -35,8 +35,8 @@ FacetCorners<D> facet_corners(const Facet<D>& facet, const std::vector<Vec<D>>& 
   return corners;
 }
 
-/// The FacetPoints f(facet, xi, weight) of k Gauss points per direction of every facet that is
-/// wanted. `f` is called on all threads.
+/// The points f(facet, xi, weight) at k Gauss points per direction of every facet with
+/// wanted(facet). `f` is called on all threads.
 template <int D, class Wanted, class F>
 SurfacePoints<D> points_of_facets(const Grid<D>& grid, int k, Wanted&& wanted, F&& f) {
   const TensorRule<D - 1> rule = tensor_rule<D - 1>(k);

@@ -13,7 +13,7 @@ namespace meniscus {
 
 namespace {
 
-// Extended precision, so that points and weights are correctly rounded doubles.
+// Extended precision makes points and weights correctly rounded doubles.
 using Extended = long double;
 
 struct Legendre {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The assembly of a body from unit shape and map.
+// Makes a body from unit shape and map.
 #include "meniscus/body/geometry.hpp"
 
 #include "meniscus/core/error.hpp"
@@ -29,7 +29,7 @@ int find_patch(const Grid<D>& unit, const Facet<D>& facet,
                                facet.side, facet.cell, patches.size()));
 }
 
-/// Local corners of a facet at the ends of edge 2 t + upper, on which facet direction t is
+/// The corners of a facet at the ends of edge 2 t + upper, along which facet direction t is
 /// constant.
 std::array<int, 2> edge_corners(int edge) {
   const int t = edge / 2, fixed = (edge % 2) << t, along = 1 << (1 - t);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boundary, checks, volume and Gauss points of grids.
+// Boundary, checks, volumes and Gauss points of grids.
 #include "meniscus/body/grid.hpp"
 
 #include "meniscus/body/gauss.hpp"
@@ -24,7 +24,7 @@ namespace meniscus {
 
 namespace {
 
-/// Local corners of a side of the reference cell, in the tensor order of an outward facet.
+/// The corners of a side of the reference cell, in the tensor order of an outward facet.
 template <int D>
 std::array<int, (1 << (D - 1))> side_corners(int side) {
   const int k = side / 2, upper = side % 2;
@@ -47,12 +47,12 @@ std::string place(const Vec<D>& X) {
                 : fmt::format("({:g}, {:g}, {:g})", X[0], X[1], X[D - 1]);
 }
 
-/// Nodes of a side around it. Of a collapsed cell, one that is a triangle has three, the last one
-/// twice; one that is no side of the simplex has less than D.
+/// The nodes around a side of a cell. A triangle of a collapsed cell has three, with the last one
+/// repeated. A side that is no side of the simplex has less than D.
 template <int D>
 struct SideNodes {
   std::array<Index, (1 << (D - 1))> node;
-  int count = 0;  ///< of different ones
+  int count = 0;  ///< number of different nodes
 
   SideNodes(const typename Grid<D>::Cell& cell, int side) {
     const auto local = side_corners<D>(side);
@@ -65,7 +65,7 @@ struct SideNodes {
   }
 };
 
-/// The map of a cell, whatever its kind.
+/// The map of a hexahedral (quadrilateral) or simplex cell.
 template <int D>
 CellPoint<D, D> place_in(const Grid<D>& grid, Index cell,
                          const std::array<Vec<D>, (1 << D)>& corners, const Vec<D>& xi) {
@@ -89,7 +89,7 @@ void for_gauss_points(const Grid<D>& grid, Index cell, const TensorRule<D>& rule
 template <int D>
 void find_boundary(Grid<D>& grid) {
   struct Side {
-    std::array<Index, (1 << (D - 1))> nodes;  // ascending; of a triangle the last one twice
+    std::array<Index, (1 << (D - 1))> nodes;  // ascending; a triangle has the last one twice
     Index cell;
     int side;
     auto operator<=>(const Side&) const = default;
@@ -143,7 +143,7 @@ void find_boundary(Grid<D>& grid) {
 
 namespace {
 
-/// Looks at the corners of the parts of the simplex.
+/// Checks the corners of the parts of the simplex.
 template <int D>
 std::optional<CellPoint<D, D>> find_fold_of_simplex(const Grid<D>& grid, Index cell) {
   const auto corners = grid.corner_points(at(grid.cells, cell));
@@ -196,7 +196,7 @@ void check_jacobians(const Grid<D>& grid, const std::string& cause) {
 template <int D>
 NodeCells cells_of_nodes(const Grid<D>& grid) {
   NodeCells result;
-  // The corners of a collapsed cell are nodes once each.
+  // A corner of the simplex counts once, though a collapsed cell repeats it.
   const auto is_node_of = [](const typename Grid<D>::Cell& cell, int a) {
     return !is_simplex<D>(cell) || at(simplex_corners<D>(), simplex_corner<D>(a)) == a;
   };
@@ -227,7 +227,7 @@ std::vector<TabulatedPoint<D>> tabulated(const TensorRule<D>& rule) {
 
 template <int D>
 Real volume(const Grid<D>& grid) {
-  // det J has degree 2 per direction, 2 D - 1 where the cell is curved.
+  // det J has degree 2 per direction, and 2 D - 1 in curved cells.
   const TensorRule<D> straight = tensor_rule<D>(2), curved = tensor_rule<D>(D);
   const auto of_straight = tabulated<D>(straight), of_curved = tabulated<D>(curved);
   return parallel_sum(grid.cell_count(), 0.0, [&](Index e) {
@@ -247,22 +247,23 @@ Real volume(const Grid<D>& grid) {
 template <int D>
 Real mean_spacing(const Grid<D>& grid) {
   const Real V = volume(grid) / grid.cell_count();
-  // A cube is cut into six tetrahedra, a square into two triangles.
+  // A cube consists of six tetrahedra, a square of two triangles.
   constexpr Real simplices = D == 3 ? 6 : 2;
   return std::pow(is_simplex<D>(grid.cells.front()) ? simplices * V : V, 1.0 / D);
 }
 
 namespace {
 
-/// Mean square of the diagonals of a cell; of a simplex, of the cube that is cut into such.
+/// Mean square of the diagonals of a cell; for a simplex, of the cube that consists of such
+/// simplices.
 template <int D>
 Real squared_diagonal(const Grid<D>& grid, Index cell, const Mat<D>& inverse_stretch) {
   constexpr int corners = Grid<D>::corners;
   const auto X = grid.corner_points(at(grid.cells, cell));
   Real sum = 0;
   if (is_simplex<D>(at(grid.cells, cell))) {
-    // The edges of the six tetrahedra, two triangles, of a unit cube have squares that add up to
-    // 10, 4 in each.
+    // In a unit cube or square, the squared edges of one such simplex add up to 10 in 3D and 4 in
+    // 2D.
     for (const auto& [i, j] : simplex_edges<D>())
       sum += (inverse_stretch *
               (at(X, at(simplex_corners<D>(), j)) - at(X, at(simplex_corners<D>(), i))))
@@ -284,7 +285,7 @@ std::vector<Real> diagonals_around_nodes(const Grid<D>& grid, const Mat<D>& stre
     const Real diagonal = std::sqrt(squared_diagonal(grid, e, inverse_stretch));
     Index before = -1;
     for (const Index A : at(grid.cells, e)) {
-      if (A == before) continue;  // a corner of a simplex stands there again
+      if (A == before) continue;  // a simplex repeats its corners
       before = A;
       at(length, A) += diagonal;
       at(cells, A) += 1;

@@ -22,7 +22,7 @@ struct Wave {
   Real phase;
 };
 
-/// A direction by rejection from the cube.
+/// A random direction, by rejection of points of a cube.
 template <int D>
 Vec<D> random_direction(std::mt19937_64& bits) {
   while (true) {
@@ -52,7 +52,7 @@ Vec<D> displacement(const std::vector<Wave<D>>& waves, const Vec<D>& X) {
   return sum;
 }
 
-/// X + displacement.
+/// The map X + displacement(X).
 template <int D>
 SmoothMap<D> map_of(std::vector<Wave<D>> waves) {
   return [waves = std::move(waves)](const Vec<D>& X) {
@@ -84,7 +84,7 @@ Geometry<D> with_imperfection(Geometry<D> geometry, Real rms, std::uint64_t seed
   Geometry<D> result = apply_map(map, std::move(geometry));
   if (perfect)
     result.director = [=](const Vec<D>& X) -> Vec<D> {
-      Vec<D> X0 = X;  // X = X0 + displacement(X0); gentle waves contract
+      Vec<D> X0 = X;  // X = X0 + displacement(X0); the iteration contracts
       for (int k = 0; k < 60; ++k) X0 = X - displacement(waves, X0);
       return (inverse<D>(map(X0).F).transpose() * perfect(X0)).normalized();
     };

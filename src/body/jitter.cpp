@@ -14,7 +14,7 @@ namespace meniscus {
 
 namespace {
 
-/// Per node, before anything moved.
+/// The shortest edge at each node before any node moves.
 template <int D>
 std::vector<Real> shortest_edges(const Grid<D>& grid) {
   std::vector<Real> shortest(grid.X.size(), std::numeric_limits<Real>::max());
@@ -28,8 +28,8 @@ std::vector<Real> shortest_edges(const Grid<D>& grid) {
   return shortest;
 }
 
-/// Moves node i within the box of half-width `reach` around its place; false if no draw is free of
-/// folds.
+/// Moves node i to a random place in the box of half-width `reach` around it. Returns false if
+/// every draw folds a cell.
 template <int D>
 bool move_node(Grid<D>& grid, Index i, Real reach, std::span<const NodeCells::Entry> cells,
                std::mt19937_64& bits) {

@@ -48,8 +48,8 @@ typename SurfacePatch<D>::Foot SurfacePatch<D>::project(const Vec<D>& X) const {
 
 namespace {
 
-/// Facet point whose edges towards other patches lie on those too, e.g. on the rim of a cylinder:
-/// the move of an edge onto the other patch fades out linearly across the facet.
+/// The point of a facet in the unit shape. Edges between two patches lie on both, e.g. at the rim
+/// of a cylinder: the shift of an edge onto the other patch fades out linearly across the facet.
 template <int D>
 CellPoint<D, D - 1> blended(const MappedPatches<D>& surface, const Facet<D>& facet,
                             const Vec<D - 1>& xi) {

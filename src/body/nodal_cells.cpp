@@ -22,8 +22,8 @@ void for_lanes(const std::array<Lanes, D>& X, int count, F&& f) {
     f(Vec<D>(spatial(at(place, lane)).template head<D>()), lane);
 }
 
-/// Calls f(points, w, count) for the points of an octant of a nodal cell, four by four; those that
-/// only fill up have w = 0.
+/// Calls f(points, w, count) for each four points of an octant of a nodal cell. Lanes beyond
+/// `count` have w = 0.
 template <int D, class F>
 void for_volume_points(const Grid<D>& grid, const NodeCells::Entry& octant, F&& f) {
   const CellMap<D> map(grid, octant.cell);
@@ -35,8 +35,8 @@ void for_volume_points(const Grid<D>& grid, const NodeCells::Entry& octant, F&& 
   }
 }
 
-/// Volume of parts of a nodal cell, and the integrals of X - Xn and (X - Xn)(X - Xn)^T, which do
-/// not cancel far from the origin as those of X do. Xn: place of the node.
+/// Volume of parts of a nodal cell, and the integrals of X - Xn and (X - Xn)(X - Xn)^T, with the
+/// node at Xn. Unlike moments of X they do not cancel far from the origin.
 template <int D>
 struct MomentsAboutNode {
   Real V = 0;
@@ -65,8 +65,7 @@ struct MomentsAboutNode {
       for (int j = 0; j < i; ++j) second(i, j) = second(j, i);
     }
   }
-  /// The octant of a parallelepiped between the halves of its edges at the node, columns of
-  /// `edges`.
+  /// Adds an octant of a parallelepiped. The columns of `edges` are half the edges at the node.
   void add_parallelepiped(const Mat<D>& edges) {
     const Real volume = std::abs(determinant<D>(edges));
     const Vec<D> middle = 0.5 * edges.rowwise().sum();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reference points of the parts of cells at their corners - the octants (2D: quadrants) of
-// hexahedra, the quarters (thirds) of simplices - and of their facets, tabulated once with the
-// functions of the map.
+// Quadrature points of the parts of cells at their corners, and of the facets of these parts. The
+// parts are the octants (2D: quadrants) of hexahedra, or the quarters (thirds) of simplices. Points
+// are tabulated once in reference coordinates, with the functions of the map.
 #pragma once
 #include "meniscus/body/gauss.hpp"
 #include "meniscus/body/simplex.hpp"
@@ -15,7 +15,7 @@
 
 namespace meniscus {
 
-/// X X^T det J has degree 4 per direction, 2 D + 3 where the cell is curved.
+/// Points per direction: X X^T det J has degree 4, and 2 D + 3 where the cell is curved.
 template <int D>
 int points_along(int k, unsigned curved) {
   return (curved >> k) & 1 ? D + 2 : 3;
@@ -52,10 +52,10 @@ struct FourTabulatedPoints {
   std::array<Function, 1 << D> corner;
   std::array<Function, Bulge<D>::mode_count> bulge;
   Lanes w;
-  int count;  ///< of the points; where they are less than four, the last one fills up with w = 0
+  int count;  ///< number of points; further lanes repeat the last one with w = 0
 };
 
-/// The same points, four by four.
+/// The points in groups of four.
 template <int D>
 std::vector<FourTabulatedPoints<D>> in_fours(const std::vector<TabulatedPoint<D>>& points) {
   const auto n = static_cast<int>(points.size());
@@ -84,7 +84,7 @@ class OctantTable {
  public:
   using Points = std::vector<FourTabulatedPoints<D>>;
 
-  /// For cells that are curved in the directions of the bits of `curved`.
+  /// The table of cells that are curved in the directions of the bits of `curved`.
   static const OctantTable& instance(unsigned curved) {
     static constexpr auto tables = []<unsigned... c>(std::integer_sequence<unsigned, c...>) {
       return std::array{&made<c>...};
@@ -99,7 +99,7 @@ class OctantTable {
   const Points& outer(int corner, int k) const { return at(outer_, corner * D + k); }
 
  private:
-  /// Made when it is asked for: most bodies need one of them.
+  /// The table is made at the first call: most bodies need only one.
   template <unsigned curved>
   static const OctantTable& made() {
     static const OctantTable table(curved);
@@ -142,7 +142,7 @@ class OctantTable {
   std::vector<Points> volume_, inner_, outer_;
 };
 
-/// At xi of the part of a simplex at its corner i.
+/// The point at xi in the part of a simplex at its corner i.
 template <int D>
 TabulatedPoint<D> tabulate_part(int i, const Vec<D>& xi, Real w) {
   const Shares<D> shares = part_shares<D>(i, xi);
@@ -156,12 +156,12 @@ TabulatedPoint<D> tabulate_part(int i, const Vec<D>& xi, Real w) {
   return point;
 }
 
-/// The parts of a simplex at its corners, as octants.
+/// The points of the parts of a simplex at its corners.
 template <int D>
 class SimplexTable {
  public:
   using Points = std::vector<FourTabulatedPoints<D>>;
-  /// Where direction k of a part ends.
+  /// Points of a facet of a part, across its direction k.
   struct Side {
     Points points;
     int k = 0;
@@ -169,11 +169,11 @@ class SimplexTable {
 
   static const SimplexTable& instance(bool curved) { return curved ? made<D + 2>() : made<3>(); }
   const Points& volume(int i) const { return at(volume_, i); }
-  /// Between the parts at the corners i and j, seen from the lesser of them.
+  /// The facet between the parts at corners i and j, as a facet of the part at the lower corner.
   const Side& between(int i, int j) const {
     return at(end_, std::min(i, j) * (D + 1) + std::max(i, j));
   }
-  /// Of the part at corner i, on the side of the simplex opposite to corner o.
+  /// The facet of the part at corner i on the side of the simplex opposite to corner o.
   const Side& on_side(int i, int o) const { return at(begin_, i * (D + 1) + o); }
 
  private:
@@ -211,17 +211,22 @@ class SimplexTable {
   std::vector<Side> begin_, end_;
 };
 
-/// Few points of the parts. Facets between nodal cells and on the boundary of the body: two Gauss
-/// points per direction, of which the part has one where a cell beyond the particle continues it.
-/// Volumes: three per direction, of which one is at the particle, shared, and one further out; at
-/// the boundary of the body the part has all three; hexahedra that are continued in all directions:
-/// the 14 points of Irons (1971), exact up to the fifth degree as well. Or for each part by itself
-/// its corners and its middle, exact up to the third degree, of which the corners are those of
-/// other parts, cells and facets as well; in the plane two Gauss points per direction.
+/// A smaller quadrature of the parts (samples). Points are shared by parts, or each part has its
+/// own.
+///
+/// Shared points of volumes: three Gauss points per direction. Where a cell continues the nodal
+/// cell beyond the particle, the part has one of its own and the one at the particle, which is
+/// shared. Where the body ends at the particle, the part has all three. Hexahedra that are
+/// continued in all directions have the 14 points of Irons (1971), which are exact up to degree 5,
+/// too. Shared points of facets: two Gauss points per direction in 3D, three in 2D. Where the body
+/// ends at the particle, the part has three of its own. Own points: in 3D the corners and the
+/// middle of the part, exact up to degree 3. The corners coincide with corners of other parts,
+/// cells and facets. In 2D two Gauss points per direction.
 template <int D>
 class SampleTable {
  public:
-  /// Where in direction k: 0 at the particle, otherwise a number per distance from it.
+  /// The place of a point in each direction: 0 at the particle, otherwise a number for its
+  /// distance.
   using Places = std::array<int, D>;
   static constexpr int end = 4, on_axis = 5, distances = 6;
   /// The kind of parts with points of their own.
@@ -237,15 +242,16 @@ class SampleTable {
   };
 
   static const SampleTable& of(bool simplex) { return simplex ? made<true>() : made<false>(); }
-  /// Bit k of `kind`: nothing continues the nodal cell beyond the particle in direction k.
+  /// Points of the volume of a part. Bit k of `kind` is set if the nodal cell ends at the particle
+  /// in direction k, on the boundary of the body.
   const Points& volume(int corner, unsigned kind) const {
     return meniscus::at(volume_, number(corner, kind));
   }
-  /// Where direction k ends, between the particle and the next one.
+  /// The facet at the end of direction k, between the particle and the next one.
   const Facet& facet(int corner, int k, unsigned kind) const {
     return meniscus::at(facet_, number(corner, kind) * D + k);
   }
-  /// Where direction k begins, on the boundary of the body at the particle.
+  /// The facet at the beginning of direction k, on the boundary of the body at the particle.
   const Facet& outer_facet(int corner, int k, unsigned kind) const {
     return meniscus::at(outer_facet_, number(corner, kind) * D + k);
   }
@@ -283,7 +289,7 @@ class SampleTable {
     Places places;
   };
 
-  /// Of a facet: the direction that it is across, and where; of a volume: no direction.
+  /// For a facet: the direction across it and its position. For a volume: no direction.
   struct Across {
     int direction = -1;
     Abscissa where{};
@@ -316,7 +322,7 @@ class SampleTable {
     return products;
   }
 
-  /// The corners, with a third of the weight, and the middle.
+  /// The corners, which have a third of the weight, and the middle.
   static std::vector<Product> corners_and_middle(const Across& across) {
     std::vector<Product> products;
     const auto add = [&](const auto& abscissa, Real w) {
@@ -334,7 +340,8 @@ class SampleTable {
     return products;
   }
 
-  /// In one octant: the point towards the corner, and those on the axes, which four octants share.
+  /// The points in one octant: one towards the corner, and one on each axis, shared by four
+  /// octants.
   static std::vector<Product> irons_points() {
     const Real corner = std::sqrt(19. / 33), axis = std::sqrt(19. / 30);
     Product towards_corner{Vec<D>::Constant(2 * corner - 1), 8 * 121. / 361, {}};
@@ -377,7 +384,7 @@ struct FourCellPoints {
   std::array<Lanes, D> X;
   std::array<std::array<Lanes, D>, D> J;  ///< [i][k]
 
-  /// Column k of cof J, as `facet_normal`.
+  /// Column k of cof J, see facet_normal() below.
   std::array<Lanes, D> facet_normal(int k) const {
     if constexpr (D == 2) {
       if (k == 0) return {J[1][1], -J[0][1]};
@@ -385,7 +392,8 @@ struct FourCellPoints {
     } else {
       const int a = (k + 1) % 3, b = (k + 2) % 3;
       const auto component = [&](std::size_t i, std::size_t j) {
-        // First by itself: so g++ rounds the other product, as it does for one point.
+        // This product in a statement of its own makes g++ round the other product, as for a single
+        // point.
         const Lanes product = at(J[i], a) * at(J[j], b);
         return product - at(J[j], a) * at(J[i], b);
       };
@@ -412,7 +420,7 @@ class CellMap {
   const OctantTable<D>& table() const {
     return OctantTable<D>::instance(bulge_ ? bulge_->curved : 0);
   }
-  /// Of a simplex; null for others.
+  /// The table of a simplex; null for other cells.
   const SimplexTable<D>* simplex() const {
     return simplex_ ? &SimplexTable<D>::instance(bulge_ != nullptr) : nullptr;
   }
@@ -444,7 +452,7 @@ class CellMap {
 
  private:
   static constexpr int corners = 1 << D;
-  // Inlined, g++ 12 copies all functions to the stack, to have them there for the next component.
+  // noinline: g++ 12 would copy all functions to the stack, to reuse them for the next component.
   [[gnu::noinline]] void set_component(const FourTabulatedPoints<D>& p, int i,
                                        FourCellPoints<D>& four) const {
     Lanes X = Lanes::zero();
@@ -463,13 +471,13 @@ class CellMap {
 
   std::array<Lanes, corners> corner_;
   const Bulge<D>* bulge_;
-  std::array<Lanes, Bulge<D>::mode_count> deviation_;  // of the modes that it has
+  std::array<Lanes, Bulge<D>::mode_count> deviation_;  // of modes that are not zero
   std::array<int, Bulge<D>::mode_count> mode_;
   int modes_ = 0;
   bool simplex_;
 };
 
-/// Column k of cof J: normal of the surface xi_k = const, its length the area ratio.
+/// Column k of cof J: a normal of the surface xi_k = const, whose length is the area ratio.
 template <int D>
 Vec<D> facet_normal(const Mat<D>& J, int k) {
   if constexpr (D == 3)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Order by halving, and renumbering of grids.
+// Spatial order by repeated halving, and renumbering of grids.
 #include "meniscus/body/ordering.hpp"
 
 #include "meniscus/core/box.hpp"
@@ -17,8 +17,8 @@ namespace meniscus {
 
 namespace {
 
-/// Coordinates in so fine steps that the layers of a lattice, which rounding makes uneven, are
-/// even.
+/// Coordinates rounded to fine steps: points of one layer of a lattice get the same coordinate,
+/// despite rounding errors.
 template <int D>
 using Levels = std::array<std::int32_t, D>;
 
@@ -52,7 +52,7 @@ int longest_axis(const std::vector<Levels<D>>& levels, std::span<const Index> po
   return axis;
 }
 
-/// Halves the numbers begin to end of `order` again and again, first where chunks begin.
+/// Halves the points order[begin .. end - 1] again and again, first at the begins of chunks.
 template <int D>
 void halve(const std::vector<Levels<D>>& levels, std::vector<Index>& order, Index begin, Index end,
            int chunk, int end_chunk) {
@@ -82,7 +82,7 @@ std::vector<T> permuted(const std::vector<T>& values, std::span<const Index> ord
   return result;
 }
 
-/// new number of every old one
+/// The new number of each old node.
 std::vector<Index> inverse_order(std::span<const Index> order) {
   std::vector<Index> number(order.size(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) {

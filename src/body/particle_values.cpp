@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values at particles: own rows, and what the other ranks have of theirs.
+// Values at particles: each rank computes its own rows, then all values are gathered.
 #include "meniscus/body/particle_values.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
@@ -21,7 +21,7 @@ template <int D>
 NodalVectors values_at_particles(const Body<D>& body, const NodalVector* c,
                                  std::span<const Index> which) {
   NodalVectors values(which.size());
-  // Where in `which` the particles of a rank begin.
+  // The place in `which` at which the particles of a rank begin.
   const auto begin_of = [&](int rank) {
     return static_cast<Index>(
         std::lower_bound(which.begin(), which.end(), body.division.first_row(body.size(), rank)) -

@@ -60,7 +60,7 @@ typename PatchNodes<D>::Key patch_key(const Facet<D>& facet, const Vec<D - 1>& x
     if (supports) found.push_back(at(facet.nodes, corner));
   }
   std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());  // of a triangle
+  found.erase(std::unique(found.begin(), found.end()), found.end());  // a triangle repeats a node
   return found;
 }
 

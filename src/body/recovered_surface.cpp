@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-/// How many of the nodes of a facet are corners: a triangle is a b c c.
+/// Number of corners of a facet: a triangle is stored as a b c c.
 template <int D>
 std::size_t corner_count(const Facet<D>& facet) {
   if constexpr (D == 3)
@@ -43,10 +43,10 @@ Vec<D> normal_at_corner(const Facet<D>& facet, const FacetCorners<D>& corners, s
 
 template <int D>
 struct BoundaryNodes {
-  std::vector<Index> node;              ///< of each boundary node, its number in the grid
-  std::vector<Index> number;            ///< the inverse; -1: inside the body
+  std::vector<Index> node;              ///< number of each boundary node in the grid
+  std::vector<Index> number;            ///< number of a grid node among them; -1: inside the body
   std::vector<std::set<Index>> beside;  ///< boundary nodes that share a facet
-  std::vector<Vec<D>> normal;           ///< mean of those of its facets, weighted by area
+  std::vector<Vec<D>> normal;           ///< mean normal of its facets, weighted by area
 };
 
 template <int D>
@@ -70,10 +70,10 @@ BoundaryNodes<D> boundary_of(const Grid<D>& grid) {
   return b;
 }
 
-/// A node at which the surface has an edge or corner; -1: there is none.
+/// A node at which the surface has an edge or corner, or -1.
 template <int D>
 Index find_edge(const Grid<D>& grid, const BoundaryNodes<D>& b) {
-  constexpr Real least_cosine = 0.75;  // half of a right angle is an edge
+  constexpr Real least_cosine = 0.75;  // cosine of 41 degrees
   for (const Facet<D>& facet : grid.facets) {
     const FacetCorners<D> corners = facet_corners(facet, grid.X);
     for (std::size_t a = 0; a < corner_count(facet); ++a) {
@@ -85,10 +85,10 @@ Index find_edge(const Grid<D>& grid, const BoundaryNodes<D>& b) {
   return -1;
 }
 
-/// Of each boundary node, whether it is on a closed part whose normals point into its inside.
+/// [boundary node] 1 if it is on a closed part of the surface that bounds a cavity.
 template <int D>
 std::vector<char> inner_nodes(const Grid<D>& grid, const BoundaryNodes<D>& b) {
-  std::vector<Index> part(b.node.size());  // the least number of its part, found by flooding
+  std::vector<Index> part(b.node.size());  // smallest boundary node of its part, by flooding
   std::iota(part.begin(), part.end(), 0);
   std::vector<Index> open;
   std::vector<char> seen(b.node.size(), 0);
@@ -107,7 +107,7 @@ std::vector<char> inner_nodes(const Grid<D>& grid, const BoundaryNodes<D>& b) {
         }
     }
   }
-  std::vector<Real> volume(b.node.size(), 0.0);  // D times that within a part
+  std::vector<Real> volume(b.node.size(), 0.0);  // D times the volume within a part, signed
   for (const Facet<D>& facet : grid.facets) {
     const auto p = multilinear<D, D - 1>(facet_corners(facet, grid.X), Vec<D - 1>::Zero());
     const Index k = at(part, at(b.number, facet.nodes[0]));
@@ -126,7 +126,7 @@ std::set<Index> two_rings(const std::vector<std::set<Index>>& beside, Index i) {
   return near;
 }
 
-/// Slope and bend (upper triangle) of the best quadratic height.
+/// Slope and bend (upper triangle) of the best fit of a quadratic height.
 template <int D>
 Eigen::VectorXd fitted(const Grid<D>& grid, const BoundaryNodes<D>& b, Index i,
                        const Eigen::Matrix<Real, D, D - 1>& t, Real least_curvature) {
@@ -158,7 +158,7 @@ Eigen::VectorXd fitted(const Grid<D>& grid, const BoundaryNodes<D>& b, Index i,
 
 }  // namespace
 
-/// A point of a facet with the derivatives of its place and of the normal.
+/// A point of a facet, with its tangents and the gradient of the normal.
 template <int D>
 struct RecoveredSurface<D>::Place {
   Vec<D> X = Vec<D>::Zero();
@@ -185,7 +185,7 @@ std::shared_ptr<const RecoveredSurface<D>> RecoveredSurface<D>::if_smooth(const 
 template <int D>
 std::shared_ptr<const RecoveredSurface<D>> RecoveredSurface<D>::of_piece(const Grid<D>& grid) {
   auto surface = std::shared_ptr<RecoveredSurface>(new RecoveredSurface);
-  surface->recover(grid, 1e-10);  // of few nodes that any curvature fits, the least
+  surface->recover(grid, 1e-10);  // for few nodes the fit with least curvature
   return surface;
 }
 

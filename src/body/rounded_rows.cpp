@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which entries of a row make up for the rounding of the others, and by how much.
+// Chooses the entries of a row that compensate the rounding of the others, and corrects them.
 #include "rounded_rows.hpp"
 
 #include "meniscus/approx/monomials.hpp"
@@ -15,8 +15,8 @@ std::size_t make_up_for_rounding(std::span<const Vec<D>> X, const Vec<D>& centre
                                  std::vector<Index>& particle,
                                  std::vector<std::array<Lanes, D>>& gradient) {
   constexpr int terms = monomial_count(D, 2), columns = 4 * D;
-  constexpr std::size_t among = 6 * terms;  // the nearest: the furthest have the least coefficients
-  constexpr Real worst = 1e-4;              // pivot, of the largest one
+  constexpr std::size_t among = 6 * terms;  // nearest entries: distant ones have small coefficients
+  constexpr Real worst = 1e-4;              // smallest pivot, relative to the largest
   const std::size_t size = particle.size();
   if (size <= terms) return size;
   std::vector<Real> distance(size);

@@ -10,7 +10,7 @@ namespace meniscus {
 
 namespace {
 
-/// What stands in for a body that cannot be made while the other problems of a scene are collected.
+/// A body used to look for further problems of a scene when the described one cannot be made.
 template <int D>
 Geometry<D> stand_in() {
   Brick<D> brick;
@@ -30,7 +30,7 @@ Geometry<D> read_geometry(const Block& block) {
   if (!name) return stand_in<D>();
   try {
     auto made = shapes<D>().at(*name).make(block);
-    if (!made) return read_placement(block, stand_in<D>());  // its keys are known all the same
+    if (!made) return read_placement(block, stand_in<D>());  // this marks its keys as known
     Geometry<D> geometry = read_placement(block, *std::move(made));
     if (!block.in_order()) return stand_in<D>();
     if (imperfection > 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Affine maps, composition, and the two maps of the curvature studies.
+// Affine maps, composition, and the maps of the curvature studies.
 #include "meniscus/body/smooth_map.hpp"
 
 namespace meniscus {
@@ -8,7 +8,7 @@ namespace {
 
 using Position = std::array<Jet<3>, 3>;
 
-/// Rotation of every plane normal to `axis` about it by `rate` times the height of the plane.
+/// Rotates every plane normal to `axis` about it, by `rate` times the coordinate along the axis.
 Position twist(Position x, std::size_t axis, Real rate) {
   const std::size_t i = axis == 0 ? 1 : 0, j = axis == 2 ? 1 : 2;
   const Jet<3> angle = rate * x[axis], c = cos(angle), s = sin(angle), xi = x[i], xj = x[j];

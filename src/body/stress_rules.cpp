@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building the integration rules of a body that have points: Gauss points, particles.
+// Builds the integration rules that have points: at Gauss points and at particles.
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// Number of the particle nearest to a point with a row.
+/// The particle of the row of a point that is nearest to the point.
 template <int D>
 Index nearest(const Body<D>& body, const PointRows<D>& rows, Index point, const Vec<D>& X) {
   Index owner = 0;
@@ -68,11 +68,12 @@ PointRule<D> build_nodal_rule(const Body<D>& body, Index per_group) {
 
 template <int D>
 std::vector<Real> shape_integrals(const Body<D>& body) {
-  // First moments are exact: X det J has degree 2 D + 1 per direction in curved cells.
+  // The rule is exact for first moments: X det J has degree 2 D + 1 per direction in curved cells.
   const auto points =
       cell_gauss_points(body.geometry.grid, body.geometry.grid.bulges.empty() ? 3 : D + 1);
   std::vector<Real> integral(static_cast<std::size_t>(body.size()), 0.0);
-  constexpr std::size_t block = 20000;  // rows of all points would be larger than the rule
+  constexpr std::size_t block = 20000;  // in blocks, since rows of all points would need more
+                                        // memory than the rule
   for (std::size_t begin = 0; begin < points.X.size(); begin += block) {
     const std::size_t end = std::min(begin + block, points.X.size());
     const std::vector<Vec<D>> X(points.X.begin() + static_cast<std::ptrdiff_t>(begin),

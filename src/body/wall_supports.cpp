@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall supports from the distances of particles to the other side of a cavity.
+// Supports of hollow bodies from the distances of particles to the other side of the cavity.
 #include "meniscus/body/wall_supports.hpp"
 
 #include "meniscus/body/surface_points.hpp"
@@ -13,10 +13,10 @@ namespace meniscus {
 namespace {
 
 constexpr Real cosine_of_turn = -0.5;  // 120 degrees
-constexpr Real between_points = 0.98;  // places between surface points may be nearer than these
-constexpr Real largest_growth = 2.6;   // of supports in ParticleSet::ensure_quality
+constexpr Real between_points = 0.98;  // the surface may be nearer than its sampled points
+constexpr Real largest_growth = 2.6;   // growth of supports in ParticleSet::ensure_quality
 
-/// The points of a surface by its facets, so that most are left out without being looked at.
+/// The points of a surface grouped by facets, so that most facets are skipped as a whole.
 template <int D>
 class PointsOfFacets {
  public:
@@ -25,8 +25,8 @@ class PointsOfFacets {
     for (const Facet& facet : facets_) largest_ = std::max(largest_, facet.radius);
   }
 
-  /// Calls f(distance from X) for the points within `radius` whose normal N has -normal.N < cosine,
-  /// and maybe for some beyond it.
+  /// Calls f(distance from X) for the points within `radius` whose normal N has -normal.N < cosine.
+  /// May also call it for points beyond `radius`.
   void for_turned(const Vec<D>& X, const Vec<D>& normal, Real cosine, Real radius, auto&& f) const {
     thread_local std::vector<Index> near;
     search_.within_unsorted(X, radius + largest_, near);
@@ -43,7 +43,7 @@ class PointsOfFacets {
   struct Facet {
     Index begin;
     Vec<D> middle = Vec<D>::Zero(), normal = Vec<D>::Zero();  // means of its points
-    Real radius = 0, turn = 0;                                // the most that one is off
+    Real radius = 0, turn = 0;                                // largest deviations
   };
   static std::vector<Facet> facets_of(const SurfacePoints<D>& points) {
     std::vector<Facet> facets;

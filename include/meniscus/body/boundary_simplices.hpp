@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary of a body as flat triangles (2D: edges) between places of its boundary particles.
+// The boundary of a body as flat triangles (2D: segments) between its boundary particles.
 #pragma once
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/approx/step_reads.hpp"
@@ -11,7 +11,7 @@ namespace meniscus {
 
 template <int D>
 struct BoundarySimplices {
-  std::vector<Vec<D>> X;                      ///< reference places of the boundary particles
+  std::vector<Vec<D>> X;                      ///< reference positions of the boundary particles
   std::vector<std::array<Index, D>> corners;  ///< [simplex] numbers in X
   PointRows<D> rows;                          ///< shape functions at X
   ForceWindows windows;                       ///< of the rows
@@ -29,7 +29,8 @@ struct BoundarySimplices {
     windows = {rows.start, rows.particle, body.size(), body.division};
   }
 
-  /// x = places at the displacement coefficients u of the body; x has the size of X.
+  /// Sets x[B] to the current positions, at the displacement coefficients u of the body. x has the
+  /// size of X.
   void find_places(const NodalVector* u, std::vector<Vec<D>>& x) const {
     parallel_for(rows.size(), [&](Index B) { at(x, B) = at(X, B) + displacement(B, u); });
   }
@@ -39,7 +40,7 @@ struct BoundarySimplices {
     for (int i = 0; i < D; ++i) moved[i] = sum[i];
     return moved;
   }
-  /// force_A += sum_B N_A(X_B) load_B, over the particles of the body.
+  /// force_A += sum_B N_A(X_B) load_B over the particles A of the body.
   void scatter(const NodalVectors& load, std::span<NodalVector> force) {
     windows.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
       for (Index B = begin; B < end; ++B) scatter_value(rows, B, at(load, B), f);
@@ -51,7 +52,8 @@ struct BoundarySimplices {
     for (std::size_t k = 0; k < D; ++k) places[k] = at(x, simplex[k]);
     return places;
   }
-  /// Every rank reads all places, of a body whose particles begin at `first`.
+  /// Registers the reads of a step. Every rank reads all boundary particles. `first`: number of the
+  /// first particle of the body.
   void tell_reads(StepReads& reads, Index first) {
     reads.particles(rows.particle, first);
     reads.rows(windows, first);

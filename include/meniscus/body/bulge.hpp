@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bulges of cells at a curved surface: quadratic deviations of their edges and sides from the
-// multilinear map.
+// Bulges of cells at a curved surface: quadratic deviations of edges and sides from the multilinear
+// map.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -8,9 +8,10 @@
 
 namespace meniscus {
 
-/// A bubble 1 - xi_k^2 in the directions of the bits of `along`, times (1 +- xi_k) / 2 in the
-/// others, + for the bits of `upper`: 1 at the middle of an edge or (3D) side of the reference cell
-/// and 0 on all edges and sides that do not contain it.
+/// The mode of one edge or (3D) side of the reference cell. It is the product of bubbles 1 - xi_k^2
+/// in the directions of the bits of `along`, and of (1 +- xi_k) / 2 in the others, with + for the
+/// bits of `upper`. It is 1 in the middle of that edge or side, and 0 on all edges and sides that
+/// do not contain it.
 struct BulgeMode {
   unsigned along, upper;
 };
@@ -26,7 +27,7 @@ constexpr auto bulge_modes() {
 }
 
 /// X(xi) = multilinear map + sum over the modes of deviation * mode(xi). Neighbouring cells have
-/// the same deviation of a common edge and stay conforming.
+/// the same deviation on a common edge or side, so the grid stays conforming.
 template <int D>
 struct Bulge {
   static constexpr auto modes = bulge_modes<D>();  ///< one per edge and (3D) side
@@ -35,7 +36,7 @@ struct Bulge {
   Eigen::Matrix<Real, D, mode_count> deviation = Eigen::Matrix<Real, D, mode_count>::Zero();
   unsigned curved = 0;  ///< bit k: the map is quadratic in xi_k, otherwise linear
 
-  /// `mode`: its number in `modes`.
+  /// Adds to the deviation of modes[mode].
   void add(int mode, const Vec<D>& amount) {
     deviation.col(mode) += amount;
     curved |= at(modes, mode).along;

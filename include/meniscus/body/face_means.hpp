@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Means over face cells of formulas of place and time.
+// Means of formulas of place and time over face cells.
 #pragma once
 #include "meniscus/body/face_cells.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// Formulas of the time alone are evaluated once, those of place and time at all points whenever
-/// another time is asked for.
+/// Evaluates formulas and keeps their means. Formulas without place are evaluated once per time,
+/// others at all points of the face cells.
 template <int D>
 class FaceMeans {
  public:
@@ -21,12 +21,12 @@ class FaceMeans {
     for (std::size_t i = 0; i < formulas_.size(); ++i) evaluate(i, 0);
   }
 
-  /// Whether they depend on time.
+  /// True if a formula depends on time.
   bool change() const {
     return std::any_of(formulas_.begin(), formulas_.end(),
                        [](const Expression& f) { return f.depends_on_time(); });
   }
-  /// [cell][formula]
+  /// The means at `time`, [cell][formula].
   const std::vector<Real>& at(Real time) {
     if (time != time_)
       for (std::size_t i = 0; i < formulas_.size(); ++i)

@@ -8,12 +8,13 @@
 
 namespace meniscus {
 
-/// Points x in (-1, 1) and weights w, which sum to 2.
+/// A Gauss-Legendre rule.
 struct GaussRule {
   std::vector<Real> x, w;  ///< ascending points, weights that sum to 2
 };
 
-/// k points, exact for polynomials of degree 2 k - 1; 1 <= k <= 20, else InputError.
+/// The rule of k points, exact for polynomials of degree 2 k - 1. Throws InputError unless 1 <= k
+/// <= 20.
 const GaussRule& gauss_rule(int k);
 
 /// A rule on [-1, 1]^P; the first coordinate varies fastest.
@@ -23,7 +24,7 @@ struct TensorRule {
   std::vector<Real> w;
 };
 
-/// k[d] points in direction d.
+/// The tensor product with k[d] points in direction d.
 template <int P>
 TensorRule<P> tensor_rule(const std::array<int, P>& k) {
   std::array<const GaussRule*, P> lines;

@@ -14,23 +14,24 @@ template <int D>
 struct Geometry {
   Grid<D> grid;  ///< boundary found and curved
   std::shared_ptr<const Surface<D>> surface;
-  /// Of the reference position: unit, along the wall's normal; empty if the shape has none.
+  /// Director at a reference position: a unit vector normal to the wall; empty if the shape has
+  /// none.
   std::function<Vec<D>(const Vec<D>& X)> director = {};
 };
 
-/// Sets the bulges of the grid: edges and facets of the boundary become quadratic and meet the
-/// exact surface in their middles, those between two patches on both. Cells that share only an edge
-/// with the boundary follow it. What deviates by less than 1e-9 of its length is straight.
+/// Sets the bulges of the grid: boundary edges and facets become quadratic and meet the exact
+/// surface in their middles. An edge between two patches meets both. Cells that have only an edge
+/// on the boundary get its deviation, too. Deviations below 1e-9 of the length are left out.
 template <int D>
 void curve_boundary(Geometry<D>& geometry);
 
-/// The body map(unit shape). `unit` needs X and cells only.
-/// Throws InputError if a boundary facet lies on none of the patches or a mapped cell folds.
+/// The body map(unit shape). Only X and cells of `unit` are used. Throws InputError if a boundary
+/// facet lies on no patch or a mapped cell folds.
 template <int D>
 Geometry<D> make_geometry(Grid<D> unit, std::vector<SurfacePatch<D>> patches, bool smooth,
                           SmoothMap<D> map);
 
-/// The body after a further map; throws InputError if a cell folds.
+/// The body after a further map. Throws InputError if a cell folds.
 template <int D>
 Geometry<D> apply_map(const SmoothMap<D>& map, Geometry<D> geometry);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curvilinear grids of hexahedra (2D: quadrilaterals): where the particles of a body come from, and
-// the cells over which it is integrated.
+// Curvilinear grids of hexahedra (2D: quadrilaterals). Their nodes become the particles of a body,
+// and their cells are used to integrate over it.
 #pragma once
 #include "meniscus/body/bulge.hpp"
 #include "meniscus/core/types.hpp"
@@ -14,16 +14,17 @@
 
 namespace meniscus {
 
-/// A side of a cell that no other cell shares. Nodes in tensor order: bit k of the corner number is
-/// the upper end of the facet's k-th direction; the directions are such that the facet normal
-/// (3D: first x second tangent; 2D: tangent turned clockwise by 90 degrees) points outwards.
+/// A boundary facet: a side that belongs to one cell only. Nodes are in tensor order: bit k of the
+/// corner number is set at the upper end of facet direction k. The normal (3D: first x second
+/// tangent; 2D: tangent turned clockwise by 90 degrees) points outwards.
 template <int D>
 struct Facet {
   std::array<Index, 1 << (D - 1)> nodes;
   Index cell = 0;
   int side = 0;    ///< 2 k at the lower end of cell direction k, 2 k + 1 at the upper
-  int patch = -1;  ///< number of the surface patch it lies on; -1: none is known
-  /// 3D: patch of the facet beyond the lower (2 t) and upper (2 t + 1) end of facet direction t.
+  int patch = -1;  ///< number of the surface patch that it lies on, or -1
+  /// 3D: patches of the neighbouring facets, beyond the lower (2 t) and upper (2 t + 1) end of
+  /// facet direction t.
   std::array<int, 2 * (D - 1)> patch_beyond = no_patches();
 
  private:
@@ -34,8 +35,8 @@ struct Facet {
   }
 };
 
-/// Node positions X and cells. Corners of a cell in tensor order: bit k of the corner number is the
-/// upper end of cell direction k; the directions form a right-handed system.
+/// Node positions X and cells. Corners of a cell are in tensor order: bit k of the corner number is
+/// set at the upper end of cell direction k. The directions form a right-handed system.
 template <int D>
 struct Grid {
   static_assert(SpaceDim<D>);
@@ -45,9 +46,10 @@ struct Grid {
   std::vector<Vec<D>> X;
   std::vector<Cell> cells;
   std::vector<Facet<D>> facets;  ///< the boundary; find_boundary() fills it
-  /// Of the cells at a curved surface; curve_boundary() fills them. Both empty in a straight body.
+  /// Bulges of cells at a curved surface, set by curve_boundary(). Both are empty in a straight
+  /// body.
   std::vector<Bulge<D>> bulges;
-  std::vector<Index> bulge_of;  ///< [cell] number of its bulge; -1: none
+  std::vector<Index> bulge_of;  ///< [cell] number of its bulge, or -1
 
   Index node_count() const { return static_cast<Index>(X.size()); }
   Index cell_count() const { return static_cast<Index>(cells.size()); }
@@ -56,7 +58,7 @@ struct Grid {
     for (int a = 0; a < corners; ++a) at(points, a) = at(X, at(cell, a));
     return points;
   }
-  /// Null for a straight cell.
+  /// The bulge of a cell, or null for a straight cell.
   const Bulge<D>* bulge(Index cell) const {
     if (bulge_of.empty() || at(bulge_of, cell) < 0) return nullptr;
     return &at(bulges, at(bulge_of, cell));
@@ -68,7 +70,7 @@ constexpr Real corner_sign(int a, int k) {
   return (a >> k) & 1 ? 1.0 : -1.0;
 }
 
-/// A point of a P-dimensional cell in D dimensions and J(i, k) = dX_i / dxi_k.
+/// The position of a point of a P-dimensional cell in D dimensions, and J(i, k) = dX_i / dxi_k.
 template <int D, int P>
 struct CellPoint {
   Vec<D> X;
@@ -94,7 +96,7 @@ CellPoint<D, P> multilinear(const std::array<Vec<D>, (1 << P)>& corners, const V
   return point;
 }
 
-/// Derivatives dN_a / dxi of the functions of that map.
+/// The derivatives dN_a / dxi of the functions of the multilinear map.
 template <int P>
 std::array<Vec<P>, (1 << P)> corner_slopes(const Vec<P>& xi) {
   std::array<Vec<P>, (1 << P)> slopes;
@@ -107,7 +109,7 @@ std::array<Vec<P>, (1 << P)> corner_slopes(const Vec<P>& xi) {
   return slopes;
 }
 
-/// The map of a cell: multilinear, and its bulge if it has one.
+/// The map of a cell: multilinear, plus its bulge if it has one.
 template <int D>
 CellPoint<D, D> cell_point(const std::array<Vec<D>, (1 << D)>& corners, const Bulge<D>* bulge,
                            const Vec<D>& xi) {
@@ -120,22 +122,22 @@ CellPoint<D, D> cell_point(const std::array<Vec<D>, (1 << D)>& corners, const Bu
   return point;
 }
 
-/// Fills grid.facets, ordered by cell and side, from the cells of any conforming grid.
-/// Throws InputError naming the cells if more than two of them share a side.
+/// Sets grid.facets from the cells of a conforming grid, ordered by cell and side. Throws
+/// InputError naming the cells if more than two share a side.
 template <int D>
 void find_boundary(Grid<D>& grid);
 
-/// A place of the cell where det J <= 0, if there is one. Looks at the 3^D points {-1, 0, 1}^D (in
-/// straight 2D cells this proves det J > 0 everywhere).
+/// A point of the cell where det J <= 0, if there is one. Checks the 3^D points {-1, 0, 1}^D; for
+/// straight cells in 2D this proves det J > 0 everywhere.
 template <int D>
 std::optional<CellPoint<D, D>> find_fold(const Grid<D>& grid, Index cell);
 
-/// Throws InputError naming the first folded cell, place and Jacobian. `cause` begins the message,
-/// e.g. "the shape".
+/// Throws InputError naming the first folded cell, the place and the Jacobian. `cause` begins the
+/// message, e.g. "the shape".
 template <int D>
 void check_jacobians(const Grid<D>& grid, const std::string& cause);
 
-/// The cells at each node, ascending, and which of their corners the node is.
+/// The cells at each node in ascending order, and the corner of each cell that the node is.
 struct NodeCells {
   struct Entry {
     Index cell;
@@ -152,45 +154,45 @@ struct NodeCells {
 template <int D>
 NodeCells cells_of_nodes(const Grid<D>& grid);
 
-/// Volume (2D: area) enclosed by the cells, exact for their maps.
+/// Volume (2D: area) of the cells, exact for their maps.
 template <int D>
 Real volume(const Grid<D>& grid);
 
-/// Edge of a cube (2D: square) of the mean volume of the cells.
+/// The edge length of a cube (2D: square) with the mean volume of the cells.
 template <int D>
 Real mean_spacing(const Grid<D>& grid);
 
-/// Of every node the mean, over the cells around it, of the root mean square of their diagonals:
-/// sqrt(D) spacings of a lattice, also at its faces. Of a simplex it is that of the cube (2D:
-/// square) that is cut into such simplices, by the squares of the edges. Measured after the grid
-/// has been pressed back by the symmetric stretch U (ParticleSet).
+/// For each node the mean, over the cells around it, of the root mean square of their diagonals. In
+/// a lattice this is sqrt(D) spacings, also at the boundary. For simplices it is the diagonal of
+/// the cube (2D: square) that could be cut into such simplices. Lengths are measured after the
+/// inverse of the symmetric stretch U was applied (ParticleSet).
 template <int D>
 std::vector<Real> diagonals_around_nodes(const Grid<D>& grid, const Mat<D>& stretch);
 
-/// Supports by cells: of every node `factor` times its diagonal, in the metric of the stretch.
+/// Supports from the grid: `factor` times diagonals_around_nodes(), [node].
 template <int D>
 std::vector<Real> supports_by_cells(const Grid<D>& grid, const Mat<D>& stretch, Real factor);
 
-/// How the cells are stretched in the mean: U symmetric, det U = 1, U^2 proportional to the sum of
-/// J J^T at the centres of the cells. After a map A it is that of A U: where the cells of a unit
-/// shape point nowhere, as those of a ball, it is the left stretch of A. What deviates from I by
-/// less than 1e-9 is I.
+/// The mean stretch U of the cells: symmetric, det U = 1, U^2 proportional to the sum of J J^T at
+/// the centres of the cells. It equals the left stretch of a map A if the cells were isotropic on
+/// average before A, as those of a ball are. U = I is returned if U deviates from I by less than
+/// 1e-9.
 template <int D>
 Mat<D> mean_stretch(const Grid<D>& grid);
 
-/// Nodes that lie on a boundary facet, ascending.
+/// The nodes on boundary facets, in ascending order.
 template <int D>
 std::vector<Index> boundary_nodes(const Grid<D>& grid);
 
-/// Boundary facets cut into simplices (3D: triangles, along the shorter diagonal; 2D: segments),
-/// outward; those of facet f stand at [f * (D - 1), (f + 1) * (D - 1)).
+/// Boundary facets cut into simplices with outward normals: triangles along the shorter diagonal
+/// (3D), or segments (2D). Facet f has the simplices f * (D - 1), ..., (f + 1) * (D - 1) - 1.
 template <int D>
 std::vector<std::array<Index, D>> triangulate_boundary(const Grid<D>& grid);
 
-/// Moves the interior nodes one after the other, each coordinate by a number uniform in +-
-/// `fraction` times the shortest cell edge at that node; a move that would fold a cell is drawn
-/// again. Boundary nodes and bulges stay. The same seed gives the same grid on every machine.
-/// Throws InputError if a node finds no place in 100 draws or `fraction` is negative.
+/// Moves the interior nodes one after the other. Each coordinate changes by a uniform random number
+/// of +- `fraction` times the shortest cell edge at that node; a move that folds a cell is drawn
+/// again. Boundary nodes and bulges stay. The result depends on the seed only, not on the machine.
+/// Throws InputError if a node finds no place in 100 draws or if `fraction` is negative.
 template <int D>
 void jitter_interior(Grid<D>& grid, Real fraction, std::uint64_t seed);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape imperfections.
+// Shape imperfections: smooth random displacements of a body.
 #pragma once
 #include "meniscus/body/geometry.hpp"
 
@@ -7,10 +7,10 @@
 
 namespace meniscus {
 
-/// The body after a smooth random displacement of the root mean square length `rms` over its nodes:
-/// 24 plane waves with random directions and phases, half as long to as long as the body. Surfaces
-/// stay exact, and a director stays normal to its layers. The same seed gives the same body on
-/// every machine. Throws InputError if a cell folds.
+/// The body after a smooth random displacement with root mean square length `rms` over its nodes.
+/// It is a sum of 24 plane waves with random directions and phases, with wavelengths of half to one
+/// length of the body. Surfaces stay exact and the director stays normal to the wall. The result
+/// depends on the seed only, not on the machine. Throws InputError if a cell folds.
 template <int D>
 Geometry<D> with_imperfection(Geometry<D> geometry, Real rms, std::uint64_t seed);
 

@@ -22,7 +22,7 @@ struct SurfacePatch {
   static SurfacePatch plane(const Vec<D>& point, const Vec<D>& normal);
   static SurfacePatch sphere(const Vec<D>& centre, Real radius);  ///< in 2D a circle
   static SurfacePatch cavity(const Vec<D>& centre, Real radius);  ///< the normal points inwards
-  /// About the line through `point` along the unit vector `axis`.
+  /// A cylinder with the given radius about the line through `point` along the unit vector `axis`.
   static SurfacePatch cylinder(const Vec<D>& point, const Vec<D>& axis, Real radius);
 
   Foot project(const Vec<D>& X) const;
@@ -38,17 +38,17 @@ struct SurfacePatch {
   /// Orthogonal projection onto the directions in which the patch is round; zero for a plane.
   Mat<D> round = Mat<D>::Zero();
   Vec<D> normal = Vec<D>::Zero();  ///< of a plane
-  Real radius = 0;                 ///< of a round patch; negative: the body is around it
-  std::string name = {};           ///< of the face of the body that it is part of
+  Real radius = 0;                 ///< of a round patch; negative if it bounds a cavity
+  std::string name = {};           ///< name of the face that it belongs to
 };
 
-/// Points of a facet are projected onto its patch of the unit shape, with exact tangents, and
-/// mapped.
+/// A surface made of patches. Points of a facet are projected onto its patch of the unit shape,
+/// with exact tangents, and then mapped.
 template <int D>
 class MappedPatches final : public Surface<D> {
  public:
-  /// `unit_X`: places of the nodes in the unit shape (those of the boundary are exact). The facets
-  /// of the grid know the numbers of their patches.
+  /// `unit_X`: positions of the nodes in the unit shape; boundary nodes lie on the patches. Facets
+  /// of the grid have the numbers of their patches.
   MappedPatches(std::vector<Vec<D>> unit_X, std::vector<SurfacePatch<D>> patches, bool smooth,
                 SmoothMap<D> map);
 
@@ -63,7 +63,7 @@ class MappedPatches final : public Surface<D> {
 
   const std::vector<Vec<D>>& unit_X() const { return unit_X_; }
   const std::vector<SurfacePatch<D>>& patches() const { return patches_; }
-  /// Unit shape -> body.
+  /// The map from the unit shape to the body.
   const SmoothMap<D>& map() const { return map_; }
 
  private:
@@ -73,7 +73,7 @@ class MappedPatches final : public Surface<D> {
   SmoothMap<D> map_;
 };
 
-/// The surface of a body that is known by patches. Throws std::logic_error for other bodies.
+/// `surface` as MappedPatches. Throws std::logic_error if it is another kind of surface.
 template <int D>
 const MappedPatches<D>& mapped_patches(const Surface<D>& surface);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spatial order of particles: neighbours in space become neighbours in memory.
+// Spatial order of particles: near particles get near numbers.
 #pragma once
 #include "meniscus/body/geometry.hpp"
 
@@ -9,15 +9,15 @@
 
 namespace meniscus {
 
-/// The numbers of the points in spatial order (order[new] = old): the cloud is cut across its
-/// longest edge into two halves, these likewise, and so on; those that are cut first begin where
-/// chunks of the points begin (core/parallel), which so are blocks: their rows touch few particles
-/// of others. Equal places keep their order.
+/// The numbers of the points in spatial order (order[new] = old). The cloud is halved across its
+/// longest edge, then each half likewise. The first cuts are at the begins of chunks
+/// (core/parallel), so that chunks are compact blocks whose rows touch few particles of other
+/// chunks. Points at the same place keep their order.
 template <int D>
 std::vector<Index> spatial_order(std::span<const Vec<D>> points);
 
-/// A sum of places with weights of their numbers, which tells orders of the same points apart: to
-/// exchange two changes it by some of their distance, rounding of places by no more than theirs.
+/// A weighted sum of positions that identifies the order of the points. Swapping two points changes
+/// it by a part of their distance; rounding of positions changes it by no more than the rounding.
 template <int D>
 Vec<D> mark_of_order(std::span<const Vec<D>> points);
 
@@ -27,14 +27,14 @@ Index lowest_node(const Cell& cell) {
   return *std::min_element(cell.begin(), cell.end());
 }
 
-/// Gives node order[i] the number i. Cells are then sorted by their lowest node and facets by cell.
-/// `order` must be a permutation of the nodes, else InputError.
+/// Renumbers the nodes: node order[i] becomes node i. Then cells are sorted by their lowest node
+/// and facets by cell. Throws InputError if `order` is no permutation of the nodes.
 template <int D>
 void renumber(Grid<D>& grid, std::span<const Index> order);
 template <int D>
 void renumber(Geometry<D>& geometry, std::span<const Index> order);
 
-/// Renumbers in spatial order; returns order.
+/// Renumbers a body in spatial order and returns the order.
 template <int D>
 std::vector<Index> order_spatially(Geometry<D>& geometry);
 

@@ -9,38 +9,38 @@
 
 namespace meniscus {
 
-/// The functions of a patch at a point of [-1, 1]^(D-1): L_a and their derivatives. Nodes at -1, 0,
-/// 1 per direction, the first direction fastest.
+/// The Lagrange functions L_a of a patch and their derivatives at a point of [-1, 1]^(D-1). Nodes
+/// are at -1, 0, 1 per direction, with the first direction fastest.
 template <int D>
 struct PatchFunctions {
   static constexpr int nodes = D == 3 ? 9 : 3;
-  Real weight = 0;  ///< of a Gauss point
+  Real weight = 0;  ///< weight of the point in a Gauss rule
   std::array<Real, nodes> L;
   std::array<std::array<Real, nodes>, D - 1> dL;
 
   PatchFunctions() = default;
   explicit PatchFunctions(const Vec<D - 1>& xi);
 };
-/// At `points` Gauss points per direction.
+/// The functions at the Gauss points of a rule with `points` points per direction.
 template <int D>
 std::vector<PatchFunctions<D>> patch_functions(int points);
 
-/// The place of node a of a patch, in [-1, 1]^(D-1).
+/// The position of node a of a patch, in [-1, 1]^(D-1).
 template <int D>
 Vec<D - 1> patch_node(int a);
 
-/// Which points the facets of a grid are patches through; neighbours share them.
+/// The points through which the facets of a grid are patches. Neighbouring facets share points.
 template <int D>
 struct PatchNodes {
   static constexpr int nodes = PatchFunctions<D>::nodes;
-  /// The nodes of the grid that a point lies between, ascending: one for a corner, two for the
-  /// middle of an edge, all for the middle of the facet.
+  /// Identifies a point by the grid nodes that it lies between, in ascending order: one node for a
+  /// corner, two for the middle of an edge, all nodes of the facet for its middle.
   using Key = std::vector<Index>;
 
-  std::map<Key, Index> number;                  ///< of the point
-  std::vector<std::array<Index, nodes>> facet;  ///< [facet][a] number of a point
+  std::map<Key, Index> number;                  ///< number of the point
+  std::vector<std::array<Index, nodes>> facet;  ///< [facet][a] number of the point
 
-  /// Points are numbered as the facets need them.
+  /// Numbers the points in the order in which the facets use them.
   explicit PatchNodes(const Grid<D>& grid);
   Index count() const { return static_cast<Index>(number.size()); }
 };
@@ -49,7 +49,7 @@ struct PatchNodes {
 template <int D>
 typename PatchNodes<D>::Key patch_key(const Facet<D>& facet, const Vec<D - 1>& node);
 
-/// The place of a point of a patch and the tangents x_,k there.
+/// A point of a patch: its position and the tangents x_,k.
 template <int D>
 CellPoint<D, D - 1> patch_place(const PatchFunctions<D>& f,
                                 const std::array<Index, PatchFunctions<D>::nodes>& points,

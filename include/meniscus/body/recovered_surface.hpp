@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces of bodies that are known by their grid alone: imported, or seeded anew.
+// Surfaces recovered from the grid alone: of imported or reseeded bodies.
 #pragma once
 #include "meniscus/body/geometry.hpp"
 
@@ -8,18 +8,19 @@
 namespace meniscus {
 
 /// A smooth surface through the nodes of the boundary facets. At each node the height above the
-/// tangent plane is the quadratic polynomial that fits the nodes of the facets within two rings
-/// best (least squares, weights falling to zero at 1.2 of their distance). A facet is the
-/// multilinear blend of those of its corners: neighbours meet without a gap; places are of order
-/// h^3 at least, normals h^2, curvatures h (on an ellipsoid: 3.9, 2.6 and 2).
+/// tangent plane is a quadratic polynomial: the least-squares fit to the nodes within two rings of
+/// facets, with weights that fall to zero at 1.2 times the largest distance. On a facet the
+/// surfaces of its corners are blended multilinearly, so neighbours meet without a gap. Positions
+/// are of order h^3 at least, normals h^2, curvatures h (on an ellipsoid: 3.9, 2.6 and 2).
 template <int D>
 class RecoveredSurface final : public Surface<D> {
  public:
-  /// Throws InputError if facets meet at an edge or a corner.
+  /// Throws InputError if the surface has an edge or corner.
   explicit RecoveredSurface(const Grid<D>& grid);
-  /// Null if facets meet at an edge or a corner.
+  /// Returns null if the surface has an edge or corner.
   static std::shared_ptr<const RecoveredSurface> if_smooth(const Grid<D>& grid);
-  /// Of facets that are a part of a surface up to its edges, however few they are.
+  /// The surface of facets that form a part of a surface up to its edges; works for few facets,
+  /// too.
   static std::shared_ptr<const RecoveredSurface> of_piece(const Grid<D>& grid);
 
   SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const override;
@@ -27,7 +28,7 @@ class RecoveredSurface final : public Surface<D> {
   bool smooth() const override { return true; }
   bool hollow() const override;
   std::shared_ptr<const Surface<D>> renumbered(std::span<const Index> order) const override;
-  /// Recovered anew from the mapped nodes.
+  /// Recovered again from the mapped nodes.
   std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
                                            const Grid<D>& grid) const override;
 
@@ -48,11 +49,11 @@ class RecoveredSurface final : public Surface<D> {
   Place blended(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const;
 
   std::vector<Quadric> quadrics_;
-  std::vector<Index> number_;  ///< [node] of its quadric; -1: inside the body
+  std::vector<Index> number_;  ///< [node] number of its quadric; -1: inside the body
 };
 
-/// The body of a grid (X and cells), its surface recovered. Throws InputError as RecoveredSurface,
-/// or if a cell folds.
+/// The body of a grid (X and cells) with a recovered surface. Throws InputError if the surface has
+/// an edge or corner or if a cell folds.
 template <int D>
 Geometry<D> recovered_geometry(Grid<D> grid);
 

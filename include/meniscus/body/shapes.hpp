@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shapes a scene can name, and how a new one is added: one file in src/body/shapes with a
-// struct like those below and the line `const bool registered = register_shape<D, MyShape>();`.
+// The shapes that a scene can name. To add one, write one file in src/body/shapes with a struct
+// like those below and the line `const bool registered = register_shape<D, MyShape>();`.
 #pragma once
 #include "meniscus/body/geometry.hpp"
 #include "meniscus/core/key_table.hpp"
@@ -12,8 +12,8 @@
 
 namespace meniscus {
 
-/// Cubed sphere: a core of core^3 cells inside `layers` shells of 6 core^2 cells each, so
-/// (core + 1)^3 + layers (6 core^2 + 2) nodes.
+/// Cubed sphere: core^3 cells inside `layers` shells of 6 core^2 cells each. It has (core + 1)^3 +
+/// layers (6 core^2 + 2) nodes.
 struct Ball {
   static constexpr const char* name = "ball";
   static constexpr const char* meaning = "ball, meshed as a cubed sphere";
@@ -53,7 +53,7 @@ struct HalfSphere {
   Geometry<3> geometry() const;
 };
 
-/// Cylinder about z, a flat one being a disc: the cells of Disk in `layers` equal layers.
+/// Cylinder or disc about z: the cells of Disk in `layers` equal layers.
 struct Cylinder {
   static constexpr const char* name = "cylinder";
   static constexpr const char* meaning = "cylinder or disc about z";
@@ -67,8 +67,8 @@ struct Cylinder {
   Geometry<3> geometry() const;
 };
 
-/// What shells have in common: a wall of even thickness about z with (6 n^2 + 2) layers nodes,
-/// n = quarter of a meridian / spacing.
+/// Parameters common to all shells: a wall of even thickness about z. It has (6 n^2 + 2) layers
+/// nodes with n = quarter of a meridian / spacing.
 struct Wall {
   Real thickness = 0.1;
   int layers = 4;  ///< particles through the wall
@@ -76,7 +76,8 @@ struct Wall {
   std::vector<Real> centre{0, 0, 0};
 };
 
-/// Flat faces and a semicircular rim: all that lies within height / 2 of a flat circular plate.
+/// A hollow disk with flat faces and a semicircular rim. Its outer surface has the distance height
+/// / 2 from a flat circular plate.
 struct DiskShell : Wall {
   static constexpr const char* name = "disk_shell";
   static constexpr const char* meaning = "hollow disk with round rim";
@@ -120,7 +121,7 @@ struct SphereShell : Wall {
   Geometry<3> geometry() const;
 };
 
-/// Core of core^2 cells inside `rings` rings of 4 core cells.
+/// A core of core^2 cells inside `rings` rings of 4 core cells.
 struct Disk {
   static constexpr const char* name = "disk";
   static constexpr const char* meaning = "disk";
@@ -146,7 +147,7 @@ struct Ellipse {
   Geometry<2> geometry() const;
 };
 
-/// `layers` rings of `around` cells each.
+/// A ring of `layers` layers with `around` cells each.
 struct Ring {
   static constexpr const char* name = "ring";
   static constexpr const char* meaning = "ring, the section of a thick-walled cylinder";
@@ -177,13 +178,14 @@ struct Brick {
   Geometry<D> geometry() const;
 };
 
-/// What the program knows of a shape by its name.
+/// A registered shape.
 template <int D>
 struct ShapeEntry {
   static constexpr const char* kind = "shape";
   std::string_view name, meaning, example;
   std::vector<KeyText> (*keys)();
-  /// Nothing if something of the table is wrong. Throws InputError for numbers that make no shape.
+  /// Makes the geometry; returns nothing if the table has a problem. Throws InputError if the
+  /// numbers make no shape.
   std::optional<Geometry<D>> (*make)(const Block&);
 };
 
@@ -193,8 +195,8 @@ const Registry<ShapeEntry<D>>& shapes() {
   return Registry<ShapeEntry<D>>::all();
 }
 
-/// Enters S: name, meaning, example, rows(), and geometry(), which throws InputError for numbers
-/// that make no shape.
+/// Registers the shape S, which has name, meaning, example, rows() and geometry(). geometry()
+/// throws InputError if the numbers make no shape.
 template <int D, class S>
 bool register_shape() {
   return register_entry(ShapeEntry<D>{S::name, S::meaning, example_of<S>(),
@@ -206,12 +208,11 @@ bool register_shape() {
                                       }});
 }
 
-/// The body that a table of the scene describes: `shape` names a registered shape, its own keys
-/// follow in the same table, then what places it (placement.hpp), `imperfection` (rms length,
-/// default 0) with `imperfection_seed` displaces the body smoothly (imperfection.hpp), and `jitter`
-/// (fraction of the shortest edge, default 0) with `jitter_seed` moves the interior nodes. Numbers
-/// that make no body are noted in the block as a problem and a coarse stand-in is returned. The
-/// caller calls block.done().
+/// The body that a table of the scene describes. `shape` names a registered shape whose keys are in
+/// the same table. The keys of placement.hpp place it. `imperfection` (rms length, default 0) with
+/// `imperfection_seed` displaces it (imperfection.hpp). `jitter` (fraction of the shortest edge,
+/// default 0) with `jitter_seed` moves the interior nodes. If the numbers make no body, a problem
+/// is noted and a coarse box is returned instead. The caller calls block.done().
 template <int D>
 Geometry<D> read_geometry(const Block& block);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra (2D: triangles) as collapsed hexahedra (quadrilaterals), and their nodal cells
-// (RKPM note 5.4).
+// Tetrahedra (2D: triangles) as collapsed hexahedra (quadrilaterals), and their nodal cells (RKPM
+// note 5.4).
 //
 // A tetrahedron abcd is the cell a b c c d d d d, a triangle abc the cell a b c c. The multilinear
-// map of such a cell gives every place with shares of the corners, X = sum_i lambda_i X_i: what
-// integrates over cells or facets by it needs to know nothing else.
+// map of such a cell gives a position by barycentric coordinates, X = sum_i lambda_i X_i. Functions
+// that integrate over cells or facets need no more than this.
 #pragma once
 #include "meniscus/body/grid.hpp"
 
@@ -12,7 +12,7 @@
 
 namespace meniscus {
 
-/// Where in the cell the corners of the simplex are.
+/// The corners of the cell that are the corners of the simplex.
 template <int D>
 constexpr std::array<int, D + 1> simplex_corners() {
   if constexpr (D == 3)
@@ -21,7 +21,7 @@ constexpr std::array<int, D + 1> simplex_corners() {
     return {0, 1, 2};
 }
 
-/// The corner number i of the simplex that is this corner of the cell.
+/// The corner of the simplex at this corner of the cell.
 template <int D>
 constexpr int simplex_corner(int corner) {
   return corner < 3 ? corner : corner < 4 ? 2 : 3;
@@ -35,7 +35,8 @@ constexpr bool is_simplex(const std::array<Index, (1 << D)>& cell) {
     return cell[2] == cell[3];
 }
 
-/// a b c of the triangle abc with a side more, as facets and cells have it.
+/// The triangle abc as the quadrilateral a b c c, the tetrahedron abcd as the hexahedron a b c c d
+/// d d d.
 constexpr std::array<Index, 4> collapsed(const std::array<Index, 3>& triangle) {
   return {triangle[0], triangle[1], triangle[2], triangle[2]};
 }
@@ -44,14 +45,14 @@ constexpr std::array<Index, 8> collapsed(const std::array<Index, 4>& tetrahedron
   return {t[0], t[1], t[2], t[2], t[3], t[3], t[3], t[3]};
 }
 
-/// The side of the cell that lies opposite to a corner of the simplex.
+/// The side of the cell opposite to corner i of the simplex.
 template <int D>
 constexpr int side_opposite(int i) {
   constexpr std::array<int, 4> sides{1, 0, 2, 4};
   return at(sides, i);
 }
 
-/// Ends of the edges, i < j.
+/// The corners i < j at the ends of each edge.
 template <int D>
 constexpr auto simplex_edges() {
   std::array<std::array<int, 2>, D*(D + 1) / 2> edges{};
@@ -61,14 +62,14 @@ constexpr auto simplex_edges() {
   return edges;
 }
 
-/// lambda_i at a place, and d lambda_i / d xi_k.
+/// Barycentric coordinates lambda_i at a point, and their derivatives d lambda_i / d xi_k.
 template <int D>
 struct Shares {
   Eigen::Matrix<Real, D + 1, 1> value = Eigen::Matrix<Real, D + 1, 1>::Zero();
   Eigen::Matrix<Real, D + 1, D> slope = Eigen::Matrix<Real, D + 1, D>::Zero();
 };
 
-/// Of the collapsed cell at xi in [-1, 1]^D.
+/// The coordinates in the collapsed cell at xi in [-1, 1]^D.
 template <int D>
 Shares<D> collapsed_shares(const Vec<D>& xi) {
   Shares<D> shares;
@@ -86,8 +87,8 @@ Shares<D> collapsed_shares(const Vec<D>& xi) {
   return shares;
 }
 
-/// The other corners in the order in which they are the ends of the directions of the part of the
-/// simplex at its corner i: those are a right-handed system.
+/// The corners other than i, in the order of the directions of the part of the simplex at corner i.
+/// These directions form a right-handed system.
 template <int D>
 constexpr std::array<int, D> directions_at(int i) {
   if constexpr (D == 2) {
@@ -99,9 +100,9 @@ constexpr std::array<int, D> directions_at(int i) {
   }
 }
 
-/// Of the part of the simplex at its corner i, a hexahedron (quadrilateral) between the corner, the
-/// middles of edges and sides and that of the simplex, at xi in [-1, 1]^D: all shares are
-/// multilinear.
+/// The coordinates in the part of the simplex at corner i, at xi in [-1, 1]^D. This part is a
+/// hexahedron (quadrilateral) between the corner, the middles of edges and sides, and the middle of
+/// the simplex. All coordinates are multilinear in it.
 template <int D>
 Shares<D> part_shares(int i, const Vec<D>& xi) {
   const std::array<int, D> others = directions_at<D>(i);
@@ -127,8 +128,8 @@ Shares<D> part_shares(int i, const Vec<D>& xi) {
   return shares;
 }
 
-/// 4 lambda_i lambda_j of the edges: 1 in the middle of one, 0 on the others. The deviation of a
-/// curved simplex from the straight one is the sum over these of the first columns of its Bulge.
+/// The functions 4 lambda_i lambda_j of the edges: 1 in the middle of one edge, 0 on the others.
+/// The map of a curved simplex adds these functions times the first columns of its Bulge.
 template <int D>
 BulgeFunctions<D> edge_functions(const Shares<D>& shares) {
   BulgeFunctions<D> functions(Vec<D>::Zero());
@@ -144,8 +145,8 @@ BulgeFunctions<D> edge_functions(const Shares<D>& shares) {
   return functions;
 }
 
-/// The place with these shares, and its derivatives by the same parameters; `corners` of the
-/// collapsed cell.
+/// The position and its derivatives at barycentric coordinates `shares`, with derivatives by the
+/// same parameters. `corners` are those of the collapsed cell.
 template <int D>
 CellPoint<D, D> simplex_point(const std::array<Vec<D>, (1 << D)>& corners, const Bulge<D>* bulge,
                               const Shares<D>& shares) {

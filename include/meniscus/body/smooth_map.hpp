@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Smooth maps of space with exact first and second derivatives: they stretch unit shapes to bodies
-// and are the exact solutions of curvature tests.
+// Smooth maps with exact first and second derivatives. They map unit shapes to bodies and are the
+// exact solutions of curvature tests.
 #pragma once
 #include "meniscus/core/jet.hpp"
 
@@ -30,15 +30,15 @@ SmoothMap<D> affine_map(const Mat<D>& A, const Vec<D>& centre);
 template <int D>
 SmoothMap<D> compose(SmoothMap<D> outer, SmoothMap<D> inner);
 
-/// Twist by 0.7 rad per unit length about y, then by -0.6 about z, then stretch of y by 1.5: takes
-/// the unit sphere to an exact 1 : 1.5 : 1 ellipsoid by a map that is not affine (RKPM note 3.1).
+/// Twist by 0.7 rad per unit length about y, then by -0.6 about z, then stretch of y by 1.5. This
+/// non-affine map takes the unit sphere to an exact 1 : 1.5 : 1 ellipsoid (RKPM note 3.1).
 SmoothMap<3> twist_ellipsoid();
 
-/// (X1, X2, X3 (0.207161 + 2.002558 r^2 - 1.122762 r^4) / 2), r^2 = X1^2 + X2^2: takes the unit
-/// sphere to the resting shape of a red blood cell (RKPM note 3.1).
+/// (X1, X2, X3 (0.207161 + 2.002558 r^2 - 1.122762 r^4) / 2) with r^2 = X1^2 + X2^2. This map takes
+/// the unit sphere to the resting shape of a red blood cell (RKPM note 3.1).
 SmoothMap<3> biconcave();
 
-/// The map of a formula: f takes and returns std::array<Jet<D>, D>.
+/// The map given by a formula f, which takes and returns std::array<Jet<D>, D>.
 template <int D, class Formula>
 SmoothMap<D> smooth_map(Formula formula) {
   return [f = std::move(formula)](const Vec<D>& X) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over particles of what rows say of them, with the same bits whichever rank has the rows.
+// Sums over the entries of rows for each particle, with the same bits for any division of the rows.
 #pragma once
 #include "meniscus/core/ranks.hpp"
 
@@ -8,13 +8,13 @@
 
 namespace meniscus {
 
-/// Adds in the order of the rows: a rank keeps what its rows say until the ranks before have added
-/// what theirs do.
+/// Adds values in the order of the rows. A rank keeps the values of its rows until the ranks before
+/// it have added theirs.
 class SumsOverRanks {
  public:
   explicit SumsOverRanks(Index particles) : sums_(static_cast<std::size_t>(particles), 0.0) {}
 
-  /// Of the next entry of a row of this rank.
+  /// Adds the value of the next entry in the rows of this rank.
   void add(Index A, Real value) {
     if (ranks().first()) {
       at(sums_, A) += value;
@@ -24,7 +24,7 @@ class SumsOverRanks {
     value_.push_back(value);
   }
 
-  /// The sums over the rows of all ranks, which all call it.
+  /// The sums over the rows of all ranks, [particle]. All ranks have to call this.
   std::vector<Real> of_all() {
     for (int rank = 0; rank < ranks().size(); ++rank) {
       if (rank == ranks().rank()) add_kept();
@@ -39,7 +39,7 @@ class SumsOverRanks {
   }
 
   std::vector<Real> sums_;
-  std::deque<Index> particle_;  // of the entries kept
+  std::deque<Index> particle_;  // of the values kept
   std::deque<Real> value_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference surface of a body, which the boundary facets of its grid approximate, whatever it
-// is known by: patches of a shape (mapped_patches.hpp) or the facets alone (recovered_surface.hpp).
+// The reference surface of a body, which the boundary facets of its grid approximate. It is given
+// by patches of a shape (mapped_patches.hpp) or by the facets alone (recovered_surface.hpp).
 #pragma once
 #include "meniscus/body/grid.hpp"
 #include "meniscus/body/smooth_map.hpp"
@@ -12,11 +12,11 @@
 
 namespace meniscus {
 
-/// Which part of the surface of a hollow body; a solid one is outer altogether.
+/// A part of the surface of a hollow body. The surface of a solid body is all outer.
 enum class SurfacePart { whole, outer, inner };
 
-/// Structure of arrays over the points, facet after facet; those of the i-th of the facets asked
-/// for stand at [i * per_facet, (i + 1) * per_facet).
+/// Points of a surface, facet after facet. The i-th of the requested facets has the points [i *
+/// per_facet, (i + 1) * per_facet).
 template <int D>
 struct SurfacePoints {
   std::vector<Vec<D>> X;       ///< position
@@ -25,35 +25,37 @@ struct SurfacePoints {
   std::vector<Real> area;      ///< weight; in 2D length per unit depth
   std::vector<Index> facet;    ///< number of the boundary facet
   int per_facet = 0;
-  /// On the exact surface. Otherwise flat facets with grad_N = 0: no curvature can be had from it.
+  /// True for points on the exact surface. Otherwise facets are flat with grad_N = 0, so the points
+  /// have no curvature.
   bool exact = false;
 
   Index size() const { return static_cast<Index>(X.size()); }
 };
 
-/// Never changes; what is done to a body makes another one. The grid handed in is always that of
-/// the body.
+/// The surface of a body. Objects never change: a change of the body makes a new one. The grid that
+/// functions take is always the grid of the body.
 template <int D>
 class Surface {
  public:
   virtual ~Surface() = default;
 
-  /// k Gauss points per direction of every boundary facet of that part.
+  /// k Gauss points per direction of every boundary facet of the part.
   virtual SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const = 0;
-  /// The point of the surface at xi in [-1, 1]^(D-1) of a facet: where points() has a Gauss point
-  /// xi. The same for all facets that share it.
+  /// The point of the surface at xi in [-1, 1]^(D-1) of a facet, which is the place that points()
+  /// gives to a Gauss point xi. All facets that share the point return the same one.
   virtual Vec<D> point(const Grid<D>& grid, const Facet<D>& facet, const Vec<D - 1>& xi) const = 0;
 
-  /// No edges or corners: the normal is continuous (the curvature form of tension needs it).
+  /// True if there are no edges or corners. The normal is then continuous, which the curvature form
+  /// of surface tension needs.
   virtual bool smooth() const = 0;
-  /// Whether a part of it is an inner one.
+  /// True if a part of it is inner.
   virtual bool hollow() const = 0;
-  /// Name of the face that a patch is part of; empty: it has none.
+  /// The name of the face that a patch belongs to, or empty.
   virtual std::string face_name(int) const { return {}; }
 
-  /// That of the body whose node i is the node order[i] of this one.
+  /// The surface after renumbering: node i of the new body is node order[i] of this one.
   virtual std::shared_ptr<const Surface> renumbered(std::span<const Index> order) const = 0;
-  /// That of the body after a map, with its grid.
+  /// The surface of the body after a map; `grid` is the mapped grid.
   virtual std::shared_ptr<const Surface> mapped(const SmoothMap<D>& map,
                                                 const Grid<D>& grid) const = 0;
 };

@@ -12,18 +12,17 @@ template <int D>
 SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k,
                                 SurfacePart part = SurfacePart::whole);
 
-/// The point of the surface at xi in [-1, 1]^(D-1) of a facet: where surface_points() has a Gauss
-/// point xi. On an edge between two patches it lies on both.
+/// The point of the surface at xi in [-1, 1]^(D-1) of a facet, which is the place that
+/// surface_points() gives to a Gauss point xi. On an edge between two patches it lies on both.
 template <int D>
 Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const Vec<D - 1>& xi);
 
-/// The same as surface_points() on the multilinear facets themselves, for grids without an exact
-/// surface.
+/// Like surface_points(), on the multilinear facets themselves, for grids without an exact surface.
 template <int D>
 SurfacePoints<D> facet_points(const Grid<D>& grid, int k);
 
-/// Surface points are material points. Those of the surface deformed by a map are X' = x, N' = n,
-/// grad N' = grad_s n and area' = da (RKPM note 6).
+/// Maps surface points as material points: X' = x, N' = n, grad N' = grad_s n and area' = da (RKPM
+/// note 6).
 template <int D>
 void deform(SurfacePoints<D>& points, const SmoothMap<D>& map);
 
