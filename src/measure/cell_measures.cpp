@@ -16,14 +16,14 @@ namespace meniscus {
 
 namespace {
 
-/// Builds a part when it is first asked for.
+/// Builds an optional part at its first use.
 template <class T, class... Arguments>
 T& built(std::optional<T>& part, Arguments&&... arguments) {
   if (!part) part.emplace(std::forward<Arguments>(arguments)...);
   return *part;
 }
 
-/// `micrometre` in units of the scene.
+/// `micrometre`: one um in units of the scene.
 class CellShape {
  public:
   CellShape(const Body<3>& body, Real micrometre) : body_(body), micrometre_(micrometre) {}
@@ -42,13 +42,13 @@ class CellShape {
     Thickest found{0, 0};
     for (int k = 0; k < compared_places; ++k) {
       const Real x = Real(k) / (compared_places - 1), t = meridian.thickness(x);
-      // Round-off decides nothing on flat faces.
+      // The margin keeps round-off from choosing a place on flat faces.
       if (t > found.thickness * (1 + 1e-9)) found = {t, x};
     }
     return found;
   }
-  /// How far the middle surface is from a plane, relative to the largest thickness. The rim itself
-  /// is left out: its middle is ill-defined.
+  /// Range of heights of the middle surface relative to the largest thickness. The rim, beyond 0.95
+  /// of the radius, is left out, since its middle is ill-defined.
   static Real asymmetry(const MeanMeridian& meridian) {
     Real low = unbounded, high = -unbounded;
     for (int k = 0; k <= 95; ++k) {

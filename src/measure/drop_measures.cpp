@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motion of places and shape of drops.
+// Velocities at particles and shape of drops.
 #include "meniscus/measure/drop_measures.hpp"
 
 #include "meniscus/body/particle_values.hpp"
@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-/// The outer surface at quadrature points, made when it is asked for first.
+/// The outer surface at quadrature points, made at its first use.
 template <int D>
 class FineSurface {
  public:
@@ -66,7 +66,7 @@ class FineSurface {
   std::optional<ClosedSurface<D>> surface_;
 };
 
-/// sum m |v|^2 of the velocities at the particles, and of what is left of it about their mean.
+/// sum m |v|^2 of the velocities at the particles, the same about their mean velocity, and sum m.
 struct PlaceMotion {
   Real square, about_mean, mass;
 };
@@ -85,7 +85,7 @@ PlaceMotion motion_of_places(const Body<D>& body, const Motion& motion) {
   return {square, std::max(0.0, square - sum(momentum * momentum) / mass), mass};
 }
 
-/// Mean over the volume.
+/// Mean of the viscosity over the volume.
 template <int D>
 Real mean_viscosity(const Body<D>& body, std::span<const Real> viscosity) {
   Real sum = 0, volume = 0;

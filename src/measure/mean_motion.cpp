@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a body is, how it moves and turns, and how long it is, as a whole.
+// Position, velocity, rotation and length of a body as a whole.
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/measure/measure_registry.hpp"
@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// All of these are sums over coefficients, whose momenta and energy are those of the audit.
+/// All are sums over coefficients, as momenta and energy of the audit are.
 template <int D>
 class Whole {
  public:
@@ -35,7 +35,7 @@ class Whole {
   Real velocity_of_centre(const Motion& motion, int i) const {
     return mean([&](Index A) { return velocity(motion, A, i); });
   }
-  /// Component x_i v_j - x_j v_i about the centre.
+  /// Component x_i v_j - x_j v_i of the angular momentum about the centre of mass.
   Real spin(const Motion& motion, int i, int j) const {
     const Real xi = centre(motion, i), xj = centre(motion, j);
     return sum([&](Index A) {
@@ -50,7 +50,7 @@ class Whole {
       return squares / 2;
     });
   }
-  /// Of the ellipsoid that has the same second moments over mass, the longest first: an axis of
+  /// The k-th longest axis of the ellipsoid with the same second moments over mass. An axis of
   /// length 2 a has the second moment a^2/5 (ellipse: a^2/4).
   Real axis(const Motion& motion, int k) const {
     std::array<Real, D> x{};

@@ -15,9 +15,9 @@ namespace meniscus {
 namespace {
 
 constexpr int meridians = 24;
-constexpr int points_of_meridian = 193;  // both poles among them
+constexpr int points_of_meridian = 193;  // including both poles
 
-/// Linear interpolation of z at r on the piece [begin, end] of a curve, at its first crossing.
+/// The value of z at the first crossing of the curve with r = where, by linear interpolation.
 Real height_at(std::span<const Real> r, std::span<const Real> z, Real where) {
   for (std::size_t k = 0; k + 1 < r.size(); ++k) {
     if ((r[k] - where) * (r[k + 1] - where) > 0 || r[k] == r[k + 1]) continue;

@@ -17,12 +17,13 @@ namespace {
 
 constexpr int points_per_direction = 6;
 
-/// In the half plane through the axis of the drop.
+/// A point in the half plane through the axis of the drop.
 struct Place {
   Real r, z;
 };
 
-/// Least squares of w = sum_k c_k f_k(s); empty if the points are too few.
+/// Least-squares coefficients of w = sum_k c_k f_k(s); empty for fewer than two points per
+/// coefficient.
 template <class Functions>
 std::optional<Eigen::VectorXd> fit(const std::vector<Vec<2>>& points, Functions&& functions) {
   const Eigen::Index count = functions(1).size();
@@ -37,8 +38,8 @@ std::optional<Eigen::VectorXd> fit(const std::vector<Vec<2>>& points, Functions&
   return solve_symmetric(normal, right);
 }
 
-/// 1, s and s^2 with s^2 log s: beside a line force the slope of an elastic surface under tension
-/// changes as s log s.
+/// 1, s, s^2 and s^2 log s: near a line force the slope of an elastic surface under tension changes
+/// as s log s.
 Eigen::VectorXd beside_a_line(Real s) {
   return Eigen::Vector4d(1, s, s * s, s * s * std::log(s));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wetted area, and the cap that a drop on a wall resembles.
+// Wetted area of a drop on a wall, and its fit by a spherical cap.
 #include "meniscus/measure/wetting_measures.hpp"
 
 #include "meniscus/core/dense.hpp"
@@ -15,7 +15,7 @@
 namespace meniscus {
 namespace {
 
-/// The central difference of a length along the motion, over a way of a ten-thousandth of it.
+/// The rate of a length: a central difference along the motion over a path of 1e-4 of the length.
 Real rate_of(const std::function<Real(const Motion&)>& length, const Motion& motion) {
   Real square = 0;
   for (const NodalVector& v : motion.v) square = std::max(square, sum(v * v));
@@ -55,8 +55,8 @@ class Cap {
     std::vector<Real> area, height;
     Real film, top;
   };
-  /// Its centre over the film; the curvature of the wall as of a ball about the centre of the wall
-  /// through that of the sphere.
+  /// A sphere with the height of its centre above the film. `bend` is the curvature of the surface
+  /// parallel to the wall through this centre.
   struct Sphere {
     Real centre, radius, bend;
   };
@@ -89,8 +89,8 @@ class Cap {
     return points;
   }
 
-  /// Least squares of |x|^2 - 2 c.x - k over the area above 0.35 of the height; places from their
-  /// mean.
+  /// Least-squares sphere from |x|^2 - 2 c.x - k, weighted by area, over the surface above 0.35 of
+  /// the height. Positions count from their mean.
   Sphere sphere(const Motion& motion) {
     constexpr Real free_above = 0.35;
     const Points p = points(motion);

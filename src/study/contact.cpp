@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Total force between two balls of radius 3 sigma0 in the forms of contact, against the exact
+// Total force between two balls of radius 3 sigma0 for all forms of contact, against the exact
 // value: error over time and pairs at gaps of 0.5, 0.64 and 1 sigma0 (CGCM note 7). The law is cut
-// off at 4 sigma0; its switch keeps the forms equivalent, so that one exact value holds for all.
+// off at 4 sigma0 by a switch that keeps the forms equivalent, so one exact value holds for all.
 #include "meniscus/physics/contact.hpp"
 
 #include "meniscus/body/gauss.hpp"
@@ -40,8 +40,8 @@ Real integral(Real a, Real b, F&& f) {
   return sum;
 }
 
-/// U at the distance a from the centre of a ball: oint (r.n) psi dA over the distance s of the
-/// sphere's points, dA = 2 pi R s ds / a.
+/// U at the distance a from the centre of a ball: oint (r.n) psi dA as an integral over the
+/// distance s of points of the sphere, with dA = 2 pi R s ds / a.
 Real field_of_ball(const PairLaw<PairKernel::space>& law, Real a) {
   const Real nearest = a - radius, farthest = std::min(a + radius, cutoff);
   if (nearest >= farthest) return 0;
@@ -51,7 +51,7 @@ Real field_of_ball(const PairLaw<PairKernel::space>& law, Real a) {
   });
 }
 
-/// Repulsion of two equal balls a gap apart: - oint U n da over the other one.
+/// Repulsion of two equal balls at a gap: - oint U n da over the second ball.
 Real exact_force(Real gap) {
   const PairLaw<PairKernel::space> law(cut_law());
   const Real D = 2 * radius + gap, end = std::min(D + radius, radius + cutoff);
@@ -77,7 +77,7 @@ std::vector<Method> methods(bool brief) {
   return all;
 }
 
-/// Two balls of the same points, both turned, the second one moved.
+/// Two balls with the same points: both are rotated, the second one is moved.
 struct Balls {
   std::unique_ptr<Body<3>> first, second;
 
@@ -94,11 +94,11 @@ struct Balls {
     second->first = first->size();
   }
 
-  /// Other facets of both meet for every number of `turns`.
+  /// Displacements of both balls. Each number of `turns` brings other facets to face each other.
   NodalVectors displacement(Real gap, int turns) const;
 };
 
-/// The k-th of some rotations without pattern.
+/// The k-th of a sequence of irregular rotations.
 Mat<3> rotation(int k) {
   const Real golden = 2.399963229728653;
   return (Eigen::AngleAxisd(golden * (k + 1), Vec<3>(1, 2, 3).normalized()) *
@@ -124,8 +124,9 @@ Real net_force(const Balls& balls, const NodalVectors& force) {
   return net;
 }
 
-/// How many mutual positions of the points the error is averaged over. That of surfaces is a matter
-/// of which points meet, and varies by multiples; that of volume points is a bias.
+/// Number of rotations over which the error is averaged. The error of surface forms depends on
+/// which points face each other and varies by multiples. The error of the volume form hardly
+/// varies.
 int turns_of(const Method& method, bool brief) {
   if (method.form == ContactForm::volume) return brief ? 1 : 2;
   return brief ? 12 : 32;
@@ -171,7 +172,7 @@ Measurement measure(const Balls& balls, const Method& method, Real gap, int leve
   return result;
 }
 
-/// Pairs and time at which a method has an error of 1 %, between its measurements by powers.
+/// Pairs and time at an error of 1 %, interpolated between measurements by powers.
 std::optional<std::pair<Real, Real>> cost_of_one_per_cent(const StudyRun& study,
                                                           const std::string& method) {
   const Measurement* before = nullptr;
@@ -215,7 +216,8 @@ void run(StudyRun& study) {
     for (const char* form : {"energy", "pressure", "dissertation"})
       study.require(fmt::format("order, {}, gap 0.64 sigma0", form),
                     study.overall_order(fmt::format("{}, gap 0.64 sigma0", form), "force"), {3, 8});
-  // The rule of the note, of near-uniform points: 1 % at h = gap / 2; Gauss points are less even.
+  // The rule of the note is an error of 1 % at h = gap / 2 for near-uniform points. Gauss points
+  // are less even.
   for (const Measurement& m : study.measurements())
     if (m.method.rfind("volume", 0) != 0 && m.values[1].second < 0.45)
       study.require(fmt::format("error at h/gap = {:.2f}, {}", m.values[1].second, m.method),

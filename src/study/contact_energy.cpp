@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy of an elastic disk that bounces with a spin on an adhesive plate, over the time step and
-// the fineness of the contact points: second order in the step and independent of the points for
-// the energy form, a plateau for the form of the dissertation (CGCM note 2).
+// Energy of a spinning elastic disk that bounces on an adhesive plate, over the time step and the
+// fineness of the contact points (CGCM note 2). The energy form is of second order in the step and
+// independent of the points; the form of the dissertation has a plateau.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/solve/audit.hpp"
@@ -97,8 +97,8 @@ void run(StudyRun& study) {
   const auto name_of = [](const char* form, int points) {
     return fmt::format("{}, {} points per facet", form, points);
   };
-  // Errors of the energy form are those of the step, whatever the points; what is left of the error
-  // of the dissertation's form at the smallest step is its own.
+  // Errors of the energy form come from the step only. The error of the dissertation's form at the
+  // smallest step is its own.
   const auto last_error = [&](const char* form, int points) {
     return study.find(name_of(form, points), study.levels().back())->error("energy");
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curvature of exact surfaces from the deformation of a ball or a disk (RKPM note 3.1): bases,
-// supports, windows, places, re-referencing, and what brings the order up.
+// Curvature of exact surfaces, from the deformation of a ball or a disk (RKPM note 3.1): bases,
+// supports, kernels, places, updates of the reference, and means to raise the order.
 #include "meniscus/core/error.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<std::string> map_names() {
   return names;
 }
 
-/// Maps of one dimension by name; all of them without a name.
+/// The map of that name in one dimension; all maps if the name is empty.
 template <int D>
 std::vector<NamedMap<D>> chosen_maps(const std::string& name) {
   std::vector<NamedMap<D>> maps;
@@ -75,7 +75,8 @@ Settings read_settings(const StudyRun& study) {
   return settings;
 }
 
-/// The maps onto the unit sphere and circle, for which height-function errors are published.
+/// True for maps onto the unit sphere and circle. Errors of height functions are published for
+/// these.
 bool is_round(const std::string& map) {
   return map == "twist" || map == "swirl";
 }
@@ -119,7 +120,7 @@ void measure_all(StudyRun& study, const std::vector<NamedMap<D>>& maps, const Se
   }
 }
 
-/// L2 errors at levels 6, 10, 14, 20 (RKPM note 3.1); 0: none is noted.
+/// L2 errors at levels 6, 10, 14, 20 from RKPM note 3.1; 0 if there is none.
 struct Noted {
   std::string method;
   std::array<Real, 4> L2;
@@ -169,7 +170,7 @@ void require_targets(StudyRun& study) {
   limit(map + "cubic_spline, points: " + line, "max", 2.5e-2);
   limit(map + "bases: " + cubic, "L2", 9e-4);
   limit(map + "recovered: " + line + ", recovered", "L2", 2e-3);
-  // Between close or fine levels the order of the quadratic basis is lower.
+  // Between close levels and between fine levels the order of the quadratic basis is lower.
   if (study.levels().front() > 6 || study.levels().back() < 2 * study.levels().front()) return;
   const auto order = [&](const std::string& method, Real least) {
     const Real found = study.overall_order(method, "L2");
@@ -184,7 +185,7 @@ void require_targets(StudyRun& study) {
   order(in_short + line + ", recovered", 2.4);
 }
 
-/// Says for every method on the sphere and the circle whether it is below the height functions.
+/// Notes, for every method on the sphere and the circle, its errors relative to height functions.
 void compare_height_functions(StudyRun& study) {
   std::vector<std::string> done;
   for (const Measurement& first : study.measurements()) {

@@ -21,7 +21,8 @@ Complex bessel_ratio(int l, Complex x) {
   return tail;
 }
 
-/// Vanishes for x = - s R^2/nu (RKPM note 7). Multiplied by x^2, so that it is smooth at small x.
+/// The dispersion function, zero at x = - s R^2/nu (RKPM note 7). The factor x^2 makes it smooth at
+/// small x.
 Complex dispersion(int l, Real Oh, Complex x) {
   const Complex R = bessel_ratio(l, x);
   const Real L = l;
@@ -30,7 +31,7 @@ Complex dispersion(int l, Real Oh, Complex x) {
          L * (L - 1) * (L + 2) / (Oh * Oh);
 }
 
-/// Newton's iteration; nothing if it does not settle near its start.
+/// Newton's iteration; empty if it does not converge near its start.
 std::optional<Complex> root_near(int l, Real Oh, Complex x) {
   const Complex start = x;
   for (int iteration = 0; iteration < 50; ++iteration) {
@@ -44,8 +45,8 @@ std::optional<Complex> root_near(int l, Real Oh, Complex x) {
   return {};
 }
 
-/// Follows the root from Oh = `from` to `to` in steps that a Newton iteration can bridge; x in
-/// units nu/R^2 is rescaled by what stays about the same along the branch.
+/// Follows the root from Oh = `from` to `to` in steps small enough for Newton's iteration. Between
+/// steps x, in units of nu/R^2, is multiplied by scale(before, after), which predicts its change.
 template <class Guess>
 std::optional<Complex> follow(int l, Real from, Real to, Complex first, Guess&& scale) {
   constexpr int steps = 400;

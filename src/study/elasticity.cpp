@@ -15,7 +15,7 @@ namespace {
 
 using namespace study;
 
-/// Clouds of one size that differ by chance, each under its loads.
+/// Random clouds of one size, each with its loads.
 template <int D>
 struct Clouds {
   int n;
@@ -28,7 +28,7 @@ struct Clouds {
   }
 };
 
-/// Root mean squares of the errors on all clouds; times of one.
+/// Root mean square errors over all clouds; the time of one cloud.
 template <int D>
 Measurement measure(const Rule& rule, const Clouds<D>& clouds, const std::string& method) {
   Measurement m;
@@ -58,9 +58,9 @@ Measurement measure(const Rule& rule, const Clouds<D>& clouds, const std::string
   return m;
 }
 
-/// Least orders of q_scni. The boundary nodes of a cube move along it only, so that coarse clouds
-/// are the more regular ones, which takes from the orders what irregularity adds to the errors:
-/// from 6 cells per edge on it is little.
+/// Smallest accepted orders of q_scni. Boundary nodes of a cube move along the boundary only, so
+/// coarse clouds are more regular than fine ones. Their errors are smaller for that, which lowers
+/// the observed orders. From 6 cells per edge on the effect is small.
 constexpr Real least_L2_order = 2.8, least_H1_order = 1.9;
 
 template <int D>
@@ -69,7 +69,8 @@ void measure_all(StudyRun& study, const std::vector<Rule>& rules) {
     if (study.brief() && jitter != 0.2) continue;
     std::vector<Clouds<D>> clouds;
     for (const int level : study.levels()) {
-      // Coarse clouds as many as have the particles of the finest: chance is averaged alike.
+      // Coarse levels have as many clouds as have the particles of the finest cloud, so that
+      // averages over chance are alike.
       const Real refined = std::pow(study.levels().back() / Real(level), D);
       clouds.emplace_back(D == 2 ? 2 * level : level, jitter,
                           jitter > 0 ? 1 + static_cast<int>(refined) : 1);

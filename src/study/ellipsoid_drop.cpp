@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ellipsoidal nano-drop of Fan 2014, section 6.1, refined: aspect at 0.5, 1, 2, 3, 4 times
-// T = sqrt(rho R^3 / gamma). Large amplitudes have no closed solution; what can be trusted is the
-// value towards which the resolutions of one method converge, if other integration rules, surface
-// forms and clouds converge towards it too. The values of RKPM note 8 are set beside it.
+// The ellipsoidal nano-drop of Fan 2014, section 6.1, refined: aspect at 0.5, 1, 2, 3, 4 times T =
+// sqrt(rho R^3 / gamma). Large amplitudes have no closed solution. The reference is the limit of
+// one method under refinement; other integration rules, surface forms and clouds have to converge
+// to it, too. The values of RKPM note 8 are shown beside it.
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/study/study.hpp"
 
@@ -107,7 +107,7 @@ void run(StudyRun& study) {
   for (const int core : study.levels()) study.record(measure(reference, core, end));
   const std::vector<int>& levels = study.levels();
   const std::size_t finest = levels.size() - 1;
-  // Without its resolutions a run shows nothing of this.
+  // A run with one resolution has no limit to compare with.
   if (finest < 1) return;
 
   const int of_others = levels[finest - 1];

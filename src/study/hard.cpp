@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases. Each says what should happen: the run stays stable, or it stops and names the cause.
+// Hard cases: each has to stay stable, or to stop and name the cause.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/scene.hpp"
 #include "meniscus/solve/audit.hpp"
@@ -23,7 +23,7 @@ const std::string solid =
     "material = { type = \"neo_hookean\", density = 1, mu = 0.384615384615, lambda = "
     "0.576923076923 "
     "}\n";
-/// A swirl that a cube at the origin can follow without edges in the way.
+/// A swirl that a cube at the origin can follow without hindrance by its edges.
 const std::string swirl =
     "initial_velocity = [\"0.02*sin(pi*x)*cos(pi*y)\", \"-0.02*cos(pi*x)*sin(pi*y)\", \"0\"]\n";
 
@@ -36,9 +36,9 @@ std::string box(const std::string& cells, const std::string& keys, Real end,
       end, size, cells, keys);
 }
 
-/// Let go with its corners at once, at the default step. From a stretch of 1.2 it folds whatever
-/// the width of supports and the spacing: at first at a corner, or when the bar comes back, where
-/// the law has lost its ellipticity.
+/// A bar released at once, corners included, at the default step. From a stretch of 1.2 on it folds
+/// for any supports and spacing: at a corner first, or, when the bar comes back, where the law is
+/// no longer elliptic.
 std::string bar(Real stretch, Real end) {
   return fmt::format(
       "dimension = 3\ntime = {{ end = {:.17g} }}\n[[body]]\nname = \"body\"\nshape = \"box\"\n"
@@ -48,8 +48,8 @@ std::string bar(Real stretch, Real end) {
       end, stretch - 1);
 }
 
-/// Central differences at `part` of the estimated limit, as nobody could ask for in a scene (steps
-/// above the limit are refused there).
+/// Central differences with the fraction `part` of the estimated stable step. Scenes cannot ask for
+/// this, since steps above the limit are refused there.
 HardOutcome run_at(Real part, int steps) {
   HardOutcome outcome;
   const SceneInput input =

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of contact: fast first contact, a tip smaller than sigma0, strong compression,
-// overlap, and how strongly flat surfaces with matching points hold each other (CGCM notes 7, 8 and
-// 10).
+// overlap, and the friction between flat surfaces with matching points (CGCM notes 7, 8 and 10).
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
@@ -34,7 +33,7 @@ std::string header(Real end) {
   return fmt::format("dimension = 2\n[time]\nend = {}\n", end);
 }
 
-/// The least gap of a run in which bodies must have met.
+/// Requires the smallest gap of a run in which bodies meet.
 void met(HardCases& cases, const std::string& name, const HardOutcome& outcome, Range allowed) {
   const auto gap = outcome.least.find("contact.gap");
   cases.require(name, "least gap / sigma0",
@@ -66,10 +65,10 @@ void small_tip(HardCases& cases) {
   met(cases, name, outcome, {0.3, 0.637});
 }
 
-/// A block between two plates at the equilibrium gap g*, where the stiffness of contact governs the
-/// step: sigma0 is 1/50 of the spacing of particles. The pressure of the plates at 0.6 g* is 384
-/// epsilon sigma0^3 (CGCM note 3.1), which compresses the block by a sixth. K(0.6 g*) / K(g*) = 244
-/// (CGCM note 8), so that the step falls by up to sqrt(244) = 15.6.
+/// A block between two plates, at first at the equilibrium gap g*. sigma0 is 1/50 of the spacing of
+/// particles, so the stiffness of contact governs the step. The pressure of the plates at 0.6 g* is
+/// 384 epsilon sigma0^3 (CGCM note 3.1), which compresses the block by a sixth. K(0.6 g*) / K(g*) =
+/// 244 (CGCM note 8), so the step falls by a factor of up to sqrt(244) = 15.6.
 void compression(HardCases& cases) {
   constexpr Real sigma0 = 0.01, modulus = 2000;  // epsilon sigma0^3 = 1
   const Real gap = sigma0 * std::pow(15, -1.0 / 6);
@@ -97,7 +96,7 @@ void compression(HardCases& cases) {
                 outcome.first_allowed_step / outcome.least_allowed_step, {10, 20});
 }
 
-/// Momentum p and spin L about its own centre that a body has.
+/// Momentum p of a body and angular momentum L about its own centre.
 struct Thrown {
   Vec<3> p = Vec<3>::Zero(), L = Vec<3>::Zero();
 };
@@ -126,8 +125,9 @@ Thrown thrown(const Body<D>& body, const State& state) {
   return sum;
 }
 
-/// Two bodies of radius 1 without friction, with an impact parameter of 0.6 in a direction that is
-/// none of their lattices: what the collision gives them of spin is an artefact (CGCM note 10).
+/// Two bodies of radius 1 without friction, with an impact parameter of 0.6 in a direction that
+/// differs from those of their lattices. Angular momentum L that the collision gives them is an
+/// artefact (CGCM note 10).
 template <int D>
 void without_friction(HardCases& cases, const std::string& name, const std::string& shape,
                       Real bound) {
@@ -177,8 +177,8 @@ void overlap(HardCases& cases) {
               "surfaces overlap");
 }
 
-/// Largest lateral force between two flat surfaces with the same lattice of points that are shifted
-/// against each other, relative to their peak attraction: artificial friction.
+/// Artificial friction: the largest lateral force between two flat surfaces with the same, shifted
+/// lattice of points, relative to their peak attraction.
 Real pinning(Real spacing_per_gap) {
   ContactLaw law;
   law.cutoff = 4;
@@ -199,8 +199,8 @@ Real pinning(Real spacing_per_gap) {
   return largest / plane_contact(law, 1).peak_traction;
 }
 
-/// Conforming flat lattices in registry hold each other at coarse spacings, and hardly where the
-/// rule h <= gap / 2 is kept.
+/// Flat lattices in registry hold each other at coarse spacings, and hardly at all for h <= gap /
+/// 2.
 void registry(HardCases& cases) {
   if (!cases.wants("lattices in registry")) return;
   for (const Real ratio : {0.4, 0.5, 0.75, 1.0})
@@ -220,8 +220,7 @@ void hard_contact(HardCases& cases) {
   without_friction<2>(cases, "disks without friction",
                       "shape = \"disk\"\nradius = 1\ncore = 6\nrings = 3", 1e-3);
   if (!cases.study().brief()) {
-    // Supports are wider than the default of solids: with that, 1.5, balls of core = 6 err
-    // by 1.7e-3.
+    // Supports are wider than the default of solids, 1.5: with it, balls of core = 6 err by 1.7e-3.
     for (const auto& [core, bound] : {std::pair{4, 5e-2}, {6, 1e-3}})
       without_friction<3>(
           cases, fmt::format("balls without friction, core = {}", core),

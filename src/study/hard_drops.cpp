@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of drops: far from round, hardly viscous, with edges, spun, held to each other, and
-// left alone for long.
+// Hard cases of drops: far from round, of small viscosity, with edges, spinning, attracting each
+// other, and at rest for long.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -10,7 +10,8 @@
 namespace meniscus::study {
 namespace {
 
-/// A drop with rho = gamma = 1. `more`: of its fluid and of its tension.
+/// A drop with rho = gamma = 1. `more_fluid` and `more_tension` are further keys of its fluid and
+/// its surface tension.
 std::string drop(const std::string& shape, Real Oh, Real end, const std::string& keys = "",
                  const std::string& more_fluid = "bulk_modulus = 200",
                  const std::string& more_tension = "", int dimension = 3) {
@@ -28,7 +29,7 @@ std::string ellipsoid(const std::string& axes, int core) {
                      core / 2);
 }
 
-/// Ends as a sphere whose facets have kept their sizes.
+/// Requires that the drop ends as a sphere.
 void is_round(HardCases& cases, const std::string& name, const HardOutcome& outcome,
               Real tolerance) {
   cases.require(name, "isoperimetric - 1", outcome.measure("body.isoperimetric") - 1,
@@ -48,7 +49,7 @@ void left_alone(HardCases& cases, bool full) {
   }
 }
 
-/// Far from round at the start, at rest as a sphere at the end: in the reference of the start.
+/// Drops that start far from round, in that reference, and end at rest as spheres.
 void stretched(HardCases& cases, bool full) {
   for (const auto& [shape, axes] :
        {std::pair<std::string, std::string>{"1 : 2 : 1", "[0.793701, 1.587401, 0.793701]"},
@@ -62,7 +63,7 @@ void stretched(HardCases& cases, bool full) {
                                   "bulk_modulus = 200", "form = \"" + form + "\""),
                              1e-2);
       is_round(cases, name, outcome, full ? 1e-3 : 1e-2);
-      // K = 200, pressure 2: 0.99 at rest.
+      // With K = 200 and pressure 2 the volume ratio at rest is 0.99.
       cases.require(name, "volume / reference volume", outcome.measure("body.volume") / 4.18879,
                     {0.988, 0.992});
     }
@@ -77,7 +78,7 @@ void stretched(HardCases& cases, bool full) {
            full ? 1e-3 : 3e-2);
 }
 
-/// Equations of state, forms, honey, hardly compressible, jittered, thrown.
+/// Equations of state, forms of tension, high viscosity, high bulk modulus, jitter, initial motion.
 void fluids(HardCases& cases, bool full) {
   const std::string shape = ellipsoid("[0.87358, 1.31037, 0.87358]", full ? 6 : 4);  // 1 : 1.5 : 1
   const Real end = full ? 6 : 1;
@@ -127,8 +128,8 @@ void spun(HardCases& cases, bool full) {
   cases.require(name, "error of the angular momentum", outcome.angular_momentum_error, {0, 1e-10});
 }
 
-/// Two drops that van der Waals forces hold to each other: they come closer, flatten where they
-/// face each other, and rest.
+/// Two drops that attract each other by van der Waals forces: they approach, flatten where they
+/// face each other, and come to rest.
 void held_together(HardCases& cases, bool full) {
   std::string text = fmt::format("dimension = 3\ntime = {{ end = {} }}\n", full ? 20 : 5);
   for (const auto& [name, x] : {std::pair<std::string, Real>{"left", -1.12}, {"right", 1.12}})

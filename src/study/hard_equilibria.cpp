@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of equilibria by Newton's method: an arch that snaps through, a nearly incompressible
-// block pressed to half, an end that is turned by half a turn, a surface that jumps into contact,
-// thin drops that flow to a circle.
+// block compressed to half its height, an end rotated by half a turn, a surface that jumps into
+// contact, and thin drops that relax to a circle.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -35,8 +35,8 @@ std::string gripped(const std::string& base, const std::string& grip, const std:
   return held("base", "face = \"" + base + "\"") + held("grip", "face = \"" + grip + "\"", motion);
 }
 
-/// A flat beam is pushed together until it is an arch; a grip a third of its half length away from
-/// the middle pulls it up and then down to the other side.
+/// A flat beam is compressed until it is an arch. A grip at a third of its half length from the
+/// middle pulls it up and then down to the other side.
 void arch(HardCases& cases) {
   const std::string name = "arch snaps through under a grip";
   const HardOutcome outcome = cases.stays_stable(
@@ -52,9 +52,9 @@ void arch(HardCases& cases) {
   cases.require(name, "force of the grip", outcome.measure("grip.force_y"), {-2e-3, 0});
 }
 
-/// nu = 0.495 and stuck between plates: the sides bulge and fold over the edges of the plates.
-/// Nodes are jittered: from about half of the way on the symmetric state is not stable, and
-/// round-off would decide whether an even block leaves it, and jumps.
+/// A block with nu = 0.495 stuck between plates: the sides bulge and fold over the edges of the
+/// plates. From about half of the compression on the symmetric state is unstable, and round-off
+/// would decide whether an even block leaves it by a jump. Therefore nodes are jittered.
 void pressed_block(HardCases& cases, bool full) {
   const std::string name = "nearly incompressible block pressed to half";
   const HardOutcome outcome = cases.stays_stable(
@@ -67,7 +67,8 @@ void pressed_block(HardCases& cases, bool full) {
           gripped("y_min", "y_max", "displacement = [0, \"-0.5*t\"]\n"),
       1e-2);
   cases.require(name, "jumps", outcome.measure("jumps"), {0, 0});
-  // The pressure of the force, 11 below the plates and less beside them, over the bulk modulus 100.
+  // Expected: the pressure of the force, 11 below the plates and less beside them, over the bulk
+  // modulus 100.
   cases.require(name, "area / reference area", outcome.measure("body.volume") / 2, {0.89, 0.97});
 }
 
@@ -82,13 +83,14 @@ void half_a_turn(HardCases& cases, bool full) {
           gripped("x_min", "x_max", "angle = \"pi*t\"\naxis = [1, 0, 0]\n"),
       1e-2);
   cases.require(name, "jumps", outcome.measure("jumps"), {0, 0});
-  // In small strains mu 0.1406 pi/4 (Saint-Venant); sections that warp are kept plane at both ends.
+  // The torque of small strains is mu 0.1406 pi/4 (Saint-Venant). The ends are kept plane, which
+  // hinders the warping of sections.
   cases.require(name, "torque / that of small strains",
                 outcome.measure("grip.torque_x") / (0.1406 * std::acos(-1.0) / 4), {0.9, 1.2});
 }
 
-/// A soft half disk and a plate that comes and goes away farther than it came. The Tabor number
-/// (R W^2/(E*^2 g*^3))^(1/3) is 5: the surface jumps into contact and is pulled off late.
+/// A soft half disk and a plate that approaches and goes away farther. The Tabor number (R
+/// W^2/(E*^2 g*^3))^(1/3) is 5: the surface jumps into contact and is pulled off late.
 void jump_in(HardCases& cases, bool full) {
   const std::string name = "jump into contact at Tabor number 5";
   constexpr Real sigma0 = 0.1, stiffness = 1 / 0.96;
@@ -111,7 +113,8 @@ void jump_in(HardCases& cases, bool full) {
   cases.require(name, "gap at the end, after pull-off", outcome.measure("plate.gap"), {0.7, 1.3});
 }
 
-/// Jittered, four times as long as thick, with viscosities a hundred thousand times apart.
+/// A jittered thin drop with an aspect ratio of four, for viscosities that differ by a factor of
+/// 1e5.
 void thin_drop(HardCases& cases, Real viscosity) {
   const std::string name = fmt::format("thin drop of viscosity {:g} flows to a circle", viscosity);
   const HardOutcome outcome = cases.stays_stable(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of nematics: cores that the particles do not resolve, directors that tumble, that
-// relax far faster than the liquid moves, that the surface hardly lets go, defects that leave.
+// Hard cases of nematics: defect cores below the particle spacing, directors that tumble, directors
+// that relax far faster than the liquid moves, strong anchoring at the surface, and defects that
+// leave.
 #include <fmt/core.h>
 
 #include "support/hard_cases.hpp"
@@ -17,7 +18,7 @@ struct Nematic {
       "\"z/sqrt(x^2 + y^2 + z^2 + 0.1)\"";
   std::string velocity = "0, 0, 0", anchoring = "";
 
-  /// A ball of a disordered cloud, spacing about 0.2.
+  /// A ball of a jittered cloud with spacing about 0.2.
   std::string scene() const {
     return fmt::format(
                "dimension = 3\ntime = {{ end = {} }}\n[[body]]\nname = \"ball\"\nshape = \"ball\"\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of solids, for every law: nearly incompressible, let go from large stretches, twists
+// Hard cases of solids for every law: nearly incompressible, released from large stretches, twists
 // and shears, jittered clouds, walls of cells, networks that change their shape, fast impacts.
 #include <fmt/core.h>
 
@@ -15,7 +15,8 @@ namespace {
 
 using study::HardCases, study::HardOutcome;
 
-/// With rho = E = 1 and nu = 0.3 in small strains: speed of compression waves 1.16.
+/// A law with rho = E = 1 and nu = 0.3 in small strains, so that compression waves have the speed
+/// 1.16.
 struct Law {
   std::string name, material;
 };
@@ -59,7 +60,7 @@ const std::string bar = "shape = \"box\"\nsize = [4, 1, 1]\ncells = [12, 3, 3]";
 const std::string swirl =
     "initial_velocity = [\"0.02*sin(pi*x)*cos(pi*y)\", \"-0.02*cos(pi*x)*sin(pi*y)\", \"0\"]\n";
 
-/// What starts at rest or turns keeps its momenta.
+/// Requires that a body that starts at rest or rotates keeps its momenta.
 HardOutcome keeps_momenta(HardCases& cases, const std::string& name, const std::string& text,
                           Real bound = 1e-2, const study::HardRun& how = {}) {
   const HardOutcome outcome = cases.stays_stable(name, text, bound, how);
@@ -75,14 +76,15 @@ void nearly_incompressible(HardCases& cases, bool full) {
     const std::string name = law.name + ", nu = 0.4999";
     const HardOutcome outcome = keeps_momenta(
         cases, name, scene(full ? 2 : 0.3, cube, "jitter = 0.2\n" + law.material + swirl));
-    // The stress of layers whose director is along z is not that of a stress-free state alone.
+    // In liquid crystal elastomers with the director along z, the stress-free state is not the
+    // start.
     cases.require(name, "volume / reference volume - 1", outcome.measure("body.volume") - 1,
                   {-1e-3, 1e-3});
   }
 }
 
-/// Bars that are let go at once, without a change of volume at the start. When the waves from both
-/// ends have met, corners are thrown into a bar farther than its particles resolve.
+/// Bars released at once from a stretch at constant volume. When the waves from both ends have met,
+/// corners are thrown into a bar farther than its particles resolve.
 void let_go(HardCases& cases, bool full) {
   const auto all = laws(bulk);
   const std::vector<std::pair<Law, std::vector<Real>>> stretches{
@@ -127,7 +129,8 @@ void jittered(HardCases& cases, bool full) {
                       "integration = \"gauss\"\n" + solid + flat_swirl, 2));
 }
 
-/// Hollow bodies: walls let go out of round, cells that are emptied, walls that change their shape.
+/// Hollow bodies: walls released out of round, cells that are emptied, walls that change their
+/// shape.
 void walls(HardCases& cases, bool full) {
   const std::string sphere =
       fmt::format("shape = \"sphere_shell\"\nradius = 1\nthickness = {}\nlayers = 4\nspacing = {}",
@@ -165,7 +168,7 @@ void walls(HardCases& cases, bool full) {
       1e-2);
 }
 
-/// Networks of liquid crystal elastomers that are heated, or whose director turns.
+/// Networks of liquid crystal elastomers that are heated or whose director turns.
 void nematic(HardCases& cases, bool full) {
   const Real end = full ? 12 : 1;
   cases.stays_stable(
@@ -207,8 +210,7 @@ void fast(HardCases& cases, bool full) {
                 gap == thrown.least.end() ? std::nan("") : gap->second / 0.3, {0.2, 1});
 }
 
-/// Bars whose end is turned by half a turn, alone and with the other end, in which nothing is to be
-/// left but the motion.
+/// Bars rotated at one end by half a turn, and at both ends, where only the rotation may remain.
 void turned(HardCases& cases, bool full) {
   const Real end = full ? 24 : 8;
   const std::string by_half_a_turn = fmt::format(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of surface laws: skins far stiffer than the body, of moduli that are not positive, as
-// all that holds a liquid; tensions that drive flows for long, or become negative.
+// Hard cases of surface laws: skins far stiffer than the body, skins with moduli that are not
+// positive, skins that alone hold a liquid, tensions that drive flows for long or become negative.
 #include <fmt/core.h>
 
 #include "support/hard_cases.hpp"
@@ -19,7 +19,7 @@ std::string liquid(Real viscosity) {
       viscosity);
 }
 
-/// A ball of a disordered cloud that is stretched at this rate.
+/// A ball of a jittered cloud that is stretched at `rate`.
 std::string ball(Real end, Real rate, const std::string& keys, Real safety = 0.9) {
   return fmt::format(
              "dimension = 3\ntime = {{ end = {}, safety = {} }}\n[[body]]\nname = \"ball\"\nshape "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of drops on walls: angles near both ends, a heavy drop where hardly anything adheres,
-// complete wetting, ranges and supports that hardly resolve the line, impact, lift-off, two drops
-// that meet, a tip that is torn out of a film, ground too soft for its adhesion.
+// Hard cases of drops on walls: contact angles near 0 and 180 degrees, a heavy drop with little
+// adhesion, complete wetting, ranges and supports that hardly resolve the line, impact, lift-off,
+// two drops that meet, a tip pulled out of a film, and ground too soft for its adhesion.
 #include <fmt/core.h>
 
 #include "support/hard_cases.hpp"
@@ -109,7 +109,7 @@ void motions(HardCases& cases, bool full) {
       1e-2);
 }
 
-/// At 120 m/s for water and a tip of 5 nm, on which the film draws out a neck.
+/// For water and a tip of 5 nm the speed is 120 m/s. A neck of liquid forms at the tip.
 void neck(HardCases& cases, bool full) {
   const std::string name = "tip is drawn out of a film, with a neck";
   const auto outcome = cases.stays_stable(
@@ -132,7 +132,7 @@ void neck(HardCases& cases, bool full) {
                 outcome.measure("tip.wetted_area") / (4 * 3.14159), {0, full ? 0.01 : 0.5});
 }
 
-/// A plane drop on a layer of Young's modulus E: (adhesion + actin) / (E x range) = 6.7/E.
+/// A 2D drop on a layer with Young's modulus E: (adhesion + actin) / (E x range) = 6.7/E.
 std::string drop_on_ground(Real modulus) {
   return fmt::format(
       "dimension = 2\n[time]\nend = 2\nviscosity = \"implicit\"\n[[body]]\nname = "
@@ -150,7 +150,7 @@ std::string drop_on_ground(Real modulus) {
       modulus);
 }
 
-/// At and beyond what soft ground holds.
+/// Ground near its limit of stiffness, and beyond it.
 void soft_ground(HardCases& cases) {
   cases.stays_stable("drop on ground that is just stiff enough", drop_on_ground(20.2), 1e-3);
   cases.stops("drop on ground that is far too soft", drop_on_ground(1.5),

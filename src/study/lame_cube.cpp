@@ -12,12 +12,12 @@
 namespace meniscus::lame_cube_study {
 namespace {
 
-/// `keys`: further keys of the body.
+/// A method; `keys` are further keys of the body.
 struct Method {
   std::string name, keys;
 };
 
-/// What other codes reached with one thread (performance note 3).
+/// Results of other codes with one thread (performance note 3).
 struct Peer {
   const char* code;
   const char* deck;
@@ -34,7 +34,7 @@ constexpr std::array<Peer, 8> peers{
      {"CalculiX 2.20, implicit C3D20", "gen_ccx.py", 425, 0.0069, 8.2},
      {"CalculiX 2.20, implicit C3D20", "gen_ccx.py", 1225, 0.0051, 38}}};
 
-/// Says what the coarsest cube of the method with at most 1 % error took.
+/// Notes the cost of the coarsest cube of the method with at most 1 % error.
 void compare(StudyRun& study, const std::string& method) {
   for (const Measurement& m : study.measurements()) {
     if (m.method != method || m.error("state") > 0.01) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Volumetric locking: elastostatics of a displacement without divergence, lambda/mu from 1 to 1e4
+// Volumetric locking: elastostatics with a divergence-free displacement, lambda/mu from 1 to 1e4
 // (RKPM note 5.4).
 #include "meniscus/study/study.hpp"
 
@@ -54,7 +54,7 @@ void measure_all(StudyRun& study) {
         study.record(measure<D>(
             rule, elastic_case<D>(unit_box<D>(n, 0.2), divergence_free_field<D>(), {1, ratio}), n));
 
-  // Free of locking: the error hardly depends on lambda/mu, and falls as before.
+  // Without locking the error hardly depends on lambda/mu, and has the same order of convergence.
   for (const int n : sizes) {
     const auto error = [&](const Rule& rule, Real ratio) {
       return study.find(name_of(D, rule, ratio), n)->error("L2");

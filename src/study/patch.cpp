@@ -40,7 +40,7 @@ Measurement measure(const Rule& rule, int n, Real jitter) {
   return m;
 }
 
-/// What the form passes: q_scni both tests, its selective form the linear one.
+/// Required accuracy: q_scni passes both tests, its selective form passes the linear one.
 void require(StudyRun& study, const Measurement& m, const Rule& rule) {
   if (rule.integration.rule != "q_scni") return;
   const auto passes = [&](const std::string& field) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pull-off map: a rigid ball comes to a soft half space and goes away by equilibria, for several
-// Tabor numbers. The pull-off force against boundary elements with the same interaction
-// (tests/reference/ball_on_half_space.py) and against Maugis & Dugdale between stiff (Bradley) and
-// soft balls (Johnson, Kendall, Roberts), its waves while the edge of the contact passes over the
-// facets, and the work of the cycle against what jumps release.
+// Pull-off map: a rigid ball approaches a soft half space and retracts, through equilibria, for
+// several Tabor numbers. The pull-off force is compared with boundary elements with the same
+// interaction (tests/reference/ball_on_half_space.py) and with Maugis & Dugdale between stiff
+// (Bradley) and soft balls (Johnson, Kendall, Roberts). Also measured: the waves of the force while
+// the edge of the contact passes over facets, and the work of the cycle against the energy that
+// jumps release.
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/study/study.hpp"
 
@@ -18,23 +19,23 @@ namespace {
 
 constexpr Real pi = std::numbers::pi;
 
-/// R = E* = 1. The gap of equilibrium is small, so that the contact is small against the ball.
+/// A case with R = E* = 1. The equilibrium gap is small, so that the contact is small against the
+/// ball.
 struct Case {
   Real tabor, gap;
   Real exact;      ///< pull-off force / 2 pi W R by boundary elements
-  Real peak;       ///< distance of the ball there, / gap
-  Real far, near;  ///< at the ends and in the middle of a cycle, / gap
-  int points;      ///< per direction and facet, but in the short form
+  Real peak;       ///< distance of the ball at the pull-off force, / gap
+  Real far, near;  ///< distances at the ends and in the middle of a cycle, / gap
+  int points;      ///< per direction and facet, except in the short form
 
   Real adhesion() const { return std::pow(tabor * gap, 1.5); }
   Real sigma0() const { return gap * std::pow(15, 1.0 / 6); }
   Real epsilon() const { return adhesion() / (0.968479 * std::pow(sigma0(), 4)); }
-  /// Of the contact of soft balls when they are pulled off.
+  /// Contact radius at the pull-off of soft balls.
   Real contact_radius() const { return std::cbrt(9 * pi * adhesion() / 8); }
 };
 
-/// An octant of the half space: cells of even size up to 1.6 radii of the contact, then growing up
-/// to six radii.
+/// An octant of the half space: equal cells up to 1.6 contact radii, then growing cells up to six.
 struct Octant {
   int core, layers = 0;
   Real grading, radius;
@@ -47,7 +48,7 @@ struct Octant {
   }
 };
 
-/// From afar to the ball and back, or out of contact by the largest pull alone.
+/// The motion of the ball: from far to near and back (cycle), or only away past the largest pull.
 struct Way {
   bool cycle;
   Real step;
@@ -104,8 +105,8 @@ displacement = [0, 0, "{}"]
                      c.sigma0(), core < 8 ? 4 : c.points, -1 - way.begin(c), way.displacement(c));
 }
 
-/// Pull-off force over pi W R of Maugis (1992), lambda = 1.157 of the Tabor number: the largest
-/// pull over the ratio m of the radii of the adhesive zone and of the contact.
+/// Pull-off force over pi W R of Maugis (1992) with lambda = 1.157 times the Tabor number. It is
+/// the largest pull over the ratio m of the radii of the adhesive zone and of the contact.
 Real maugis(Real tabor) {
   const Real lambda = 1.157 * tabor;
   Real most = 0;
@@ -119,7 +120,7 @@ Real maugis(Real tabor) {
   return most;
 }
 
-/// The top of the parabola through the largest number and its neighbours.
+/// The vertex of the parabola through the largest value and its neighbours.
 Real top(const std::vector<Real>& p) {
   const auto k = std::max_element(p.begin(), p.end());
   if (k == p.begin() || k + 1 == p.end()) return *k;
@@ -128,15 +129,15 @@ Real top(const std::vector<Real>& p) {
                             : *k;
 }
 
-/// Leaves what is before the jump that follows the largest pull.
+/// Removes all values after the jump that follows the largest pull.
 void cut_where_it_is_off(std::vector<Real>& p) {
   const auto off = std::adjacent_find(std::max_element(p.begin(), p.end()), p.end(),
                                       [](Real now, Real next) { return next < 0.8 * now; });
   if (off != p.end()) p.erase(off + 1, p.end());
 }
 
-/// The largest distance from the cubic polynomial through the two neighbours on both sides, where
-/// the pull is large: the push of a stiff contact grows too fast for a polynomial.
+/// The largest deviation from the cubic polynomial through two neighbours on either side. Only
+/// large pulls count: the repulsion of a stiff contact grows too fast for a polynomial.
 Real wave(const std::vector<Real>& p) {
   const Real large = 0.5 * *std::max_element(p.begin(), p.end());
   Real most = 0;
@@ -159,13 +160,13 @@ Measurement pulled_off(const Case& c, int core, const Way& way) {
   m.bytes = scene.system.bytes();
   m.set_up = set_up.seconds();
   const Stopwatch run;
-  const auto pull = [&] {  // of all quarters, / that of a stiff ball
+  const auto pull = [&] {  // of all four quarters, relative to a stiff ball
     const auto force = std::find_if(scene.measures.begin(), scene.measures.end(),
                                     [](const auto& s) { return s.name == "tip.force_z"; });
     return -4 * force->compute(simulation.state().motion()) / (2 * pi * c.adhesion());
   };
   Real exchanged = 0;
-  std::vector<Real> out;  // pulls on the way out
+  std::vector<Real> out;  // pulls during retraction
   try {
     simulation.settle();
     const Ledger first = simulation.audit_now();
@@ -204,11 +205,11 @@ void check(StudyRun& study, const Case& c, const Way& way) {
                         [&](const auto& v) { return v.first == name; })
         ->second;
   };
-  // At 5 the adhesive zone is a fiftieth of the radius of the contact wide.
+  // At Tabor number 5 the adhesive zone is as wide as a fiftieth of the contact radius.
   if (m.level >= (c.tabor < 0.5 ? 4 : c.tabor < 3 ? 8 : 14)) {
     study.require(where + "pull-off force / boundary elements - 1", m.error("pull-off force"),
                   {-0.03, 0.03});
-    // Between those of soft and of stiff balls.
+    // Expected between the values of soft and of stiff balls.
     study.require(where + "pull-off / stiff", value("pull-off / stiff"), {0.75, 1});
   }
   if (c.tabor < 3 && m.level >= 8)
@@ -232,7 +233,8 @@ void run(StudyRun& study) {
          {Case{0.1, 0.004, 0.98796, 1.11, 3, 0.6, 4}, Case{1, 0.004, 0.82999, 1.93, 3.4, 0.6, 4},
           Case{5, 0.0008, 0.77084, 4.99, 10.5, 3, 8}}) {
       if (study.brief() && c.tabor > 0.5 && c.tabor < 3) continue;
-      // Fine bodies are for the pull-off alone, the finest for what needs them.
+      // Fine bodies only measure the pull-off; the finest are used only for the cases that need
+      // them.
       const bool fine = level > 8;
       if (fine && c.tabor < (level > 10 ? 3 : 0.5)) continue;
       const Way way{!fine, fine ? 0.2 : study.brief() ? 0.1 : 0.05};

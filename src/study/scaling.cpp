@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cost against size: building and stepping the free cube of lame_cube, per particle, with one
-// thread and with two, and what two runs at once make of the machine (performance note 6).
+// Cost against size: setting up and stepping the free cube of lame_cube, per particle, with one
+// thread and with two, and with two runs at the same time (performance note 6).
 #include "meniscus/core/memory.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/scene/simulation.hpp"
@@ -34,7 +34,7 @@ material = {{ type = "neo_hookean", density = 1, mu = 0.4, lambda = 0.6 }}
                      cells);
 }
 
-/// The threads of all loops, for as long as this lives.
+/// Sets the number of threads of all loops during its lifetime.
 class Threads {
  public:
   explicit Threads(int number) : before_(omp_get_max_threads()) { omp_set_num_threads(number); }
@@ -45,7 +45,7 @@ class Threads {
   int before_;
 };
 
-/// The free cube, ready to step.
+/// The free cube, ready for steps.
 class Cube {
  public:
   explicit Cube(int cells) : scene_(scene_of(cells)), simulation_(scene_) { simulation_.begin(); }
@@ -54,7 +54,7 @@ class Cube {
   std::size_t bytes() const { return scene_.system.bytes(); }
   std::uint64_t hash() { return simulation_.snapshot().hash(); }
 
-  /// Makes steps with so many threads; adds what each took, in s.
+  /// Makes steps with `threads` threads and appends the time of each, in s.
   void make_steps(int steps, int threads, std::vector<double>& seconds) {
     const Threads number(threads);
     for (int k = 0; k < steps; ++k) {
@@ -81,14 +81,14 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-/// Median s per step of a run with one thread, with two, and of two runs of one thread at once.
+/// Median time per step in s: one thread, two threads, and two runs of one thread at the same time.
 struct StepTimes {
   double one, two, at_once;
 };
 
-/// In turns, since others may use the machine, each so long, about a second, that it does not
-/// matter where the one before has left threads and caches. A processor that slept is far from the
-/// other's cache for a while, on a virtual machine for up to 0.1 s.
+/// Measures in turns, since others may use the machine. Each turn takes about a second, so that the
+/// threads and caches left by the turn before do not matter. On a virtual machine a processor that
+/// slept may need up to 0.1 s to be near the other's cache again.
 StepTimes step_times(Cube& cube, Cube& beside) {
   const int in_a_row = std::max(10, 2000000 / cube.particles());
   constexpr int rounds = 3;
@@ -105,7 +105,7 @@ StepTimes step_times(Cube& cube, Cube& beside) {
   return {median(one), median(two), median(at_once)};
 }
 
-/// Sets a cube up with so many threads, and makes its first steps.
+/// Sets a cube up with `threads` threads and makes its first steps.
 std::unique_ptr<Cube> measure(int threads, int cells, Measurement& result) {
   const Threads number(threads);
   forget_peak_memory();
@@ -153,7 +153,8 @@ void run(StudyRun& study) {
         2 * steps.one / steps.at_once, steps.at_once / steps.two / 2));
   }
   study.require("sizes with another state after the steps with two threads", different, {0, 0});
-  // A particle inside has more neighbours than one at the surface, of which large bodies have less.
+  // An inner particle has more neighbours than one at the surface; large bodies have a smaller
+  // surface.
   if (study.levels().size() > 1)
     study.require("power of the size with which memory per particle grows",
                   study.overall_order("1 thread", "forces, kB per particle"), {-0.1, 0.1});

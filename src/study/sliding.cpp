@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two half discs that slide past each other (Fan 2014, section 5.1): table 5.1 anew. Pairs and time
-// of one force with its tangent by surface points and by volume points at equal accuracy, for stiff
-// discs whose force is known; and the work of each form on the way of soft ones to the middle.
+// Two half discs that slide past each other (Fan 2014, section 5.1), reproducing table 5.1. For
+// stiff discs with known force: pairs and time of one force with its tangent, by surface points and
+// by volume points at equal accuracy. For soft discs: the work of each form on the way to the
+// middle.
 #include "meniscus/body/gauss.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/study/study.hpp"
@@ -17,7 +18,7 @@
 namespace meniscus::sliding_study {
 namespace {
 
-/// Of inputs/sliding_half_discs.toml: R0 = E0 = 1.
+/// The law of inputs/sliding_half_discs.toml, R0 = E0 = 1.
 ContactLaw law() {
   ContactLaw law;
   law.kernel = PairKernel::integrated;
@@ -27,7 +28,7 @@ ContactLaw law() {
   return law;
 }
 
-/// Of the bases of stiff discs: as near as the soft ones come to each other.
+/// Distance between the bases of stiff discs; the soft ones come as near to each other.
 constexpr Real distance = 2.08;
 constexpr std::array<Real, 6> offsets{-1, -0.7, -0.5, -0.3, -0.1, 0};
 
@@ -39,8 +40,8 @@ std::string half_disc(const std::string& name, int core, bool upper, Real x, Rea
       name, core, 2 * core / 3, upper, x, y);
 }
 
-/// The boundary of the lower half disc by points with their normals times weights; the upper one is
-/// it turned by half a turn.
+/// The boundary of the lower half disc: points with their normals times weights. The upper half
+/// disc is the lower one rotated by half a turn.
 struct Boundary {
   std::vector<Vec<2>> x, V;
 
@@ -64,7 +65,7 @@ struct Boundary {
   }
 };
 
-/// Of stiff discs: energy and force on the upper one, E = INT INT u V.W.
+/// Exact values for stiff discs: energy, and force on the upper one, from E = INT INT u V.W.
 struct Exact {
   Real energy = 0;
   Vec<2> force = Vec<2>::Zero();
@@ -112,7 +113,7 @@ Vec<2> force_on_upper(const System<2>& system, const NodalVectors& force) {
   return net;
 }
 
-/// The least time of a few calls.
+/// The shortest time of three calls.
 template <class F>
 double fastest(F&& f) {
   double least = unbounded;
@@ -166,8 +167,8 @@ Measurement measure(Scene<2>& scene, const Method& method, int level,
   return m;
 }
 
-/// Pairs and time of a force with an error, between the measurements of a method by powers; those
-/// of the coarsest where that is good enough.
+/// Pairs and time of a force with a given error, interpolated between the measurements of a method
+/// by powers. Returns the coarsest measurement if it is accurate enough.
 std::optional<std::pair<Real, Real>> cost_of(const StudyRun& study, const std::string& method,
                                              Real error) {
   const Measurement* before = nullptr;
@@ -208,7 +209,7 @@ void compare_at_equal_accuracy(StudyRun& study) {
   }
 }
 
-/// Soft discs on their way to the middle, by equilibria of the energy form.
+/// Soft discs on their way to the middle, through equilibria of the energy form.
 struct Way {
   Scene<2> scene;
   std::vector<NodalVectors> u;
@@ -236,7 +237,8 @@ struct Way {
     }
   }
 
-  /// Of the forces of a term on the straight ways between the states, by Simpson's rule in pieces.
+  /// The work of a term along straight paths between the states, by Simpson's rule with `pieces`
+  /// pieces.
   Real work(ForceTerm& term, int pieces) const {
     const NodalVectors still(u.front().size(), Lanes::zero());
     NodalVectors place = still, way = still, force;
@@ -258,8 +260,8 @@ struct Way {
   }
 };
 
-/// What the forces of each form do on the way, and what its energy has changed by; those without an
-/// energy, against that of the energy form.
+/// Compares the work of each form on the way with the change of its energy. Forms without an energy
+/// are compared with the energy form.
 void compare_on_the_way(StudyRun& study, int core) {
   const Stopwatch clock;
   Way way(core);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Modes of the free elastic cube: motions without energy, the lowest frequency, the stiffness
-// against saw-teeth, and the highest frequency (RKPM note 5.4).
+// Modes of the free elastic cube: number of zero-energy modes, lowest frequency, stiffness against
+// saw-tooth modes, and highest frequency (RKPM note 5.4).
 #include "meniscus/study/study.hpp"
 
 #include <fmt/core.h>
@@ -16,8 +16,8 @@ namespace {
 
 using namespace study;
 
-/// Energy of the saw-tooth (-1)^(i + j + k) along x at the node in the middle of a lattice, where
-/// the boundary does not matter.
+/// Energy of the saw-tooth (-1)^(i + j + k) along x at the node in the middle of a lattice, far
+/// from the boundary.
 Real saw_tooth_energy(const Integration& integration, Body<3>& body, int n) {
   NodalVectors u(static_cast<std::size_t>(body.size()), Lanes::zero());
   Index middle = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drop left alone: what moves it and what shape it takes. Started as a ball (2D: disk) in its
-// Laplace pressure, and started as an ellipsoid (ellipse) 1.5 : 1 that relaxes first, whose
-// particles keep that deformation (static-drop note 3).
+// A drop at rest: spurious motion and shape. It starts as a ball (2D: disk) in its Laplace
+// pressure, or as an ellipsoid (ellipse) 1.5 : 1 that relaxes first and whose particles keep that
+// deformation (static-drop note 3).
 #include "meniscus/study/study.hpp"
 
 #include <fmt/core.h>

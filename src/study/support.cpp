@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How wide supports should be: errors of solids, drops and curvature against pairs and time, for
-// supports of f times the distance to the 20th neighbour and of f times the mean diagonal of the
-// cells around a particle. In a lattice both are 1.73 spacings, but at faces the first one grows.
+// Width of supports: errors of solids, drops and curvature against pairs and time. Supports are f
+// times the distance to the 20th neighbour, or f times the mean diagonal of the cells around a
+// particle. In a lattice both are 1.73 spacings, but at the boundary the first one grows.
 #include "meniscus/study/study.hpp"
 
 #include <fmt/core.h>
@@ -36,10 +36,10 @@ struct Support {
 
 constexpr Support standard{false, 1.8};
 
-/// What supports are needed for.
+/// A use of supports that is measured.
 struct Use {
   std::string name;
-  std::string error;  ///< by which supports are compared; empty: by none
+  std::string error;  ///< error that compares supports; empty: none
   int finest;         ///< level
   Measurement (*measure)(const std::string& method, Support support, int level);
 };
@@ -127,8 +127,8 @@ Measurement curvature(const std::string& method, Support support, int core) {
   return m;
 }
 
-/// Time to an error by a straight line through the logarithms of two measurements; nothing where
-/// the error hardly falls between them, as where it changes sign.
+/// Time to reach an error, by a straight line through the logarithms of two measurements. Empty if
+/// the error hardly falls between them, e.g. where it changes sign.
 std::optional<Real> time_to(Real error, const Measurement& a, const Measurement& b,
                             const std::string& name) {
   constexpr Real least_order = 1;
@@ -137,7 +137,8 @@ std::optional<Real> time_to(Real error, const Measurement& a, const Measurement&
   return b.time * std::pow(b.error(name) / error, std::log(b.time / a.time) / fall);
 }
 
-/// Says what each support takes to the error that the standard has at the last level but one.
+/// Notes the cost of each support at the error that the standard support has at the last but one
+/// level.
 void compare(StudyRun& study, const Use& use, const std::vector<Support>& supports,
              const std::vector<int>& levels) {
   if (use.error.empty() || levels.size() < 2) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forms of surface tension against exact forces (RKPM note 4): nodal forces and work on the twisted
-// ellipsoid, net force and torque on a surface without symmetry, and the jump of Young and Laplace.
+// Forms of surface tension against exact forces (RKPM note 4): nodal forces and power on the
+// twisted ellipsoid, net force and torque on a surface without symmetry, and the Young-Laplace
+// jump.
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/study/study.hpp"
 
@@ -18,7 +19,7 @@ using MakeTerm = std::unique_ptr<ForceTerm> (*)(const Body<3>&, Real gamma, int 
 struct Form {
   std::string name;
   MakeTerm make;
-  int points;  ///< Gauss points per facet direction; also of the pressure it is set against
+  int points;  ///< Gauss points per facet direction, also of the balancing pressure
 };
 
 std::vector<Form> forms(bool brief) {
@@ -36,7 +37,7 @@ std::vector<Form> forms(bool brief) {
   return all;
 }
 
-/// The three bodies of one resolution.
+/// The bodies of one resolution.
 struct Cases {
   ForceCase ellipsoid, wavy, round;
 };
@@ -94,7 +95,7 @@ Measurement measure(const Form& form, const Cases& cases, int level) {
   return result;
 }
 
-/// Errors at 4341 particles, support 2.0 d_20 (RKPM note 4); 0: none is noted.
+/// Errors at 4341 particles and support 2.0 d_20 from RKPM note 4; 0 if there is none.
 struct Noted {
   std::string form;
   Real nodal_force, dilation, pressure, residual;
@@ -122,7 +123,7 @@ void require_noted(StudyRun& study) {
   }
 }
 
-/// What holds for any support.
+/// Requirements that hold for any support.
 void require_laws(StudyRun& study) {
   for (const Measurement& m : study.measurements()) {
     const bool conserves = m.method.rfind("curvature", 0) != 0;

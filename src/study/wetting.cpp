@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A drop that spreads on a wall: base radius and contact angle against an axisymmetric
-// finite-element calculation with the same law, and what still moves when it is left alone
-// (wetting note).
+// finite-element calculation with the same law, and its residual motion at rest (wetting note).
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/study/study.hpp"
 
@@ -24,9 +23,10 @@ struct Case {
   }
 };
 
-/// At t = 1, 2, 4, 6: base radius, contact angle of the sphere that fits above 0.35 of the height.
-/// R = rho = gamma = Oh = 1, range 0.0785, offset 0.04; 600 elements. With 150 elements radii
-/// differ by up to 1 % (120 degrees: 4 %) at t <= 2, 0.1 % (1.5 %) later, angles by up to 1.4.
+/// Base radius and contact angle (of the sphere that fits above 0.35 of the height) at t = 1, 2, 4,
+/// 6. R = rho = gamma = Oh = 1, range 0.0785, offset 0.04; 600 elements. With 150 elements radii
+/// differ by up to 1 % (120 degrees: 4 %) at t <= 2 and 0.1 % (1.5 %) later, angles by up to 1.4
+/// degrees.
 struct Curve {
   int angle;
   std::array<Real, 4> radius, degrees;
@@ -77,7 +77,7 @@ class Drop {
     simulation_.begin();
   }
 
-  /// Runs on to the first step that reaches t.
+  /// Runs up to the first step that reaches t.
   void follow(Real t) {
     while (simulation_.state().time < t * (1 - 1e-12)) simulation_.advance();
     balance_ =
@@ -105,7 +105,7 @@ class Drop {
   Real balance_ = 0;
 };
 
-/// `alone`: until t = 30, to see what still moves after t = 15.
+/// `alone`: runs until t = 30, to measure the motion after t = 15.
 Measurement measure(const Case& c, int core, Real end, bool alone) {
   const Stopwatch set_up;
   Drop drop(c, core, alone ? 30 : end);
@@ -147,13 +147,13 @@ Measurement measure(const Case& c, int core, Real end, bool alone) {
   return m;
 }
 
-/// What is asked of 997 to 4341 particles; finer drops are known better than the curves.
+/// Requirements for 997 to 4341 particles. Finer drops are more accurate than the curves.
 void check(StudyRun& study, const Measurement& m) {
   if (m.level < 6 || m.level > 10) return;
   const std::string where = fmt::format("{}, level {}: ", m.method, m.level);
   study.require(where + "went on to its end", m.remark.empty() ? 1 : 0, {1, 1});
   for (const auto& [what, error] : m.errors)
-    if (what != "angle (degrees), t = 1")  // the drop is no cap yet
+    if (what != "angle (degrees), t = 1")  // the drop is not a cap yet
       study.require(where + what, error,
                     what.starts_with("angle") ? Range{-1.5, 1.5} : Range{-0.02, 0.02});
   const auto value = [&](const std::string& name) {
@@ -178,7 +178,7 @@ void run(StudyRun& study) {
   for (const int angle : {60, 120})
     for (const int level : study.levels())
       if (level >= 6 && level <= 10) add({angle, "balanced", "implicit"}, level, false);
-  // The same by the points of the shape functions, and with explicit viscosity.
+  // The same drop with the weak form, and with explicit viscosity.
   add({90, "weak", "implicit"}, 6, false);
   add({90, "balanced", "explicit"}, 6, false);
   for (const char* form : {"balanced", "weak"}) add({120, form, "implicit"}, 6, true);

@@ -33,10 +33,10 @@ struct CellQuadrature {
 
 /// A smaller quadrature of one nodal cell: its volume, the facets between it and other nodal cells,
 /// and its part of the boundary of the body. In equal parallelepipeds the points are exact up to
-/// degree 5, in their facets up to degree 3. If octants are unequal or long compared with the
-/// supports, corners and middle of each octant are used (in 2D two Gauss points per direction). The
-/// differences between integrals and sums of polynomials are stored, too (RKPM note 5.6). Buffers
-/// are kept between nodes.
+/// degree 5, in their facets up to degree 3 (2D: 5). If octants are unequal or long compared with
+/// the supports, corners and middle of each octant are used (in 2D two Gauss points per direction).
+/// The differences between integrals and sums of polynomials are stored, too (RKPM note 5.6).
+/// Buffers are kept between nodes.
 template <int D>
 struct CellSamples {
   /// Integral minus sum for the monomials of X - centre up to `degree`.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Registry of the measures of bodies.
 //
-// Measures live in a file of their own, which ends with
+// A group of measures has a file of its own, which ends with
+//
 //   const bool registered = register_measures("name", my_measures<2>, my_measures<3>);
 #pragma once
 #include "meniscus/body/body.hpp"
@@ -13,8 +14,8 @@
 
 namespace meniscus {
 
-/// The measures that bodies of a sort have; none for a body of another sort. Nothing that takes
-/// time is built before one of them is asked for; `body` must be complete then.
+/// Returns the measures of a body, or none if they do not apply to it. Costly parts are built at
+/// the first evaluation, when `body` must be complete.
 template <int D>
 using MeasureMaker = std::vector<MeasureSource> (*)(const Body<D>& body, const UnitSystem& units);
 
@@ -30,7 +31,7 @@ const Registry<MeasureEntry<D>>& measures() {
   return Registry<MeasureEntry<D>>::all();
 }
 
-/// Null for no measures in that dimension.
+/// Registers makers of measures in 2D and 3D; null if there are none in that dimension.
 inline bool register_measures(std::string_view name, MeasureMaker<2> plane, MeasureMaker<3> space) {
   if (plane) register_entry(MeasureEntry<2>{name, plane});
   if (space) register_entry(MeasureEntry<3>{name, space});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mean meridian of a body that was a body of revolution about z, in its own axes.
+// The mean meridian of a body whose reference is a body of revolution about z, in axes of the body.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
@@ -9,27 +9,27 @@
 
 namespace meniscus {
 
-/// Mean of the meridians, from the upper pole over the rim to the lower pole, in axes that moved
-/// with the body: origin and axis are those of the reference carried by the rigid motion that fits
-/// the outer surface best.
+/// The mean of all meridians from the upper pole over the rim to the lower pole. The axes move with
+/// the body: they are those of the reference after the rigid motion that fits the outer surface
+/// best.
 struct MeanMeridian {
   std::vector<Real> r, z;
   std::vector<Real> rim_radius;  ///< largest r of each meridian
 
   /// Largest r of the mean meridian.
   Real radius() const { return radius_at_rim; }
-  /// z of the upper and of the lower half at x = r / radius() in [0, 1].
+  /// z of the upper and of the lower half at r = x radius(), x in [0, 1].
   Real upper(Real x) const;
   Real lower(Real x) const;
   Real thickness(Real x) const { return upper(x) - lower(x); }
-  /// Distance of a place from the polygon of the meridian.
+  /// Distance of the point (r, z) from the polygon of the meridian.
   Real distance(Real r, Real z) const;
 
   std::size_t rim = 0;  ///< number of the point with the largest r
   Real radius_at_rim = 0;
 };
 
-/// Places on the meridians of the outer surface, which must be a mapped sphere.
+/// Points on the meridians of the outer surface, which must be a mapped sphere.
 class Meridians {
  public:
   explicit Meridians(const Body<3>& body);
@@ -47,7 +47,7 @@ class Meridians {
 /// in um: sqrt(1 - x^2) (0.81 + 7.83 x^2 - 4.39 x^4).
 Real evans_fung_thickness(Real x);
 
-/// Places where thicknesses are compared: x = 0, 1/400, ..., 1.
+/// Number of places x = 0, 1/400, ..., 1 at which thicknesses are compared.
 inline constexpr int compared_places = 401;
 
 }  // namespace meniscus

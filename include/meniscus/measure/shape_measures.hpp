@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures of the place and the shape of a body.
+// Measures of the position and the shape of a body.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/expression.hpp"
@@ -15,7 +15,7 @@ namespace meniscus {
 template <int D>
 std::vector<MeasureSource> shape_measures(const Body<D>& body, const UnitSystem&);
 
-/// An exact solution to compare with.
+/// An exact solution for state_error().
 struct ExactSolution {
   std::vector<Expression> displacement, velocity;  ///< of reference position and time
   Real rate =
@@ -23,7 +23,7 @@ struct ExactSolution {
 };
 
 /// "state_error": sqrt(sum V [rate^2 |u - u_ex|^2 + |v - v_ex|^2] / sum V [rate^2 |u_ex|^2 +
-/// |v_ex|^2]) over the particles, at places (performance note 3).
+/// |v_ex|^2]) over the particles, with u and v at the particle positions (performance note 3).
 template <int D>
 MeasureSource state_error(const Body<D>& body, ExactSolution exact);
 

@@ -9,32 +9,36 @@
 
 namespace meniscus {
 
-/// Of a front around that wetted area (2D: length): base_radius, of a disk of the area (2D: half
-/// the length), and line_speed, its rate: the difference over a ten-thousandth of the radius.
+/// Measures of a wetted area (2D: length): base_radius of a disk of this area (2D: half the
+/// length), and line_speed, its rate. The rate is a central difference over 1e-4 of the radius.
 template <int D>
 std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wetted_area);
 
-/// The angle at which a sphere (2D: circle) of that volume (area) and height above a plane meets
-/// it, in radians: the spherical cap.
+/// The contact angle in radians of a spherical cap (2D: circular segment) with this volume (area)
+/// and height above a plane.
 template <int D>
 Real angle_of_cap(Real volume, Real height);
 
-/// How far a place x is above a wall at a time, and the curvature there of the surface at that
-/// height: zero of a plane, 1/r at the distance r from the centre of a ball, -1/r in a cavity.
+/// Height of a point above a wall, and the curvature at this point of the surface at that height.
+/// The curvature is 0 above a plane, 1/r at the distance r from the centre of a ball, -1/r in a
+/// cavity.
 struct WallHeight {
   Real height, curvature;
 };
 template <int D>
 using HeightAbove = std::function<WallHeight(const Vec<D>& x, Real time)>;
 
-/// Of a drop on a wall of one curvature:
-///   film: mean height of what is nearer than `contact_gap`, where the surface of contact is taken
-///   to be; the least height where nothing is;
-///   contact_angle: in degrees, at which the sphere (2D: circle) that fits the surface above 0.35
-///   of the height of the drop best meets that surface; 180 where it does not reach it; height: of
-///   the apex of that sphere over the surface of contact;
-///   on a plane, contact_angle_vh: in degrees, of the cap of the same volume and height.
-/// From 6 Gauss points per facet direction; built when asked for first (wetting note 2).
+/// Measures of a drop on a wall of constant curvature.
+///
+/// - film: mean height of the surface that is nearer than `contact_gap`; the smallest height if
+///   nothing is so near. The surface of contact lies at this height.
+/// - contact_angle: degrees between the surface of contact and the sphere (2D: circle) that fits
+///   the drop best above 0.35 of its height; 180 if they do not meet.
+/// - height: height of the apex of this sphere above the surface of contact.
+/// - contact_angle_vh, on a plane: contact angle in degrees of the cap with this volume and height.
+///
+/// The surface has 6 Gauss points per facet direction and is built at the first evaluation (wetting
+/// note 2).
 template <int D>
 std::vector<MeasureSource> cap_measures(const Body<D>& body, HeightAbove<D> height_of,
                                         Real contact_gap, bool flat);

@@ -8,7 +8,7 @@
 
 namespace meniscus::study {
 
-/// Names of the shapes that reference_body() knows; the first one is smooth, the others have edges.
+/// The shapes that reference_body() can make; the first one is smooth, the others have edges.
 template <int D>
 const std::vector<std::string>& reference_shapes();
 template <>
@@ -16,12 +16,12 @@ const std::vector<std::string>& reference_shapes<2>();
 template <>
 const std::vector<std::string>& reference_shapes<3>();
 
-/// A ball or disk of radius 1 with n cells along an edge of the core inside n / 2 shells; also box,
-/// cylinder and rectangle, for what needs no curvature. In spatial order.
+/// A ball or disk of radius 1 with n cells along an edge of the core inside n / 2 shells. Box,
+/// cylinder and rectangle are for studies without curvature. Particles are in spatial order.
 template <int D>
 Geometry<D> reference_body(const std::string& shape, int n);
 
-/// Throws InputError, saying why and what to do instead, if the body has edges.
+/// Throws InputError with cause and remedy if the body has edges.
 template <int D>
 void require_curvature(const std::string& shape, const Geometry<D>& geometry);
 

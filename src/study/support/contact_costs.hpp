@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of contact points that a form of contact visits.
+// The number of pairs of contact points of a form of contact.
 #pragma once
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_list.hpp"
@@ -7,11 +7,11 @@
 namespace meniscus::study {
 
 struct ContactCost {
-  Real pairs;    ///< of points in the list
-  Real spacing;  ///< of the points of the first body
+  Real pairs;    ///< pairs of points in the list
+  Real spacing;  ///< spacing of the points of the first body
 };
 
-/// At a displacement of both bodies, for points of beta = 1 and constant density.
+/// Cost at the displacement u of both bodies, for points of beta = 1 and constant density.
 template <int D>
 ContactCost contact_cost(const Body<D>& first, const Body<D>& second, ContactForm form, int points,
                          const ContactLaw& law, Real skin, const NodalVectors& u) {

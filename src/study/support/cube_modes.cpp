@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vibrations of the free elastic unit cube by polynomials, orthonormal so that the mass matrix
-// is 1.
+// Vibrations of the free elastic unit cube by orthonormal polynomials, for which the mass matrix is
+// 1.
 #include "cube_modes.hpp"
 
 #include "meniscus/body/gauss.hpp"

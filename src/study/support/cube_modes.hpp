@@ -7,9 +7,9 @@
 
 namespace meniscus::study {
 
-/// Squares of the circular frequencies of the free unit cube of density 1, ascending, by the method
-/// of Rayleigh and Ritz with products of Legendre polynomials of total degree <= `degree`; the
-/// first six are zero.
+/// Squared circular frequencies of the free unit cube of density 1, ascending, by the Rayleigh-Ritz
+/// method with products of Legendre polynomials of total degree <= `degree`. The first six are
+/// zero.
 std::vector<Real> cube_modes(Moduli moduli, int degree);
 
 }  // namespace meniscus::study

@@ -40,7 +40,7 @@ Eigen::MatrixXd consistent_mass(const Body<3>& body) {
   return M;
 }
 
-/// omega^2 of K w = omega^2 M w with the lumped masses, ascending.
+/// Eigenvalues omega^2 of K w = omega^2 M w with lumped masses M, ascending.
 Eigen::VectorXd lumped_spectrum(const Eigen::MatrixXd& K, const Body<3>& body) {
   Eigen::VectorXd scale(K.rows());
   for (Index row = 0; row < K.rows(); ++row) scale[row] = 1 / std::sqrt(at(body.mass, row / 3));
@@ -67,8 +67,8 @@ Measurement measure_spectrum(const std::string& method, const Integration& integ
   m.time = run.seconds();
   const auto zeros = (lumped.array() < 1e-9 * lowest).count();
   m.errors = {{"lowest frequency", std::abs(std::sqrt(consistent[6] / lowest) - 1)}};
-  // Wide supports have modes in which coefficients move and places hardly do. Lumped masses, which
-  // count coefficients, see them as soft.
+  // Wide supports have modes that change coefficients but hardly move material points. With lumped
+  // masses, which count coefficients, their frequencies are low.
   m.values = {{"modes without energy", static_cast<Real>(zeros)},
               {"softest with lumped masses / lowest", std::sqrt(lumped[zeros] / lowest)},
               {"highest frequency h / c", std::sqrt(lumped[lumped.size() - 1] / 3) / n}};

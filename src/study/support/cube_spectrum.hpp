@@ -7,9 +7,9 @@
 
 namespace meniscus::study {
 
-/// All of them by dense matrices: the error of the lowest with consistent masses, relative to the
-/// root of `lowest`; with lumped masses the number of modes without energy, the softest and the
-/// highest. `body` is a unit cube of n cells per edge.
+/// Frequencies from dense matrices. With consistent masses: the error of the lowest, relative to
+/// the root of `lowest`. With lumped masses: the number of zero-energy modes, the softest and the
+/// highest frequency. `body` is a unit cube of n cells per edge.
 Measurement measure_spectrum(const std::string& method, const Integration& integration,
                              Body<3>& body, int n, Real lowest);
 

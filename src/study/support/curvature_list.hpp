@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The methods that the curvature study compares, by panel of its plots.
+// The methods that the curvature study compares, grouped by the panels of its plots.
 #pragma once
 #include <fmt/core.h>
 
@@ -7,7 +7,7 @@
 
 namespace meniscus::study {
 
-/// Neighbour of which the distance scales the support: 20th (2D: 8th) for the quadratic basis.
+/// The rank of the neighbour whose distance scales the support: 20 (2D: 8) for the quadratic basis.
 template <int D>
 constexpr int rank_of_degree(int degree) {
   constexpr std::array<int, 4> space{0, 6, 20, 26}, plane{0, 4, 8, 12};
@@ -34,12 +34,12 @@ CurvatureMethod<D> curvature_method(int degree, Real factor, Window window, Plac
   return m;
 }
 
-/// The lines by which other maps are judged, and the short form.
+/// The main methods, for further maps and for the short form.
 template <int D>
 std::vector<CurvatureMethod<D>> main_methods(bool brief);
 
-/// Every support with every window at points and nodes, the bases, stages, and what lifts the
-/// order.
+/// All methods: every support with every kernel at points and nodes, the bases, stages, and means
+/// to raise the order.
 template <int D>
 std::vector<CurvatureMethod<D>> all_methods();
 

@@ -15,7 +15,7 @@
 namespace meniscus::study {
 namespace {
 
-/// Boundary nodes as surface points; weight: their share of the facets.
+/// Boundary nodes as surface points, each with its share of the area of the facets.
 template <int D>
 SurfacePoints<D> node_points(const Geometry<D>& geometry, const SurfacePoints<D>& points) {
   std::vector<Real> share(static_cast<std::size_t>(geometry.grid.node_count()), 0.0);
@@ -93,12 +93,12 @@ struct NodalGradients {
   }
 };
 
-/// What a method has found at its places.
+/// The result of a method at its places.
 template <int D>
 struct Found {
   std::vector<Real> curvature;
   std::vector<Vec<D>> normal;
-  std::vector<Mat<D>> F;  ///< of all stages together
+  std::vector<Mat<D>> F;  ///< over all stages
 };
 
 template <int D>
@@ -108,7 +108,7 @@ Vec<D> in_space(const std::array<Real, 3>& x) {
   return y;
 }
 
-/// One stage: the rows of a reference cloud and the curvature of a state of it.
+/// One stage: the rows of a reference cloud, and the curvature of a deformed state.
 template <int D>
 class Stage {
  public:
@@ -131,7 +131,7 @@ class Stage {
     for (NodalVectors& column : gradients_.column) column.assign(X.size(), Lanes::zero());
   }
 
-  /// 2 kappa, as a force term does it.
+  /// 2 kappa, computed as in a force term.
   void evaluate(const NodalVectors& d, std::vector<Real>& curvature) {
     if (!near_.empty()) gradients_.fill(near_rows_, near_, d.data());
     curvature.resize(surface_.X.size());
@@ -141,7 +141,7 @@ class Stage {
     });
   }
 
-  /// F of this stage, and the deformed surface as the next reference.
+  /// F of this stage, and the deformed surface, which is the reference of the next stage.
   SurfacePoints<D> deformed_surface(const NodalVectors& d, std::vector<Mat<D>>& F) const {
     SurfacePoints<D> next = surface_;
     F.resize(surface_.X.size());
@@ -185,7 +185,7 @@ class Stage {
   NodalGradients<D> gradients_;
 };
 
-/// Shortest of the times of an evaluation repeated for about 20 ms.
+/// The shortest time of an evaluation that is repeated for about 20 ms.
 template <class F>
 double shortest_time(F&& evaluate) {
   const Stopwatch all;
@@ -233,7 +233,7 @@ Measurement::Numbers errors_of(const Found<D>& found, const SurfacePoints<D>& ex
           {"normal", std::sqrt(normal / area)}, {"F", std::sqrt(F / F_size)}};
 }
 
-/// With the nodes of the grid at X.
+/// The particles of a method at the nodes X of the grid.
 template <int D>
 ParticleSet<D> particles_of(const CurvatureMethod<D>& method, const std::vector<Vec<D>>& X,
                             const Grid<D>& grid) {

@@ -18,12 +18,13 @@
 namespace meniscus::study {
 namespace {
 
-// R = rho = gamma = 1: time in units of sqrt(rho R^3 / gamma). K (1 - J) = 2 is the Laplace
-// pressure; the reference is larger by J^(-1/3), so that the drop begins at rest at R = 1.
+// R = rho = gamma = 1: time is in units of sqrt(rho R^3 / gamma). K (1 - J) = 2 is the Laplace
+// pressure. The reference is larger by J^(-1/3), so that the drop starts in equilibrium at R = 1.
 std::string scene_text(const DropMode& mode, int core, Real end) {
   const Real J = 1 - 2 / mode.bulk_modulus, stretch = std::cbrt(J);
-  constexpr Real displacement = 0.02;  // about that much at the pole
-  // In terms of the reference, r^l takes stretch^(l-1).
+  constexpr Real displacement = 0.02;  // approximate amplitude at the pole
+  // The speed grows with r^(l-1). In coordinates of the reference this gives a factor
+  // stretch^(l-1).
   const Real speed = displacement * std::sqrt(Real(mode.l * (mode.l - 1) * (mode.l + 2))) *
                      std::pow(stretch, mode.l - 1) / mode.l;
   const std::string velocity =
@@ -58,7 +59,7 @@ gamma = 1
                      mode.bulk_modulus, mode.Oh, mode.body_keys);
 }
 
-/// Amplitude of P_l about z of the places of the surface particles, least squares with P_0 to P_4.
+/// Amplitude of P_l about z of the surface particles, by least squares with P_0 to P_4.
 class Amplitude {
  public:
   Amplitude(const Body<3>& body, int l)
@@ -86,8 +87,8 @@ class Amplitude {
   int l_;
 };
 
-/// From when to when the amplitude is taken for a pair of damped modes: after the slowest vortical
-/// mode, of rate about 30 nu/R^2, has fallen by e^-4, over three decay times or two periods.
+/// The time span from which the rate is fitted. It begins when the slowest vortical mode, with a
+/// rate of about 30 nu/R^2, has fallen by e^-4, and lasts three decay times or two periods.
 struct TimeWindow {
   Real begin, end;
   static TimeWindow of(const DropMode& mode, Complex s) {
@@ -98,8 +99,9 @@ struct TimeWindow {
   }
 };
 
-/// The rate s of equidistant samples of c + a exp(s t) + b exp(s' t), s' = conj(s) or real: linear
-/// prediction from the two samples before, by least squares. The slow one of two real rates.
+/// The rate s of equidistant samples of c + a exp(s t) + b exp(s' t), with s' = conj(s) or s' real,
+/// by least squares for the linear prediction from the two samples before. Of two real rates, the
+/// slow one.
 Complex fitted_rate(const std::vector<Real>& a, Real interval) {
   Mat<3> normal = Mat<3>::Zero();
   Vec<3> right = Vec<3>::Zero();

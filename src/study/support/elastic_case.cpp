@@ -35,13 +35,14 @@ struct Stress {
   }
 };
 
-/// Adds N_A force to `load`, some points at a time: all rows would take gigabytes.
+/// Adds N_A force to `load` for some points at a time, since rows of all points would take
+/// gigabytes.
 template <int D>
 class LoadSum {
  public:
   LoadSum(const Body<D>& body, NodalVectors& load) : body_(body), load_(load) {}
 
-  /// `w` is summed beside the force, in the fourth lane.
+  /// `w` is added up, too, in the fourth lane.
   void add(const Vec<D>& X, const Vec<D>& force, Real w) {
     points_.push_back(X);
     force_.push_back(Lanes::zero());
@@ -92,7 +93,7 @@ struct RigidFields {
   Vec<D> value(int n, const Vec<D>& X) const { return at(c, n) + at(W, n) * X; }
 };
 
-/// Integrals over the body, for the errors of displacement and gradient without rigid part.
+/// Integrals over the body for errors of displacement and gradient without the rigid part.
 template <int D>
 struct ErrorIntegrals {
   static constexpr int modes = RigidFields<D>::count;
@@ -129,8 +130,8 @@ struct ErrorIntegrals {
   }
 };
 
-/// Like jitter_interior(), but nodes of the boundary move too, along it: else a finer cloud is
-/// irregular in a larger part of the body, which hides the order.
+/// Like jitter_interior(), but boundary nodes move along the boundary, too. Otherwise the irregular
+/// part of the body would grow with refinement and hide the order.
 template <int D>
 void jitter(Grid<D>& grid, Real reach, std::uint64_t seed) {
   const NodeCells cells = cells_of_nodes(grid);
@@ -195,8 +196,8 @@ ElasticCase<D> elastic_case(std::unique_ptr<Body<D>> body, SmoothMap<D> exact, M
       sum.add(q.facet_X[p], Stress<D>(c.exact(q.facet_X[p]), moduli).sigma * q.facet_dA[p], 0);
   }
   sum.flush();
-  // The rule has fewer points: a uniform body force takes its integrals of shape functions, as the
-  // masses of a body do.
+  // The integration rule has fewer points than these loads. A uniform body force therefore takes
+  // the rule's integrals of shape functions, as the masses of a body do.
   const std::vector<Real> integral = build_cell_rule(*c.body).shape_integral;
   for (Index A = 0; A < c.body->size(); ++A) {
     const Vec<D> force = -Stress<D>(c.exact(at(c.body->particles.X(), A)), moduli).divergence;
@@ -267,7 +268,7 @@ Solution solve(LinearBody<D>& linear, const ElasticCase<D>& c, Real tolerance) {
   remove_modes<D>(rigid, load);
   const Real scale = norm(load);
   Solution s{NodalVectors(load.size(), Lanes::zero()), 0, 1};
-  // Restarted with the true residual, which rounding lets the recursive one part from.
+  // Restarts from the true residual, from which the recursive one drifts away by rounding.
   constexpr int restarts = 3;
   for (int pass = 0; pass < restarts && s.residual > tolerance; ++pass) {
     NodalVectors r = sum_of(load, -1, linear.stiffness_times(s.u)), p = r;
@@ -298,7 +299,7 @@ Solution solve(LinearBody<D>& linear, const ElasticCase<D>& c, Real tolerance) {
 template <int D>
 ElasticErrors errors_of(const ElasticCase<D>& c, NodalVectors u) {
   const Body<D>& body = *c.body;
-  // Nearly the best rigid motion first, by the places, so that nothing large has to cancel below.
+  // Removes approximately the best rigid motion first, so that nothing large has to cancel below.
   NodalVectors e = u;
   for (Index A = 0; A < body.size(); ++A)
     set_vector<D>(e, A, Vec<D>(vector_at<D>(u, A) - c.exact(at(body.particles.X(), A)).x));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Linear elastostatics with the force terms of the program: a free body in equilibrium with a
-// displacement that is known exactly.
+// Linear elastostatics with the force terms of the program: a free body in equilibrium with an
+// exactly known displacement.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/material.hpp"
@@ -15,10 +15,10 @@ namespace meniscus::study {
 /// by up to +-`jitter` h, along the boundary too.
 template <int D>
 Geometry<D> unit_box_geometry(int n, Real jitter, std::uint64_t seed = 1);
-/// The body of these particles, whose supports are enlarged where they have to be.
+/// The body of these particles; supports are enlarged where needed.
 template <int D>
 std::unique_ptr<Body<D>> box_of(Geometry<D> geometry, ParticleSet<D> particles);
-/// That of unit_box_geometry() with supports of 2.6 h.
+/// The body of unit_box_geometry() with supports of 2.6 h.
 template <int D>
 std::unique_ptr<Body<D>> unit_box(int n, Real jitter, std::uint64_t seed = 1);
 
@@ -31,8 +31,8 @@ struct ElasticCase {
   std::unique_ptr<Body<D>> body;
   SmoothMap<D> exact;  ///< displacement, with derivatives
   Moduli moduli;
-  /// Forces of the tractions and body forces of the exact displacement, by the points of the nodal
-  /// cells (RKPM note 5.3).
+  /// Nodal forces of the exact tractions and body forces, from the points of the nodal cells (RKPM
+  /// note 5.3).
   NodalVectors load;
 };
 template <int D>
@@ -43,11 +43,11 @@ struct Rule {
   std::string name;
   Integration integration;
 };
-/// q_scni, Gauss points 2, 3, 5 and nodal; in short the first two.
+/// q_scni, Gauss points 2, 3, 5 and nodal; only the first two if `brief`.
 std::vector<Rule> elastic_rules(bool brief);
 
-/// The internal force of a body that obeys linear elasticity: a St.Venant-Kirchhoff solid whose
-/// displacements are 2^-200 of those given, so that nothing of second order is left of it.
+/// The internal force of a linear elastic body. It is a St.Venant-Kirchhoff solid with
+/// displacements scaled by 2^-200, so that terms of second order vanish.
 template <int D>
 class LinearBody {
  public:
@@ -65,7 +65,7 @@ class LinearBody {
   std::unique_ptr<ForceTerm> term_;
 };
 
-/// Motions without strain, orthonormal as vectors of coefficients.
+/// Rigid motions, orthonormal as vectors of coefficients.
 template <int D>
 std::vector<NodalVectors> rigid_modes(const Body<D>& body);
 
@@ -74,12 +74,12 @@ struct Solution {
   int iterations;
   Real residual;  ///< |f - K u| / |f|
 };
-/// K u = load by conjugate gradients, up to a rigid motion. Ends where the residual is below
-/// `tolerance` or does not fall any more.
+/// Solves K u = load up to a rigid motion, by conjugate gradients. Ends when the residual is below
+/// `tolerance` or stops falling.
 template <int D>
 Solution solve(LinearBody<D>& linear, const ElasticCase<D>& c, Real tolerance);
 
-/// Relative errors of displacement and gradient; the best rigid motion is left out.
+/// Relative errors of displacement and gradient after removal of the best rigid motion.
 struct ElasticErrors {
   Real L2, H1;
 };

@@ -7,7 +7,7 @@
 
 namespace meniscus::study {
 
-/// u_i = sum over k of a_ik X_k, and of b_ikl X_k X_l if quadratic; no two coefficients are equal.
+/// u_i = sum over k of a_ik X_k, plus b_ikl X_k X_l if quadratic. All coefficients differ.
 template <int D>
 SmoothMap<D> polynomial_field(bool quadratic) {
   return smooth_map<D>([quadratic](const std::array<Jet<D>, D>& X) {
@@ -24,7 +24,7 @@ SmoothMap<D> polynomial_field(bool quadratic) {
   });
 }
 
-/// Half a wave over the body, nothing of it symmetric.
+/// About half a wave over the body, without symmetry.
 template <int D>
 SmoothMap<D> smooth_field() {
   return smooth_map<D>([](const std::array<Jet<D>, D>& X) {
@@ -40,7 +40,7 @@ SmoothMap<D> smooth_field() {
   });
 }
 
-/// A field without divergence: in 2D the curl of sin(3 x + 0.3) sin(2.4 y + 0.5).
+/// A divergence-free field: in 2D the curl of sin(3 x + 0.3) sin(2.4 y + 0.5).
 template <int D>
 SmoothMap<D> divergence_free_field() {
   return smooth_map<D>([](const std::array<Jet<D>, D>& X) {

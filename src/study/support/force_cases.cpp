@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies on which forces of surface tension are known exactly.
+// Bodies with exactly known forces of surface tension.
 #include "force_cases.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
@@ -19,7 +19,7 @@ std::unique_ptr<Body<3>> make_body(Geometry<3> geometry, Real factor) {
   return std::make_unique<Body<3>>("body", std::move(geometry), std::move(particles));
 }
 
-/// int N_A 2 kappa n da, some points at a time: all rows of the fine rule would take gigabytes.
+/// int N_A 2 kappa n da, for some points at a time: rows of all fine points would take gigabytes.
 void add_exact_forces(ForceCase& c, const SmoothMap<3>& map) {
   const SurfacePoints<3> reference = surface_points(c.body->geometry, fine_points);
   SurfacePoints<3> current = reference;

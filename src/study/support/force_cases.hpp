@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies on which forces of surface tension are known exactly.
+// Bodies with exactly known forces of surface tension.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
@@ -10,8 +10,8 @@
 
 namespace meniscus::study {
 
-/// A body, its state (displacement coefficients u_A = x(X_A) - X_A), and, for unit tension on the
-/// exact surface of that state, the nodal forces and the work of two virtual motions.
+/// A body and its state (displacement coefficients u_A = x(X_A) - X_A). For unit tension on the
+/// exact surface of this state: the nodal forces and the power of two virtual motions.
 struct ForceCase {
   std::unique_ptr<Body<3>> body;
   NodalVectors u;
@@ -22,8 +22,8 @@ struct ForceCase {
 /// The state map(unit ball), n cells along an edge of the core; support factor d_20.
 ForceCase mapped_ball(int n, const SmoothMap<3>& map, Real factor);
 
-/// Young-Laplace: the reference is the twisted ellipsoid, the state the unit sphere. The pressure
-/// in equilibrium with unit tension is 2.
+/// Young-Laplace: the reference is the twisted ellipsoid, the state is the unit sphere. A pressure
+/// of 2 balances unit tension.
 ForceCase rounded_ellipsoid(int n, Real factor);
 
 NodalVectors force_of(ForceTerm& term, const NodalVectors& u);
@@ -45,7 +45,7 @@ struct Balance {
 };
 Balance balance_of(const ForceCase& c, const NodalVectors& force);
 
-/// Force of a unit pressure from inside, sum_q N_A cof(F) N dA with k x k points per facet.
+/// Nodal forces of a unit pressure from inside, sum_q N_A cof(F) N dA with k x k points per facet.
 NodalVectors unit_pressure(const ForceCase& c, int k);
 
 }  // namespace meniscus::study

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map given by formulas. Its derivatives are central differences of eighth order with the step
-// 0.02 (the body has radius 1): the error is about 1e-13 in F and 1e-11 in G for formulas that vary
-// over lengths of order one, far below the errors studied.
+// A map given by formulas. Its derivatives are central differences of eighth order with step 0.02
+// (the body has radius 1). For formulas that vary over lengths of order one, the error is about
+// 1e-13 in F and 1e-11 in G, far below the errors studied.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 #include "meniscus/core/text.hpp"
@@ -15,7 +15,7 @@
 namespace meniscus::study {
 namespace {
 
-/// f, f' and f'' along a direction.
+/// First and second derivative along a direction.
 template <int D>
 struct Along {
   Vec<D> first, second;
@@ -71,7 +71,8 @@ class FormulaMap {
   std::vector<Expression> formulas_;
 };
 
-/// Two step widths disagree where a formula has a kink, a jump or a pole.
+/// Refuses formulas with a kink, a jump or a pole, where two step widths give different
+/// derivatives.
 template <int D>
 void require_smooth(const FormulaMap<D>& map, const std::string& name) {
   constexpr int n = 6;

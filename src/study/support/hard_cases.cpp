@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Following the run of a hard case.
+// Runs of hard cases.
 #include "hard_cases.hpp"
 
 #include "meniscus/core/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases: following a run, and stating what became of it.
+// Hard cases: runs scenes and checks their outcome.
 #pragma once
 #include "meniscus/study/study.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace meniscus::study {
 
-/// What became of a run.
+/// The outcome of a run.
 struct HardOutcome {
   Index particles = 0;
   Real steps = 0;
@@ -17,35 +17,35 @@ struct HardOutcome {
   Real final_energy_error = 0;
   Real momentum_error = 0, angular_momentum_error = 0;  ///< largest
   Real first_allowed_step = 0, least_allowed_step = unbounded;
-  std::map<std::string, Real> least;     ///< smallest so far of the measures that are watched
-  std::string stopped;                   ///< message of the failure; empty if it ran to its end
+  std::map<std::string, Real> least;     ///< smallest values of the watched measures
+  std::string stopped;                   ///< error message; empty if the run reached its end
   std::string remarks;                   ///< notes and warnings of the set-up
-  std::map<std::string, Real> measures;  ///< and residuals of the stepper
+  std::map<std::string, Real> measures;  ///< including residuals of the stepper
 
-  /// At the end; not a number if the run did not get there.
+  /// The value of a measure at the end; NaN if the run did not get there.
   Real measure(const std::string& name) const;
 };
 
-/// How to follow a run.
+/// Options of a run.
 struct HardRun {
   Real largest_step_number = unbounded;
-  std::vector<std::string> watched = {};  ///< measures looked at after every step
+  std::vector<std::string> watched = {};  ///< measures evaluated after every step
 };
 
-/// Runs cases and states what should become of them. Those whose name does not contain `chosen` are
-/// passed over, with all that is said about them.
+/// Runs cases and checks their outcomes. Cases whose name does not contain `chosen` are skipped,
+/// with all their checks.
 class HardCases {
  public:
   HardCases(StudyRun& study, std::string chosen) : study_(study), chosen_(std::move(chosen)) {}
 
   bool wants(const std::string& name) const { return name.find(chosen_) != std::string::npos; }
 
-  /// Runs `scene` and states that it ends, with an energy balance within `bound`.
+  /// Runs `scene` and requires that it reaches its end, with an energy balance within `bound`.
   HardOutcome stays_stable(const std::string& name, const std::string& scene, Real bound,
                            const HardRun& how = {});
-  /// States that `scene` stops, or is refused, with a message that contains `cause`.
+  /// Requires that `scene` stops, or is refused, with a message that contains `cause`.
   void stops(const std::string& name, const std::string& scene, const std::string& cause);
-  /// States that a value of the case `name` is `allowed`.
+  /// Requires that a value of the case `name` is `allowed`.
   void require(const std::string& name, const std::string& what, Real value, Range allowed);
   void says(const std::string& name, const HardOutcome& outcome, const std::string& text);
   void record(const std::string& name, const HardOutcome& outcome, Real seconds);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Published errors of curvature by height functions on Cartesian grids, to set beside ours:
-// circles and spheres at random places, test cases of the Basilisk solver (curvature*.ref).
+// Published curvature errors of height functions on Cartesian grids, for comparison: circles and
+// spheres at random places, test cases of the Basilisk solver (curvature*.ref).
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -30,7 +30,7 @@ inline constexpr std::array<HeightFunctionError, 5> height_function_errors<2>{
      {51.2, 7.44e-4, 7.62e-4, 1.22e-3},
      {88.5, 2.49e-4, 2.54e-4, 3.96e-4}}};
 
-/// Between the tabulated diameters by powers of the diameter; nothing outside of them.
+/// Interpolates the table by powers of the diameter; empty outside of the table.
 template <int D>
 std::optional<HeightFunctionError> height_function_error(Real diameter) {
   const auto& table = height_function_errors<D>;

@@ -51,7 +51,7 @@ rate = {8:.17g}
                      mode(amplitude * omega, fmt::format("cos({:.17g}*t)", omega)), omega);
 }
 
-/// Processor time of all threads so far, s: on one thread what a quiet machine takes.
+/// Processor time of all threads so far, s. On one thread this is the time of a quiet machine.
 Real processor_time() {
   return static_cast<Real>(std::clock()) / CLOCKS_PER_SEC;
 }

@@ -5,8 +5,8 @@
 
 namespace meniscus::study {
 
-/// State error after two periods of a cube of `cells` per edge, with steps and processor time;
-/// `body_keys` are keys of the body, one of them its support. The amplitude 1e-5 keeps the
+/// State error of a cube with `cells` per edge after two periods, with steps and processor time.
+/// `body_keys` are keys of the body, including its support. The amplitude 1e-5 keeps the
 /// neo-Hookean law linear to 1e-5.
 Measurement measure_lame_cube(const std::string& method, int cells, const std::string& body_keys);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The maps of the curvature studies, and the test that a map does not fold.
+// The maps of the curvature studies, and the check that a map does not fold.
 #include "maps.hpp"
 
 #include "meniscus/core/dense.hpp"
@@ -13,7 +13,7 @@ namespace {
 template <int D>
 using Position = std::array<Jet<D>, D>;
 
-/// (x, y) turned by an angle that varies in the plane: r^2 is kept.
+/// Rotates (x_i, x_j) by an angle that varies with the position; x_i^2 + x_j^2 stays.
 template <int D>
 void turn(Position<D>& x, std::size_t i, std::size_t j, const Jet<D>& angle) {
   const Jet<D> c = cos(angle), s = sin(angle), xi = x[i], xj = x[j];
@@ -21,7 +21,7 @@ void turn(Position<D>& x, std::size_t i, std::size_t j, const Jet<D>& angle) {
   x[j] = s * xi + c * xj;
 }
 
-/// The x axis bent to a circle of radius 2 in the plane of x and the last coordinate.
+/// Bends the x axis to a circle of radius 2 in the plane of x and the last coordinate.
 template <int D>
 Position<D> bend(Position<D> x) {
   const Jet<D> angle = 0.5 * x[0], radius = 2.0 + x[D - 1];
@@ -30,7 +30,7 @@ Position<D> bend(Position<D> x) {
   return x;
 }
 
-/// Waves without symmetry, each direction moved by the next.
+/// Waves without symmetry: each coordinate moves with the next one.
 template <int D>
 Position<D> wave(const Position<D>& X) {
   Position<D> x = X;
@@ -44,7 +44,8 @@ Position<2> thin(const Position<2>& X) {
   return {X[0], 0.5 * X[1] * (0.207161 + r2 * (2.002558 - 1.122762 * r2))};
 }
 
-/// Turned by an angle that grows with r^2, at the rim by 0.7 per unit length: a circle stays.
+/// Rotation by an angle that grows with r^2, at the rim by 0.7 per unit length. It maps the circle
+/// onto itself.
 SmoothMap<2> swirl(Real part) {
   return smooth_map<2>([=](Position<2> x) {
     turn<2>(x, 0, 1, 0.35 * part * (x[0] * x[0] + x[1] * x[1]));
@@ -52,7 +53,7 @@ SmoothMap<2> swirl(Real part) {
   });
 }
 
-/// The twists of twist_ellipsoid(): a sphere stays.
+/// The twists of twist_ellipsoid(), which map the sphere onto itself.
 SmoothMap<3> twist(Real part) {
   return smooth_map<3>([=](Position<3> x) {
     turn<3>(x, 0, 2, 0.7 * part * x[1]);
@@ -61,8 +62,8 @@ SmoothMap<3> twist(Real part) {
   });
 }
 
-/// One `turn_by` (its argument: part of the whole angle) per stage, all after one another, and the
-/// stretch of y by up to `stretch`.
+/// A path of one map `turn_by(part of the whole angle)` per stage, one after the other, followed by
+/// the stretch of y, which reaches `stretch` at the end.
 template <int D>
 typename NamedMap<D>::Path turning_path(SmoothMap<D> (*turn_by)(Real), Real stretch) {
   return [=](int stage, int stages) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What forces visit.
+// Number of pairs that forces visit.
 #pragma once
 #include "meniscus/physics/force_term.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace meniscus::study {
 
-/// Of all terms.
+/// Pairs of all terms, per particle.
 inline Real pairs_per_particle(std::span<const std::unique_ptr<ForceTerm>> terms, Index particles) {
   Offset pairs = 0;
   for (const auto& term : terms) pairs += term->pairs();

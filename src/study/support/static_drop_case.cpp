@@ -16,8 +16,8 @@
 namespace meniscus::study {
 namespace {
 
-// R = rho = gamma = 1. K (1 - J) = D - 1 is the Laplace pressure; the reference is larger by
-// J^(-1/D), so that the ball begins with R = 1.
+// R = rho = gamma = 1. K (1 - J) = D - 1 is the Laplace pressure. The reference is larger by
+// J^(-1/D), so that the ball starts with R = 1.
 std::string scene_text(const StaticDrop& c, int core, Real end) {
   constexpr Real bulk_modulus = 173;
   const Real J = 1 - (c.D - 1) / bulk_modulus, stretch = std::pow(J, 1.0 / c.D);

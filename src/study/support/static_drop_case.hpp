@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drop left alone, started as a ball (2D: disk) in its Laplace pressure, or as an ellipsoid
-// (ellipse) 1.5 : 1 that relaxes first, whose particles keep that deformation (static-drop note 3).
+// A drop at rest. It starts as a ball (2D: disk) in its Laplace pressure, or as an ellipsoid
+// (ellipse) 1.5 : 1 that relaxes first and whose particles keep that deformation (static-drop note
+// 3).
 #pragma once
 #include "meniscus/study/study.hpp"
 
@@ -9,7 +10,7 @@ namespace meniscus::study {
 /// R = rho = gamma = 1.
 struct StaticDrop {
   int D;
-  bool stretched;  ///< begins 1.5 : 1
+  bool stretched;  ///< starts 1.5 : 1
   Real Oh;
   const char* form;
   std::string body_keys = {};  ///< further keys of the drop
@@ -18,13 +19,13 @@ struct StaticDrop {
   std::string name() const;
 };
 
-/// When a stretched drop has become round: its second mode has fallen by e^-5.5. The rate of the
-/// mode is 5 nu/R^2 (2D: 4, Lamb) where viscosity is small, and 20/19 (2D: 1) gamma/(mu R) where it
-/// is large.
+/// The time after which a stretched drop is round: its second mode has fallen by e^-5.5. The rate
+/// of the mode is 5 nu/R^2 (2D: 4, Lamb) at small viscosity, and 20/19 (2D: 1) gamma/(mu R) at
+/// large viscosity.
 Real round_time(const StaticDrop& c);
 
-/// What moves it, and its shape, at the time `end`. `level`: cells along an edge of the core of the
-/// ball, half of those of the disk.
+/// Motion and shape of the drop at the time `end`. `level`: cells along an edge of the core of the
+/// ball, or half of those of the disk.
 Measurement measure_static_drop(const StaticDrop& c, int level, Real end);
 
 }  // namespace meniscus::study

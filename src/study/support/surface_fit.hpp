@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Smoothing of a quantity along a surface: moving least squares over the points around, so that
-// errors that change sign from point to point cancel and smooth fields keep their order.
+// Smoothing along a surface by moving least squares. Errors that change sign from point to point
+// cancel, and smooth fields keep their order.
 #pragma once
 #include "meniscus/approx/neighbor_search.hpp"
 
@@ -9,9 +9,8 @@
 
 namespace meniscus::study {
 
-/// Replaces values at surface points by the value of the quadratic polynomial of the tangent
-/// coordinates fitted to the values at the points within 1.2 d_24 (2D: 1.2 d_12), cubic-spline
-/// weights.
+/// Replaces values at surface points by those of a local fit: a quadratic polynomial of the tangent
+/// coordinates, fitted to the points within 1.2 d_24 (2D: 1.2 d_12) with cubic-spline weights.
 template <int D>
 class SurfaceFit {
  public:
