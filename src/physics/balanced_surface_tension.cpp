@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface tension on closed patches through places: the form whose area and enclosed volume are
-// those of one surface (static-drop note 2).
+// Surface tension on closed patches through positions: area and enclosed volume belong to one
+// surface (static-drop note 2).
 #include "meniscus/body/surface_patches.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/physics/surface_tension.hpp"
@@ -45,7 +45,7 @@ class BalancedSurfaceTension final : public TensionForm<D> {
   }
 
   SurfacePatches<D> patches_;
-  Real correction_;  // area of the exact surface over that of the patches, in the reference
+  Real correction_;  // area of the exact surface over area of the patches, in the reference
 };
 
 }  // namespace

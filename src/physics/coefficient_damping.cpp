@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damping of the motion of coefficients that does not move places.
+// Damping of combinations of velocity coefficients that leave every material point at rest.
 #include "meniscus/physics/coefficient_damping.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
@@ -27,7 +27,7 @@ class CoefficientDamping final : public ForceTerm {
   std::optional<Real> potential(const Motion&) override { return 0; }
 
   void add_viscous(const Motion& motion, Forces force) override {
-    force.leave_chunks = true;  // the heat is not asked for
+    force.leave_chunks = true;  // the heat is not used
     add_force(motion, force);
   }
   void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
@@ -91,14 +91,14 @@ class CoefficientDamping final : public ForceTerm {
     slips_ = ranks().exchange(body_.size(), leaves);
   }
 
-  /// Sums of c (|e|^2 I - e e) and c e x d, d = (I - N) v and e = (I - N) x.
+  /// Sums of c (|e|^2 I - e e) and c e x d with d = (I - N) v and e = (I - N) x.
   struct Rotation {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
     friend Rotation operator+(const Rotation& a, const Rotation& b) {
       return {a.inertia + b.inertia, a.momentum + b.momentum};
     }
-    /// w of sum c e x (d - w x e) = 0.
+    /// The rotation w that solves sum c e x (d - w x e) = 0.
     Eigen::Vector3d rate() const {
       constexpr Real round_off = 1e-15;
       const Real size = inertia.trace();
@@ -107,7 +107,7 @@ class CoefficientDamping final : public ForceTerm {
     }
   };
 
-  /// d to slip_, e to offset_. Positions are quadratic fields: (I - N) x = (I - N) u.
+  /// Sets slip_ to d and offset_ to e. Positions are reproduced, so (I - N) x = (I - N) u.
   Rotation subtract_places(const Motion& motion) {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
     return body_.division.sum_where_rows_are(body_.size(), Rotation{}, [&](Index A) {
@@ -128,7 +128,7 @@ class CoefficientDamping final : public ForceTerm {
   std::vector<Real> rate_;  // c, [particle]
   NodalVectors slip_, offset_;
   std::shared_ptr<const Halo> halo_;
-  std::unique_ptr<Exchange> slips_;  // of the particles that it follows
+  std::unique_ptr<Exchange> slips_;  // sends slips of ghost particles
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Young's modulus and Poisson's ratio in place of the numbers of an isotropic law.
+// Young's modulus and Poisson's ratio as keys for the parameters of an isotropic law.
 #include "meniscus/physics/elastic_moduli.hpp"
 
 #include "meniscus/core/text.hpp"
@@ -21,7 +21,7 @@ std::string names_of(std::span<const OfModuli> numbers) {
   return joined(names, " and ");
 }
 
-/// The formula with what stands in curly brackets replaced by `values`, pairs of name and text.
+/// The formula with each {name} replaced by values(name) in brackets.
 std::string inserted(std::string_view formula, const auto& values) {
   std::string text;
   while (!formula.empty()) {

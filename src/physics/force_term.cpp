@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a term does as long as it says nothing else: its tangent by differences, its report from
-// those of chunks.
+// Defaults of force terms: the tangent by differences, the report from those of chunks.
 #include "meniscus/physics/force_term.hpp"
 
 namespace meniscus {

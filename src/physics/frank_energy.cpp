@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frank energy of a director, its forces on the places and on the director.
+// Frank energy of a director, and its forces on positions and on the director.
 #include "meniscus/physics/frank_energy.hpp"
 
 #include "meniscus/approx/monomials.hpp"
@@ -106,7 +106,7 @@ void FrankEnergy<D>::hold_places(const NodalVector* u) {
 
 namespace {
 
-/// x M of each row of x.
+/// The product x M, row by row.
 template <int D, class Metric>
 Tensor<Lanes> weighted(const Tensor<Lanes>& x, const Metric& M) {
   Tensor<Lanes> y = Tensor<Lanes>::zero();
@@ -149,7 +149,7 @@ void FrankEnergy<D>::add_held_force(const NodalVector* x, std::span<NodalVector>
   });
 }
 
-/// Values of a director that turns around within the core are right to 0.1 % up to 1.5 core
+/// A defect whose director turns within the core is accurate to 0.1 % up to a spacing of 1.5 core
 /// lengths.
 template <int D>
 std::optional<std::string> FrankEnergy<D>::warning(const Motion&) const {

@@ -63,7 +63,8 @@ class SolidViscosity final : public ForceTerm {
                           }
                         });
   }
-  /// Of component i: mu |F_i|^2 delta_KL + (mu + lambda) F_iK F_iL, with the rows F_i of F.
+  /// The diagonal for component i: mu |F_i|^2 delta_KL + (mu + lambda) F_iK F_iL with the rows F_i
+  /// of F.
   void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
     windows_.accumulate(body_.part(diagonal), [&](int, Index begin, Index end, NodalVector* sum) {
       for (Index g = begin; g < end; ++g) {
@@ -88,7 +89,7 @@ class SolidViscosity final : public ForceTerm {
   Offset pairs() const override { return windows_.pairs(); }
 
  private:
-  /// H, [group] of this rank; null: not kept.
+  /// H of each group of this rank, indexed by the group; null if not kept.
   Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data() - own_.begin; }
   Tensor<Lanes> stress(const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const {
     const Tensor<Lanes> F = add_diagonal(H, Lanes(1.0));

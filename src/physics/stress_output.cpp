@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields and measures from the state at the stress points.
+// Fields and measures from the state at the quadrature points.
 #include "meniscus/physics/stress_output.hpp"
 
 #include "meniscus/approx/neighbor_search.hpp"
@@ -34,7 +34,7 @@ Real von_mises(const Tensor<Real>& sigma) {
   return std::sqrt(1.5 * contract(deviator, deviator));
 }
 
-/// A field whose value at a stress point is the array value(point).
+/// A field whose value at a quadrature point is the array value(point).
 template <class Value>
 FieldSource averaged(const VisitStressPoints& visit, Index particles,
                      std::shared_ptr<const std::vector<StandIn>> stand_ins, std::string name,

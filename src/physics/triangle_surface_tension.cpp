@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface tension of the polyhedron (2D: polygon) through the places of the boundary particles.
+// Surface tension of the polyhedron (2D: polygon) through the positions of the boundary particles.
 #include "meniscus/body/boundary_simplices.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/physics/surface_tension.hpp"
@@ -27,12 +27,12 @@ template FlatPull<3> flat_pull<3>(const std::array<Vec<3>, 3>&);
 
 namespace {
 
-/// Change of FlatPull::force when the corners x move by dx.
+/// Change of FlatPull::force if the corners x move by dx.
 template <int D>
 std::array<Vec<D>, D> flat_pull_change(const std::array<Vec<D>, D>& x,
                                        const std::array<Vec<D>, D>& dx) {
   std::array<Vec<D>, D> change;
-  // Of the unit vector along `a` when that changes by `da`.
+  // Change of the unit vector along `a` if `a` changes by `da`.
   const auto turn = [](const Vec<D>& a, const Vec<D>& da) -> Vec<D> {
     const Vec<D> n = a.normalized();
     return (da - n * n.dot(da)) / a.norm();
@@ -120,7 +120,7 @@ class TriangleSurfaceTension final : public TensionForm<D> {
   }
 
   BoundarySimplices<D> boundary_;
-  // Work space of a force: places of the boundary particles and the pull on them.
+  // Work space of a force: positions of the boundary particles and the forces on them.
   std::vector<Vec<D>> x_, pull_;
   NodalVectors load_;
 };

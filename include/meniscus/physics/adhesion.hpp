@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adhesion that varies with time, and over a rigid partner or ground.
+// Adhesion that varies with time, and over a rigid partner or the ground.
 #pragma once
 #include "meniscus/core/expression.hpp"
 
@@ -8,29 +8,29 @@
 
 namespace meniscus {
 
-/// The formulas from which an adhesion follows, in units of the scene.
+/// The formulas that give an adhesion, in units of the scene.
 struct AdhesionFormulas {
-  std::optional<Expression> angle;     ///< contact angle in degrees, or
+  std::optional<Expression> angle;     ///< contact angle in degrees
   std::optional<Expression> adhesion;  ///< energy per area that contact releases
-  std::optional<Expression> actin;     ///< is added to either
+  std::optional<Expression> actin;     ///< added to the adhesion or to that of the angle
 
-  /// Whether none of them has a variable.
+  /// True if no formula has a variable.
   bool constant() const;
 };
 
-/// W(x, t) = adhesion, or gamma (1 + cos angle), + actin: of the place x on the partner, in the
-/// frame in which it was made, or in the reference of ground. What is moved or deformed takes its
-/// pattern along. Formulas are to be smooth over a hundredth of the range: the gradient is a
-/// difference over it.
+/// The adhesion W(x, t) = adhesion + actin, or gamma (1 + cos angle) + actin. x is a place on the
+/// partner in the frame in which it was made, or a place in the reference of the ground: the
+/// pattern moves and deforms with them. Formulas should be smooth over a hundredth of the range,
+/// since the gradient is a difference over this length.
 class AdhesionPattern {
  public:
-  /// gamma: of the liquid, where an angle is given. range: of the interaction.
+  /// `gamma`: surface tension of the liquid, used with an angle. `range`: range of the interaction.
   AdhesionPattern(AdhesionFormulas formulas, Real gamma, Real range);
 
-  /// Throws SolveError with key, formula, value, place and time if a formula is not finite or
-  /// leaves what is allowed: angles from 1 to 179, adhesion >= 0.
+  /// Throws SolveError with key, formula, value, place and time if a formula is not finite or out
+  /// of range. Angles must be from 1 to 179, the adhesion must be >= 0.
   Real operator()(const Eigen::Vector3d& x, Real time) const;
-  /// Central differences of fourth order.
+  /// The gradient of W, by central differences of fourth order.
   Eigen::Vector3d gradient(const Eigen::Vector3d& x, Real time) const;
   bool depends_on_time() const { return depends_on_time_; }
   bool depends_on_place() const { return depends_on_[0] || depends_on_[1] || depends_on_[2]; }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The selective form of the q_scni integration: one volume change per nodal cell. Nearly
-// incompressible solids do not lock with it (RKPM note 5.4).
+// The selective form of the q_scni integration, with one volume change per nodal cell. It keeps
+// nearly incompressible solids from locking (RKPM note 5.4).
 #pragma once
 #include "meniscus/core/dual.hpp"
 #include "meniscus/physics/law.hpp"
 
 namespace meniscus {
 
-/// Mean over the D + 1 points of a nodal cell, in all lanes; they have equal weights.
+/// Mean over the D + 1 quadrature points of a nodal cell, in all lanes. The points have equal
+/// weights.
 template <int D>
 [[gnu::always_inline]] inline Lanes cell_mean(Lanes x) {
   if constexpr (D == 3)
@@ -20,14 +21,18 @@ Dual<Lanes> cell_mean(const Dual<Lanes>& x) {
   return {cell_mean<D>(x.v), cell_mean<D>(x.d)};
 }
 
-/// A law for the D + 1 stress points of a nodal cell together: each point sees its deformation
-/// gradient at the mean volume change of the cell,
-///   F* = s F,  s^3 = Jm / J,  Jm = mean of J over the points (current / reference volume),
-/// and the energy of the cell is the sum of w W(F*). The stress is its exact gradient: with
-/// P* = dW/dF(F*) and p = P* : F* / 3,
+/// A law for the D + 1 quadrature points of a nodal cell together. Each point has its deformation
+/// gradient, scaled to the mean volume change of the cell:
+///
+///   F* = s F,  s^3 = Jm / J,  Jm = mean of J over the points (current / reference volume).
+///
+/// The energy of the cell is the sum of w W(F*), and the stress is its exact gradient. With P* =
+/// dW/dF(F*) and p = P* : F* / 3,
+///
 ///   P = s P* + (mean p / Jm - p / J) cof F.
-/// Viscous stress is that of F itself. In linear elasticity this averages the dilatation and keeps
-/// the deviator of each point. Where J is constant in a cell the energy is that of the law itself.
+///
+/// The viscous stress uses F itself. In linear elasticity this averages the dilatation and keeps
+/// the deviator of each point. If J is constant in a cell, the energy is that of the law.
 template <int D, Law L>
 class CellAverage {
  public:
@@ -40,7 +45,7 @@ class CellAverage {
     return law_.energy_density(scaled(H, stretch(theta, mean_theta)));
   }
 
-  /// T is Lanes or Dual<Lanes>, as below.
+  /// T is Lanes or Dual<Lanes> in this class.
   template <class T>
   [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     const T theta = volume_change(H), mean_theta = mean(theta);

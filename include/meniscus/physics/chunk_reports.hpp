@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a term says of each chunk of its rows beside forces, and the exchange by which all ranks
-// learn it, of all terms at once.
+// Results of a force term per chunk of rows, beside forces, and the exchange that brings those of
+// all terms to all ranks at once.
 #pragma once
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/core/shared_items.hpp"
@@ -13,14 +13,14 @@ namespace meniscus {
 
 struct ChunkReport {
   Real heat = 0;            ///< power turned into heat
-  Real external_power = 0;  ///< supplied by what changes with time at fixed places
-  Real energy = 0;          ///< stored, if it was asked for
-  Index failed = nowhere;   ///< first row with a failure
+  Real external_power = 0;  ///< power supplied by explicit dependence on time
+  Real energy = 0;          ///< stored energy, if requested
+  Index failed = nowhere;   ///< first row with a failure, or nowhere
 
   static constexpr Index nowhere = std::numeric_limits<Index>::max();
 };
 
-/// Of a set of rows, [chunk].
+/// The reports of all chunks of a set of rows, [chunk].
 class ChunkReports {
  public:
   explicit ChunkReports(const ForceWindows& windows)
@@ -34,7 +34,7 @@ class ChunkReports {
   auto begin() { return said_.begin(); }
   auto end() { return said_.end(); }
 
-  /// Those of the other ranks, which all call this.
+  /// Gathers the reports of all ranks. All ranks have to call this.
   void complete() { division_.complete_items(size(), said_.data(), sizeof said_[0]); }
 
  private:
@@ -42,10 +42,10 @@ class ChunkReports {
   std::vector<ChunkReport> said_;
 };
 
-/// Brings all ranks the reports of several sets of rows in one exchange.
+/// Gathers the reports of several sets of rows in one exchange.
 class ReportExchange {
  public:
-  /// All ranks call this with the same sets.
+  /// All ranks have to call this with the same sets.
   void complete(const std::vector<ChunkReports*>& sets) {
     if (sets.empty()) return;
     items_.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed surface of a body, outer or inner: enclosed volume and its gradient.
+// Closed surface of a body, outer or inner: its enclosed volume and the gradient of this volume.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/body/surface_points.hpp"
@@ -7,26 +7,27 @@
 
 namespace meniscus {
 
-/// A closed part of the surface with quadrature points q that follow the particles: places
-/// x_q = sum N_A d_A and area vectors m_q = cof(F_q) N_q, da = w_q |m_q|.
+/// A closed part of the surface with quadrature points q that move with the particles: positions
+/// x_q = sum N_A d_A and area vectors m_q = cof(F_q) N_q with da = w_q |m_q|.
 ///
-/// Enclosed volume (2D: area): V = +-1/D sum w_q (x_q - xm) . m_q with xm = sum w_q x_q / sum w_q,
-/// minus for an inner surface, whose normals point into the cavity. Taking places from their mean
-/// makes V, as it should be, the same after any translation also where the quadrature leaves
-/// sum w_q m_q unequal to zero: the gradient of V has no net force and no net torque.
+/// The enclosed volume (2D: area) is V = +-1/D sum w_q (x_q - xm) . m_q with xm = sum w_q x_q / sum
+/// w_q. The sign is minus for an inner surface, whose normals point into the cavity. Positions
+/// count from their mean, so that V does not change in translations even if the quadrature gives
+/// sum w_q m_q != 0. The gradient of V then has no net force and no net torque.
 template <int D>
 class ClosedSurface {
  public:
-  /// `points` Gauss points per direction and facet. Throws InputError if the body has no such part.
+  /// `points`: Gauss points per direction and facet. Throws InputError if the body has no such
+  /// part.
   ClosedSurface(const Body<D>& body, SurfacePart part, int points);
 
   struct Size {
     Real volume = 0, area = 0;  ///< enclosed volume, area of the surface; 2D: area, length
   };
-  /// The points at a motion.
+  /// The surface points at a motion.
   struct Placed {
     Size size;
-    /// Place and area vector m of a point.
+    /// Position and area vector m of a point.
     Vec<D> place(Index point) const;
     Vec<D> area_vector(Index point) const;
     std::size_t bytes() const { return groups.size() * sizeof(Group); }
@@ -44,18 +45,18 @@ class ClosedSurface {
     Vector mean_x, mean_m;
   };
   Placed placed(const Motion& motion) const;
-  /// The same without taking memory: `placed` comes from this surface.
+  /// Like placed(), without allocation; `placed` has to come from this surface.
   void place(const Motion& motion, Placed& placed) const;
   Size size(const Motion& motion) const;
 
-  /// force_A += factor dV/dd_A, over the particles of the body.
+  /// force_A += factor dV/dd_A over the particles A of the body.
   void add_volume_gradient(const Placed& placed, Real factor, std::span<NodalVector> force);
 
   const Body<D>& body() const { return body_; }
   const SurfacePoints<D>& reference() const { return reference_; }
-  /// The particle with the largest shape function at a point; number in the body.
+  /// The particle with the largest shape function at a point, numbered in the body.
   Index owner(Index point) const;
-  /// Every rank reads the motion of all points.
+  /// Registers the reads of a step: every rank reads the motion of all points.
   void tell_reads(StepReads& reads) {
     reads.particles(rule_.rows.particle, body_.first);
     reads.rows(windows_, body_.first);
@@ -70,7 +71,7 @@ class ClosedSurface {
   const Body<D>& body_;
   SurfacePoints<D> reference_;
   Real share_;       // +-1/D
-  Real weight_ = 0;  // of all points
+  Real weight_ = 0;  // sum of the weights of all points
   Vec<D> origin_;
   PointRule<D> rule_;
   ForceWindows windows_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forms of contact: the force of one contact point on another, and the sum over partners: four
-// points at a time, a lane each (CGCM notes 2 and 4).
+// Forms of contact: the force of one contact point on another, and sums over partners for four
+// points at a time, one per lane (CGCM notes 2 and 4).
 //
-// With r = x - y from the other point to the own one, V and W the weights of the own and the other
+// With r = x - y from the other point to the own one, and weights V of the own and W of the other
 // point, a form adds to
-//   T   minus the force on the point,
-//   S   (only the energy form) dE/dV, what changes of V = b cof(F) N dA cost.
+//
+// - T: minus the force on the point,
+// - S (energy form only): dE/dV, the energy per change of V = b cof(F) N dA.
 #pragma once
 #include "meniscus/physics/contact_law.hpp"
 #include "meniscus/physics/contact_points.hpp"
@@ -21,8 +22,7 @@ template <int D, class Scalar>
   return sum;
 }
 
-/// E = sum u V.W, T = psi (V.W) r, S = u W. Its total over closed surfaces is the energy of the
-/// volumes.
+/// E = sum u V.W, T = psi (V.W) r, S = u W. Over closed surfaces E is the energy of the volumes.
 template <int D>
 struct Energy {
   static constexpr int components = D;  ///< of a weight
@@ -65,7 +65,7 @@ struct Dissertation {
   }
 };
 
-/// T = (dphi/dr / r) V W r between points of the volume
+/// T = (dphi/dr / r) V W r between points of volumes.
 template <int D>
 struct Volume {
   static constexpr int components = 1;
@@ -78,7 +78,7 @@ struct Volume {
   }
 };
 
-/// Potential energy of a point: sum u V.W, or sum phi V W between points of the volume.
+/// Potential energy of a point: sum u V.W, or sum phi V W between points of volumes.
 template <int D, int Components>
 struct Potential {
   static constexpr int components = Components;
@@ -92,9 +92,9 @@ struct Potential {
   }
 };
 
-/// Adds up Form over the partners of the four points x with weights V, each `run` clusters that
-/// follow each other; returns the least squared distance of each point. Points beyond `reach`,
-/// where the law is cut off, add exactly zero.
+/// Adds up Form over the partners of the four points x with weights V. Each partner is a run of
+/// `run` clusters. Returns the smallest squared distance of each point. Points beyond `reach`, the
+/// cut-off of the law, add exactly zero.
 template <class Form, int D, class Law>
 Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes* V,
                         std::span<const Index> partners, Index run, const ContactPlaces<D>& others,
@@ -115,7 +115,7 @@ Lanes sum_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes*
   return nearest;
 }
 
-/// The changes of T and S by the changes dx, dV of the four points and `changes` of the others.
+/// The changes of T and S for changes dx, dV of the four points and `changes` of the others.
 template <class Form, int D, class Law>
 void sum_changes_over_partners(const Law& law, Real reach, const Lanes* x, const Lanes* dx,
                                const Lanes* V, const Lanes* dV, std::span<const Index> partners,

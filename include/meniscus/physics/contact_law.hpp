@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interaction of two bodies, point by point: Lennard-Jones between their particles, smeared
-// out over both, phi(r) = epsilon (x^2 - 2 x) with x = (sigma0/r)^6 (CGCM note 1).
+// The pair interaction of two bodies: Lennard-Jones between their particles, spread over both
+// bodies, phi(r) = epsilon (x^2 - 2 x) with x = (sigma0/r)^6 (CGCM note 1).
 //
 //   phi             energy of a pair of volume elements
 //   psi = r^-D INT_r^inf phi t^(D-1) dt,   div(r psi) = -phi    pair of surface elements, force
 //   u   = -INT_r^inf psi t dt,   u' = r psi, laplace u = -phi   pair of surface elements, energy
 //   chi = -INT_r^inf phi t dt,   grad chi = phi r
 //
-// All carry epsilon and not the densities beta of the bodies' particles. With a cut-off, u is
-// switched off (u_c = u Q, Q from 1 to 0 between 3/4 r_c and r_c with two continuous derivatives)
-// and psi, phi, chi are derived from u_c, so that every identity stays exact (CGCM note 6).
+// All contain epsilon but not the densities beta of the particles. With a cut-off, u is switched
+// off: u_c = u Q, where Q falls from 1 to 0 between 3/4 r_c and r_c with two continuous
+// derivatives. psi, phi and chi are derived from u_c, so every identity stays exact (CGCM note 6).
 #pragma once
 #include "meniscus/core/dual.hpp"
 #include "meniscus/core/elementary.hpp"
@@ -19,12 +19,12 @@
 
 namespace meniscus {
 
-/// In which space the energy phi is integrated.
+/// The space over which the energy phi is integrated.
 enum class PairKernel {
-  space,       ///< in three dimensions; beta per volume, epsilon an energy
+  space,       ///< 3D; beta per volume, epsilon an energy
   integrated,  ///< plane strain, phi integrated along the infinite third axis: all results per
                ///< depth, beta still per volume and epsilon an energy
-  planar       ///< phi itself in the plane; beta per area, epsilon an energy per depth
+  planar       ///< phi itself in 2D; beta per area, epsilon an energy per depth
 };
 
 /// "space", "integrated" or "planar".
@@ -36,21 +36,21 @@ constexpr int dimension_of(PairKernel kernel) {
   return kernel == PairKernel::space ? 3 : 2;
 }
 
-/// Pairs and partners nearer than this, in sigma0, are a failure of the time step unless a law
-/// says otherwise: the stiffness of half spaces there is 2800 times that at rest.
+/// Smallest gap in units of sigma0, unless a law sets another: smaller gaps are failures of the
+/// time step. The stiffness of half spaces at this gap is 2800 times the stiffness at rest.
 inline constexpr Real least_gap = 0.3;
-/// The switch begins at this part of the cut-off.
+/// The switch begins at this fraction of the cut-off.
 inline constexpr Real switch_begin = 0.75;
-/// The least cut-off in sigma0: the largest traction and the softening are then before the switch.
+/// Smallest cut-off in sigma0: the largest traction and the softening then lie before the switch.
 inline constexpr Real least_cutoff = 1.5;
 
-/// The numbers of an interaction.
+/// The parameters of an interaction.
 struct ContactLaw {
   PairKernel kernel = PairKernel::space;
   Real epsilon = 1, sigma0 = 1;
-  /// r_c in sigma0, at least `least_cutoff`; infinity for none.
+  /// r_c in sigma0, at least `least_cutoff`; infinity without a cut-off.
   Real cutoff = std::numeric_limits<Real>::infinity();
-  /// Gaps below this, in sigma0, are failures; rigid partners are exact outside of it.
+  /// Smallest gap in sigma0: smaller gaps are failures, rigid partners are exact above it.
   Real guard = least_gap;
 
   bool cut() const { return cutoff < std::numeric_limits<Real>::infinity(); }
@@ -81,20 +81,20 @@ constexpr PairCoefficients pair_coefficients(PairKernel kernel) {
   return c;
 }
 
-/// Of a pair of surface points.
+/// Pair functions of two surface points.
 template <class T>
 struct SurfacePair {
   T u, psi;
 };
-/// Of a pair of volume points: the force on the first is -dphi_by_r (x1 - x2).
+/// Pair functions of two volume points: the force on the first is -dphi_by_r (x1 - x2).
 template <class T>
 struct VolumePair {
   T phi, dphi_by_r;
 };
 
-/// The pair functions for the pair loop, of r^2 with T = Real or Lanes: no branch, no power, one
-/// division and one square root. A law without cut-off costs the same and has Q = 1 exactly;
-/// beyond the cut-off all values are exactly zero.
+/// The pair functions of r^2 for the pair loop; T is Real or Lanes. They use no branch, no power,
+/// one division and one square root. A law without cut-off costs the same and has exactly Q = 1.
+/// Beyond the cut-off all values are exactly zero.
 template <PairKernel K>
 class PairLaw {
  public:
@@ -111,7 +111,7 @@ class PairLaw {
     return {f.u * Q.value, f.psi * Q.value + f.u * Q.first * f.by_r};
   }
 
-  /// phi_c has a continuous value only: its slope jumps by u Q''' at both ends of the switch.
+  /// phi_c is continuous, but its slope jumps by u Q''' at both ends of the switch.
   template <class T>
   [[gnu::always_inline]] VolumePair<T> volume(T r_squared) const {
     constexpr PairCoefficients c = pair_coefficients(K);
@@ -182,10 +182,10 @@ class PairLaw {
   }
 
   Real epsilon_, sigma_squared_;
-  Real begin_, per_width_;  // of the switch; zeros keep t = 0
+  Real begin_, per_width_;  // of the switch; zeros without cut-off, which keep t = 0
 };
 
-/// Calls f(std::integral_constant<PairKernel, K>) for the kernel known at run time, to reach a loop
+/// Calls f(std::integral_constant<PairKernel, K>) for a kernel known at run time, so that loops are
 /// compiled for it.
 template <class F>
 decltype(auto) with_kernel(PairKernel kernel, F&& f) {
@@ -200,12 +200,12 @@ decltype(auto) with_kernel(PairKernel kernel, F&& f) {
   }
 }
 
-/// All functions of a pair with derivatives (d: d/dr), for reports, studies and tests.
+/// All functions of a pair with their derivatives (d: d/dr), for reports, studies and tests.
 template <class T>
 struct PairFunctions {
   T u, du, ddu, psi, dpsi, phi, dphi, chi;
 };
-/// At distance r > 0; T is Real or Complex (complex-step derivatives).
+/// The functions at distance r > 0; T is Real or Complex (complex-step derivatives).
 template <class T>
 PairFunctions<T> pair_functions(const ContactLaw& law, T r);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact list: a Verlet list of clusters of four points.
+// Contact list: a neighbour (Verlet) list of clusters of four points.
 #pragma once
 #include "meniscus/approx/neighbor_search.hpp"
 #include "meniscus/core/aligned.hpp"
@@ -8,34 +8,33 @@
 
 namespace meniscus {
 
-/// All pairs of clusters of two clouds of which a point of one lies within `reach` of a point of
-/// the other, and some more, as rows in both directions. Partners ascend, so that a sum over them
-/// in which points out of reach add exactly zero has the same bits whenever the list was built.
+/// All pairs of clusters of two clouds with points within `reach` of each other, and some more, as
+/// rows in both directions. Partners are in ascending order. If points out of reach add exactly
+/// zero, sums over partners have the same bits whenever the list was built.
 ///
-/// It is built for reach + skin and holds as long as no point of the first cloud and none of
-/// the second have moved by more than `skin` together. Each of the ranks by which it is divided
-/// looks at what of the second cloud meets the box around its own clusters of the first.
+/// The list is built for reach + skin. It is valid while the largest move in the first cloud plus
+/// that in the second is at most `skin`. Ranks divide it: each searches clusters of the second
+/// cloud that meet the box around its own clusters of the first.
 template <int D>
 class ContactList {
  public:
   ContactList(Real reach, Real skin) : reach_(reach), skin_(skin) {}
 
-  /// Brings the list up to date for the places [cluster][i] of two clouds; the counts must not
-  /// change. Returns whether it had to be built anew. Takes no memory once the rows have grown to
-  /// what they need. All ranks call it, unless they each make their own.
+  /// Rebuilds the list if it is not valid for the positions [cluster][i] of two clouds, whose sizes
+  /// must not change. Returns true if it was rebuilt. Does not allocate once the rows have their
+  /// final size. All ranks have to call this, unless the division is to_each().
   bool update(std::span<const Lanes> first, std::span<const Lanes> second,
               const Division& division = Division::to_each());
 
-  /// Makes it for these places, whether it holds or not: for those who know themselves how far
-  /// points can have moved since.
+  /// Rebuilds the list unconditionally, for callers that track displacements themselves.
   void build(std::span<const Lanes> first, std::span<const Lanes> second,
              const Division& division = Division::to_each());
 
-  /// Rows of one cloud: partners of cluster c are partner[start[c]] ... partner[start[c + 1] - 1].
+  /// The rows of one cloud: cluster c has partner[start[c]] ... partner[start[c + 1] - 1].
   struct Rows {
     std::vector<Offset> start;
     std::vector<Index> partner;
-    std::vector<Index> active;  ///< clusters with partners, ascending
+    std::vector<Index> active;  ///< clusters with partners, in ascending order
 
     std::span<const Index> of(Index cluster) const {
       return {partner.data() + at(start, cluster), partner.data() + at(start, cluster + 1)};
@@ -43,7 +42,7 @@ class ContactList {
   };
   const Rows& of_first() const { return first_; }
   const Rows& of_second() const { return second_; }
-  /// Pairs of clusters.
+  /// Number of pairs of clusters.
   Offset pairs() const { return first_.start.empty() ? 0 : first_.start.back(); }
   Real reach() const { return reach_; }
   Real skin() const { return skin_; }
@@ -62,10 +61,10 @@ class ContactList {
 
   Real reach_, skin_;
   std::int64_t builds_ = 0;
-  AlignedVector<Lanes> built_first_, built_second_;  // places of the last build
+  AlignedVector<Lanes> built_first_, built_second_;  // positions at the last build
   std::vector<Index> met_;                           // clusters of the second that may be near
-  std::vector<Vec<D>> centre_;                       // of these
-  std::unique_ptr<NeighborSearch<D>> search_;        // over them
+  std::vector<Vec<D>> centre_;                       // [k of met_] their centres
+  std::unique_ptr<NeighborSearch<D>> search_;        // searches these centres
   struct Found {                                     // of a chunk of own clusters of the first
     std::vector<Index> candidates, partner;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much work a contact was: pairs of contact points that it visited.
+// Work of a contact: number of pairs of contact points that its forces visit.
 #pragma once
 #include "meniscus/core/types.hpp"
 
@@ -7,12 +7,13 @@
 
 namespace meniscus {
 
-/// Terms of contact have it beside ForceTerm. Counted once per force, from the sizes of the lists
-/// that it went through; between two bodies a pair is visited from either side.
+/// Base of contact terms beside ForceTerm. It is counted once per force from the sizes of the
+/// lists. Between two bodies a pair is visited from both sides.
 class ContactVisits {
  public:
-  /// Pairs of points of two bodies, of points and facets of two bodies, or points beside a rigid
-  /// partner, that a force visited on average since the term was built; 0 before the first.
+  /// Mean number of pairs per force since the term was built; 0 before the first force. A pair
+  /// consists of points of two bodies, of a point and a facet, or is a point beside a rigid
+  /// partner.
   Real pairs_per_force() const {
     return forces_ > 0 ? static_cast<Real>(pairs_) / static_cast<Real>(forces_) : 0;
   }

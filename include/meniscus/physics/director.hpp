@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The director of a nematic: how a body carries it, what its forces do to the body in return, and
-// what is shown of it (cells note 5.2).
+// The director of a nematic: how the body carries it, its reaction forces on the body, and its
+// output (cells note 5.2).
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/carried_field.hpp"
@@ -8,9 +8,11 @@
 
 namespace meniscus {
 
-/// With F_A the deformation gradient at particle A, l = F_A' F_A^-1 = d + w, the field is
-/// carried by h' = T h, T = w + lambda d - nu2 tr(d) I, and its forces -S do the power -S . T h:
-/// the reaction is the stress Y = lambda/2 (h S + S h) - 1/2 (h S - S h) - nu2 (S . h) I there,
+/// With F_A the deformation gradient at particle A and l = F_A' F_A^-1 = d + w, the field is
+/// carried by h' = T h, T = w + lambda d - nu2 tr(d) I. Forces -S on the field have the power -S .
+/// T h. The reaction is the stress Y = lambda/2 (h S + S h) - 1/2 (h S - S h) - nu2 (S . h) I at
+/// the particle, which gives
+///
 ///   f_B = - sum_A Y_A F_A^-T dF_A/du_B.
 template <int D>
 class Director final : public CarriedField {
@@ -35,10 +37,10 @@ class Director final : public CarriedField {
 
   const Body<D>& body_;
   NematicNumbers numbers_;
-  PointRows<D> gradients_;  // dF_A/du_B: a row per particle
+  PointRows<D> gradients_;  // dF_A/du_B, a row per particle
   ForceWindows windows_;
-  std::vector<Real> volume_;              // of the particles
-  std::vector<Eigen::Vector3d> initial_;  // directors
+  std::vector<Real> volume_;              // [particle]
+  std::vector<Eigen::Vector3d> initial_;  // initial directors, [particle]
 };
 
 }  // namespace meniscus

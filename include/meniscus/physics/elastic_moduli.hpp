@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Young's modulus and Poisson's ratio in place of the numbers of an isotropic law.
+// Young's modulus and Poisson's ratio as keys for the parameters of an isotropic law.
 #pragma once
 #include "meniscus/core/input.hpp"
 #include "meniscus/core/key_table.hpp"
@@ -10,24 +10,24 @@
 
 namespace meniscus {
 
-/// A number of a law for small strains, as a formula of E and nu and, if need be, of other keys of
-/// the law, each in brackets: "{E}/(2*(1 + {nu}))".
+/// A parameter of a law as a formula of E and nu and, if needed, of other keys of the law, each in
+/// brackets: "{E}/(2*(1 + {nu}))". The formula holds for small strains.
 struct OfModuli {
   std::string_view key, formula;
 };
 
-/// A law that lists them in L::of_moduli.
+/// A law that lists such formulas in L::of_moduli.
 template <class L>
 concept LawOfModuli = requires {
   L::of_moduli;
 };
 
-/// If the scene gives youngs_modulus or poissons_ratio, supplies the keys of the law with what
-/// follows from them, where they are formulas, too. Notes problems: one without the other, or
-/// beside a key that follows.
+/// If the scene gives youngs_modulus or poissons_ratio, supplies the keys of the law that follow
+/// from them, as formulas if they are formulas. Notes a problem if one is given without the other,
+/// or beside a key that follows from them.
 void supply_moduli(const Block& material, std::span<const OfModuli>);
 
-/// Adds the two to the keys of the law, and says of those that follow what they follow from.
+/// Adds both moduli to the keys of the law, and the note that other keys follow from them.
 void add_moduli(std::vector<KeyText>& keys, std::span<const OfModuli>);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fluid at the stress points of a group: its pressure may work on the volume that the surface
+// A fluid at the quadrature points of a group. Its pressure can work on the volume that the surface
 // encloses (static-drop note 3), and on one volume change per nodal cell.
 #pragma once
 #include "meniscus/physics/cell_average.hpp"
@@ -9,8 +9,8 @@
 
 namespace meniscus {
 
-/// A law whose energy depends on J alone, W = U(J) with U'' = kappa J^(m - 2),
-/// kappa = p_wave_modulus().
+/// A law whose energy depends on J only: W = U(J) with U'' = kappa J^(m - 2) and kappa =
+/// p_wave_modulus().
 template <class L>
 concept FluidLaw = Law<L> && requires(const L law, const Lanes theta) {
   { law.volumetric_energy(theta) } -> std::same_as<Lanes>;  ///< U(1 + theta)
@@ -19,18 +19,22 @@ concept FluidLaw = Law<L> && requires(const L law, const Lanes theta) {
   { law.viscosity } -> std::convertible_to<Real>;
 };
 
-/// The energy of the points of a body whose surface encloses J_e times its reference volume is
+/// The energy of the points of a body, whose surface encloses J_e times its reference volume, is
+///
 ///   sum w W,  W = [U(J) - U(J_e) - U'(J_e) (J - J_e)] + U(J_e).
-/// The bracket, a Bregman distance, is never negative and vanishes with its gradient where J = J_e:
-/// where the pressure is uniform there is no force but that on the surface, which does the work
+///
+/// The bracket, a Bregman distance, is never negative; it vanishes with its gradient at J = J_e. If
+/// the pressure is uniform, the only force is that on the surface. The derivatives are
+///
 ///   dW/dJ = U'(J) - U'(J_e),   dW/dJ_e = U'(J_e) - U''(J_e) (J - J_e).
-/// As U'' is a power of J, the bracket is J_e^m U(1 + r) and dW/dJ = J_e^(m-1) U'(1 + r) with
-/// r = (J - J_e)/J_e: no cancellation. With J_e = 1, as at the beginning, W = U(J).
 ///
-/// `averaged`: J is the mean over the D + 1 points of a nodal cell, what CellAverage does to a law
-/// that has no deviator. The viscous stress is that of each point.
+/// As U'' is a power of J, the bracket is J_e^m U(1 + r) and dW/dJ = J_e^(m-1) U'(1 + r) with r =
+/// (J - J_e)/J_e, which does not cancel. At the start J_e = 1 and W = U(J).
 ///
-/// J_e is a number of the scalar E, Real or Dual<Real>; functions of H are of Lanes or Dual<Lanes>.
+/// If `averaged`, J is the mean over the D + 1 points of a nodal cell, as CellAverage does for laws
+/// without a deviator. The viscous stress is computed at each point.
+///
+/// J_e has the scalar type E, Real or Dual<Real>; functions of H use Lanes or Dual<Lanes>.
 template <int D, FluidLaw L, class E = Real>
 class FluidPoints {
  public:
@@ -78,7 +82,7 @@ class FluidPoints {
     const T each = volume_change(H);
     return averaged_ ? cell_mean<D>(each) : each;
   }
-  /// W, dW/dJ and dW/dJ_e.
+  /// W as a function of J - 1; slope() and pull() below are dW/dJ and dW/dJ_e.
   Lanes energy(Lanes theta) const {
     return (1 + enclosed_) * scale_ * law_.volumetric_energy(excess(theta)) +
            law_.volumetric_energy(Lanes(enclosed_));
@@ -94,7 +98,7 @@ class FluidPoints {
   const L& law() const { return law_; }
 
  private:
-  /// r.
+  /// r = (J - J_e)/J_e.
   template <class T>
   [[gnu::always_inline]] T excess(const T& theta) const {
     return per_enclosed_ * (theta - enclosed_);

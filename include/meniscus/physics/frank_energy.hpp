@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frank energy of a director h in one constant, and the energy of its length (cells note 5.1):
-//   E = sum_q w_q J_q [K/2 |g|^2 + K/(4 eps^2) (|h|^2 - 1)^2],   g = grad h F^-1,
-// g at the stress points of nodal cells, h at the particle of the cell: the value of the field, not
-// its coefficient.
+// Frank energy of a director h with one constant, and the energy of its length (cells note 5.1):
+//
+//   E = sum_q w_q J_q [K/2 |g|^2 + K/(4 eps^2) (|h|^2 - 1)^2],   g = grad h F^-1.
+//
+// g is taken at the quadrature points of nodal cells. h is the value of the field at the particle
+// of the cell, not its coefficient.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/carried_field.hpp"
@@ -19,7 +21,8 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
 
   std::string name() const override { return "Frank energy of '" + body_.name + "'"; }
   std::string_view energy_kind() const override { return "director"; }
-  /// The Ericksen stress (f I - K g^T g) cof F on the displacement, and the forces on the field.
+  /// Adds the Ericksen stress (f I - K g^T g) cof F to the displacement, and the forces on the
+  /// field.
   Report add_force(const Motion& motion, Forces force) override;
   std::optional<Real> stored_energy(const Motion& motion) const override;
   std::optional<std::string> warning(const Motion& motion) const override;
@@ -32,7 +35,7 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   void add_held_force(const NodalVector* x, std::span<NodalVector> f) override;
 
  private:
-  /// w J F^-1 F^-T at four stress points, a lane each: what the squares of grad h count.
+  /// w J F^-1 F^-T at four quadrature points, one per lane: the metric of |grad h|^2.
   using Metric = std::array<Lanes, static_cast<std::size_t>(hessian_count(D))>;
 
   Metric metric(Index cell, const Tensor<Lanes>& cofactor, Lanes J) const;
@@ -46,7 +49,7 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   Real length_stiffness_;  // K/eps^2
   CellRule<D> rule_;
   ForceWindows cell_windows_, value_windows_;
-  // Of the places held, for the cells whose rows this rank has:
+  // For the positions set by hold_places() and the cells whose rows this rank has:
   AlignedVector<Metric> metric_;  // [cell]
   std::vector<Real> volume_;      // [cell]
 };

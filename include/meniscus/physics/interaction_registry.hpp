@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The registry of interactions by which a [[contact]] acts.
+// The registry of the interactions of [[contact]].
 //
-// A law of the gap is a struct derived from Interaction in its own file in src/interactions, with
-// rows(), an example and, if it needs them, check(block) and fitted(surfaces), which ends with
+// A law of the gap is a struct derived from Interaction in a file of its own in src/interactions,
+// with rows(), an example and, if needed, check(block) and fitted(surfaces). The file ends with
+//
 //   const bool registered = register_interaction<MyLaw>("my_law", "what it is");
-// It then acts between two bodies, and between a body and rigid partners of any shape. A
-// ContactModel of its own is for interactions that know more than a law of the gap.
+//
+// The law then acts between two bodies, and between a body and rigid partners of any shape.
+// Interactions that need more than the gap implement ContactModel.
 #pragma once
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/partner_registry.hpp"
 
 namespace meniscus {
 
-/// The rigid partner that a scene describes.
+/// A rigid partner as described in a scene.
 template <int D>
 struct PartnerPlan {
   std::shared_ptr<const PartnerShape<D>> shape;
@@ -20,29 +22,30 @@ struct PartnerPlan {
   Real velocity_step;  ///< as in MovingPartner
 };
 
-/// What an interaction can know of the surfaces between which it acts, for numbers that a scene
-/// leaves to it.
+/// Data of the surfaces between which an interaction acts. It can use them for parameters that the
+/// scene leaves out.
 struct ContactSurfaces {
-  std::string place;          ///< of the contact in the scene, for messages
+  std::string place;          ///< place of the contact in the scene, for messages
   Real facet;                 ///< edge of the larger facets
   std::optional<Real> gamma;  ///< surface tension of the first body, if it has any
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the particles of the first body
-  std::string tension_form = {};          ///< of its [[surface_tension]]; empty: it has none
-  std::optional<Real> gamma_beyond = {};  ///< of the second body, if there is one and it has any
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean position of the particles of the
+                                                     ///< first body
+  std::string tension_form = {};          ///< of its [[surface_tension]]; empty without one
+  std::optional<Real> gamma_beyond = {};  ///< surface tension of the second body, if any
 
-  /// gamma, for a contact angle; throws InputError if the first body has none.
+  /// gamma, for a contact angle; throws InputError if the first body has no surface tension.
   Real tension() const;
 };
 
-/// An interaction as a scene describes it, ready to act between bodies.
+/// An interaction with the parameters of a scene, ready to act between bodies.
 template <int D>
 class ContactModel {
  public:
   virtual ~ContactModel() = default;
 
-  /// The form of its forces where a scene names none.
+  /// The default form of its forces.
   virtual std::string usual_form() const { return "energy"; }
-  /// Notes in the block what cannot be, between two bodies or of one with a rigid partner.
+  /// Notes problems in the block, for two bodies or for a body and a rigid partner.
   virtual void check(const Block& block, bool rigid) const = 0;
   virtual std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
                                              const ContactChoice& choice,
@@ -50,19 +53,20 @@ class ContactModel {
   virtual std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
                                                   const ContactChoice& choice,
                                                   const ContactSurfaces& surfaces) const = 0;
-  /// Whether its adhesion is a formula of the place.
+  /// True if the adhesion is a formula of the place.
   virtual bool placed(const ContactSurfaces&) const { return false; }
-  /// What it means for flat surfaces.
+  /// Its characteristic numbers for flat surfaces.
   virtual PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const = 0;
-  /// The largest adhesion between two bodies until `end`, if it changes with time.
+  /// The largest adhesion between two bodies until `end`, which differs from flat() if it changes
+  /// with time.
   virtual Real greatest_adhesion(const ContactSurfaces& surfaces, [[maybe_unused]] Real end) const {
     return flat(false, surfaces).adhesion;
   }
-  /// The pressure of flat surfaces at the least gap: what presses harder comes through.
+  /// The pressure of flat surfaces at the smallest gap: a larger pressure overcomes the contact.
   virtual Real greatest_pressure(bool rigid, const ContactSurfaces& surfaces) const = 0;
-  /// The lengths that it chose, in words; empty: flat() says it all.
+  /// The lengths that it chose, as text; empty if flat() is a complete description.
   virtual std::string described(const ContactSurfaces&, const UnitSystem&) const { return {}; }
-  /// Why it may be wrong there, if it may.
+  /// A warning if the interaction may be wrong between these surfaces.
   virtual std::optional<std::string> doubt(const ContactSurfaces& surfaces) const = 0;
 };
 
@@ -79,16 +83,16 @@ const Registry<InteractionEntry<D>>& interactions() {
   return Registry<InteractionEntry<D>>::all();
 }
 
-/// A law of the gap for given surfaces.
+/// Makes a law of the gap for given surfaces.
 using GapLaw = std::function<std::shared_ptr<const Interaction>(const ContactSurfaces&)>;
 
-/// A law of the gap on two bodies, or on a body and rigid partners.
+/// A contact model that applies a law of the gap to two bodies, or to a body and rigid partners.
 template <int D>
 std::unique_ptr<ContactModel<D>> gap_contact(GapLaw law);
 
-/// The field of a law e(d) of the distance from a shape: S = -e(d) grad d, so that the energy S.n
-/// of a surface that faces the partner (n = -grad d) is e per area, and U = div S. Nearer than the
-/// least gap the pressure goes on growing linearly.
+/// The field of a law e(d) of the distance d from a shape: S = -e(d) grad d and U = div S. A
+/// surface that faces the partner (n = -grad d) then has the energy S.n = e per area. Below the
+/// smallest gap the pressure grows linearly.
 template <int D>
 std::unique_ptr<RigidPartner<D>> distance_field(std::shared_ptr<const Interaction> law,
                                                 std::shared_ptr<const PartnerShape<D>> shape);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The internal force of a body: f_A = - sum_q w_q P(F_q) grad N_A(X_q), in one pass over the stress
-// points. The material is a template parameter: its stress is computed inside the loop, four stress
-// points at a time.
+// The internal force of a body, f_A = - sum_q w_q P(F_q) grad N_A(X_q), in one loop over the
+// quadrature points. The material is a template parameter: its stress is computed inside the loop,
+// for four quadrature points at a time.
 #pragma once
 #include "meniscus/physics/stress_point_force.hpp"
 
 namespace meniscus {
 
-/// `Rule` is CellRule<D> or PointRule<D>. One law for the whole body, or one for each group of
-/// stress points.
+/// `Rule` is CellRule<D> or PointRule<D>. There is one law for the whole body, or one for each
+/// group of quadrature points.
 template <int D, GroupLaw L, class Rule>
 class InternalForce final : public StressPointForce<D, Rule> {
  public:
-  /// `surface` of an EnclosedLaw: the patches whose volume the pressure works on; none: the volume
-  /// of the stress points.
+  /// `surface`: the patches whose enclosed volume the pressure of an EnclosedLaw works on. If it is
+  /// null, the volume of the quadrature points is used.
   InternalForce(const Body<D>& body, Rule rule, std::vector<L> laws,
                 std::unique_ptr<SurfacePatches<D>> surface = nullptr)
       : StressPointForce<D, Rule>(body, std::move(rule),
@@ -44,7 +44,7 @@ class InternalForce final : public StressPointForce<D, Rule> {
         Tensor<Lanes> H;
         rule.gather(g, u, H);
         if constexpr (L::viscous) kept.take(g, H);
-        folded |= ~((1.0 + volume_change(H)).v > 0.0);  // also true for not a number
+        folded |= ~((1.0 + volume_change(H)).v > 0.0);  // also true for NaN
         const auto& law = laws.at(g, motion.time);
         Tensor<Lanes> P = law.stress(H);
         if (force.energies) stored += w * laws.energy_density(g, motion.time, H);
@@ -59,7 +59,7 @@ class InternalForce final : public StressPointForce<D, Rule> {
         }
         rule.scatter(g, -w * P, f);
       }
-      // The power is what it takes to change the numbers of the law.
+      // `work` is the power that changes the parameters of the law.
       said[chunk] = {sum(heat), sum(work), sum(stored)};
       if (folded[0] | folded[1] | folded[2] | folded[3])
         said[chunk].failed = this->first_folded(begin, end, u);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of isotropic solids with Lame's two parameters.
+// Parameters of isotropic solids with Lame's two moduli.
 #pragma once
 #include "meniscus/physics/elastic_moduli.hpp"
 #include "meniscus/physics/law.hpp"
 
 namespace meniscus {
 
-/// Base of a law whose only numbers are these.
+/// Base of laws that have no other parameters.
 struct LameSolid {
   static constexpr bool viscous = false;
   static constexpr OfModuli of_moduli[] = {{"mu", "{E}/(2*(1 + {nu}))"},
                                            {"lambda", "{E}*{nu}/((1 + {nu})*(1 - 2*{nu}))"}};
   Real density, mu, lambda;
 
-  /// Rows of the law L.
+  /// The rows of the law L.
   template <class L>
   static Rows<L> rows_of() {
     return {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a nematic is beside a fluid.
+// Parameters of a nematic beside those of its fluid.
 #pragma once
 #include "meniscus/approx/stress_rules.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// In the rate of the director h that the material carries, h' = w h + lambda d h - nu2 tr(d) h
-/// (w spin, d rate of deformation), and in its energy.
+/// Parameters of the energy of the director h and of its rate in the carried material, h' = w h +
+/// lambda d h - nu2 tr(d) h (w spin, d rate of deformation).
 struct NematicNumbers {
   Real frank_constant = 0;        ///< K
   Real core_length = 0;           ///< eps
@@ -17,13 +17,13 @@ struct NematicNumbers {
   Real dilatation_coupling = 0;   ///< nu2
 };
 
-/// The nematic of a body, before its director is a field of the system.
+/// A nematic body, before its director is a field of the system.
 template <int D>
 struct NematicBody {
   NematicNumbers numbers;
-  CellRule<D> rule;              ///< of the body
-  std::vector<Real> volume;      ///< of each particle, that its director has
-  std::vector<Vec<D>> director;  ///< at the start, at each particle
+  CellRule<D> rule;              ///< integration rule of the body
+  std::vector<Real> volume;      ///< [particle] volume for the director
+  std::vector<Vec<D>> director;  ///< [particle] initial director
 };
 
 }  // namespace meniscus

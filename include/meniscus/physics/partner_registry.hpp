@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shapes of rigid partners of a contact, and their registry.
 //
-// A shape that scenes can name is a struct in its own file in src/partners, with rows(), an example
-// of it near a ball of radius 1 about the origin and, if numbers can contradict each other,
-// check(block), which ends with
+// A shape is a struct in a file of its own in src/partners, with rows(), an example near a ball of
+// radius 1 about the origin and, if numbers can contradict each other, check(block). The file ends
+// with
+//
 //   const bool registered = register_partner<2, MyShape<2>>("my_shape", "what it is") && ...;
 #pragma once
 #include "meniscus/core/box.hpp"
@@ -23,33 +24,33 @@ class PartnerShape {
  public:
   virtual ~PartnerShape() = default;
 
-  /// How far a point is from the surface, negative inside of the material: d, grad d (unit, out of
-  /// the material) and grad grad d.
+  /// The distance d of a point from the surface, negative inside the material, with grad d (unit
+  /// vector out of the material) and grad grad d.
   struct Foot {
     Real distance;
     Vec<D> normal;
     Mat<D> bend;
   };
   virtual Foot foot(const Vec<D>& x) const = 0;
-  /// Whether its surface is a plane.
+  /// True if the surface is a plane.
   virtual bool flat() const { return false; }
-  /// Whether its surface has the same curvature in all places and directions, so that a drop on it
-  /// has one contact angle.
+  /// True if the surface has the same curvature at all places in all directions, so that a drop on
+  /// it has one contact angle.
   virtual bool round() const { return flat(); }
-  /// Places in the material of which one would be inside of a body that has run over the partner;
-  /// none where no body can be around it.
+  /// Points in the material, one of which lies inside any body that has run over the partner. Empty
+  /// if no body can be around the partner.
   virtual std::vector<Vec<D>> places() const { return {}; }
 
-  /// Its surface as viewers draw it: facets (2D: lines) by their corners in the order of VTK.
+  /// The surface for viewers: facets (2D: lines) by their corners in the order of VTK.
   struct Drawing {
     std::vector<Vec<D>> X;
     std::vector<std::array<Index, (1 << (D - 1))>> facets;
   };
-  /// Of a surface without end the part around the box.
+  /// The drawing; of an infinite surface the part around the box.
   virtual Drawing drawing(const Box<D>& box) const = 0;
 
-  /// The field of this shape filled with `beta` particles of a Lennard-Jones law per volume. Throws
-  /// InputError for numbers that make no shape.
+  /// The field of this shape with `beta` Lennard-Jones particles per volume. Throws InputError for
+  /// numbers that make no shape.
   virtual std::unique_ptr<RigidPartner<D>> lennard_jones(const ContactLaw& law,
                                                          Real beta) const = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws at the stress points of a body, with their type forgotten: for energies, fields,
-// tangents, warnings and all else that explicit steps do not do. Compiled once per law, not for
-// every rule.
+// The laws at the quadrature points of a body behind a virtual interface, for energies, fields,
+// tangents, warnings and everything else outside of explicit steps. Compiled once per law, not for
+// each integration rule.
 #pragma once
 #include "meniscus/core/dual.hpp"
 #include "meniscus/physics/law.hpp"
@@ -14,28 +14,28 @@
 
 namespace meniscus {
 
-/// A law of a whole body that depends on a number J_e of that body, as last given to enclose().
+/// A law that depends on a number J_e of the whole body, set by enclose().
 template <class L>
 concept EnclosedLaw = requires(L law, const Tensor<Lanes> H) {
   law.enclose(Real{});                                     ///< J_e - 1
-  law.about(Dual<Real>{});                                 ///< the same law about that J_e - 1
+  law.about(Dual<Real>{});                                 ///< a copy with that J_e - 1
   { law.pull_on_enclosed(H) } -> std::same_as<Lanes>;      ///< dW/dJ_e
-  { law.local_stress(H) } -> std::same_as<Tensor<Lanes>>;  ///< without regard to J_e
+  { law.local_stress(H) } -> std::same_as<Tensor<Lanes>>;  ///< stress independent of J_e
 };
 
-/// How a group of stress points deforms: H = F - I, dF/dt and J_e - 1, with their changes.
+/// Deformation of a group of quadrature points: H = F - I, dF/dt and J_e - 1, with their changes.
 struct DualDeformation {
   Tensor<Dual<Lanes>> H, F_rate;
   Dual<Real> enclosed;
 };
 
-/// What follows from it: the change of the stress, and dW/dJ_e of an EnclosedLaw with its change.
+/// The change of the stress and, for an EnclosedLaw, dW/dJ_e with its change.
 struct StressChange {
   Tensor<Lanes> P;
   Dual<Lanes> pull_on_enclosed;
 };
 
-/// What is asked of a law at a group of up to four stress points, a lane per point; H = F - I.
+/// Requirements on a law at a group of up to four quadrature points, one per lane; H = F - I.
 template <class L>
 concept GroupLaw = ElasticIn<L, Lanes> &&(ViscousIn<L, Lanes> || !L::viscous);
 
@@ -43,25 +43,25 @@ class PointLaws {
  public:
   virtual ~PointLaws() = default;
 
-  /// The same laws about J_e - 1 = `enclosed`, for what is an EnclosedLaw.
+  /// A copy of the laws with J_e - 1 = `enclosed`, where the law is an EnclosedLaw.
   virtual std::unique_ptr<PointLaws> about(Real enclosed) const = 0;
   virtual Lanes energy_density(Index group, Real time, const Tensor<Lanes>& H) const = 0;
-  /// Elastic first Piola stress; that of an EnclosedLaw at the local J.
+  /// Elastic first Piola stress. For an EnclosedLaw the stress at the local J.
   virtual Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H) const = 0;
-  /// Exact. F_rate is looked at by viscous laws alone, J_e by an EnclosedLaw.
+  /// The exact tangent. Only viscous laws read F_rate, only an EnclosedLaw reads J_e.
   virtual StressChange tangent(Index group, Real time, const DualDeformation& x) const = 0;
   /// dP_iK/d(dF/dt)_iL of the viscous stress, for each i.
   virtual std::array<Tensor<Lanes>, 3> viscosity(Index group, Real time,
                                                  const Tensor<Lanes>& H) const = 0;
-  /// Size of the stress of the reference law, without what ramps add: an active body is free of
-  /// stress where that cancels. Stresses of round-off are no scale: those of a strain of 1e-9 count
-  /// at least.
+  /// Size of the stress of the reference law without ramps: an active body is stress-free where
+  /// they cancel, which gives no scale. The result is at least the stress of a strain of 1e-9,
+  /// since round-off gives no scale either.
   virtual Lanes stress_scale(Index group, const Tensor<Lanes>& H) const = 0;
-  /// Whether warning() can say anything.
+  /// True if warning() can return a warning.
   virtual bool warns() const = 0;
   virtual std::optional<std::string> warning(Index group, Real time,
                                              const Tensor<Real>& H) const = 0;
-  /// From when on no law changes any more.
+  /// The time after which no law changes any more.
   virtual Real steady_after() const = 0;
   virtual std::size_t bytes() const = 0;
 };
@@ -73,7 +73,7 @@ class PointLawsOf final : public PointLaws {
   explicit PointLawsOf(std::vector<L> laws)
       : laws_(std::move(laws)), stride_(laws_.size() > 1 ? 1 : 0) {}
 
-  /// The law of a group, at a time if it changes.
+  /// The law of a group, evaluated at `time` if it changes.
   decltype(auto) at(Index group, [[maybe_unused]] Real time) const {
     if constexpr (RampedLaw<L>)
       return reference(group).at_time(time);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fluid at the stress points of a body that was referred anew (body/reference.hpp).
+// A fluid at the quadrature points of a body after an update of its reference (body/reference.hpp).
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/fluid_points.hpp"
@@ -8,12 +8,14 @@
 
 namespace meniscus {
 
-/// F is the deformation since the new reference, in which a nodal cell has J_0 times its volume in
-/// the reference of the scene. The law sees J = J_0 det F. Per volume of the new reference
-///   W' = W(J) / J_0,  P' = dW/dJ cof F,
-/// and the viscous stress, which depends on the present motion alone, is that of the law. The
-/// surface encloses J_e = J_e0 times what it does relative to the new reference, J_e0 being the
-/// mean of J_0.
+/// F is the deformation from the new reference, in which a nodal cell has J_0 times its volume in
+/// the reference of the scene. The law is evaluated at J = J_0 det F. Per volume of the new
+/// reference
+///
+///   W' = W(J) / J_0,  P' = dW/dJ cof F.
+///
+/// The viscous stress depends on the current motion only and is that of the law. The surface
+/// encloses J_e0 times its volume ratio to the new reference, where J_e0 is the mean of J_0.
 template <int D, FluidLaw L, class E = Real>
 class ReferredFluid : FluidPoints<D, L, E> {
   using Fluid = FluidPoints<D, L, E>;
@@ -24,7 +26,7 @@ class ReferredFluid : FluidPoints<D, L, E> {
   using Fluid::p_wave_modulus;
   using Fluid::viscous_stress;
 
-  /// J_0 of the nodal cell, J_e0 of the body.
+  /// `cell_ratio`: J_0 of the nodal cell; `enclosed_ratio`: J_e0 of the body.
   ReferredFluid(const Fluid& fluid, Real cell_ratio, Real enclosed_ratio)
       : Fluid(fluid), cell_ratio_(cell_ratio), enclosed_ratio_(enclosed_ratio) {
     enclose(0);
@@ -65,8 +67,8 @@ class ReferredFluid : FluidPoints<D, L, E> {
   Real cell_ratio_, enclosed_ratio_;
 };
 
-/// The fluids of all nodal cells of a body with a reference of its own; `points` has one for all,
-/// or one each.
+/// The fluids of all nodal cells of a body with an updated reference. `points` has one fluid for
+/// all cells, or one for each.
 template <int D, FluidLaw L>
 std::vector<ReferredFluid<D, L>> referred(const Body<D>& body,
                                           const std::vector<FluidPoints<D, L>>& points) {

@@ -7,22 +7,22 @@
 
 namespace meniscus {
 
-/// A rigid partner at time t is where it was made, moved by displacement(t): a point x of space is
-/// x - displacement(t) in its frame. The outside world that moves it does the power F.v, with F the
-/// force of the partner on the bodies and v its velocity.
+/// Motion of a rigid partner by displacement(t) from where it was made: a point x of space is x -
+/// displacement(t) in its frame. The power supplied from outside is F.v, with the force F of the
+/// partner on the bodies and its velocity v.
 template <int D>
 class RigidMotion {
  public:
-  /// At rest.
+  /// A partner at rest.
   RigidMotion() = default;
-  /// D formulas of the time t; x, y and z are zero in them.
+  /// `displacement`: D formulas of the time t; x, y and z are zero in them.
   explicit RigidMotion(std::vector<Expression> displacement);
 
-  /// Whether the displacement depends on the time.
+  /// True if the displacement depends on time.
   bool moves() const;
   Vec<D> displacement(Real t) const;
-  /// Central difference of fourth order over t - 2 step ... t + 2 step; exact for polynomials of
-  /// degree four. The time step is a good `step`.
+  /// The velocity, by a central difference of fourth order over t - 2 step ... t + 2 step, which is
+  /// exact for polynomials of degree four. The time step is a good `step`.
   Vec<D> velocity(Real t, Real step) const;
 
  private:

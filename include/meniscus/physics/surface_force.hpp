@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Forces of a surface law on the whole surface of a body: the exact gradient of the discrete
-// surface energy E = sum_q A_q w(F_q), that is f_A = -sum_q A_q P(F_q) grad N_A with P = dw/dF
-// (RKPM note 4). Needs first derivatives only. Instantiated once per law, at its registration.
+// surface energy E = sum_q A_q w(F_q), f_A = -sum_q A_q P(F_q) grad N_A with P = dw/dF (RKPM note
+// 4). Needs first derivatives only. Instantiated once per law, at its registration.
 #pragma once
 #include "meniscus/physics/surface_rule.hpp"
 

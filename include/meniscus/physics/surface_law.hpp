@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface laws: plain structs of numbers with pure functions of how a surface deforms, which give
-// the surface of a body an energy per area, or resist the rate of its deformation.
+// Surface laws: structs of parameters with pure functions of the deformation of a surface. A law
+// gives the surface of a body an energy per area, or resists the rate of its deformation.
 //
-// A law lives in its own file in src/surfaces, in an anonymous namespace, and ends with
+// A law has a file of its own in src/surfaces, in an anonymous namespace, which ends with
+//
 //   const bool registered = register_surface_law<MyLaw>("what it is");
-// The functions are templates of the scalar, and the rules of material laws (law.hpp) hold.
+//
+// Its functions are templates of the scalar; the rules of material laws (law.hpp) hold.
 #pragma once
 #include "meniscus/core/elementary.hpp"
 #include "meniscus/core/input.hpp"
@@ -18,19 +20,19 @@
 
 namespace meniscus {
 
-/// A point of the surface of a body: always in three dimensions (2D is plane strain).
+/// State of a point of the surface of a body, always in 3D (2D is plane strain).
 template <class T>
 struct SurfaceState {
-  Tensor<T> H;         ///< F - I, F = dx/dX of the body there
+  Tensor<T> H;         ///< F - I with F = dx/dX of the body
   Tensor<T> cofactor;  ///< cof F = J F^-T
   std::array<T, 3> N;  ///< outward unit normal of the reference
   std::array<T, 3> m;  ///< cof(F) N = Js n
   T stretch;           ///< Js = |m|, the area ratio da/dA
 };
 
-/// energy_density(s): energy w per reference area. stress(s, weight): `weight` times dw/dF, the
-/// surface stress P_iK; the factor goes in because a law can often multiply one number by it
-/// instead of nine.
+/// energy_density(s) is the energy w per reference area. stress(s, weight) is `weight` times dw/dF,
+/// the surface stress P_iK. The factor is a parameter since a law can often multiply one number by
+/// it instead of nine.
 template <class L>
 concept SurfaceLaw = std::is_trivially_copyable_v<L> &&
     requires(const L law, const SurfaceState<Lanes> s) {
@@ -40,8 +42,8 @@ concept SurfaceLaw = std::is_trivially_copyable_v<L> &&
   { law.stress(s, Lanes{}) } -> std::same_as<Tensor<Lanes>>;
 };
 
-/// stress(s, F_rate, weight): `weight` times the viscous surface stress P_iK, linear in F_rate =
-/// dF/dt and never against it: P : F_rate >= 0 is the power turned into heat per reference area.
+/// stress(s, F_rate, weight) is `weight` times the viscous surface stress P_iK, linear in F_rate =
+/// dF/dt. P : F_rate >= 0 is the power turned into heat per reference area.
 template <class L>
 concept ViscousSurfaceLaw = std::is_trivially_copyable_v<L> &&
     requires(const L law, const SurfaceState<Lanes> s, const Tensor<Lanes> F_rate) {
@@ -50,15 +52,15 @@ concept ViscousSurfaceLaw = std::is_trivially_copyable_v<L> &&
   { law.stress(s, F_rate, Lanes{}) } -> std::same_as<Tensor<Lanes>>;
 };
 
-/// A law whose moduli may be such that the surface by itself is not stable.
+/// A law whose moduli may make the surface by itself unstable.
 template <class L>
 concept ModuliSurfaceLaw = requires(const L law) {
-  /// The least modulus of waves in the surface if the energy is not positive; nothing if it is.
+  /// The smallest modulus of waves in the surface if the energy is not positive, otherwise empty.
   { law.unstable_modulus() } -> std::same_as<std::optional<Real>>;
 };
 
-/// e = (I - n n) F^-T = (cof F - m (m . cof F)/Js^2)/J, of the present tangents that are dual to
-/// those of the reference: e^T F = I - N N.
+/// e = (I - n n) F^-T = (cof F - m (m . cof F)/Js^2)/J: the current tangents dual to those of the
+/// reference, e^T F = I - N N.
 template <class T>
 [[gnu::always_inline]] inline Tensor<T> dual_tangents(const SurfaceState<T>& s) {
   const T over_J = 1.0 / (1.0 + volume_change(s.H)), over_square = 1.0 / (s.stretch * s.stretch);
@@ -79,7 +81,7 @@ template <class T>
   });
 }
 
-/// Green strain of the surface, Es = (I - N N) E (I - N N) without cancellation.
+/// Green strain of the surface, Es = (I - N N) E (I - N N), without cancellation.
 template <class T>
 [[gnu::always_inline]] inline Tensor<T> surface_strain(const SurfaceState<T>& s) {
   return in_reference_plane(transpose(in_reference_plane(green_strain(s.H), s)), s);

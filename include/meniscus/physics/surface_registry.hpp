@@ -14,36 +14,36 @@
 
 namespace meniscus {
 
-/// A law with its numbers, ready to be applied to the surface of a body.
+/// A law with its parameters, ready to be applied to the surface of a body.
 class SurfaceMaterial {
  public:
   virtual ~SurfaceMaterial() = default;
   virtual std::unique_ptr<ForceTerm> build(const Body<2>& body, int points) const = 0;
   virtual std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const = 0;
-  /// Energy per area of the undeformed surface, where it is a number of the law.
+  /// Energy per area of the undeformed surface, if the law defines it.
   virtual Real energy_at_rest() const { return 0; }
-  /// As ModuliSurfaceLaw.
+  /// See ModuliSurfaceLaw.
   virtual std::optional<Real> unstable_modulus() const { return std::nullopt; }
-  /// Whether it depends on how the surface has been deformed since the reference.
+  /// True if the law depends on the deformation of the surface since the reference.
   virtual bool keeps_reference() const { return true; }
 };
 
-/// A term whose tension is not the same everywhere.
+/// A term whose surface tension varies over the surface.
 class VariedTension {
  public:
   struct Least {
     Real gamma;
-    Index particle;  ///< the nearest one, its number in the body
+    Index particle;  ///< the nearest one, numbered in the body
   };
   virtual ~VariedTension() = default;
   virtual Least least(const Motion& motion) const = 0;
 };
 
-/// A term whose energy depends on the director of its body, too.
+/// A term whose energy also depends on the director of its body.
 class AnchoredTerm {
  public:
   virtual ~AnchoredTerm() = default;
-  /// Before anything else; becomes one of the energies of `director`.
+  /// Adds this energy to those of `director`. Has to be called before everything else.
   virtual void anchor(CarriedField& director) = 0;
 };
 
@@ -111,7 +111,7 @@ bool register_surface_law_as(std::string_view meaning) {
                                         }});
 }
 
-/// Enters the law: the last line of every file in src/surfaces.
+/// Registers the law: the last line of every file in src/surfaces.
 template <SurfaceLaw L>
 bool register_surface_law(std::string_view meaning) {
   return register_surface_law_as<L, SurfaceMaterialOf<L>>(meaning);

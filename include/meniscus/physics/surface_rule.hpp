@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gauss points of the whole surface of a body, four at a time: how the surface deforms there.
+// Gauss points of the whole surface of a body, and the deformation at these points, four at a time.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/body/surface_points.hpp"
@@ -11,11 +11,11 @@ namespace meniscus {
 
 template <int D>
 struct SurfaceRule {
-  PointRule<D> points;            ///< gradients, and values if they were asked for; weights dA
+  PointRule<D> points;            ///< gradients, and values if requested; weights dA
   AlignedVector<Lanes> normal;    ///< [group][K] outward unit normal of the reference
   std::vector<Vec<D>> reference;  ///< [point] X
 
-  /// `per_direction` Gauss points per direction of every facet.
+  /// `per_direction`: Gauss points per direction of every facet.
   SurfaceRule(const Body<D>& body, int per_direction, bool with_values = false) {
     SurfacePoints<D> surface = surface_points(body.geometry, per_direction);
     points.rows = build_point_rows<D>(body.particles, surface.X,
@@ -39,8 +39,8 @@ struct SurfaceRule {
     return H;
   }
 
-  /// Four points; T is Lanes or Dual<Lanes>. Lanes without a point have N = 0; their stretch is set
-  /// to 1.
+  /// The state of four points; T is Lanes or Dual<Lanes>. Lanes without a point have N = 0 and
+  /// stretch 1.
   template <class T>
   [[gnu::always_inline]] SurfaceState<T> state(Index group, const Tensor<T>& H) const {
     SurfaceState<T> s;
@@ -58,7 +58,7 @@ struct SurfaceRule {
     return s;
   }
 
-  /// Present area (2D: length) at displacements `u` of the body.
+  /// Current area (2D: length) at displacements `u` of the body.
   Real area(const NodalVector* u) const {
     return parallel_sum(groups(), 0.0, [&](Index g) {
       return sum(points.weight(g) * state(g, gradients(g, u)).stretch);
@@ -71,11 +71,11 @@ struct SurfaceRule {
   }
 };
 
-/// What terms of a surface law on the whole surface of a body have in common.
+/// Common base of terms of a surface law on the whole surface of a body.
 template <int D, class L>
 class SurfaceTerm : public ForceTerm {
  public:
-  /// `points` Gauss points per direction of every facet.
+  /// `points`: Gauss points per direction of every facet.
   SurfaceTerm(const Body<D>& body, const L& law, int points)
       : body_(body),
         law_(law),

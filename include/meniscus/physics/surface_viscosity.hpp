@@ -29,7 +29,7 @@ class SurfaceViscosity final : public SurfaceTerm<D, L> {
     });
     return this->report_of(said_, motion, force);
   }
-  /// All of the force is linear in the velocity; the heat is not asked for.
+  /// The whole force is linear in the velocity. The heat is left in chunk reports and not used.
   void add_viscous(const Motion& motion, Forces force) override {
     force.leave_chunks = true;
     add_force(motion, force);

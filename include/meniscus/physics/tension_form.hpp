@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Common part of the discrete forms of surface tension: the energy gamma x area.
+// Common base of the discrete forms of surface tension, with the energy gamma x area.
 #pragma once
 #include "meniscus/body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
 
 namespace meniscus {
 
-/// A form of surface tension says its area and its forces.
+/// A form of surface tension implements area() and add_force().
 template <int D>
 class TensionForm : public ForceTerm {
  public:

@@ -9,11 +9,11 @@
 
 namespace meniscus {
 
-/// How the values x of a field follow from the forces f = -dE/dx on them.
+/// The equation of motion of the values x of a field under the forces f = -dE/dx.
 enum class Evolution {
   inertial,      ///< c x'' = f
   relaxational,  ///< c x' = f
-  carried        ///< c x' = f beside what the material does to it, by a CarriedField
+  carried        ///< c x' = f, and the material carries x by a CarriedField
 };
 
 struct FieldSpec {
@@ -21,15 +21,15 @@ struct FieldSpec {
   int components = 1;  ///< at most four
   Dimension dimension = {};
   Evolution evolution = Evolution::relaxational;
-  Real scale = 1;  ///< a change of the values that matters: trial changes are small against it
+  Real scale = 1;  ///< typical change of the values: trial changes are small against it
 
   friend bool operator==(const FieldSpec&, const FieldSpec&) = default;
 };
 
-/// A field on the particles of all bodies. It exists only if something asked for it.
+/// A field on the particles of all bodies. It exists only if a term requested it.
 struct Unknown {
   FieldSpec spec;
-  std::vector<Real> capacity;  ///< c, per particle
+  std::vector<Real> capacity;  ///< c, [particle]
   NodalVectors x, rate, f;     ///< values, x', forces
 };
 

@@ -12,7 +12,7 @@
 namespace meniscus {
 namespace {
 
-/// Calls f(formula) for those that are given.
+/// Calls f(formula) for each formula that is given.
 template <class F>
 void for_all(const AdhesionFormulas& formulas, F&& f) {
   for (const auto* formula : {&formulas.angle, &formulas.adhesion, &formulas.actin})

@@ -46,7 +46,7 @@ Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> ac
   return std::sqrt(std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3])));
 }
 
-/// Around the coefficients of the velocity that points read.
+/// Bounding box of the velocity coefficients that points read.
 template <int D>
 Box<D> velocities(const ContactPoints<D>& points, const Motion& motion) {
   const auto v = points.body().part(motion.v);
@@ -64,7 +64,7 @@ Box<D> velocities(const ContactPoints<D>& points, const Motion& motion) {
   return box;
 }
 
-/// Around the coefficients of the places that points read.
+/// Bounding box of the position coefficients that points read.
 template <int D>
 Box<D> places(const ContactPoints<D>& points, const Motion& motion) {
   const auto u = points.body().part(motion.u);
@@ -78,7 +78,7 @@ Box<D> places(const ContactPoints<D>& points, const Motion& motion) {
   return box;
 }
 
-/// Around all that the points read: in a halo of what each rank has looked at.
+/// Bounding boxes of all coefficients: in a halo the boxes of all ranks are joined.
 template <int D, std::size_t n>
 std::array<Box<D>, n> of_all(const ContactPoints<D>& points, std::array<Box<D>, n> boxes) {
   if (!points.in_halo()) return boxes;
@@ -90,8 +90,9 @@ std::array<Box<D>, n> of_all(const ContactPoints<D>& points, std::array<Box<D>, 
   return boxes;
 }
 
-/// Holds sum_A N_A c_A at all contact points, where all coefficients c_A are in the box: from its
-/// middle a value is no farther than sum_A |N_A| times the farthest of them.
+/// A box that contains sum_A N_A c_A at all contact points if `coefficients` contains all c_A. A
+/// value differs from the centre by at most sum_A |N_A| times the largest difference of a
+/// coefficient.
 template <int D>
 Box<D> of_points(const Box<D>& coefficients, const ContactPoints<D>& points) {
   const Vec<D> half = points.gain() / 2 * coefficients.extent(), centre = coefficients.centre();
@@ -109,8 +110,9 @@ Real farthest_between(const Box<D>& a, const Box<D>& b) {
 
 }  // namespace
 
-/// Of two bodies few points can be the nearest: those within the distance of some point of the
-/// first from the second of the box around what is left of the other.
+/// Only few points of two bodies can be the nearest. A first distance is taken from the point of
+/// the first body nearest to the box around the second. Points of the first body farther than this
+/// from that box are dropped, then points of the second body farther from the box around the rest.
 template <int D>
 Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second) {
   constexpr Real round_off = 1e-12;
@@ -191,7 +193,7 @@ StepDemand contact_demand(const ContactInertia& contact, Real gap, const Closing
 
 std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, Real spacing,
                                           Real range) {
-  constexpr Real strong = 0.3;  // part of the range
+  constexpr Real strong = 0.3;  // fraction of the range
   if (gap > strong * range || gap >= 2 * spacing) return std::nullopt;
   return fmt::format(
       "contact '{}' is under-resolved: its gap {:.4g} is below twice the distance {:.4g} of its "

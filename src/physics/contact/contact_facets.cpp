@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places of the facets, nearest points, and forces on the corners.
+// Positions of the facets, nearest points, and forces on the corners.
 #include "meniscus/physics/contact_facets.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// Shares of the corners in the point of a segment that is nearest to x.
+/// Shares of the corners in the point of a segment nearest to x.
 template <int D>
 std::array<Real, 2> nearest_on_segment(const Vec<D>& x, const Vec<D>& a, const Vec<D>& b) {
   const Vec<D> edge = b - a;
@@ -19,11 +19,11 @@ std::array<Real, 2> nearest_on_segment(const Vec<D>& x, const Vec<D>& a, const V
   return {1 - t, t};
 }
 
-/// Of a facet.
+/// Shares of the corners in the point of a facet nearest to x.
 std::array<Real, 2> nearest_on(const Vec<2>& x, const std::array<Vec<2>, 2>& corner) {
   return nearest_on_segment<2>(x, corner[0], corner[1]);
 }
-/// Below the inside of the triangle, or on one of its edges.
+/// The nearest point is inside the triangle or on one of its edges.
 std::array<Real, 3> nearest_on(const Vec<3>& x, const std::array<Vec<3>, 3>& corner) {
   const Vec<3> ab = corner[1] - corner[0], ac = corner[2] - corner[0], ax = x - corner[0];
   const Vec<3> n = ab.cross(ac);
@@ -44,7 +44,7 @@ std::array<Real, 3> nearest_on(const Vec<3>& x, const std::array<Vec<3>, 3>& cor
   return best;
 }
 
-/// Outward, of the length of the facet (3D: twice its area).
+/// The outward normal, as long as the facet (3D: twice its area).
 Vec<2> normal_of(const std::array<Vec<2>, 2>& corner) {
   const Vec<2> edge = corner[1] - corner[0];
   return {edge[1], -edge[0]};
@@ -53,8 +53,8 @@ Vec<3> normal_of(const std::array<Vec<3>, 3>& corner) {
   return (corner[1] - corner[0]).cross(corner[2] - corner[0]);
 }
 
-/// Shares of the corners in the point of the plane of a facet on the line through x along `up`, n
-/// the normal of the facet.
+/// Shares of the corners in the point where the line through x along `up` meets the plane of a
+/// facet with normal n.
 std::array<Real, 2> shares_below(const Vec<2>& x, const Vec<2>& up, const Vec<2>& n,
                                  const std::array<Vec<2>, 2>& corner) {
   const Vec<2> across(-up[1], up[0]);
@@ -124,9 +124,10 @@ void ContactFacets<D>::sample(Places& places) const {
 template <int D>
 typename ContactFacets<D>::Foot ContactFacets<D>::foot(const Places& places, const Vec<D>& x,
                                                        std::span<const Index> facets) const {
-  // Most facets of a list are farther than the nearest middle by their spheres alone.
+  // For most facets of a list a bounding sphere shows that they are farther than the nearest
+  // middle.
   constexpr Real round_off = 1e-12;
-  constexpr int middle = Lanes::width - 1;  // of the samples
+  constexpr int middle = Lanes::width - 1;  // index of the middle in the samples
   thread_local std::vector<Real> square;    // of the distances of the middles
   square.resize(facets.size());
   Real least = unbounded;
@@ -168,7 +169,7 @@ template <int D>
 typename ContactFacets<D>::Foot ContactFacets<D>::below(const Places& places, const Vec<D>& x,
                                                         const Vec<D>& up,
                                                         std::span<const Index> facets) const {
-  // Points above an edge are above one of its facets at least.
+  // A point above an edge must be above at least one of its facets.
   constexpr Real round_off = 1e-9;
   Foot best;
   best.normal.setZero();
@@ -193,8 +194,7 @@ Vec<D> ContactFacets<D>::reference_place(const Foot& foot) const {
   return X;
 }
 
-/// The vector whose products with the edges of the facet are those of `gradient` with the edges in
-/// the reference, and that has none with `up`.
+/// The vector v with v.(edge) = gradient.(reference edge) for the edges of the facet, and v.up = 0.
 template <int D>
 Vec<D> ContactFacets<D>::carried(const Places& places, const Foot& foot, const Vec<D>& gradient,
                                  const Vec<D>& up) const {

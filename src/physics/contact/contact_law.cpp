@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of the kernels; all pair functions of one distance.
+// Names of the kernels, and all pair functions at one distance.
 #include "meniscus/physics/contact_law.hpp"
 
 #include "meniscus/core/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building a list of clusters, and the test whether it still holds.
+// Building a list of clusters, and the check whether it is still valid.
 #include "meniscus/physics/contact_list.hpp"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ Vec<D> centre_of(const Lanes* x) {
   return centre;
 }
 
-/// Distance of the farthest of four points.
+/// Largest distance of four points from `centre`.
 template <int D>
 Real radius_of(const Lanes* x, const Vec<D>& centre) {
   Lanes square = Lanes::zero();
@@ -54,7 +54,7 @@ Real radius_of(const Lanes* x, const Vec<D>& centre) {
   return std::sqrt(largest(square));
 }
 
-/// Around four points.
+/// Bounding box of four points.
 template <int D>
 Box<D> box_of(const Lanes* x) {
   Box<D> box;
@@ -66,7 +66,7 @@ Box<D> box_of(const Lanes* x) {
   return box;
 }
 
-/// Whether a point of one cluster lies within `distance` of a point of the other.
+/// True if a point of one cluster lies within `distance` of a point of the other.
 template <int D>
 bool near(const Lanes* x, const Lanes* y, Real distance) {
   for (int lane = 0; lane < Lanes::width; ++lane) {
@@ -78,7 +78,7 @@ bool near(const Lanes* x, const Lanes* y, Real distance) {
   return false;
 }
 
-/// Room for half as many more at least, so that a growing contact seldom takes memory.
+/// Reserves at least half as much again, so that a growing contact seldom allocates.
 void make_room(std::vector<Index>& rows, std::size_t count) {
   if (2 * rows.capacity() < 3 * count) rows.reserve(2 * count);
 }
@@ -128,8 +128,7 @@ void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const
   Box<D> box;
   for (Index c = own.begin; c < own.end; ++c) box.include(box_of<D>(&at(first, c * D)));
   box.grow((reach_ + skin_) * (1 + 1e-12));
-  // The first search is over all of them, so that later ones, which are over fewer, find their
-  // room.
+  // The first search contains all clusters. Later searches contain fewer and fit into its memory.
   if (!search_) box.grow(unbounded);
   const Real radius = find_met(box, second);
   first_.start.assign(static_cast<std::size_t>(clusters) + 1, 0);
@@ -137,7 +136,7 @@ void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const
   take_rows(own, clusters, division);
 }
 
-/// Those of the second cloud that meet a box; returns the radius of the largest of them.
+/// Finds the clusters of the second cloud that meet a box. Returns the radius of the largest.
 template <int D>
 Real ContactList<D>::find_met(const Box<D>& box, std::span<const Lanes> second) {
   Real radius = 0;
@@ -157,7 +156,8 @@ Real ContactList<D>::find_met(const Box<D>& box, std::span<const Lanes> second) 
   return radius;
 }
 
-/// Among those met, by chunks; first_.start gets how many each has, one place after its own.
+/// Searches the clusters found by find_met(), chunk by chunk. first_.start[c + 1] becomes the
+/// number of partners of cluster c.
 template <int D>
 void ContactList<D>::find_partners_of(OwnItems own, Real radius, std::span<const Lanes> first,
                                       std::span<const Lanes> second) {
@@ -179,13 +179,13 @@ void ContactList<D>::find_partners_of(OwnItems own, Real radius, std::span<const
   });
 }
 
-/// Of all ranks, from what chunks have found and how many partners each cluster has.
+/// Gathers the rows of all ranks from the results of chunks and the numbers of partners.
 template <int D>
 void ContactList<D>::take_rows(OwnItems own, Index clusters, const Division& division) {
   std::vector<Offset>& start = first_.start;
   division.complete_items(clusters, start.data() + 1, sizeof(Offset));
   std::partial_sum(start.begin(), start.end(), start.begin());
-  // A contact that moves on over the surface needs in other chunks what it needs in these.
+  // Other chunks get as much memory as the largest, for contacts that move along the surface.
   std::size_t most_partners = 0, most_candidates = 0;
   for (const Found& found : found_) {
     most_partners = std::max(most_partners, found.partner.size());

@@ -16,8 +16,8 @@
 namespace meniscus {
 namespace {
 
-/// Brings `order` into one in which four consecutive points are neighbours: halves along the
-/// longest edge of the box around them, cut at multiples of `together`.
+/// Sorts `order` so that `together` consecutive points are near each other: halves it along the
+/// longest edge of the bounding box, cutting at multiples of `together`.
 template <int D>
 void order_in_space(const std::vector<Vec<D>>& X, std::span<Index> order, std::size_t together) {
   if (order.size() <= together) return;
@@ -36,7 +36,7 @@ void order_in_space(const std::vector<Vec<D>>& X, std::span<Index> order, std::s
   order_in_space(X, order.subspan(half), together);
 }
 
-/// A vector at the points of a cluster, as it is told to other ranks.
+/// A vector at each point of a cluster, as sent to other ranks.
 template <int D>
 struct VectorOf {
   Lanes component[D];
@@ -56,7 +56,7 @@ std::vector<Index> numbers(std::size_t count) {
   return all;
 }
 
-/// The facets of a body, neighbours in space one after the other.
+/// The facets of a body, in an order in which near facets follow each other.
 template <int D>
 std::vector<Index> facets_in_space(const Grid<D>& grid) {
   std::vector<Vec<D>> centre;
@@ -212,8 +212,8 @@ void ContactPoints<D>::for_shape_functions(Index point, F&& f) const {
     f(at(rows.particle, e), at(rows.value, e));
 }
 
-/// Inertia: the smallest m_A / (sum_s w_s |N_A| sum_B |N_B|), what a row of the contact stiffness
-/// pulls at. Gain: the largest sum_B |N_B|.
+/// Inertia: the smallest m_A / (sum_s w_s |N_A| sum_B |N_B|), the mass that a row of the contact
+/// stiffness acts on. Gain: the largest sum_B |N_B|.
 template <int D>
 void ContactPoints<D>::take_inertia() {
   std::vector<Real> carried(body_->mass.size(), 0), sum(carried);
@@ -237,7 +237,7 @@ void ContactPoints<D>::take_inertia() {
     if (carried[A] > 0) made_->inertia = std::min(made_->inertia, body_->mass[A] / carried[A]);
 }
 
-/// The points of this name that another contact has made, or what make() fills.
+/// Takes the shared points of this name from another contact, or makes them with make().
 template <int D>
 template <class Make>
 void ContactPoints<D>::share(const std::string& name, Make&& make) {
@@ -311,7 +311,7 @@ ContactPoints<D> ContactPoints<D>::in_volume(const Body<D>& body, Real beta, int
   return contact;
 }
 
-/// `weight_of` the points as they were made.
+/// weight_of(number) returns the weight of a point by its number before it was sorted.
 template <int D>
 template <class F>
 void ContactPoints<D>::take_weights(F&& weight_of) {
@@ -338,8 +338,8 @@ ContactPlaces<D> ContactPoints<D>::at_rest() const {
   return places;
 }
 
-/// Calls f(q, set) for the points of a cluster; set(lanes, value) puts a value of the point where
-/// it belongs, and that of the last point into the lanes without one as well.
+/// Calls f(q, set) for the points of a cluster. set(lanes, value) stores a value of the point in
+/// its lane; the value of the last point is also stored in lanes without a point.
 template <int D>
 template <class F>
 void ContactPoints<D>::for_points(Index cluster, F&& f) const {
@@ -415,7 +415,7 @@ void ContactPoints<D>::update_weights(std::span<const Index> clusters, const Mot
                                       ContactPlaces<D>& places, const Division& division) const {
   if (components_ == 1) return;
   const NodalVector* u = motion.u.data() + body_->first;
-  // On patches the places of the nodes say all.
+  // On patches the positions of the nodes determine all points, so each rank computes them itself.
   divided_for_rows(
       made_->patches ? Division::to_each() : rows_for(division), this->clusters(), clusters,
       [&](Index c) { update_weights(c, u, places); },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ranks that make a contact of small bodies by themselves (scaling note 2.4).
+// Contacts of small bodies that few ranks compute by themselves (scaling note 2.4).
 #pragma once
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/force_term.hpp"
@@ -9,11 +9,11 @@
 
 namespace meniscus {
 
-/// Where all bodies of a contact are whole, the ranks that have them take part: in a halo they
-/// follow all that moves these surfaces, and each of them does what it needs for the forces on its
-/// own bodies and for the history of the contact, that of the first body all, since it reports.
-/// Others do nothing. Out of a halo each rank does all. So nothing is sent but the report, and
-/// what a list has does not need to be the same on all ranks.
+/// If each body of a contact lies on one rank, only these ranks compute the contact. In a halo they
+/// follow all particles that move these surfaces, and each computes the forces on its own bodies
+/// and the history of the contact. The rank of the first body reports. Other ranks do nothing.
+/// Without a halo each rank computes all. So only the report is exchanged, and lists may differ
+/// between ranks.
 class ContactRanks {
  public:
   explicit ContactRanks(std::initializer_list<Division> bodies)
@@ -24,17 +24,17 @@ class ContactRanks {
                                 [](const Division& d) { return d.has_some(); })),
         first_(few_ ? bodies.begin()->only_rank() : 0) {}
 
-  /// Whether only those that have the bodies make it, as soon as steps are shared.
+  /// True if only the ranks that have the bodies compute the contact while steps are in a halo.
   bool are_few() const { return few_; }
   bool takes_part() const { return takes_part_; }
-  /// Has nothing to do now.
+  /// True if this rank has nothing to do now.
   bool is_absent() const { return only_few_know() && !takes_part_; }
-  /// Whether all that the contact says is asked of this rank.
+  /// True if the report of this rank is used.
   bool reports() const { return !only_few_know() || meniscus::ranks().rank() == first_; }
-  /// By which loops over contact points are divided.
+  /// The division of loops over contact points.
   const Division& division() const { return division_; }
 
-  /// When terms say what they read.
+  /// Has to be called when terms register their reads.
   void learn_halo(StepReads& reads) {
     if (!few_) return;
     reads.when_shared([this](const auto& halo) {
@@ -42,7 +42,7 @@ class ContactRanks {
       division_ = Division::to_each();
     });
   }
-  /// What add_force() says if it is not absent, with who knows it.
+  /// The report of add_force() on ranks that take part, empty on others; known_by is set.
   template <class F>
   Report report_of(F&& add_force) const {
     if (!only_few_know()) return add_force();
@@ -55,7 +55,7 @@ class ContactRanks {
     report.known_by = first_;
     return report;
   }
-  /// Brings what the rank of the first body has kept.
+  /// Copies the history from the rank of the first body to all ranks.
   template <class T>
   void complete(T& history) const {
     if (few_) meniscus::ranks().hand_out(first_, &history, sizeof history);

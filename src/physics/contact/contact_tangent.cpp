@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes of contact points and of their forces: the tangent. A file by itself, so that nothing in
-// the loops of the time step is compiled in another way for it.
+// The tangent: changes of contact points and of their forces. It has a file of its own so that it
+// does not affect the compilation of the loops of the time step.
 #include "meniscus/physics/contact_points.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace meniscus {
 
-/// As update_weights(), with dual numbers.
+/// Like update_weights(), with dual numbers.
 template <int D>
 typename ContactPoints<D>::Turned ContactPoints<D>::turned(Index c, const Motion& motion,
                                                            const Motion& change) const {
@@ -31,7 +31,7 @@ typename ContactPoints<D>::Turned ContactPoints<D>::turned(Index c, const Motion
   return now;
 }
 
-/// As stress(), with dual numbers: the derivative.
+/// The derivative of stress(), by dual numbers.
 template <int D>
 Tensor<Lanes> ContactPoints<D>::stress_change(const Turned& now,
                                               const std::array<Dual<Lanes>, D>& S) const {
@@ -81,7 +81,7 @@ ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
           }
           for (int i = 0; i < D; ++i) at(all.x, c * D + i).set(lane, dx[i]);
           if (!made_->patches || lane >= points_in(c)) continue;
-          // Of second degree in the places of the nodes: central differences are exact.
+          // Quadratic in the positions of the nodes, so central differences are exact.
           const Vec<D> dV = 0.5 * beta_ *
                             (made_->patches->area_vector(at(made_->order, q), ahead) -
                              made_->patches->area_vector(at(made_->order, q), behind));
@@ -144,7 +144,7 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
         turned_by[i] = beta_ * dS[k][lane];
       }
       made_->patches->add(at(made_->order, q), pull, turned_by, places.nodes);
-      // What S does through the tangents is linear in them; in the plane there is no other tangent.
+      // The force through the tangents is linear in them; in 2D there is no second tangent.
       if (D == 3) made_->patches->add(at(made_->order, q), Vec<D>::Zero(), turn, changes.nodes);
     }
   });

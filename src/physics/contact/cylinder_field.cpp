@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cylinder and point: complete elliptic integrals (`integrated`) or rational functions (`planar`)
-// when near, power series when far.
+// near the cylinder, power series far away.
 #include "meniscus/physics/round_field.hpp"
 
 #include <array>
@@ -8,8 +8,8 @@
 namespace meniscus {
 namespace {
 
-/// Complete elliptic integrals K and E of the parameter m (not the modulus), given 1 - m, by the
-/// arithmetic-geometric mean.
+/// Complete elliptic integrals K and E of the parameter m (not the modulus), computed from 1 - m by
+/// the arithmetic-geometric mean.
 struct Elliptic {
   Real K, E;
 };
@@ -51,8 +51,8 @@ class Circle {
   /// Ratio of the radii below which the series is used.
   static constexpr Real far_ratio = 0.35;
 
-  /// I_p upwards: nu Q I_(2 nu + 2) = (2 nu - 1) A I_(2 nu) - (nu - 1) I_(2 nu - 2),
-  /// A = a^2 + R^2, Q = (a^2 - R^2)^2.
+  /// Computes I_p upwards: nu Q I_(2 nu + 2) = (2 nu - 1) A I_(2 nu) - (nu - 1) I_(2 nu - 2) with A
+  /// = a^2 + R^2, Q = (a^2 - R^2)^2.
   void integrate(bool odd) {
     constexpr Real pi = std::numbers::pi;
     const Real difference = std::abs(a_ - R_), sum = a_ + R_;
@@ -71,8 +71,9 @@ class Circle {
       at(I_, k + 1) = ((2 * nu - 1) * A * at(I_, k) - (nu - 1) * at(I_, k - 1)) / (nu * Q);
   }
 
-  /// With y < 1 the ratio of the radii, b the larger one, nu = p/2, g_k = (nu)_k/k! and
-  /// f_k = (nu - 1)_k/k! all terms have one sign:
+  /// With the ratio y < 1 of the radii, the larger radius b, nu = p/2, g_k = (nu)_k/k! and f_k =
+  /// (nu - 1)_k/k!, all terms have one sign:
+  ///
   ///   J_p = pi b^-p sum_(k>=0) g_(k+1) g_k y^(2k+1)
   ///   U   = 2 pi b^(2-p) sum_(k>=1) g_(k-1) f_k y^(2k) outside, -2 pi b^(2-p) sum_(k>=0) g_k f_k
   ///         y^(2k) inside.

@@ -83,7 +83,7 @@ class GapContact final : public ContactModel<D> {
   PlaneContact flat(bool, const ContactSurfaces& surfaces) const override {
     return law_(surfaces)->flat();
   }
-  /// Looked for at a thousand times; below the body.
+  /// The largest of a thousand values in time, at the centre of the first body.
   Real greatest_adhesion(const ContactSurfaces& surfaces, Real end) const override {
     constexpr int times = 1000;
     const auto law = law_(surfaces);

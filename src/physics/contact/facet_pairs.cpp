@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Choosing the grade of every pair of facets.
+// Chooses the grade of every pair of facets.
 #include "facet_pairs.hpp"
 
 #include "meniscus/core/parallel.hpp"
@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// Least distance between points of two clusters: the same number seen from either.
+/// Smallest distance between points of two clusters, bitwise the same in both orders.
 template <int D>
 Real least_distance(const Lanes* x, const Lanes* y) {
   Lanes nearest = unbounded;

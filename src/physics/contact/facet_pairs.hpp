@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of facets of two surfaces, and by how many points each pair is summed.
+// Pairs of facets of two surfaces, and the number of points for each pair.
 #pragma once
 #include "meniscus/physics/contact_list.hpp"
 #include "meniscus/physics/contact_points.hpp"
@@ -9,12 +9,13 @@
 
 namespace meniscus {
 
-/// Edge of a facet whose two Gauss points per direction are this cluster.
+/// Edge of a facet, if this cluster has its two Gauss points per direction.
 template <int D>
 Real edge_by_points(const ContactPlaces<D>& places, Index cluster);
 
-/// Which clusters of one grade act on which: those of a facet follow each other, and each of them
-/// has all clusters of the partner facets. Without grades every cluster is a facet of its own.
+/// The interactions between clusters of one grade. Clusters of a facet follow each other, and each
+/// has all clusters of the partner facets as partners. Without grades every cluster counts as a
+/// facet.
 template <int D>
 struct FacetRows {
   const typename ContactList<D>::Rows* facets;
@@ -27,21 +28,22 @@ struct FacetRows {
 };
 
 /// Pairs of facets with points within `reach` of each other, as rows in both directions for each
-/// grade of points. Both facets of a pair have the grade that it needs at the distance of their
-/// coarsest points. That is the same seen from either of them, so that what one does to the other
-/// comes back, and depends on the present motion alone.
+/// grade of points. Both facets of a pair have the grade for the distance of their coarsest points.
+/// The grade is the same seen from either facet, so that action equals reaction. It depends on the
+/// current motion only.
 template <int D>
 class FacetPairs {
  public:
-  /// `clusters_per_facet` by grade.
+  /// `clusters_per_facet`: [grade].
   FacetPairs(const FacetGrades& grades, const std::vector<Index>& clusters_per_facet, Real reach);
 
-  /// By the coarsest points of both surfaces, a cluster per facet, in which the list has all pairs
-  /// within `reach` + overhang(). Takes no memory while the list stays the same.
+  /// Chooses grades by the coarsest points of both surfaces, one cluster per facet. `list` has to
+  /// contain all pairs within `reach` + overhang(). Does not allocate while the list stays the
+  /// same.
   void choose(const ContactList<D>& list, const ContactPlaces<D>& first,
               const ContactPlaces<D>& second);
-  /// What points of two facets can be nearer to each other than the coarsest of them, as long as no
-  /// facet has grown to more than one and a half times the largest `edge`.
+  /// The most by which points of two facets can be nearer to each other than their coarsest points.
+  /// Holds as long as no facet is larger than 1.5 times the largest `edge`.
   static Real overhang(Real edge) { return 2 * 1.5 * corner * edge; }
 
   FacetRows<D> of_first(std::size_t grade) const { return first_[grade].view(); }
@@ -52,7 +54,7 @@ class FacetPairs {
   using Rows = typename ContactList<D>::Rows;
   /// Distance of a corner of a facet from the nearest of its four Gauss points, / edge.
   static constexpr Real corner = 0.3;
-  /// Of one surface and grade.
+  /// The rows of one surface and grade.
   struct Chosen {
     Rows facets;
     Index clusters_per_facet;
@@ -68,9 +70,9 @@ class FacetPairs {
 
   FacetGrades grades_;
   Real reach_;
-  std::vector<Chosen> first_, second_;             // by grade
-  std::vector<std::int8_t> grade_;                 // [pair of the list], -1: out of reach
-  std::vector<Real> own_edges_, edges_of_others_;  // [facet], of those in the list
+  std::vector<Chosen> first_, second_;             // [grade]
+  std::vector<std::int8_t> grade_;                 // [pair of the list] -1: out of reach
+  std::vector<Real> own_edges_, edges_of_others_;  // [facet] of facets in the list
 };
 
 }  // namespace meniscus

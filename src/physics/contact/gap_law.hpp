@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The law of the gap between two deformable surfaces: energy per area, adhesion, and how the gap is
-// measured.
+// The law of the gap between two deformable surfaces: energy per area, adhesion, and the definition
+// of the gap.
 #pragma once
 #include "meniscus/physics/adhesion.hpp"
 #include "meniscus/physics/interaction.hpp"
@@ -13,12 +13,12 @@
 
 namespace meniscus {
 
-/// Between two bodies e is brought to zero smoothly over the last quarter of its range, and the gap
-/// is the distance. Above ground the law stays as it is, and the gap is that along `up`.
+/// Between two bodies the gap is the distance, and e falls smoothly to zero over the last quarter
+/// of its range. Above ground the gap is measured along `up`, and the law is not changed.
 template <int D>
 class GapLaw {
  public:
-  /// `up`: from the ground; empty: there is none.
+  /// `up`: direction away from the ground; empty between two bodies.
   GapLaw(std::shared_ptr<const Interaction> interaction, const std::vector<Real>& up)
       : interaction_(std::move(interaction)),
         pattern_(interaction_->pattern()),
@@ -28,27 +28,27 @@ class GapLaw {
   }
 
   const Interaction& interaction() const { return *interaction_; }
-  /// Gap beyond which there is nothing.
+  /// The gap beyond which there is no interaction.
   Real range() const { return range_; }
   const std::optional<Vec<D>>& up() const { return up_; }
 
-  /// Null: the adhesion is steady, and that of the interaction.
+  /// Null if the adhesion is constant and part of the interaction.
   const AdhesionPattern* pattern() const { return pattern_; }
-  /// Whether the adhesion is W(X, t), X the place in the reference of the ground.
+  /// True if the adhesion is W(X, t) with X in the reference of the ground.
   bool placed() const { return pattern_ && pattern_->depends_on_place(); }
-  /// Where it is the same everywhere.
+  /// The factor W(t) of an adhesion that is the same everywhere.
   Real adhesion(Real time) const {
     return pattern_ && !placed() ? (*pattern_)(Eigen::Vector3d::Zero(), time) : 1;
   }
-  /// Whether the stiffness of that gap is of the adhesion, not of the core, which does not vary.
+  /// True if the stiffness at that gap comes from the varying adhesion, not from the fixed core.
   bool varies_at(Real gap) const { return pattern_ && gap >= rest_; }
 
   struct Energy {
     Real value, slope;
     Real unit;  ///< value / adhesion, without the core
   };
-  /// Per area, and its derivative: e Q with Q = 1 - t^3 (10 - 15 t + 6 t^2), t from 0 to 1 over the
-  /// last quarter of the range.
+  /// Energy per area and its derivative: e Q with Q = 1 - t^3 (10 - 15 t + 6 t^2), where t grows
+  /// from 0 to 1 over the last quarter of the range.
   Energy energy(Real gap, Real adhesion) const {
     PlaneState plane = interaction_->at(std::max(gap, interaction_->least_gap()));
     const Real unit = gap < rest_ ? -1 : plane.energy;
@@ -60,8 +60,8 @@ class GapLaw {
   }
 
  private:
-  /// From unit adhesion to W. Nearer than the equilibrium gap there is the core beside it, which
-  /// does not vary.
+  /// The state for adhesion W, from that for unit adhesion. Below the equilibrium gap the core is
+  /// added, which does not vary.
   PlaneState varied(const PlaneState& plane, Real gap, Real W) const {
     if (gap < rest_) return {plane.energy - (W - 1), plane.pressure, plane.stiffness};
     return {W * plane.energy, W * plane.pressure, W * plane.stiffness};
@@ -69,7 +69,7 @@ class GapLaw {
 
   std::shared_ptr<const Interaction> interaction_;
   const AdhesionPattern* pattern_;
-  Real range_, rest_;  // gaps
+  Real range_, rest_;  // range and equilibrium gap
   std::optional<Vec<D>> up_;
 };
 

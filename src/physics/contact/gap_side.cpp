@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces of the surface points of one body and the facets of another on each other.
+// Forces between the surface points of one body and the facets of another.
 #include "gap_side.hpp"
 
 namespace meniscus {
 namespace {
 
-/// What other ranks are told of a cluster; only of adhesion that is not placed.
+/// Results of a cluster, as sent to other ranks; not used for adhesion that depends on the place.
 template <int D>
 struct OfCluster {
   struct Point {
@@ -95,7 +95,7 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
   std::fill(forces.unit.begin(), forces.unit.end(), 0.0);
   std::fill(forces.W.begin(), forces.W.end(), 0.0);
   divided_for(
-      // A place without adhesion is to fail on all ranks.
+      // A place without adhesion has to fail on all ranks, so each computes all.
       law.placed() ? Division::to_each() : division, static_cast<Index>(active.size()),
       [&](Index k) {
         const Index c = at(active, k);
@@ -108,7 +108,7 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
                                : side.facets.foot(forces.others, place, list.of_first().of(c));
           if (!(foot.distance < law.range())) continue;
           Real W = even;
-          Vec<D> slope = Vec<D>::Zero();  // of W
+          Vec<D> slope = Vec<D>::Zero();  // gradient of W
           if (law.placed()) {
             const Eigen::Vector3d X = spatial<D>(side.facets.reference_place(foot));
             W = at(forces.W, q) = (*pattern)(X, motion.time);
@@ -132,7 +132,7 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
       },
       [&](Index k) { return OfCluster<D>(forces, at(active, k)); },
       [&](Index k, const OfCluster<D>& of_other) { of_other.put(at(active, k), forces); }, 4);
-  // One after the other: many points push the same corner.
+  // Sequential, since many points pull the same corner.
   std::fill(forces.pull.begin(), forces.pull.end(), Vec<D>::Zero());
   forces.gap = unbounded;
   forces.near.clear();

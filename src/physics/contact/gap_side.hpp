@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One side of a gap between two deformable bodies: the surface points of one in the field of the
-// facets of the other.
+// One side of a gap between two deformable bodies: the surface points of one body and the facets of
+// the other.
 #pragma once
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_facets.hpp"
@@ -17,15 +17,16 @@ template <int D>
 struct GapSide {
   ContactPoints<D> points;
   ContactFacets<D> facets;
-  ContactList<D> list;  ///< clusters of points, facets
+  ContactList<D> list;  ///< pairs (cluster of points, facet)
 
   GapSide(const Body<D>& body, const Body<D>& other, Real range, const ContactChoice& choice,
           std::size_t side)
       : points(surface_contact_points(body, 1, choice, side)),
         facets(other),
-        // No point of a facet that has not doubled its size is farther than that from its samples.
+        // Points of a facet that has less than doubled its size are no farther from its samples
+        // than this.
         list(range + facets.longest_edge(), choice.skin * range / 4) {}
-  /// All of it, or nothing.
+  /// Registers the reads of a step: all points and facets, or none.
   void tell_reads(StepReads& reads, bool reads_all) {
     points.tell_reads_alone(reads, reads_all);
     facets.tell_reads(reads, reads_all);
@@ -34,7 +35,7 @@ struct GapSide {
   Offset pairs() const { return points.pairs() + facets.pairs() + list.pairs(); }
 };
 
-/// Places, energies and forces of a side.
+/// Positions, energies and forces of a side.
 template <int D>
 struct GapForces {
   ContactPlaces<D> places;
@@ -42,12 +43,12 @@ struct GapForces {
   AlignedVector<Lanes> T, S;                          ///< [cluster][i]: dE/dx, dE/dV
   std::vector<typename ContactFacets<D>::Foot> foot;  ///< [point]
   std::vector<Real> stored;                           ///< [point] energy
-  std::vector<Real> unit;    ///< [point] the same of unit adhesion, without core; where it varies
-  std::vector<Real> W;       ///< [point] adhesion, where it varies from place to place
+  std::vector<Real> unit;    ///< [point] energy of unit adhesion without core, if W varies
+  std::vector<Real> W;       ///< [point] adhesion, if it depends on the place
   std::vector<Vec<D>> pull;  ///< [corner] force
-  std::vector<Index> near;   ///< clusters within the range: the list has more, as it was built
+  std::vector<Index> near;   ///< clusters within the range; the list has more
   Real gap = unbounded;
-  Index nearest = 0;  ///< point
+  Index nearest = 0;  ///< number of the point with the smallest gap
 
   GapForces(const GapSide<D>& side, const AdhesionPattern* pattern);
   void move(const GapSide<D>& side, const Motion& motion, const Division& division) {
@@ -60,17 +61,18 @@ struct GapForces {
   Real force_on_facets(int i) const;
 };
 
-/// At this motion, at which places and the list are; points of the list are divided so.
+/// Computes the forces at this motion. Positions and list have to be up to date for it; ranks
+/// divide the points of the list by `division`.
 template <int D>
 void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
                  const Motion& motion, const Division& division, GapForces<D>& forces);
 
-/// At any motion; takes memory.
+/// Computes the forces at any motion; allocates memory.
 template <int D>
 GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law,
                        const Division& division);
 
-/// Of adhesion that varies from place to place, at the time of the forces.
+/// The supply of adhesion that depends on the place, at the time of the forces.
 template <int D>
 AdhesionSupply supply_of(const GapSide<D>& side, const GapForces<D>& forces,
                          const AdhesionPattern& W, const AdhesionWork& work, Real time);

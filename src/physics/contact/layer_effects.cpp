@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adhesion that varies, and friction, of all clusters beside a rigid partner.
+// Varying adhesion and friction of all clusters beside a rigid partner.
 #include "layer_effects.hpp"
 
 #include "meniscus/core/error.hpp"
@@ -7,13 +7,13 @@
 namespace meniscus {
 namespace {
 
-/// What the points of a cluster are relative to.
+/// Displacement and velocity of the partner, to which points are relative.
 template <int D>
 struct Frame {
   Vec<D> shift, velocity;
 };
 
-/// Of the clusters of a grade: ranks that each do their own are to fail together.
+/// Keeps the first failure among the clusters of a grade, so that all ranks fail together.
 class FirstFailure {
  public:
   template <class F>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the contact points of a body can have moved since a motion, by its coefficients alone.
+// Upper bound of the displacement of contact points since a motion, from the coefficients alone.
 #pragma once
 #include "meniscus/physics/contact_points.hpp"
 
@@ -9,8 +9,8 @@
 namespace meniscus {
 
 /// No point moves farther than ContactPoints::gain() times the largest change of a displacement
-/// coefficient: points that are known to be far from a partner need not be moved to know that they
-/// still are.
+/// coefficient. Points known to be far from a partner need not be moved to show that they still
+/// are.
 template <int D>
 class MovedSince {
  public:
@@ -19,7 +19,7 @@ class MovedSince {
     u_.clear();
     for (const Index A : points.particles()) u_.push_back(at(u, A));
   }
-  /// Infinite before begin(). In a halo all ranks call this.
+  /// The bound; infinite before begin(). In a halo all ranks have to call this.
   Real farthest(const ContactPoints<D>& points, const Motion& motion) const {
     if (u_.empty()) return unbounded;
     const auto u = points.body().part(motion.u);
@@ -36,7 +36,7 @@ class MovedSince {
   std::size_t bytes() const { return u_.size() * sizeof(NodalVector); }
 
  private:
-  NodalVectors u_;  // when it began, of the particles that move the points
+  NodalVectors u_;  // at begin(), of the particles that move the points
 };
 
 }  // namespace meniscus

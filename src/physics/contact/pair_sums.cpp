@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sums of contact over pairs of points: the loops in which scenes with two bodies in contact
-// spend their time.
+// The sums of contact over pairs of points. Scenes with two bodies in contact spend most of their
+// time in these loops.
 #include "pair_sums.hpp"
 
 #include "meniscus/core/divided.hpp"
@@ -83,7 +83,7 @@ class PairSumsOf final : public PairSums<D> {
 
   Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
               const ContactPlaces<D>& others, const Division& division) const override {
-    // Over all clusters: the order of summation must not depend on which are active.
+    // Over all clusters, so that the order of summation does not depend on which are active.
     return division.sum(clusters, 0.0, [&](Index c) {
       Lanes T[D], S[1];
       T[0] = Lanes::zero();
@@ -95,7 +95,7 @@ class PairSumsOf final : public PairSums<D> {
   }
 
  private:
-  /// What other ranks are told of a cluster.
+  /// Results of a cluster, as sent to other ranks.
   struct Record {
     Lanes T[D], S[D];
     Real nearest;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sums of contact over pairs of points, with form and kernel compiled into them.
+// The sums of contact over pairs of points, compiled for each form and kernel.
 #pragma once
 #include "meniscus/core/dual.hpp"
 #include "meniscus/physics/contact.hpp"
@@ -15,7 +15,7 @@ namespace meniscus {
 template <int D>
 struct PairEvaluation {
   AlignedVector<Lanes> T, S;  ///< [cluster][i], as in contact_forms.hpp
-  std::vector<Real> nearest;  ///< [k of rows.clusters] least squared distance to the other body
+  std::vector<Real> nearest;  ///< [k of rows.clusters] smallest squared distance
 
   PairEvaluation(Index clusters, bool moment) {
     T.assign(static_cast<std::size_t>(clusters) * D, Lanes::zero());
@@ -25,7 +25,7 @@ struct PairEvaluation {
   std::size_t bytes() const { return (T.size() + S.size()) * sizeof(Lanes); }
 };
 
-/// Changes of T, and S with its changes, of the points of one body; [cluster][i].
+/// Changes of T, and S with its changes, for the points of one body; [cluster][i].
 struct PairChange {
   AlignedVector<Lanes> dT, S, dS;
 };
@@ -34,11 +34,12 @@ template <int D>
 class PairSums {
  public:
   virtual ~PairSums() = default;
-  /// Whether the form has S.
+  /// True if the form has S.
   virtual bool moment() const = 0;
-  /// Whether its force is minus the gradient of its energy.
+  /// True if the force is minus the gradient of the energy.
   virtual bool conservative() const = 0;
-  /// Forces of `others` on `points`, which has these partners; of ranks, clusters are divided so.
+  /// Forces of `others` on `points`, whose partners are in `rows`. Ranks divide the clusters by
+  /// `division`.
   virtual void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
                         const ContactPlaces<D>& others, const Division& division,
                         PairEvaluation<D>& result) const = 0;

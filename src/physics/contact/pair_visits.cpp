@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bringing the contact points of two bodies to a motion, as far as they may be within reach.
+// Updates the contact points of two bodies for a motion, where they may be within reach.
 #include "pair_visits.hpp"
 
 #include "meniscus/physics/contact_resolution.hpp"
@@ -13,7 +13,7 @@ template <int D>
 FacetGrades grades_of(const ContactBody<D>& first, const ContactBody<D>& second,
                       const Interaction& interaction, const ContactChoice& choice) {
   const Real edge = std::min(facet_edges(first.body).least, facet_edges(second.body).least);
-  // Points of the volume have no facets.
+  // Points of volumes have no facets.
   return FacetGrades::of_pairs(choice.form == ContactForm::volume ? 1 : choice.points, interaction,
                                edge);
 }
@@ -29,7 +29,7 @@ GradedPoints<D> points_of(const ContactBody<D>& b, const ContactChoice& choice, 
   return graded_contact_points(b.body, b.beta, choice, side, grades);
 }
 
-/// Nothing where facets have one grade.
+/// Zero if facets have one grade.
 template <int D>
 Real overhang(const ContactBody<D>& first, const ContactBody<D>& second,
               const FacetGrades& grades) {
@@ -87,7 +87,7 @@ VisitedPair<D> PairVisits<D>::at_rest() const {
           FacetPairs<D>(grades_, clusters_per_facet(first_), reach_), &list_};
 }
 
-/// Whether the list has all pairs within reach at this motion.
+/// True if the list has all pairs within reach at this motion.
 template <int D>
 bool PairVisits<D>::holds(const Motion& motion) const {
   return first_since_.farthest(first_.back(), motion) +
@@ -109,14 +109,14 @@ void PairVisits<D>::visit(const Motion& motion) {
   bring_others(motion, now_);
 }
 
-/// The coarsest points that the list has.
+/// Moves the coarsest points that are in the list.
 template <int D>
 void PairVisits<D>::move_listed(const Motion& motion, VisitedPair<D>& at_motion) const {
   first_.back().move(list_.of_first().active, motion, at_motion.first.back(), ranks_.division());
   second_.back().move(list_.of_second().active, motion, at_motion.second.back(), ranks_.division());
 }
 
-/// Of all coarsest points, which are moved.
+/// Moves all coarsest points and builds a list of them.
 template <int D>
 void PairVisits<D>::make_list(const Motion& motion, ContactList<D>& list,
                               VisitedPair<D>& at_motion) const {
@@ -126,7 +126,8 @@ void PairVisits<D>::make_list(const Motion& motion, ContactList<D>& list,
   at_motion.list = &list;
 }
 
-/// Weights of the coarsest points of the list, which have been moved, and all of the others.
+/// Chooses grades, moves the finer points, and updates all weights. The coarsest points of the list
+/// have to be moved already.
 template <int D>
 void PairVisits<D>::bring_others(const Motion& motion, VisitedPair<D>& at_motion) const {
   if (grades() > 1)
@@ -160,7 +161,7 @@ void PairVisits<D>::tell_reads(StepReads& reads) {
   }
 }
 
-/// Of all grades, by the clusters of the coarsest points.
+/// Registers reads of all grades; `listed` are clusters of the coarsest points.
 template <int D>
 void PairVisits<D>::tell_reads(StepReads& reads, GradedPoints<D>& side,
                                std::span<const Index> listed) const {

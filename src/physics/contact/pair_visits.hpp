@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contact points of two bodies that may be within reach of each other, and which act on which.
+// The contact points of two bodies that may be within reach of each other, and their pairs.
 #pragma once
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_list.hpp"
@@ -14,19 +14,19 @@
 
 namespace meniscus {
 
-/// The contact points of a body by grade: all of a facet first, then fewer and fewer.
+/// The contact points of a body, [grade]: the most points per facet first.
 template <int D>
 using GradedPoints = std::vector<ContactPoints<D>>;
 
-/// Points of both bodies at a motion, by grade, as far as they may be within reach of the other
-/// body: all others are left where they were.
+/// Points of both bodies at a motion, [grade]. Only points that may be within reach of the other
+/// body are up to date.
 template <int D>
 struct VisitedPair {
   std::vector<ContactPlaces<D>> first, second;
-  FacetPairs<D> facets;        ///< where there are several grades
-  const ContactList<D>* list;  ///< of the coarsest points
+  FacetPairs<D> facets;        ///< used with several grades
+  const ContactList<D>* list;  ///< list of the coarsest points
 
-  /// Which clusters of a grade have partners, and which.
+  /// The clusters of a grade that have partners, and their partners.
   FacetRows<D> of_first(std::size_t grade) const {
     return first.size() == 1 ? all_of(list->of_first()) : facets.of_first(grade);
   }
@@ -41,11 +41,11 @@ struct VisitedPair {
   }
 };
 
-/// The points of two bodies and what of them was visited last.
+/// The points of two bodies and the result of the last visit.
 template <int D>
 class PairVisits {
  public:
-  /// Points of the volume for the form `volume`, else of the surfaces.
+  /// Uses points of volumes for the form `volume`, otherwise points of surfaces.
   PairVisits(const ContactBody<D>& first, const ContactBody<D>& second,
              const Interaction& interaction, const ContactLaw& law, const ContactChoice& choice);
   PairVisits(const PairVisits&) = delete;
@@ -57,12 +57,12 @@ class PairVisits {
   const ContactPoints<D>& first(std::size_t grade) const { return first_[grade]; }
   const ContactPoints<D>& second(std::size_t grade) const { return second_[grade]; }
 
-  /// Brings now() to this motion. The coarsest points tell which may be within reach; takes no
-  /// memory while their list holds.
+  /// Updates now() to this motion. The list of the coarsest points gives the pairs that may be
+  /// within reach. Does not allocate while the list is valid.
   void visit(const Motion& motion);
   const VisitedPair<D>& now() const { return now_; }
 
-  /// f(visited) at any motion; takes memory. The list of now() serves where it holds.
+  /// Returns f(visited) for any motion; allocates memory. The list of now() is used if it is valid.
   template <class F>
   auto look_at(const Motion& motion, F&& f) const {
     VisitedPair<D> at_motion = at_rest();
@@ -76,13 +76,13 @@ class PairVisits {
   }
 
   const ContactRanks& ranks() const { return ranks_; }
-  /// Of ranks that make the contact by themselves all, else the points of the list, once there is
-  /// one.
+  /// Registers the reads of a step: all points if few ranks compute the contact, otherwise the
+  /// points of the list if there is one.
   void tell_reads(StepReads& reads);
-  /// Whether there is another list since then.
+  /// True if the list was rebuilt since tell_reads().
   bool reads_changed() const { return told_list_ && list_.builds() != *told_list_; }
   std::size_t bytes() const;
-  /// Of points, from both sides.
+  /// Number of pairs of points, counted from both sides.
   Offset point_pairs() const;
 
  private:
@@ -98,9 +98,9 @@ class PairVisits {
   GradedPoints<D> first_, second_;
   ContactRanks ranks_;
   ContactList<D> list_;                       // of the coarsest points
-  MovedSince<D> first_since_, second_since_;  // that was made
+  MovedSince<D> first_since_, second_since_;  // since the list was built
   VisitedPair<D> now_;
-  std::optional<std::int64_t> told_list_;  // number of builds
+  std::optional<std::int64_t> told_list_;  // list_.builds() at tell_reads()
 };
 
 }  // namespace meniscus

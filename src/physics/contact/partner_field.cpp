@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances and forces of contact points beside a rigid partner, a cluster at a time.
+// Distances and forces of contact points beside a rigid partner, cluster by cluster.
 #include "partner_field.hpp"
 
 #include "meniscus/core/divided.hpp"
@@ -7,7 +7,7 @@
 namespace meniscus {
 namespace {
 
-/// What other ranks are told of a cluster.
+/// Results of a cluster, as sent to other ranks.
 template <int D>
 struct AtCluster {
   Lanes T[D], S[D], distances;
@@ -28,7 +28,7 @@ struct AtCluster {
   }
 };
 
-/// Of a cluster, in the frame of the partner.
+/// Positions of a cluster in the frame of the partner.
 template <int D>
 LanePlace<D> place_beside(const Vec<D>& shift, const ContactPlaces<D>& places, Index cluster) {
   LanePlace<D> place;
@@ -36,7 +36,7 @@ LanePlace<D> place_beside(const Vec<D>& shift, const ContactPlaces<D>& places, I
   return place;
 }
 
-/// T and S of the four points of a cluster: T = grad S V, with S forming the energy S.V, or T = U V
+/// T and S of the four points of a cluster. T = grad S V, where S gives the energy S.V; or T = U V
 /// for the pressure form. The dissertation's traction Sigma n = -beta1 grad S n is T without S.
 template <int D>
 void take_forces(const BodyAndPartner<D>& pair, const ContactPoints<D>& points, Index cluster,
@@ -83,7 +83,7 @@ void take_forces(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLay
   for (std::size_t g = 0; g < layers.size(); ++g) {
     const ContactPoints<D>& points = pair.points[g];
     PartnerLayer<D>& layer = layers[g];
-    // The coarsest of several were moved to find the grades.
+    // With several grades, the coarsest points were moved already to find the grades.
     if (layers.size() == 1 || g + 1 < layers.size())
       points.move(layer.visited, motion, layer.places, parts);
     points.update_weights(layer.visited, motion, layer.places, parts);

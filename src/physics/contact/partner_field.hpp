@@ -5,14 +5,14 @@
 
 namespace meniscus {
 
-/// Moves the points of a grade, as far as this rank does (BodyAndPartner::moved_clusters()), and
-/// takes their distances.
+/// Moves the points of a grade that this rank moves (BodyAndPartner::moved_clusters()), and
+/// computes their distances.
 template <int D>
 void take_distances(const BodyAndPartner<D>& pair, std::size_t grade, const Motion& motion,
                     PartnerLayer<D>& layer);
 
-/// Places, weights, distances, T and S of the points that are visited (partner_visits.hpp): by the
-/// interaction of uniform strength.
+/// Computes positions, weights, distances, T and S of the visited points (partner_visits.hpp), for
+/// the interaction of uniform strength.
 template <int D>
 void take_forces(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A body beside a rigid partner: its contact points in layers, one for each grade, and what the
-// partner does to them.
+// A body beside a rigid partner: its contact points in layers, one for each grade, and the forces
+// on them.
 #pragma once
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/contact_resolution.hpp"
@@ -14,17 +14,18 @@
 
 namespace meniscus {
 
-/// What stays the same as they move.
+/// The parts that do not change in a run.
 template <int D>
 struct BodyAndPartner {
   MovingPartner<D> partner;
   std::shared_ptr<const Interaction> interaction;
   ContactForm form;
   FacetGrades grades;
-  std::vector<ContactPoints<D>> points;  ///< of the body, by grade
+  std::vector<ContactPoints<D>> points;  ///< of the body, [grade]
   ContactRanks ranks;
-  /// Each rank moves and visits the clusters whose forces it adds up; all of them where few ranks
-  /// have the body, and on patches, whose forces come to the particles by way of the nodes.
+  /// Each rank moves and visits the clusters whose forces it adds up. With to_each(), every rank
+  /// visits all of them: if few ranks have the body, and on patches, whose forces reach the
+  /// particles through nodes.
   Division division;
 
   BodyAndPartner(const ContactBody<D>& body, MovingPartner<D> moving_partner,
@@ -40,12 +41,12 @@ struct BodyAndPartner {
 
   const ContactPoints<D>& finest() const { return points.front(); }
   const ContactPoints<D>& coarsest() const { return points.back(); }
-  /// Whose forces this rank adds up.
+  /// The clusters whose forces this rank adds up.
   ItemRange own_clusters(std::size_t grade) const {
     return division.own_rows(points[grade].clusters());
   }
-  /// That this rank moves: of several grades the coarsest, a cluster for each facet, are needed to
-  /// know the grades of own clusters.
+  /// The clusters that this rank moves. With several grades it also needs the coarsest points, one
+  /// cluster per facet, of facets with own clusters of other grades, to find the grades.
   ItemRange moved_clusters(std::size_t grade) const {
     ItemRange moved = own_clusters(grade);
     if (grade + 1 < points.size()) return moved;
@@ -58,37 +59,39 @@ struct BodyAndPartner {
     }
     return moved;
   }
-  /// By which ranks divide what is for the same clusters of all of them.
+  /// The division for work that all ranks have to do for the same clusters.
   Division parts() const { return division.is_to_each() ? ranks.division() : Division::to_each(); }
-  /// Whether no rank has any of what this rank has none of.
+  /// True if no rank has such clusters, given that this rank has none.
   bool without(const std::vector<Index>& clusters) const {
     return clusters.empty() && (division.is_to_each() || meniscus::ranks().alone());
   }
-  /// Of what ranks have found that each looked at a part.
+  /// The largest of the values of all ranks, if each looked at a part.
   Real largest(Real mine) const {
     if (ranks.division().is_to_each() || meniscus::ranks().alone()) return mine;
     const std::vector<Real> all = said_by_ranks(mine);
     return *std::max_element(all.begin(), all.end());
   }
-  /// Of the partner: from where it was made, and how fast.
+  /// Displacement and velocity of the partner.
   Vec<D> shift(const Motion& motion) const { return partner.motion.displacement(motion.time); }
   Vec<D> velocity(const Motion& motion) const {
     return partner.motion.velocity(motion.time, partner.velocity_step);
   }
 };
 
-/// Places of the points of a grade at a motion and their forces, [cluster][i] as in
+/// Positions of the points of a grade at a motion and their forces, [cluster][i] as in
 /// contact_forms.hpp.
 template <int D>
 struct PartnerLayer {
-  /// Clusters of this rank that feel the partner, in ascending order: only they have forces.
+  /// Clusters of this rank that interact with the partner, in ascending order. Only they have
+  /// forces.
   std::vector<Index> visited;
-  std::vector<Index> near;  ///< of these, clusters within the range
+  std::vector<Index> near;  ///< visited clusters within the range
   ContactPlaces<D> places;
   AlignedVector<Lanes> T, S;
-  AlignedVector<Lanes> distances;  ///< [cluster] from the surface of the partner; others: beyond
+  AlignedVector<Lanes> distances;  ///< [cluster] from the surface of the partner; unbounded if not
+                                   ///< visited
 
-  /// Of a grade; all of this rank are visited.
+  /// A layer of a grade in which all clusters of this rank are visited.
   PartnerLayer(const BodyAndPartner<D>& pair, std::size_t grade)
       : places(pair.points[grade].at_rest()) {
     const auto clusters = static_cast<std::size_t>(pair.points[grade].clusters());
@@ -100,7 +103,7 @@ struct PartnerLayer {
     S = T;
     distances.assign(clusters, Lanes(unbounded));
   }
-  /// S, which the form `energy` alone has.
+  /// S for the form `energy`; empty for others.
   std::span<const Lanes> moment(ContactForm form) const {
     return form == ContactForm::energy ? std::span<const Lanes>(S) : std::span<const Lanes>();
   }
@@ -112,7 +115,7 @@ struct PartnerLayer {
   std::size_t bytes() const { return places.bytes() + (T.size() + S.size()) * sizeof(Lanes); }
 };
 
-/// By grade. The points of a facet are visited in one of them.
+/// [grade]. The points of a facet are visited in one of the grades.
 template <int D>
 using PartnerLayers = std::vector<PartnerLayer<D>>;
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the forces of a rigid partner change with the places and area vectors of contact points.
+// Changes of the forces of a rigid partner with positions and area vectors of contact points.
 #include "partner_tangent.hpp"
 
 namespace meniscus {
 namespace {
 
 /// dT = (grad grad S dx) V + grad S dV and dS = grad S dx; or dT = (grad U dx) V + U dV for the
-/// pressure form. Derivatives of the field by differences of fourth order over a small part of the
+/// pressure form. Derivatives of the field are differences of fourth order over a small part of the
 /// gap.
 template <int D>
 void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& pair,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Choosing the clusters that feel a rigid partner.
+// Chooses the clusters that interact with a rigid partner.
 #include "partner_visits.hpp"
 
 #include <tuple>
@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// Clusters are kept in the list for as long as no other point can have come within the range.
+/// Keeps the clusters of the list while no other point can have come within the range.
 template <int D>
 void choose_within_reach(const BodyAndPartner<D>& pair, const Motion& motion, ReachList<D>& list,
                          PartnerLayer<D>& layer) {
@@ -26,7 +26,7 @@ void choose_within_reach(const BodyAndPartner<D>& pair, const Motion& motion, Re
     if (layer.nearest_of(c) < list.distance()) layer.visited.push_back(c);
 }
 
-/// Of the points of this rank.
+/// The nearest of the points of this rank.
 template <int D>
 NearestPoint nearest_point(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
   NearestPoint nearest;
@@ -40,7 +40,7 @@ NearestPoint nearest_point(const BodyAndPartner<D>& pair, const PartnerLayers<D>
   return nearest;
 }
 
-/// Of what all ranks know; of points at the same distance the first.
+/// Joins the results of all ranks. Of points at the same distance the first is taken.
 template <int D>
 VisitedPoints of_all_ranks(const BodyAndPartner<D>& pair, const VisitedPoints& mine) {
   if (pair.division.is_to_each() || ranks().alone()) return mine;
@@ -74,7 +74,7 @@ void choose_grades(const BodyAndPartner<D>& pair, const Motion& motion, PartnerL
     each.visited.clear();
     if (&each != &layer) std::fill(each.distances.begin(), each.distances.end(), Lanes(unbounded));
   }
-  // The coarsest points of a facet are a cluster.
+  // The coarsest points of a facet are one cluster.
   const ItemRange facets = pair.moved_clusters(layers.size() - 1);
   for (Index facet = facets.begin; facet < facets.end; ++facet) {
     const auto grade = static_cast<std::size_t>(
@@ -105,7 +105,7 @@ VisitedPoints visited_points(const BodyAndPartner<D>& pair, const Motion& motion
     mine.count += static_cast<Offset>(layer.visited.size()) * Lanes::width;
   const VisitedPoints all = of_all_ranks(pair, mine);
   if (all.nearest.distance < pair.interaction->range() || !pair.interaction->ends()) return all;
-  // Distances of points beyond reach are those of when the list was made.
+  // Distances of points out of reach are out of date: they are from the last build of the list.
   if (!pair.finest().follows_all()) throw HaloOutgrown();
   take_distances(pair, 0, motion, layers.front());
   mine.nearest = nearest_point(pair, layers);

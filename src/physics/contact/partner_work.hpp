@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The work of what moves a rigid partner.
+// The work that moves a rigid partner.
 #pragma once
 #include "meniscus/core/archive.hpp"
 
 namespace meniscus {
 
-/// Between steps that stand: the mean of the forces at both times the way of the partner. A run
-/// begins with no step that stands, and the force at the end of its first step counts for all of
-/// it. Of second order in the step, also where a partner sets off or stops and its power jumps.
+/// Work between accepted steps: the mean force of both times dot the displacement of the partner.
+/// In the first step of a run only the force at its end is known and is used for the whole step.
+/// The work is of second order in the step, also if a partner starts or stops and its power jumps.
 class PartnerWork {
  public:
-  /// A run begins where the partner is.
+  /// Has to be called at the begin of a run, with the shift of the partner.
   void begin(const Eigen::Vector3d& shift) {
     if (!begun_) shift_ = shift;
     begun_ = true;
   }
-  /// Since the last step that stands, of a partner that is shifted by now and moved by this force.
+  /// Work since the last accepted step, for the current shift of the partner and force on it.
   Real since_step(const Eigen::Vector3d& shift, const Eigen::Vector3d& force) const {
     return (stands_ ? (0.5 * (force_ + force)).eval() : force).dot(shift - shift_);
   }
-  /// The step stands.
+  /// Accepts the step.
   void commit(const Eigen::Vector3d& shift, const Eigen::Vector3d& force) {
     shift_ = shift;
     force_ = force;
     stands_ = true;
   }
-  /// Forces are those of D dimensions.
+  /// D: dimension of the scene, which sets the unit of forces.
   void archive(const Archive& a, int D) {
     a("partner_begun", begun_);
     a("partner_stands", stands_);
@@ -35,7 +35,7 @@ class PartnerWork {
 
  private:
   bool begun_ = false, stands_ = false;
-  // At the last step that stands.
+  // At the last accepted step.
   Eigen::Vector3d shift_ = Eigen::Vector3d::Zero(), force_ = Eigen::Vector3d::Zero();
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places, area vectors and forces of contact points on patches.
+// Positions, area vectors and forces of contact points on patches.
 #include "patch_points.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
@@ -26,7 +26,7 @@ Vec<2> area_normal(const std::array<Vec<2>, 1>& t) {
 Vec<3> area_normal(const std::array<Vec<3>, 2>& t) {
   return cross(t[0], t[1]);
 }
-/// values[a] = value(a) of these nodes, of which each rank takes a part.
+/// Sets values[a] = value(a) for the wanted nodes; ranks divide them.
 template <class F>
 void take_at(std::span<const Index> wanted, const Division& division, NodalVectors& values,
              F&& value) {
@@ -36,7 +36,7 @@ void take_at(std::span<const Index> wanted, const Division& division, NodalVecto
       [&](Index k) { return at(values, at(wanted, k)); },
       [&](Index k, const NodalVector& of_other) { at(values, at(wanted, k)) = of_other; });
 }
-/// c_k of b . dm = sum_k c_k . dt_k.
+/// The vectors c_k of b . dm = sum_k c_k . dt_k.
 std::array<Vec<2>, 1> through_tangents(const std::array<Vec<2>, 1>&, const Vec<2>& b) {
   return {Vec<2>(-b[1], b[0])};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact points on the patches of a closed surface: the surface whose area the balanced tension
-// takes (static-drop note 2), so that tension, enclosed volume and contact see one and the same.
+// Contact points on the patches of a closed surface. The balanced surface tension takes the area of
+// the same surface (static-drop note 2): tension, enclosed volume and contact use one surface.
 #pragma once
 #include "meniscus/body/surface_patches.hpp"
 
@@ -11,33 +11,33 @@ namespace meniscus {
 template <int D>
 class PatchPoints {
  public:
-  /// `points` Gauss points per direction and patch; a point is numbered patch by patch.
+  /// `points`: Gauss points per direction and patch; points are numbered patch by patch.
   PatchPoints(const Body<D>& body, int points);
 
   Index size() const { return surface_.patch_count() * per_patch(); }
   Index node_count() const { return surface_.point_count(); }
-  /// In the reference.
+  /// Positions of the nodes in the reference.
   const NodalVectors& reference_nodes() const { return reference_; }
 
-  /// Values of a field at these nodes, of which each rank takes a part.
+  /// Sets the values of a field at the wanted nodes; ranks divide them.
   void values(const NodalVector* field, std::span<const Index> wanted, const Division& division,
               NodalVectors& nodes) const;
-  /// Their places.
+  /// Sets the positions of the wanted nodes.
   void place_nodes(const NodalVector* u, std::span<const Index> wanted, const Division& division,
                    NodalVectors& nodes) const;
-  /// Of all.
+  /// Sets the positions of all nodes.
   void place_nodes(const NodalVector* u, const Division& division, NodalVectors& nodes) const;
   /// is_wanted[node] = 1 for the nodes of the patch of a point.
   void want(Index point, std::span<std::uint8_t> is_wanted) const;
 
-  /// Of a point, by the places of the nodes; as well any other field by its values there.
+  /// The value at a point of a field with these values at the nodes, e.g. its position.
   Vec<D> place(Index point, const NodalVectors& nodes) const;
-  /// m dA, outward.
+  /// The outward area vector m dA.
   Vec<D> area_vector(Index point, const NodalVectors& nodes) const;
   /// Velocity at the node nearest to the point.
   Lanes velocity_nearby(Index point, const NodalVector* v) const;
-  /// Calls f(A, value) with what a displacement of particle A moves a point by, in parts: one value
-  /// per node of the patch.
+  /// Calls f(A, value) with the derivative of the position of a point by the displacement of
+  /// particle A. A particle comes several times, with one part for each node of the patch.
   template <class F>
   void for_shape_functions(Index point, F&& f) const {
     const PointRows<D>& rows = surface_.rows();
@@ -51,14 +51,14 @@ class PatchPoints {
   /// Patches come in groups of four.
   Index group_count() const { return surface_.group_count(); }
   Index group(Index point) const { return patch(point) / Lanes::width; }
-  /// For the points of a group, collects what a change of a point costs: T per place, S per area
-  /// vector m dA.
+  /// For the points of a group, collect the derivatives of an energy: T by the position, S by the
+  /// area vector m dA.
   void begin_force(Index group);
   void add(Index point, const Vec<D>& T, const Vec<D>& S, const NodalVectors& nodes);
-  /// force_A -= what was collected.
+  /// force_A -= the collected derivatives.
   void end_force(std::span<NodalVector> force) { surface_.add_to_particles(-1, gradient_, force); }
 
-  /// Of the nodes.
+  /// The shape functions at the nodes.
   const PointRows<D>& rows() const { return surface_.rows(); }
   void tell_sums(StepReads& reads, Index first) { surface_.tell_sums(reads, first); }
 

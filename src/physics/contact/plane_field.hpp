@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Half space and point: a power law of the distance.
+// Field of a half space: a power law of the distance.
 #pragma once
 #include "meniscus/core/simd.hpp"
 #include "meniscus/physics/contact_law.hpp"
 
 namespace meniscus {
 
-/// U of a half space without cut-off at the distance a, per density beta2:
-///   U(a) = epsilon sigma0^(3 - planar) (A z^-m - B z^-n), z = a/sigma0 (CGCM note 3.1).
-/// `space` and `integrated` are the same.
+/// U of a half space without cut-off at the distance a, per density beta2: U(a) = epsilon sigma0^(3
+/// - planar) (A z^-m - B z^-n) with z = a/sigma0 (CGCM note 3.1). `space` and `integrated` give the
+/// same.
 class PlaneField {
  public:
   explicit PlaneField(const ContactLaw& law) : sigma0_(law.sigma0) {
@@ -21,8 +21,8 @@ class PlaneField {
     unit_ = law.epsilon * law.sigma0 * law.sigma0 * (planar ? 1 : law.sigma0);
   }
 
-  /// The k-th derivative of U; k = -1: minus the integral from a to infinity, that is S along the
-  /// normal. k = -1, 0, 1 or 2.
+  /// The k-th derivative of U for k = 0, 1 or 2; for k = -1 minus the integral from a to infinity,
+  /// which is S along the normal.
   template <class T>
   T derivative(int k, T a) const {
     const T z = a / sigma0_;
@@ -40,7 +40,7 @@ class PlaneField {
   }
   Real dU(Real a) const { return derivative(1, a); }
 
-  /// The distance where the k-th derivative is zero.
+  /// The distance at which the k-th derivative is zero.
   Real root(int k) const {
     return sigma0_ * std::pow(A_ * power(m_, k, 1) / (B_ * power(n_, k, 1)), 1.0 / 6);
   }
@@ -61,8 +61,8 @@ class PlaneField {
   int m_, n_;
 };
 
-/// The same, going on linearly in U below the least gap, through the surface: always repulsive
-/// there, with a continuous slope, and S its integral.
+/// Like PlaneField, but U is continued linearly below the smallest gap and through the surface. It
+/// is repulsive there, its slope is continuous, and S is its integral.
 class GuardedPlane {
  public:
   explicit GuardedPlane(const ContactLaw& law)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid bodies with straight edges in plane strain, polygons and frames: the sum over their edges.
+// Rigid bodies with straight edges in plane strain (polygons and frames) as sums over their edges.
 #include "meniscus/physics/rigid_partner.hpp"
 #include "meniscus/physics/segment_field.hpp"
 
@@ -18,7 +18,7 @@ using Point = Vec<2>;
 struct Edge {
   Point begin, tangent, normal;
   Real length;
-  Point normal_before, normal_after;  ///< of the neighbours
+  Point normal_before, normal_after;  ///< of the neighbouring edges
 };
 
 std::vector<Edge> edges_of(const std::vector<Point>& polygon) {
@@ -44,8 +44,7 @@ std::vector<Edge> edges_of(const std::vector<Point>& polygon) {
   return edges;
 }
 
-/// The nearest point of the surface, the direction out of the material there, and the distance
-/// along it.
+/// The nearest point of the surface, the outward direction there, and the distance along it.
 struct Foot {
   Point place, normal;
   Real distance;
@@ -89,7 +88,7 @@ class Polygons final : public RigidPartner<2> {
     return f;
   }
 
-  /// As foot(): lanes whose nearest point is a corner, one after the other.
+  /// Like foot(). If the nearest point of a lane is a corner, lanes are done one by one.
   Lanes distances(const LanePlace<2>& x) const override {
     Lanes least = unbounded, signed_distance = least, corner = Lanes::zero();
     for (const Edge& edge : edges_) {
@@ -105,7 +104,7 @@ class Polygons final : public RigidPartner<2> {
   }
 
  private:
-  /// Along the edge from its begin, and along its normal.
+  /// Coordinates along the edge from its begin, and along its normal.
   static std::pair<Lanes, Lanes> from_edge(const Edge& edge, const LanePlace<2>& x) {
     const Lanes a = x[0] - edge.begin[0], b = x[1] - edge.begin[1];
     return {edge.tangent[0] * a + edge.tangent[1] * b, edge.normal[0] * a + edge.normal[1] * b};
@@ -127,8 +126,8 @@ class Polygons final : public RigidPartner<2> {
     return sum;
   }
 
-  /// From the field at the least gap over the foot on as that of the half plane: the gradient is
-  /// exact over straight edges and approximate around corners.
+  /// The field continued from the smallest gap above the foot like that of a half plane. The
+  /// gradient is exact over straight edges and approximate around corners.
   RigidField<2> continued(const Foot& f) const {
     RigidField<2> sum = exact(f.place + core_ * f.normal);
     const Real d = f.distance - core_, U = plane_.U(core_);
@@ -155,7 +154,7 @@ class Polygons final : public RigidPartner<2> {
     return foot_on(*nearest, along, x);
   }
 
-  /// At a corner the mean of both normals tells outside from inside.
+  /// At a corner the mean of both normals decides between outside and inside.
   static Foot foot_on(const Edge& edge, Real along, const Point& x) {
     const Point place = edge.begin + along * edge.tangent, from = x - place;
     const Real distance = from.norm();

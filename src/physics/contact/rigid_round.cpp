@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid balls, cylinders and the cavities of their shape.
+// Rigid balls, cylinders, and cavities of these shapes.
 #include "meniscus/physics/rigid_partner.hpp"
 #include "meniscus/physics/round_field.hpp"
 
@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// Ball or cavity from the closed form `Exact` of the ball: SphereField or CylinderField.
+/// Ball or cavity from the closed form `Exact` of a ball: SphereField or CylinderField.
 template <int D, class Exact>
 class RoundPartner final : public RigidPartner<D> {
  public:
@@ -45,7 +45,8 @@ class RoundPartner final : public RigidPartner<D> {
  private:
   bool inside_core(Real a) const { return cavity_ ? a > core_ : a < core_; }
 
-  /// U = U_c + U_c' (a - a_c), and a^D tangent = a^(D-1) S from the integral of a^(D-1) U.
+  /// The field continued from the smallest gap: U = U_c + U_c' (a - a_c), and a^D tangent = a^(D-1)
+  /// S from the integral of a^(D-1) U.
   RadialField continued(Real a) const {
     const Real U0 = at_core_.U - slope_ * core_, c = core_;
     const auto flux = [&](Real r) { return std::pow(r, D) * (U0 / D + slope_ * r / (D + 1)); };

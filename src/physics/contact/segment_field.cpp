@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // F_p = INT (X^2 + h^2)^(-p/2) dX over a segment, for the four powers of u and psi.
 //
-// The note's polynomials in t = X/r lose all digits where 1 - t or h is small. Here F_p is made of
-// tails G_p(X) = INT_X^inf, X >= 0, that are products and sums of terms of one size, or of a Gauss
-// rule where the segment is short and so the difference of two tails would cancel.
+// The note's polynomials in t = X/r lose all digits if 1 - t or h is small. Here F_p is made of
+// tails G_p(X) = INT_X^inf, X >= 0, which are products and sums of terms of one size. For short
+// segments the difference of two tails would cancel, and a Gauss rule is used.
 #include "meniscus/physics/segment_field.hpp"
 
 #include "meniscus/body/gauss.hpp"
@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-/// Integrals of r^-p for the powers p of u and of psi. T is Real or Lanes, here and below.
+/// Integrals of r^-p for the powers p of u and of psi. T is Real or Lanes in this file.
 template <class T>
 struct Powers {
   T u12, u6, psi12, psi6;
@@ -35,7 +35,7 @@ const GaussRule& rule() {
   return points;
 }
 
-/// The same on [0, 1], four points at once.
+/// The Gauss rule on [0, 1], four points at once.
 struct LaneRule {
   std::array<Lanes, 5> s, w;
 
@@ -47,8 +47,8 @@ struct LaneRule {
   }
 };
 
-/// Of the point (0, h) from (X, 0). std::hypot, which knows no overflow, takes a fourth of the time
-/// of a frame.
+/// Distance between (0, h) and (X, 0). std::hypot, which avoids overflow, would cost a quarter of
+/// the time of a frame.
 template <class T>
 T distance(T X, T h) {
   using std::sqrt;
@@ -64,9 +64,8 @@ Powers<T> at_point(bool odd, T X, T h) {
   return {q5 * r, q2 * r, q5 * q * r, q2 * q * r};
 }
 
-/// With w = 1/(r (r + X)), q = h^2 w = 1 - X/r and m = (p - 3)/2,
-/// G_p = h^(1-p) INT_0^q (t (2 - t))^m dt = w^(m+1) sum_k binomial(m, k) 2^(m-k) (-q)^k/(m + k +
-/// 1).
+/// With w = 1/(r (r + X)), q = h^2 w = 1 - X/r and m = (p - 3)/2, G_p = h^(1-p) INT_0^q (t (2 -
+/// t))^m dt = w^(m+1) sum_k binomial(m, k) 2^(m-k) (-q)^k/(m + k + 1).
 template <class T>
 Powers<T> odd_tail(T X, T h) {
   const T r = distance(X, h), w = 1.0 / (r * (r + X)), q = h * h * w;
@@ -76,8 +75,8 @@ Powers<T> odd_tail(T X, T h) {
   return {w4 * m3, w, w4 * w * m4, w2 * (1.0 - q / 3.0)};
 }
 
-/// With v = 1/(r + X) and n = p - 2, by the tangent of half the angle,
-/// G_p = (2 v)^(n+1) INT_0^1 s^n/(1 + h^2 v^2 s^2)^(n+1) ds.
+/// With v = 1/(r + X) and n = p - 2, by the tangent of half the angle, G_p = (2 v)^(n+1) INT_0^1
+/// s^n/(1 + h^2 v^2 s^2)^(n+1) ds.
 Powers<Real> even_tail(Real X, Real h) {
   static const LaneRule points;
   const Real v = 1 / (distance(X, h) + X), h2v2 = (h * v) * (h * v);
@@ -130,7 +129,7 @@ Powers<Real> over_segment(bool odd, Real begin, Real end, Real h) {
   return f.add(2, tail(odd, 0, h)).add(-1, tail(odd, -begin, h)).add(-1, tail(odd, end, h));
 }
 
-/// All that a lane needs, in all lanes.
+/// Computes in all lanes whatever one of them needs.
 Powers<Lanes> over_segment(bool odd, Lanes begin, Lanes end, Lanes h) {
   const Lanes zero = Lanes::zero(), beside = max(max(begin, -end), zero);
   const auto few = end.v - begin.v <= distance(beside, h).v;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ball and point in closed form, with a series where that cancels.
+// Field of a ball in closed form, or by a series where the closed form cancels.
 #include "meniscus/physics/round_field.hpp"
 
 namespace meniscus {
@@ -37,8 +37,8 @@ Real SphereField::slope(Real distance) const {
   return unit_ / sigma0_ * (repulsion + 16 * R3 * a / d4);
 }
 
-/// The part of S/a with sigma0^6, over pi epsilon: a difference of terms that cancel where the
-/// radii are very different; its series there.
+/// The part of S/a with sigma0^6, over pi epsilon. Its terms cancel if the radii are very
+/// different; a series is used there.
 Real SphereField::attraction(Real a) const {
   const Real y = a > R_ ? R_ / a : a / R_;
   if (y < 0.25)

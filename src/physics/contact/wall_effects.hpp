@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a rigid partner does to wetted points besides the interaction of uniform strength: adhesion
-// that varies over it and with time, and friction.
+// Effects of a rigid partner on contact points beside the interaction of uniform strength: adhesion
+// that varies over the partner and with time, and friction.
 #pragma once
 #include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/partner_registry.hpp"
@@ -13,8 +13,8 @@
 
 namespace meniscus {
 
-/// Four points: places and velocities relative to the partner, area vectors, distances; their
-/// forces so far.
+/// Four points: positions and velocities relative to the partner, area vectors, distances, and
+/// their forces so far.
 template <int D>
 struct WallPoints {
   std::array<Vec<D>, Lanes::width> x, v, V;
@@ -22,7 +22,7 @@ struct WallPoints {
   Lanes *T, *S;  ///< [i] dE/dx and dE/dV, as in contact_points.hpp
 };
 
-/// Of all points.
+/// Sums over all points.
 struct WallSums {
   AdhesionSupply supply;  ///< of adhesion that changes with time
   Real heat = 0;          ///< power of friction
@@ -46,18 +46,18 @@ class WallEffects {
   bool any() const { return pattern_ != nullptr || friction_ > 0; }
   bool rubs() const { return friction_ > 0; }
   const AdhesionPattern* pattern() const { return pattern_; }
-  /// Whether the stiffness of that gap is of the adhesion, not of the core.
+  /// True if the stiffness at that gap comes from the varying adhesion, not from the fixed core.
   bool varies_at(Real gap) const { return pattern_ && gap >= flat_.equilibrium_gap; }
-  /// By which the interaction is multiplied for the energy of an area in full contact.
+  /// The energy per area in full contact for a factor W = 1.
   Real adhesion() const { return pattern_ ? 1 : flat_.adhesion; }
 
   /// The energy of unit adhesion of a point at x with the area vector V and the field S, without
-  /// the core, whose strength is not in proportion to it.
+  /// the core, whose strength is not proportional to W.
   Real unit_energy(const Vec<D>& x, Real distance, const Vec<D>& V, const Vec<D>& S) const {
     return distance < flat_.equilibrium_gap ? surface_->foot(x).normal.dot(V) : S.dot(V);
   }
 
-  /// Adds to the forces of points; at `time`.
+  /// Adds the effects at `time` to the forces of the points.
   WallSums add(WallPoints<D>& points, Real time) const {
     WallSums sums;
     for (int lane = 0; lane < Lanes::width; ++lane) {
@@ -75,7 +75,7 @@ class WallEffects {
     return heat;
   }
 
-  /// The area chi that rubs, and the sum of the velocity along the partner over it.
+  /// The area chi with friction, and the sum of the velocity along the partner over it.
   std::pair<Real, Vec<D>> slip(const WallPoints<D>& points) const {
     std::pair<Real, Vec<D>> sum{0, Vec<D>::Zero()};
     for (int lane = 0; lane < Lanes::width; ++lane) {
@@ -87,11 +87,11 @@ class WallEffects {
     return sum;
   }
 
-  /// The work of adhesion that changes, since the last step that stands.
+  /// Work of varying adhesion since the last accepted step.
   Real work(const WallSums& sums) const { return work_.since_step(sums.supply); }
-  /// A run begins.
+  /// Has to be called at the begin of a run.
   void begin(Real time) { work_.begin(time); }
-  /// The step to `time`, with these sums, stands.
+  /// Accepts the step to `time`, which has these sums.
   void commit(Real time, const WallSums& sums) { work_.commit(time, sums.supply); }
   void archive(const Archive& a) {
     if (keeps_work()) work_.archive(a, D);
@@ -102,10 +102,12 @@ class WallEffects {
 
  private:
   bool keeps_work() const { return pattern_ && pattern_->depends_on_time(); }
-  /// From the forces of unit adhesion to those of W(x, t): E = W e, so that
+  /// Changes the forces of unit adhesion to those of W(x, t): E = W e, so that
+  ///
   ///   dE/dV = W S,   dE/dx = W T + (S.V) grad W.
-  /// Nearer than the equilibrium gap there is the core beside it, which does not vary: there the
-  /// adhesion has the field n.
+  ///
+  /// Below the equilibrium gap the core is added, which does not vary: there the adhesion has the
+  /// field n.
   WallSums vary(WallPoints<D>& points, int lane, Real time) const {
     const Eigen::Vector3d x = spatial<D>(at(points.x, lane));
     const Real W = (*pattern_)(x, time);
@@ -132,7 +134,7 @@ class WallEffects {
     return sums;
   }
 
-  /// Of a point: chi, the area that faces the partner, the velocity along it.
+  /// At a point: chi, the area that faces the partner, and the velocity along it.
   struct Slipping {
     Real chi, faced;
     Vec<D> velocity;
@@ -143,7 +145,7 @@ class WallEffects {
             at(points.v, lane) - n.dot(at(points.v, lane)) * n};
   }
 
-  /// The traction - friction chi v_t on the area that faces the partner; its heat.
+  /// Adds the traction - friction chi v_t on the area that faces the partner. Returns its heat.
   Real rub(WallPoints<D>& points, int lane) const {
     const Slipping slip = slipping(points, lane);
     const Real drag = friction_ * slip.chi * slip.faced;
@@ -151,14 +153,14 @@ class WallEffects {
     return drag * slip.velocity.squaredNorm();
   }
 
-  /// chi: 1 where the surface rests, falls smoothly to 0 with the energy of the interaction.
+  /// chi: 1 in contact, falling smoothly to 0 with the energy of the interaction.
   Real wetted(Real gap) const {
     if (gap <= flat_.equilibrium_gap) return 1;
     return std::clamp(-interaction_.at(gap).energy / adhesion(), 0.0, 1.0);
   }
 
   const Interaction& interaction_;
-  const AdhesionPattern* pattern_;  // null: uniform and steady
+  const AdhesionPattern* pattern_;  // null if uniform and constant
   std::shared_ptr<const PartnerShape<D>> surface_;
   Real friction_;
   PlaneContact flat_;
