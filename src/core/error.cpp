@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sentence of a failed step.
+// The message of a failed step.
 #include "meniscus/core/error.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Units by name, and texts such as "72.8 mN/m" taken apart.
+// Units by name, and the parts of texts such as "72.8 mN/m".
 #pragma once
 #include "meniscus/core/units.hpp"
 

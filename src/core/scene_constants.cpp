@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading [constants]: numbers, quantities, and formulas of each other; and [functions].
+// Reads [constants] (numbers, quantities, and formulas of other constants) and [functions].
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 #include "meniscus/core/names.hpp"

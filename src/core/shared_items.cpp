@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Items sorted by their ranks, exchanged, and put back.
+// Sorts items by rank, exchanges them, and puts them back.
 #include "meniscus/core/shared_items.hpp"
 
 #include <cstring>

@@ -27,7 +27,7 @@ constexpr Method others[] = {{"gauss 3x3x3, weak 3x3", "gauss", "weak", 0},
                              {"q_scni, weak 3x3, jitter 20 %", "q_scni", "weak", 0.2}};
 
 constexpr std::array<Real, 5> times{0.5, 1, 2, 3, 4};  // in T
-// At 4341 particles, from straight-edged cells, whose mass is 1.07 % too small.
+// Values at 4341 particles with straight-edged cells, whose mass is 1.07 % too small.
 constexpr std::array<Real, 5> note_8{1.3204, 1.1626, 1.0385, 1.0090, 1.0019};
 const std::array<std::string, 5> names{"aspect 0.5 T", "aspect T", "aspect 2 T", "aspect 3 T",
                                        "aspect 4 T"};

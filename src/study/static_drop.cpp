@@ -46,7 +46,8 @@ void run(StudyRun& study) {
     families.push_back({{D, false, 0.93, "weak"}, round_time(stretched), 10});
     families.push_back({{D, true, 0.93, "weak"}, round_time(stretched), 10});
   }
-  // Laplace numbers rho gamma D / mu^2 = 120, 1200, 12000 until D^2/nu, as Popinet 2009.
+  // Laplace numbers rho gamma D / mu^2 = 120, 1200, 12000 until the time D^2/nu, as in Popinet
+  // 2009.
   if (!study.brief()) {
     for (const Real Oh : {0.129, 0.0408, 0.0129})
       families.push_back({{2, false, Oh, "balanced"}, 4 / Oh, 6, 6});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether bodies of so many cells can be numbered and held in memory, asked before they are made.
+// Checks, before a body is made, that its cells can be numbered and its particles fit into memory.
 #pragma once
 #include "meniscus/core/input.hpp"
 
@@ -7,16 +7,16 @@
 
 namespace meniscus {
 
-/// Numbers of cells along an edge or through a layer that a key of a shape may give.
+/// Allowed numbers of cells along an edge or of layers in a key of a shape, in 2D and in 3D.
 inline constexpr Range count_in_plane{1, 10000}, count_in_space{1, 1000};
 
-/// Throws InputError if a D-dimensional grid of so many cells cannot be numbered (2e8), or if its
-/// particles would take more memory than is there even with the narrowest supports, in single
-/// precision.
+/// Throws InputError if a D-dimensional grid with so many cells cannot be numbered (2e8), or if its
+/// particles would need more memory than is available. The estimate is a lower bound: for the
+/// narrowest supports in single precision.
 template <int D>
 void require_affordable(Real cells, Real cells_per_particle = 1);
 
-/// Throws InputError if `what` takes more bytes than are there.
+/// Throws InputError if `what` needs more bytes than are available.
 void require_memory(Real bytes, const std::string& what);
 
 }  // namespace meniscus

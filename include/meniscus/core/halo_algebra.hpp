@@ -16,7 +16,7 @@ inline Real dot(const std::shared_ptr<const Halo>& halo, std::span<const NodalVe
                             [&](Index A) { return sum(at(a, A) * at(b, A)); });
 }
 
-/// The greatest length of a vector.
+/// The largest length of a vector.
 inline Real largest(const std::shared_ptr<const Halo>& halo, std::span<const NodalVector> w) {
   struct Greatest {
     Real square;

@@ -38,7 +38,7 @@ inline void copy(const NodalVectors& from, NodalVectors& to) {
   });
 }
 
-/// The greatest length of a vector.
+/// The largest length of a vector.
 inline Real largest(const NodalVectors& w) {
   Real square = 0;
   for (const NodalVector& x : w) square = std::max(square, sum(x * x));

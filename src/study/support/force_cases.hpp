@@ -19,7 +19,7 @@ struct ForceCase {
   Real dilation, stretching;  ///< int 2 kappa n.v da for v = x and v = (-x/2, y, -z/2)
 };
 
-/// The state map(unit ball), n cells along an edge of the core; support factor d_20.
+/// The state map(unit ball) with n cells along an edge of the core and supports of `factor` d_20.
 ForceCase mapped_ball(int n, const SmoothMap<3>& map, Real factor);
 
 /// Young-Laplace: the reference is the twisted ellipsoid, the state is the unit sphere. A pressure
