@@ -132,8 +132,8 @@ class Skimmer {
   int line_ = 1;
 };
 
-/// Refuses keys with many dots. The parser limits nested values but not dotted keys, a.a.a...: each
-/// dot is a level of recursion when the tables are destroyed, and enough of them overflow the
+/// Refuses keys with many dots. The parser limits nested values but not dotted keys, a.a.a... Each
+/// dot is a level of recursion when the tables are read or destroyed; enough of them overflow the
 /// stack.
 void refuse_deep_keys(std::string_view toml, const std::string& name) {
   constexpr int max_dots = 10;

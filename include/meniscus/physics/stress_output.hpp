@@ -36,7 +36,7 @@ std::vector<StandIn> stand_ins(std::span<const Vec<D>> X, const std::vector<bool
 std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index particles,
                                        std::vector<StandIn> stand_ins);
 
-/// Current volume, smallest J and mean pressure of a body.
+/// Current volume, smallest det F from the current reference, and mean pressure of a body.
 std::vector<MeasureSource> stress_measures(const VisitStressPoints& visit, int space_dimension);
 
 }  // namespace meniscus
