@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cases of everything registered.
+// Test cases for everything registered.
 #include "cases.hpp"
 
 #include "meniscus/body/shapes.hpp"
@@ -27,7 +27,8 @@ std::string nematic_drop(int D) {
   return example_heading(D) + example_ball(D, "drop") + moving(D) + example_nematic(D);
 }
 
-/// More than one example is worth a test, or more is claimed than of any load.
+/// Variants for items that need more than one example, or whose forces satisfy more than those of
+/// loads in general.
 std::vector<Case> variants(int D) {
   const Claims all{true, true}, none;
   std::vector<Case> cases;
@@ -47,9 +48,9 @@ std::vector<Case> variants(int D) {
       "bodies = [\"drop\", \"other\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\nskin = 10\n";
   add("contact", "energy", pair, all);
   add("contact", "pressure", pair + "form = \"pressure\"\n", none);
-  // The force of the cut-off law jumps where its switch begins and ends: here far away.
+  // The force of the cut-off law jumps at both ends of its switch; here the switch is far away.
   add("contact", "volume", pair + "form = \"volume\"\ncutoff = 20\n", all);
-  // Contact on the patches of the tension.
+  // Contact points on the patches of the surface tension.
   const std::string on_patches =
       "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\ncoefficient_damping = 0\n";
   const std::string young = "interaction = \"smooth_young\"\noffset = 0.2\nrange = 0.3\n";
@@ -76,7 +77,8 @@ std::vector<Case> variants(int D) {
           (D == 3 ? "centre = [0, 0.2, -2]\ndisplacement = [\"0.1*t\", 0, 0]\n"
                   : "centre = [0.2, -2]\ndisplacement = [\"0.1*t\", 0]\n"),
       {});
-  // With three points per direction the node where the coarse bodies meet hardly feels the other.
+  // With three points per direction, the force on the node where the coarse bodies meet is too
+  // small for the test.
   add("contact", "actin between bodies",
       "bodies = [\"drop\", \"other\"]\nadhesion = 0.3\nactin = \"0.1*sin(40*t)\"\n"
       "offset = 0.2\nrange = 0.3\nskin = 10\npoints = 4\n",
@@ -96,7 +98,7 @@ std::vector<Case> variants(int D) {
 
 template <int D>
 std::vector<Case> all_cases() {
-  const Claims all{true, true}, none;  // a surface law that is viscous alone has no force at rest
+  const Claims all{true, true}, none;  // a purely viscous surface law has no force at rest
   std::vector<Case> cases = variants(D);
   for (const auto& [name, load] : loads<D>())
     if (!load.example.empty())
@@ -109,13 +111,13 @@ std::vector<Case> all_cases() {
       if (name != "anchoring")
         cases.push_back({"surface law " + name, scene_with_load(D, "surface", surface),
                          name == "boussinesq_scriven" ? none : all});
-      else  // needs a director, and the reaction to its forces for the balance of torque
+      else  // needs a director, and its reaction for the balance of torque
         cases.push_back({"surface law " + name,
                          nematic_drop(D) + "[[surface]]\n" + surface,
                          {true, false},
                          true});
     }
-  // legacy_switch needs a plane and a tension: a variant above.
+  // legacy_switch needs a plane and a tension: see variants().
   const auto generic = [](const std::string& name, const auto& by) {
     return !by.example.empty() && name != "legacy_switch";
   };
@@ -153,7 +155,7 @@ std::vector<Case> all_cases() {
     else
       cases.push_back({"material " + name, nematic_drop(D), {true, false}, true});
   }
-  // The files that examples name, of tetrahedra and of triangles.
+  // Mesh files named in examples, with tetrahedra and triangles.
   const Grid<D> grid = test::brick<D>(std::vector<Real>(D, 3), 0.2).grid;
   write_example(D == 3 ? "block.msh" : "plate.msh", msh_of<D>(grid, simplices_of(grid)));
   for (const auto& [name, shape] : shapes<D>())

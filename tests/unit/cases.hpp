@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cases: small scenes with everything that is registered, for the tests that run over all of it.
-// They are made of the examples that registered things bring for `meniscus keys`.
+// Cases: small scenes with everything registered, for tests that run over all of it. They consist
+// of the examples that registered items give for `meniscus keys`.
 #pragma once
 #include "meniscus/scene/example_scenes.hpp"
 #include "meniscus/scene/simulation.hpp"
@@ -10,7 +10,7 @@
 
 namespace meniscus::test {
 
-/// What the forces that a case is about are claimed to be.
+/// Properties claimed of the forces of a case.
 struct Claims {
   bool gradient = false;  ///< minus the gradient of the energy that they store
   bool balanced = false;  ///< without net force and net torque
@@ -20,15 +20,15 @@ struct Case {
   std::string name;   ///< e.g. "load cavity"
   std::string scene;  ///< text of the whole scene
   Claims claims;
-  bool own_bodies = false;  ///< about the forces of the bodies themselves, too
+  bool own_bodies = false;  ///< also tests the forces of the bodies themselves
 };
 
-/// All cases of D dimensions: every load, surface law, interaction with every rigid partner,
-/// material, shape and solver by its example, and variants of some.
+/// All cases in D dimensions: the example of every load, surface law, interaction with every rigid
+/// partner, material, shape and solver, and variants of some.
 template <int D>
 const std::vector<Case>& cases();
 
-/// What is registered without an example, in words; empty if nothing is.
+/// Names the items registered without an example; empty if there are none.
 template <class Registry>
 std::vector<std::string> missing_examples(const Registry& registry, const std::string& what) {
   std::vector<std::string> missing;
@@ -53,7 +53,7 @@ Scene<D> scene_of(const std::string& text) {
   return build_scene<D>(input);
 }
 
-/// The terms that a case is about; those of the bodies come first.
+/// The terms under test in a case. The scene lists the terms of the bodies before them.
 template <int D>
 std::span<const std::unique_ptr<ForceTerm>> own_terms(const Case& c, const Scene<D>& scene) {
   return std::span(scene.system.terms).subspan(c.own_bodies ? 0 : scene.system.bodies.size());

@@ -18,7 +18,7 @@ struct ContactReference {
   Real rel_tol;
 };
 
-/// All entries whose name begins like that; the test fails if there is none.
+/// All entries whose name begins with `name`; the test fails if there are none.
 inline std::vector<ContactReference> contact_references(const std::string& name) {
   static const nlohmann::json data =
       nlohmann::json::parse(std::ifstream(MENISCUS_TEST_DATA "/cgcm.json"));
@@ -34,7 +34,7 @@ inline std::vector<ContactReference> contact_references(const std::string& name)
   return found;
 }
 
-/// epsilon and sigma0 of an entry, 1 where it has none.
+/// epsilon and sigma0 of an entry; 1 if the entry has none.
 inline ContactLaw law_of(const ContactReference& reference, PairKernel kernel) {
   return {kernel, reference.inputs.value("eps", 1.0), reference.inputs.value("s0", 1.0)};
 }

@@ -7,7 +7,7 @@
 
 namespace meniscus::test {
 
-/// Two bodies with their particles one after the other, and masses.
+/// Two bodies, their particles numbered one body after the other, and masses.
 template <int D>
 struct Pair {
   std::unique_ptr<Body<D>> first, second;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A demonstration: an interaction that no other file knows of. Morse's law of the gap; the tests of
-// everything registered find it.
+// Demonstration: an interaction in one file, without a change elsewhere. Morse's law of the gap;
+// the tests of everything registered find it.
 #include "meniscus/physics/interaction_registry.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A demonstration: a load that no other file knows of. Springs hold the particles where they were;
-// the tests of everything registered find it.
+// Demonstration: a load in one file, without a change elsewhere. Springs hold the particles at
+// their initial places; the tests of everything registered find it.
 #include "meniscus/scene/assembly.hpp"
 
 namespace meniscus::demo_load {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A demonstration: a stepper that no other file knows of. The symplectic Euler method; the tests of
-// everything registered find it.
+// Demonstration: a stepper in one file, without a change elsewhere. The symplectic Euler method;
+// the tests of everything registered find it.
 #include "meniscus/solve/stepper.hpp"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice&) {
 
 const bool registered = register_entry(StepperEntry{"demo_euler", {}, make<2>, make<3>});
 
-/// A drop that falls freely: after n steps it is g dt^2 n (n + 1)/2 below its start, one step's
-/// worth of n g dt^2/2 lower than with central differences, which are exact.
+/// A drop in free fall is g dt^2 n (n + 1)/2 below its start after n steps. Central differences are
+/// exact; this is lower by n g dt^2/2.
 TEST(DemoStepper, IsChosenByASceneAndMovesIt) {
   const auto fall = [](const std::string& solver) {
     Scene<2> scene = test::scene_of<2>("dimension = 2\n[time]\nend = 1\nstep = 0.002\nsolver = \"" +

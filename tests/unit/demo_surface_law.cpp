@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A demonstration: a surface law that no other file knows of. A skin that resists a change of its
-// area; the tests of everything registered find it.
+// Demonstration: a surface law in one file, without a change elsewhere. A skin that resists a
+// change of its area; the tests of everything registered find it.
 #include "meniscus/physics/surface_registry.hpp"
 
 namespace meniscus::demo_surface_law {

@@ -7,7 +7,7 @@
 
 namespace meniscus::test {
 
-/// Throws InputError if there is a problem.
+/// Throws InputError if the lines are wrong.
 template <int D>
 Geometry<D> geometry_of_lines(const std::string& lines) {
   const SceneInput scene = SceneInput::from_text("[body]\n" + lines);

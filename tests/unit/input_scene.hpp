@@ -10,7 +10,7 @@
 
 namespace meniscus::input_test {
 
-/// The report of everything that `read` finds wrong; empty if nothing.
+/// The messages about all problems that `read` finds; empty if there are none.
 template <class Read>
 std::string report(std::string_view toml, Read read,
                    const std::vector<std::string>& overrides = {}) {

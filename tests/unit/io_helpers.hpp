@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of files share: a directory of their own, a state, exceptions with their message.
+// Helpers for tests of files: a directory per test, a state, exceptions with their message.
 #pragma once
 #include "meniscus/core/snapshot.hpp"
 
@@ -23,7 +23,7 @@
 
 namespace meniscus {
 
-/// path() does not exist at the beginning of a test and is removed after it.
+/// Removes path() before and after each test.
 class TemporaryDirectory : public testing::Test {
  protected:
   TemporaryDirectory() {
@@ -40,7 +40,7 @@ class TemporaryDirectory : public testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
-  /// A state that differs from step to step, with every kind of array and awkward numbers.
+  /// A state that differs from step to step, with every kind of array and special numbers.
   const Snapshot& state(std::int64_t step) {
     Snapshot& state = states_[step];
     if (!state.arrays().empty()) return state;

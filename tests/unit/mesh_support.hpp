@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of meshes for tests: grids as they are, or cut into tetrahedra (2D: triangles).
+// Mesh files for tests: grids unchanged, or cut into tetrahedra (2D: triangles).
 #pragma once
 #include "meniscus/body/shapes.hpp"
 
@@ -29,7 +29,7 @@ CellList cells_of(const Grid<D>& grid) {
   return cells;
 }
 
-/// Sides are cut at their node of least number, so that neighbours cut alike.
+/// Each quadrilateral is cut at its node of least number, so that neighbours have the same cut.
 inline CellList simplices_of(const Grid<2>& grid) {
   CellList cells;
   for (const auto& c : grid.cells) {
@@ -105,7 +105,7 @@ class MeshFolder {
                                 fmt::format("meniscus_mesh_{}", static_cast<long>(::getpid()));
 };
 
-/// The name of a file with this text, which is there until the process ends.
+/// Writes a file with this text, which exists until the process ends; returns its name.
 inline std::string written(const std::string& name, const std::string& text) {
   static const MeshFolder folder;
   const std::filesystem::path file = folder.path() / name;
@@ -113,20 +113,21 @@ inline std::string written(const std::string& name, const std::string& text) {
   return file.string();
 }
 
-/// In the folder of the test, where examples of keys look for it; several tests may at once.
+/// Writes a file to the working directory of the test, where examples of keys look for it. Several
+/// tests may do so at once.
 inline void write_example(const std::string& name, const std::string& text) {
   const std::string unfinished = fmt::format("{}.{}", name, static_cast<long>(::getpid()));
   std::ofstream(unfinished) << text;
   std::filesystem::rename(unfinished, name);
 }
 
-/// The body of such a file.
+/// Reads a body from a mesh file.
 template <int D>
 Geometry<D> geometry_of_file(const std::string& file, const std::string& more = "") {
   return geometry_of_lines<D>("shape = 'mesh'\nfile = '" + file + "'\n" + more);
 }
 
-/// Both kinds of cells.
+/// A body imported from the cells of the grid, or from simplices.
 template <int D>
 Geometry<D> imported(const Grid<D>& grid, bool simplices) {
   const std::string name = fmt::format("imported_{}_{}.msh", D, simplices);

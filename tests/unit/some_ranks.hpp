@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Being one of several ranks, without others.
+// Tests a single rank of several, without the others.
 #pragma once
 #include "meniscus/core/ranks.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// One of several ranks, whose others say nothing: what they would bring stays as it is.
+/// One of several ranks. The other ranks send nothing: values expected from them stay unchanged.
 class OneOfRanks : public Ranks {
  public:
   static inline int number = 0, all = 1;
@@ -15,7 +15,7 @@ class OneOfRanks : public Ranks {
   int size() const override { return all; }
 };
 
-/// Calls f(rank) as each of so many ranks.
+/// Calls f(rank) as each rank of `size`.
 template <class Rank = OneOfRanks, class F>
 void as_each_of(int size, F&& f) {
   register_ranks([]() -> std::unique_ptr<Ranks> { return std::make_unique<Rank>(); });

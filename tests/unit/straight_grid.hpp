@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grids without their bulges, for what is known of straight cells.
+// Grids with straight cells, whose exact values are known.
 #pragma once
 #include "meniscus/body/grid.hpp"
 

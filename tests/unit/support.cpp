@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small bodies, materials and fields of the tests; compiled once.
+// Small bodies, materials and fields of the tests, compiled once.
 #include "support.hpp"
 
 #include <cmath>

@@ -24,23 +24,23 @@ Geometry<3> ball(int core, int layers);
 /// A disk of radius 1.
 Geometry<2> disk(int core, int rings);
 
-/// A closed smooth body without symmetry, e.g. to see net forces.
+/// A closed smooth body without symmetry, for tests of net forces.
 template <int D>
 Geometry<D> potato();
 
 template <int D>
 using Support = typename ParticleSet<D>::AdaptiveSupport;
 
-/// A body as a scene makes it.
+/// A body built as in a scene.
 template <int D>
 std::unique_ptr<Body<D>> body_of(Geometry<D> geometry, Support<D> support = {},
                                  Window window = Window::cubic_spline);
 
-/// Numbers, of order one, of every registered law as in a scene.
+/// Parameters of order one for every registered law, as in a scene.
 const std::map<std::string, std::string>& law_texts();
 
-/// Sets the masses of `body` and returns its internal force. `text`: the numbers of the law; a
-/// direction, if the law needs one and `text` has none.
+/// Sets the masses of `body` and returns its internal force. `text`: the parameters of the law; a
+/// direction is added if the law needs one and `text` has none.
 template <int D>
 std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
                                           const std::string& text,
@@ -62,7 +62,7 @@ NodalVectors field_on(const Body<D>& body, F&& f) {
   return values;
 }
 
-/// Independent components, uniform in +-size.
+/// Random fields whose components are independent and uniform in +-size.
 template <int D>
 NodalVectors random_field(Index n, Real size, unsigned seed);
 
@@ -83,7 +83,7 @@ inline Real norm(const NodalVectors& a) {
 inline NodalVectors zeros(const NodalVectors& like) {
   return NodalVectors(like.size(), Lanes::zero());
 }
-/// What a force at the time 0 reports.
+/// The report of a force at time 0.
 inline Report report_of(ForceTerm& term, const NodalVectors& u, const NodalVectors& v) {
   NodalVectors force = zeros(u);
   return term.add_force({0, u, v}, force);

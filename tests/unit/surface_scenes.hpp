@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes of bodies with surface laws whose solution is known, in units R = rho = gamma = 1.
+// Scenes of bodies with surface laws and known solutions, in units R = rho = gamma = 1.
 #pragma once
 #include "meniscus/scene/simulation.hpp"
 
@@ -51,7 +51,7 @@ Real stretch_without_power(Scene<D>& scene) {
   return v;
 }
 
-/// The scene of a row of "ball_radial" without its pressure.
+/// The scene of a row of "ball_radial", without its pressure.
 inline std::string radial_scene(const nlohmann::json& row, int core, int layers) {
   const int D = row.at("d");
   const std::string bulk = row.at("bulk"), surface = row.at("surface");
@@ -69,7 +69,7 @@ inline std::string radial_scene(const nlohmann::json& row, int core, int layers)
   return text;
 }
 
-/// The stretch of the ball or disk at rest; the pressure is that of what surrounds it, an energy.
+/// The stretch of the ball or disk at rest; the pressure of its surroundings is an energy.
 template <int D>
 Real radial_stretch(const nlohmann::json& row, int core, int layers) {
   std::string text = radial_scene(row, core, layers);
@@ -83,8 +83,8 @@ Real radial_stretch(const nlohmann::json& row, int core, int layers) {
   return measured(scene, simulation.state(), "b.radius");
 }
 
-/// The same with a traction that follows the surface, which has no potential: of the radial motions
-/// the one without power.
+/// Like radial_stretch(), with a traction that follows the surface and has no potential: the radial
+/// motion without power.
 template <int D>
 Real radial_stretch_by_traction(const nlohmann::json& row, int core, int layers) {
   Scene<D> scene =
@@ -123,8 +123,8 @@ inline Real tidal_error(const nlohmann::json& row, int core, int layers) {
   return measured(scene, simulation.state(), "b.state_error");
 }
 
-/// A drop (2D: disk) of fluid in its Laplace pressure (D - 1) = K (1 - J), which is a ball of
-/// radius one in present units.
+/// A drop (2D: disk) of fluid in its Laplace pressure (D - 1) = K (1 - J), a ball of present radius
+/// one.
 inline std::string resting_drop(int D, int core, int layers, Real viscosity,
                                 const std::string& velocity, Real skin = 0) {
   constexpr Real bulk_modulus = 200;
@@ -141,7 +141,8 @@ inline std::string resting_drop(int D, int core, int layers, Real viscosity,
              displacement, velocity, J, bulk_modulus, viscosity, 1 - pull);
 }
 
-/// sigma of samples like exp(sigma k dt) and its conjugate, by the recursion that fits them best.
+/// sigma of samples that vary as exp(sigma k dt) and its conjugate, by the recursion with the best
+/// fit.
 inline Complex rate_of(const std::vector<Real>& x, Real dt) {
   Real aa = 0, ab = 0, bb = 0, ay = 0, by = 0;
   for (std::size_t k = 1; k + 1 < x.size(); ++k) {
@@ -156,8 +157,8 @@ inline Complex rate_of(const std::vector<Real>& x, Real dt) {
   return std::log(p / 2 + std::sqrt(Complex(p * p / 4 + q))) / dt;
 }
 
-/// Complex frequencies of the second mode of a drop that starts with its potential flow: of the
-/// run, and of the exact initial-value problem.
+/// Complex frequencies of the second mode of a drop that starts with its potential flow: of the run
+/// and of the exact initial-value problem.
 struct Oscillation {
   Complex found, exact;
   Real error() const { return std::abs(found - exact) / std::abs(exact); }
@@ -190,7 +191,7 @@ Oscillation oscillation(const nlohmann::json& row, int core, int layers) {
     simulation.advance();
     const Real now = measured(scene, simulation.state(), "b.p2"), t = simulation.state().time;
     for (; k < times.size() && t >= times[k].get<Real>(); ++k) {
-      if (times[k] < 1) continue;  // faster modes have decayed then
+      if (times[k] < 1) continue;  // faster modes have decayed by then
       found.push_back(before + (now - before) * (times[k].get<Real>() - time) / (t - time));
       exact.push_back(speed * row.at("p2")[k].get<Real>());
     }
@@ -200,16 +201,17 @@ Oscillation oscillation(const nlohmann::json& row, int core, int layers) {
   return {rate_of(found, 0.25), rate_of(exact, 0.25)};
 }
 
-/// The tension 1 + g P_l(cos(theta)) on the surface of a drop, l = 1 or in space 2; theta is
-/// measured from x.
+/// The tension 1 + g P_l(cos(theta)) on the surface of a drop, with l = 1, or l = 2 in 3D; theta is
+/// the angle to x.
 struct MarangoniCase {
   int l = 1;
   Real mu = 0.5, mu_s = 0, kappa_s = 0;
   std::string of = "place";
   Real g = 1e-2;
 };
-/// Amplitude A of the flow along the exact one, from rest, divided by its exact value, over time;
-/// at the end the velocity beside it, the shape and the error of the energy.
+/// Amplitude A of the flow from rest, its component along the exact flow over the exact amplitude,
+/// against time; at the end the velocity beside the exact flow, the shape and the error of the
+/// energy.
 struct Marangoni {
   std::vector<Real> time, amplitude;
   Real beside = 0, shape = 0, balance = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// No step of a run takes memory once it is warm. Every operator new of this program is counted.
+// No step of a run allocates memory after a warm-up. Every operator new of this program is counted.
 #include "meniscus/scene/simulation.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ std::atomic<long> allocations{0};
   if (!p) throw std::bad_alloc();
   return p;
 }
-// As calls: inlined beside each other, new and delete look mismatched to g++.
+// Not inlined, since g++ would report inlined new and delete as mismatched.
 [[gnu::noinline]] void release(void* p) {
   std::free(p);
 }
@@ -52,9 +52,8 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
 namespace meniscus::test_allocations {
 namespace {
 
-/// Allocations in 50 steps after `warm_up` others, re-estimates of the stable step included. A drop
-/// that is let go has its step by then: a step that is rejected, as one of its first may be, says
-/// why.
+/// Allocations in 50 steps after `warm_up` others, including new estimates of the stable step. A
+/// rejected step, possible at the start of a drop, allocates its message; warm_up lies beyond it.
 template <int D>
 long allocations_of(const std::string& text, int warm_up = 20) {
   const SceneInput input = SceneInput::from_text(text);
@@ -90,9 +89,9 @@ template <int D>
 void expect_none_with_anything() {
   constexpr int bodies_have_met = 400;
   for (const test::Case& c : test::cases<D>()) {
-    if (c.name == "solver newton") continue;  // a step is hundreds of forces
+    if (c.name == "solver newton") continue;  // one step makes hundreds of forces
     if (allocations_of<D>(c.scene) == 0) continue;
-    // Lists of contacts grow until then.
+    // Contact lists stop growing by then.
     EXPECT_EQ(allocations_of<D>(c.scene, bodies_have_met), 0) << c.name << " in " << D << "D";
   }
 }
@@ -116,7 +115,7 @@ TEST(Allocations, NoneInAStep) {
             0);
 }
 
-/// Lists are rebuilt as the bodies move against each other.
+/// Contact lists are rebuilt as the bodies move against each other.
 template <int D>
 void expect_none_in_contact() {
   constexpr int warm_up = 400;  // the bodies have met

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is written to an archive is read back, wherever something is kept; a run that is continued
-// in the middle goes on with the same bits.
+// Archives return the values written to them, for every object that keeps values. A run continued
+// in the middle has the same bits.
 #include "meniscus/core/archive.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
@@ -90,8 +90,8 @@ TEST(Archive, NamesWhatIsAbsentOrOfAnotherSize) {
   EXPECT_FALSE(Archive::reading(s).has("par"));
 }
 
-/// A load that gives way for good: a force -k x on the coefficients along x whose centre follows to
-/// 0.05 behind the farthest place it has seen.
+/// A load with history: a force -k x on the coefficients along x. Its centre stays within 0.05 of
+/// the farthest place so far.
 class Ratchet final : public ForceTerm {
  public:
   explicit Ratchet(Index size) : centre_(static_cast<std::size_t>(size), 0.0) {}
@@ -131,8 +131,8 @@ struct Trial {
   }
 };
 
-/// Stopped in the middle and continued by a fresh program: the archive of the fresh one is
-/// identical, and so is the end.
+/// A new program continues a run stopped in the middle. Its archive is identical to the original
+/// one, both then and at the end.
 template <int D>
 void expect_continuation(const std::string& text) {
   constexpr int steps = 30;
@@ -194,7 +194,7 @@ TEST(Archive, ARelaxationGoesOnInTheMiddle) {
       " }\n[[cavity]]\nbody = \"cell\"\nvolume_target = 0.9\npenalty = 10\nramp = [0, 0.5]\n");
 }
 
-/// A motion goes on as a relaxation, which begins there.
+/// A relaxation may continue a motion.
 TEST(Archive, AMotionMayGoOnAsARelaxation) {
   const std::string drop = body(2, "one", 0, liquid);
   Trial<2> motion(heading(2) + drop), relaxed(heading(2, "solver = \"relax\"\n") + drop);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Assembly: measures have names of their own.
+// Assembly: names of measures are unique.
 #include "meniscus/scene/assembly.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ledger of energies and momenta, and its errors, against sums by hand.
+// The energy and momentum balances and their errors, against sums by hand.
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/solve/audit.hpp"
 
@@ -43,7 +43,7 @@ TEST(Audit, LedgerOfASpinningBall) {
   EXPECT_NEAR(ledger.balance(), kinetic + ledger.stored.at("surface") + 0.25 - 1.5,
               1e-12 * kinetic);
 
-  // The mass is that of the cells.
+  // The mass equals the mass of the cells.
   Real mass = 0;
   for (const Real m : one.system.mass) mass += m;
   EXPECT_NEAR(mass, 1.25 * volume(one.body().geometry.grid), 1e-12 * mass);
@@ -73,7 +73,7 @@ TEST(Audit, ErrorsAreRelativeToWhatWasExchanged) {
     spread += at(one.system.mass, A) * at(one.body().particles.X(), A).squaredNorm();
   EXPECT_NEAR(audit.angular_momentum_error(ledger), 0.5 / (mass * 2 * std::sqrt(spread / mass)),
               1e-12);
-  // Scales do not shrink.
+  // Scales never shrink.
   one.state.v = test::zeros(one.state.v);
   const Real scale = audit.energy_scale;
   audit.follow(one.system, one.state, take_ledger(one.system, one.state));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface and pressure of one closed surface: patches, the fluid about its enclosed volume, damping
-// of coefficients, and what drops report.
+// of coefficients, and measures of drops.
 #include "meniscus/body/surface_patches.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/measure/drop_measures.hpp"
@@ -45,8 +45,8 @@ template <int D>
 void expect_closed(Geometry<D> geometry) {
   const auto body = test::body_of<D>(std::move(geometry));
   const SurfacePatches<D> patches(*body);
-  // Quadrilaterals that close a surface without holes: as many edges as twice the faces, two more
-  // corners than faces.
+  // Quadrilaterals on a closed surface without holes have twice as many edges as faces, and two
+  // more corners than faces.
   const Index faces = patches.patch_count();
   EXPECT_EQ(patches.point_count(), D == 3 ? 4 * faces + 2 : 2 * faces);
 }
@@ -125,7 +125,7 @@ TEST(EnclosedFluid, IsTheGradientOfItsEnergyWithoutNetForce) {
       "density = 1\nbulk_modulus = \"20 + 5*x\"\nviscosity = 0.5\nequation_of_state = \"tait\"\n");
 }
 
-/// Forces of a body that a uniform stretch has compressed.
+/// Displacements that compress a body uniformly.
 template <int D>
 NodalVectors compressed(const Body<D>& body) {
   return test::field_on<D>(body, [](const Vec<D>& X) {
@@ -152,7 +152,7 @@ TEST(EnclosedFluid, InsideIsFreeOfForceWhereThePressureIsUniform) {
   }
 }
 
-/// What enclosing changes is how the pressure acts, not what it is.
+/// The enclosed form changes the forces of the pressure, not its value.
 TEST(EnclosedFluid, EnergyAndPressureAreThoseOfTheLawWhereTheVolumeChangeIsUniform) {
   const auto body = test::body_of<3>(test::ball(4, 2));
   const auto pressure = [&](ForceTerm& term, const NodalVectors& u) {
@@ -170,7 +170,7 @@ TEST(EnclosedFluid, EnergyAndPressureAreThoseOfTheLawWhereTheVolumeChangeIsUnifo
   }
 }
 
-/// Sum of the forces left over that of the capillary forces.
+/// Sum of the residual forces over the sum of the capillary forces.
 template <int D>
 Real residual_of(Geometry<D> geometry, bool balanced, Real theta) {
   const auto body = test::body_of<D>(std::move(geometry));
@@ -213,7 +213,7 @@ void expect_damping(Geometry<D> geometry) {
   const test::Balance net = test::balance_of<D>(*body, u, force);
   EXPECT_LT(net.force, 1e-14);
   EXPECT_LT(net.torque, 1e-13);
-  // Another spin of the whole changes nothing.
+  // An additional rigid rotation does not change the force.
   NodalVectors spun = v;
   for (Index A = 0; A < body->size(); ++A) {
     const Vec<D> x = at(body->particles.X(), A) + vector_at<D>(u, A);
@@ -223,7 +223,7 @@ void expect_damping(Geometry<D> geometry) {
   }
   const NodalVectors change = test::sum_of(test::force_of(*term, u, spun), -1, force);
   EXPECT_LT(test::norm(change), 1e-12 * test::norm(force));
-  // Quadratic fields are what they are at the particles.
+  // Shape functions reproduce quadratic fields at the particles.
   const NodalVectors smooth = test::field_on<D>(*body, [](const Vec<D>& X) {
     Vec<D> w = 0.3 * X;
     w[0] += X[0] * X[1] - 2;
@@ -261,12 +261,13 @@ TEST(DropMeasures, OfAStretchedBallThatTurns) {
   EXPECT_NEAR(measure(measures, "isoperimetric", u, rest), area / (4 * pi * std::cbrt(4.0)), 1e-5);
   EXPECT_NEAR(measure(measures, "least_area_ratio", u, rest), 1, 2e-3);  // at the poles
   EXPECT_GT(measure(measures, "roughness", u, rest), 0.2);
-  // Uniform velocity has energy, but is no motion about the centre of mass; the field z^2 is.
+  // A uniform velocity has energy, but does not count as motion about the centre of mass; the field
+  // z^2 does.
   const Real mass = 4 * pi / 3;
   const NodalVectors moving =
       test::field_on<3>(*body, [](const Vec<3>&) { return Vec<3>(0, 3, 0); });
   EXPECT_NEAR(measure(measures, "kinetic_at_places", u, moving), 4.5 * mass, 1e-3 * mass);
-  // The root of what rounding leaves of the square of 3.
+  // The square of 3 cancels up to rounding; the bound is its root.
   EXPECT_LT(measure(measures, "ca", u, moving),
             0.5 / 0.25 * 3 * std::sqrt(16 * std::numeric_limits<Real>::epsilon()));
   const NodalVectors spinning =

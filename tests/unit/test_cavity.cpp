@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Enclosed volumes, the exact gradient of fillings, their balance, and faces that touch.
+// Enclosed volumes, exact gradients of fillings, balance of forces, and touching faces.
 #include "meniscus/body/surface_patches.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/cavity.hpp"
@@ -31,7 +31,7 @@ Geometry<3> bent_shell() {
   return geometry;
 }
 
-/// Of outer radius 1 and inner radius 0.75.
+/// A spherical shell of outer radius 1 and inner radius 0.75.
 Geometry<3> sphere_shell(Real spacing) {
   SphereShell s;
   s.radius = 1;
@@ -98,8 +98,8 @@ TEST(Cavity, VolumesOfBallDiskAndShellAreExact) {
   EXPECT_NEAR(enclosed_after(*disk, SurfacePart::outer, still), pi, 1e-6);
 }
 
-/// Errors of the volume of a unit ball that a shear bends, which keeps it: by the points of the
-/// cavity, and by the patches of surface tension.
+/// Errors of the volume of a unit ball after a shear that keeps its volume: with the points of the
+/// cavity, and with the patches of surface tension.
 std::array<Real, 2> errors_of_volume(int core) {
   const auto body = test::body_of<3>(test::ball(core, core / 2));
   const NodalVectors u = test::field_on<3>(
@@ -129,7 +129,7 @@ TEST(Cavity, PressureFollowsTheRamp) {
   EXPECT_NEAR(measure(*term, "cavity_pressure", u, 0.5), 0, 1e-13);
   EXPECT_NEAR(measure(*term, "cavity_pressure", u, 2), -10 * 0.15, 1e-12);
   EXPECT_NEAR(measure(*term, "cavity_pressure", u, 9), -10 * 0.3, 1e-12);
-  // Work of the ramp: what the energy gains at rest.
+  // The work of the ramp is the change of the energy at fixed places.
   const Motion early{1.9, u, u}, late{2.1, u, u}, middle{2.0, u, u};
   NodalVectors force = u;
   const Real power = term->add_force(middle, force).external_power;
@@ -178,8 +178,8 @@ TEST(Cavity, GapIsTheDistanceOfTheFaces) {
 TEST(Cavity, GapIsFoundWhereverTheFacesComeNear) {
   const auto body = test::body_of<3>(sphere_shell(0.2));
   const auto term = cavity<3>(*body, SurfacePart::inner, {}, 3);
-  // A dent r(angle) of the inner radius R; the opposite face stays. Along the normal of the dent
-  // the width is (R + r) r / (r^2 + r'^2)^(1/2), least on its flank.
+  // A dent r(angle) of the inner radius R; the opposite face is unchanged. Along the normal of the
+  // dent the width is (R + r) r / (r^2 + r'^2)^(1/2), least on its flank.
   constexpr Real R = 0.75, depth = 0.3, square = 0.6;
   Real width = unbounded;
   for (Real angle = 0; angle < 1; angle += 1e-3) {

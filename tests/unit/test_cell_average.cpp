@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The selective form of q_scni beyond what holds for every rule (test_internal_force): its energy,
-// when it changes nothing, and when it is chosen.
+// The selective form of q_scni: its energy, states in which it changes nothing, and its default.
+// Tests for all rules are in test_internal_force.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/cell_average.hpp"
 #include "meniscus/scene/scene.hpp"
@@ -49,12 +49,13 @@ void expect_equal() {
   for (const auto& entry : test::law_texts()) {
     SCOPED_TRACE(entry.first);
     Pair<D> pair(entry.first);
-    // The linear patch test is the same.
+    // Both forms give the same energy in the linear patch test.
     const NodalVectors homogeneous = test::field_on<D>(
         *pair.body, [](const Vec<D>& X) { return Vec<D>(0.1 * X + 0.2 * X[1] * Vec<D>::Unit(0)); });
     pair.expect_equal_energy(homogeneous);
     pair.expect_equal_force(homogeneous);
-    // F varies in each cell, J = 1 does not (a fluid has no energy then).
+    // F varies in each cell, but J = 1 does not (fluids are excluded, since their energy is zero
+    // here).
     if (!laws().at(entry.first).viscous)
       pair.expect_equal_energy(test::field_on<D>(*pair.body, [](const Vec<D>& X) {
         return Vec<D>(0.15 * X[1] * X[1] * Vec<D>::Unit(0));
@@ -67,8 +68,8 @@ TEST(CellAverage, ChangesNothingWhereJIsConstant) {
   expect_equal<3>();
 }
 
-/// Small displacements: energy = sum of w [mu dev e : dev e + kappa/2 mean(tr e)^2], in three
-/// dimensions for plane strain too.
+/// For small displacements, the energy is the sum of w [mu dev e : dev e + kappa/2 mean(tr e)^2],
+/// with the 3D deviator also in plane strain.
 template <int D>
 void expect_linear_energy() {
   const auto body = test::body_of<D>(jittered<D>());
@@ -96,7 +97,7 @@ TEST(CellAverage, AveragesTheDilatationOfSmallStrains) {
   expect_linear_energy<3>();
 }
 
-/// It is that of the mean of J.
+/// The pressure belongs to the mean of J over the cell.
 TEST(CellAverage, PressureIsConstantInEachCell) {
   const auto body = test::body_of<2>(jittered<2>());
   const auto term = test::internal_force<2>(*body, "newtonian", selective);
@@ -118,7 +119,7 @@ std::string scene(const std::string& keys, const std::string& lambda) {
          " }\n";
 }
 
-/// Whether the set-up of the scene says that it averages.
+/// True if the notes of the scene mention the cell average.
 bool averages(const std::string& text) {
   const SceneInput input = SceneInput::from_text(text);
   EXPECT_EQ(scene_dimension(input), 2);

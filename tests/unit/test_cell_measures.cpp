@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape measures of cells on shapes that are known.
+// Shape measures of cells on known shapes.
 #include "meniscus/measure/cell_measures.hpp"
 #include "meniscus/measure/meridian_shape.hpp"
 
@@ -57,7 +57,7 @@ TEST_F(CellMeasures, OfTheReferenceShape) {
   EXPECT_NEAR(measure("evans_fung_rms", rest), 0.79155, 0.005);
 }
 
-/// A stretch of the reference into a shape with a dimple, turned and shifted as a whole.
+/// A stretch of the reference into a shape with a dimple, rotated and translated.
 Vec<3> dimpled(const Vec<3>& X) {
   const Real s = X.head<2>().squaredNorm() / 25;
   return {1.1 * X[0], 1.1 * X[1], X[2] * (0.4 + 1.2 * s - 0.5 * s * s)};
@@ -101,7 +101,7 @@ TEST(EvansFung, HasTheNumbersOfItsCoefficients) {
   EXPECT_NEAR(evans_fung_thickness(0), 0.81, 1e-15);
   EXPECT_NEAR(evans_fung_thickness(0.7002), 2.5657, 1e-4);
   EXPECT_EQ(evans_fung_thickness(1), 0);
-  // Volume 2 pi int t r dr with R = 3.91.
+  // The volume is 2 pi int t r dr with R = 3.91.
   Real V = 0;
   constexpr int n = 20000;
   for (int k = 0; k < n; ++k) {

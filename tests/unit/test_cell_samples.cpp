@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Samples of nodal cells: with what they are said to miss, they integrate as exact rules do, they
-// are said to miss nothing where the cells around are equal and complete, and they are few.
+// Samples of nodal cells. With their corrections they integrate as exact rules do. They need no
+// corrections where the cells around are equal and complete. They are few.
 #include "meniscus/approx/monomials.hpp"
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/body/shapes.hpp"
@@ -28,7 +28,7 @@ Values<D, degree> monomials(const Vec<D>& arm) {
   return f;
 }
 
-/// A brick of unit cells without those where x and y are both above its middle.
+/// A brick of unit cells, without the cells whose x and y are both above its middle.
 template <int D>
 Grid<D> angle(int cells) {
   const Grid<D> whole = test::brick<D>(std::vector<Real>(D, cells)).grid;
@@ -49,13 +49,13 @@ Grid<D> angle(int cells) {
   return grid;
 }
 
-/// Sums that are to be equal.
+/// An exact integral and the sum over samples, which are to be equal.
 struct Sums {
   Real integral = 0, scale = 0;
   Real sampled = 0;
 };
 
-/// Counts of what is not exact.
+/// Numbers of integrals that need corrections.
 struct Inexact {
   int volumes = 0, facets = 0;
 };
@@ -83,7 +83,7 @@ void check_volume(const NodalCells<D>& cells, Index node, const CellQuadrature<D
   }
 }
 
-/// Linear functions; where all facets are exact, cubic ones.
+/// Tests linear functions; also cubic functions where all facets are exact.
 template <int D>
 void check_facets(const NodalCells<D>& cells, Index node, const CellQuadrature<D>& q,
                   const CellSamples<D>& samples) {
@@ -152,8 +152,8 @@ TEST(CellSamples, MissNothingInABrick) {
   expect_brick<3>();
 }
 
-/// The mean over the cells inside a body of how often all shape functions are evaluated: at each
-/// point, and once for what the volume misses and each facet, which is one of two cells.
+/// Evaluations of all shape functions per nodal cell, averaged over the cells inside a body. Each
+/// point counts once, and so does each correction of a volume or of a facet (shared by two cells).
 Real evaluations(const Grid<3>& grid) {
   const NodalCells<3> cells(grid);
   const ParticleSet<3> particles(grid.X, 2.6, Window::cubic_spline);
@@ -172,7 +172,7 @@ Real evaluations(const Grid<3>& grid) {
   return static_cast<Real>(evaluated) / static_cast<Real>(count);
 }
 
-/// With points of their own the octants of uneven cells had 116.
+/// With separate points in each octant, uneven cells needed 116.
 TEST(CellSamples, AreFewInUnevenCells) {
   const Real brick = evaluations(test::brick<3>({8, 8, 8}).grid),
              jittered = evaluations(test::brick<3>({8, 8, 8}, 0.3).grid),
@@ -184,16 +184,16 @@ TEST(CellSamples, AreFewInUnevenCells) {
   EXPECT_LT(ball, 54);
 }
 
-/// Equal cells that leave a gap: what the rule would have beyond the particle is not there. In the
-/// plane so much would be missing that the parts have points of their own, which miss nothing.
+/// Equal cells with a gap: the gap contains points of the rule. In 2D the error is so large that
+/// octants have separate points, which need no corrections.
 TEST(CellSamples, MissSomethingAtAReentrantEdge) {
   EXPECT_EQ(check<2>(angle<2>(4)).volumes, 0);
   const Inexact inexact = check<3>(angle<3>(4));
   EXPECT_EQ(inexact.volumes, 3);     // the inner nodes of the edge
-  EXPECT_EQ(inexact.facets, 2 * 4);  // between its nodes, seen from either side
+  EXPECT_EQ(inexact.facets, 2 * 4);  // between these nodes, counted from both sides
 }
 
-/// Cells that differ by more than rounding, by far less than a spacing.
+/// Cell sizes differ by more than rounding, but by far less than a spacing.
 TEST(CellSamples, MissSomethingInUnevenCells) {
   Grid<3> grid = test::brick<3>({4, 4, 4}).grid;
   for (Vec<3>& X : grid.X)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time step: free fall, order of accuracy, energy, and what a failed step leaves.
+// The time step: free fall, order of accuracy, energy, and the state after a failed step.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/body_force.hpp"
 #include "meniscus/solve/central_difference.hpp"
@@ -35,7 +35,7 @@ void expect_free_fall() {
     EXPECT_LT((vector_at<D>(one.state.u, A) - u).norm(), 1e-11);
     EXPECT_LT((vector_at<D>(one.state.v, A) - v).norm(), 1e-11);
   }
-  // The trapezoid is exact for a power linear in time.
+  // The trapezoidal rule is exact for a power linear in time.
   EXPECT_NEAR(one.state.books.external_work, mass * a.dot(u), 1e-11 * mass);
   EXPECT_NEAR(take_ledger(one.system, one.state).kinetic, 0.5 * mass * v.squaredNorm(),
               1e-10 * mass);
@@ -85,7 +85,8 @@ TEST(CentralDifference, IsOfSecondOrder) {
 }
 
 TEST(CentralDifference, KeepsEnergyOverManySteps) {
-  // Small, or the energy wanders into short waves, which the step resolves less well.
+  // The oscillation is small. Otherwise energy moves into short waves, which the step resolves less
+  // well.
   auto one = oscillator(0.01);
   start(one->system, one->state);
   const Real dt = 0.5 * StableStepEstimator<2>(one->system).estimate(one->state).dt;
@@ -108,7 +109,7 @@ TEST(CentralDifference, KeepsEnergyOverManySteps) {
   EXPECT_LT((end.angular_momentum - begin.angular_momentum).norm(), 1e-12 * 3 * momentum);
 }
 
-/// Change of the balance, relative to the kinetic energy at the start, of a fluid that is stirred.
+/// Change of the energy balance of a stirred fluid, relative to its initial kinetic energy.
 Real balance_error_of_fluid(Real fraction, int steps) {
   OneBody<2> one(test::disk(6, 3), "newtonian");
   one.state.v = test::field_on<2>(one.body(), [](const Vec<2>& X) {
@@ -124,7 +125,7 @@ Real balance_error_of_fluid(Real fraction, int steps) {
 }
 
 TEST(CentralDifference, HeatIsWhatTheFluidLoses) {
-  // The viscous force lags by half a step: of first order.
+  // The viscous force lags by half a step: the error is of first order.
   const Real coarse = balance_error_of_fluid(0.2, 500), fine = balance_error_of_fluid(0.05, 2000);
   EXPECT_LT(coarse, 1e-2);
   EXPECT_LT(fine, 0.3 * coarse);
@@ -149,7 +150,7 @@ TEST(CentralDifference, AFailedStepPutsThePlacesBack) {
   EXPECT_EQ(one.state.step, 0);
 }
 
-/// Not a number beyond x = 1.5.
+/// A force that is not a number beyond x = 1.5.
 class NoNumber final : public ForceTerm {
  public:
   explicit NoNumber(const Body<2>& body) : body_(body) {}

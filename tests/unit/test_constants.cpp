@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Named numbers of a scene: where they may stand, the dimension of formulas of them, and messages.
+// Named numbers of a scene: places where they are allowed, dimensions of formulas with them,
+// messages.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
 
@@ -53,7 +54,7 @@ TEST(Constants, NumbersMayBeFormulasOfThem) {
   EXPECT_DOUBLE_EQ(real("'sin(angle)'", none), 0.5);
   EXPECT_EQ(real("'max(ratio, layers)'", none), 3);
   EXPECT_EQ(real("'72.8 mN/m'", tension), 0.0728);  // as without constants
-  // Plain numbers are in the units of the scene, whatever those are.
+  // Plain numbers have the units of the scene.
   EXPECT_EQ(real("'2*ratio'", velocity), 3);
   EXPECT_EQ(real("'radius + 1e-9'", length), 5e-9 + 1e-9);
   EXPECT_EQ(real("'gamma*radius/ratio'", viscosity), 0.0728 * 5e-9 / 1.5);
@@ -137,7 +138,7 @@ TEST(Constants, AFormulaOfAnotherDimensionIsRefused) {
             "s.toml:1:7: key: formula 'radius' is a length (m), expected a plain number");
 }
 
-/// A formula takes 30 deg for 0.52, which a contact angle would take for half a degree.
+/// A formula reads 30 deg as 0.52; a contact angle would read this number as half a degree.
 TEST(Constants, AnglesAreNoDegrees) {
   using namespace dimension;
   EXPECT_EQ(real("'20*ratio'", degrees), 30);
@@ -175,7 +176,7 @@ TEST(Constants, MessagesAboutTheirUse) {
             "s.toml:1:7: key: -4 is out of range; allowed is > 0");
 }
 
-/// What is wrong with a scene of these constants, in which a key uses `a`.
+/// The message about a scene with these constants, in which a key uses `a`.
 std::string own_complaint(const std::string& lines) {
   return report("[constants]\n" + lines + "\n[time]\nend = 'a*b*c'", [](const Block& root) {
     root.table("time")->real("end", dimension::time, range::positive, {});
@@ -241,7 +242,7 @@ TEST(Constants, AThousandThatNeedEachOtherTakeNoTime) {
   const SceneInput input = SceneInput::from_text(chain);
   EXPECT_EQ(input.root().real("key", dimension::time, range::any, {}), 2);
   input.check();
-  EXPECT_LT(seconds() - begin, 8);  // it takes 0.2; with all constants in every formula 15
+  EXPECT_LT(seconds() - begin, 8);  // takes 0.2; 15 if each formula contained all constants
 }
 
 TEST(Constants, ExponentsAreNoNames) {
@@ -253,7 +254,7 @@ TEST(Constants, ExponentsAreNoNames) {
     return read;
   };
   EXPECT_EQ(value("2e9"), 2e9);
-  EXPECT_EQ(value("2.e9 nm/nm"), 2e9);  // a quantity: none of them occurs
+  EXPECT_EQ(value("2.e9 nm/nm"), 2e9);  // a quantity, which contains no constant
   EXPECT_EQ(value("2e9*(1 + sin(x_1)/1.5E-3)*e9 - .5e3*e3a"), 4e9 - 1500);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of deformable bodies with each other and with rigid partners: gradients of energies,
-// momenta, overlaps, and what a step may do.
+// momenta, overlaps, and limits of the time step.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/contact_visits.hpp"
 
@@ -38,7 +38,7 @@ void expect_pair_gradients() {
     for (const SiteDensity density : {SiteDensity::constant, SiteDensity::referential})
       expect_gradient<D>(*test::contact_of<D>(pair, law, ContactForm::energy, density), pair.size(),
                          1e-8);
-    // The force of the cut-off law jumps where the switch begins and ends; here it begins far away.
+    // The force of the cut-off law jumps at both ends of its switch; here the switch is far away.
     ContactLaw far = law;
     far.cutoff = 20;
     expect_gradient<D>(*test::contact_of<D>(pair, far, ContactForm::volume), pair.size(), 1e-8);
@@ -62,7 +62,7 @@ test::Balance pair_balance(ContactForm form, SiteDensity density = SiteDensity::
   const auto term = test::contact_of<D>(pair, test::law<D>(), form, density);
   const NodalVectors force = test::force_of(*term, u);
   EXPECT_GT(test::norm(force), 0);
-  // Both bodies as one.
+  // Net force and torque of both bodies together.
   Eigen::Vector3d net = Eigen::Vector3d::Zero(), moment = net;
   Real force_scale = 0, torque_scale = 0;
   for (const auto* body : {pair.first.get(), pair.second.get()})
@@ -89,13 +89,13 @@ TEST(Contact, ConservesMomenta) {
   EXPECT_LT(std::max(referential.force, referential.torque), 1e-13);
 }
 
-/// The traction of the dissertation is no gradient, and its discrete sums are not balanced.
+/// The traction of the dissertation is not a gradient, and its discrete sums are not balanced.
 TEST(Contact, DissertationFormConservesNothing) {
   const auto balance = pair_balance<3>(ContactForm::dissertation);
   EXPECT_GT(balance.force, 1e-6);
   const auto pair = test::round_pair<3>(0.35);
   const auto term = test::contact_of<3>(pair, test::law<3>(), ContactForm::dissertation);
-  // Along a spreading of the surfaces; a translation would be right.
+  // The direction spreads the surfaces; along a translation the form would be right.
   const NodalVectors u = test::zeros(pair.random(1, 1));
   const NodalVectors spread =
       pair.field([](const Vec<3>& X) { return Vec<3>(-X[0], 0.5 * X[1], 0.5 * X[2]); });
@@ -142,7 +142,7 @@ TEST(Contact, RigidPartnersActByTheGradientOfTheEnergy) {
   expect_rigid_gradients<3>();
 }
 
-/// Once the list was built elsewhere, the same places give the same bits.
+/// A list that was built at other places gives the same bits at the same places.
 template <int D>
 void expect_same_bits_after(Real detour) {
   const auto pair = test::round_pair<D>(0.35);
@@ -172,8 +172,8 @@ TEST(Contact, BitsDoNotDependOnWhenTheListWasBuilt) {
   }
 }
 
-/// What a force asks of the next step is the same whenever the list was built: a restart builds it
-/// anew.
+/// The step limit of a force does not depend on when the list was built. (A restart builds it
+/// again.)
 template <int D>
 void expect_same_demand_after(Real detour, Real gap) {
   SCOPED_TRACE(std::to_string(D) + "D, gap " + std::to_string(gap));
@@ -191,7 +191,8 @@ void expect_same_demand_after(Real detour, Real gap) {
 }
 
 TEST(Contact, DemandsDoNotDependOnWhenTheListWasBuilt) {
-  // Within the skin of 0.2; near, just within reach of 2, and beyond it.
+  // Detours lie within the skin of 0.2. The gaps are near, just within the reach of 2, and beyond
+  // it.
   for (const Real detour : {-0.12, -0.05, 0.05, 0.12})
     for (const Real gap : {0.35, 1.95, 2.1}) {
       expect_same_demand_after<2>(detour, gap);
@@ -199,8 +200,8 @@ TEST(Contact, DemandsDoNotDependOnWhenTheListWasBuilt) {
     }
 }
 
-/// A displacement that turns the first body by an angle about its centre, brings the second nearer
-/// by a way, and deforms both.
+/// A displacement that turns the first body by `angle` about its centre, moves the second one by
+/// `nearer`, and deforms both.
 template <int D>
 NodalVectors turned_and_nearer(const test::Pair<D>& pair, Real angle, Real nearer, Real deformed,
                                unsigned seed) {
@@ -217,8 +218,8 @@ NodalVectors turned_and_nearer(const test::Pair<D>& pair, Real angle, Real neare
   return u;
 }
 
-/// Points that are left where they were while they are far from the other body change nothing: at
-/// every motion a term that has come there through others has the bits of a fresh one.
+/// Points that are not moved while they are far from the other body change no result: at every
+/// motion, a term with this history has the same bits as a new term.
 template <int D>
 void expect_fresh_bits_on_the_way(int points) {
   SCOPED_TRACE(std::to_string(D) + "D, " + std::to_string(points) + " points");
@@ -234,7 +235,7 @@ void expect_fresh_bits_on_the_way(int points) {
     Real angle, nearer, deformed;
   };
   // A fast approach, a spin that brings the far side near, large deformations between two builds of
-  // the list, small steps that leave the list as it is, and away again.
+  // the list, small steps that keep the list, and a retreat.
   const std::vector<Stage> stages{{0, 0, 0.01},      {0, 2, 0.01},     {0.9, 2, 0.01},
                                   {1.8, 2.05, 0.02}, {3.1, 2.05, 0.1}, {3.1, 2.06, 0.1},
                                   {3.12, 2.08, 0.1}, {3.1, 1, 0.05},   {3.1, -1, 0.01}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact between ellipsoids and spheres against the reference values of the CGCM note: total
-// force, energy, and the work of all linear motions, which tells the forms apart.
+// force, energy, and the work of all linear motions, which differs between the forms.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -23,8 +23,8 @@ Mat<3> matrix_of_nine(const std::vector<Real>& values) {
   return m;
 }
 
-/// Two unit balls in the states x = M1 X and c2 + M2 X: the displacement is linear in X, which the
-/// shape functions reproduce.
+/// Two unit balls in the states x = M1 X and c2 + M2 X: the displacement is linear in X, and shape
+/// functions reproduce it.
 struct Ellipsoids {
   test::Pair<3> pair;
   NodalVectors u;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pair functions against reference values, their identities, and the loop's form against the full.
+// Pair functions against reference values and identities, and the form used in loops against the
+// full one.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/simd.hpp"
 
@@ -59,7 +60,7 @@ TEST(ContactLaw, IsLennardJonesWithoutCutoff) {
   }
 }
 
-/// Derivatives by complex step: exact to rounding.
+/// Derivatives by complex step are exact to rounding.
 TEST(ContactLaw, DerivativesAndIdentitiesHoldWithAndWithoutCutoff) {
   constexpr Real h = 1e-30;
   for (const ContactLaw& law : contact_laws()) {
@@ -124,7 +125,7 @@ TEST(ContactLaw, LoopFormIsTheFullOneInEveryLane) {
         near(surface.psi, f.psi, "psi");
         near(volume.phi, f.phi, "phi");
         near(volume.dphi_by_r, f.dphi / r, "phi'/r");
-        // Lanes may contract products and sums differently.
+        // The compiler may contract products and sums of lanes differently.
         const Lanes r_squared(0.25, r * r, 1.0, 9.0);
         near(pairs.surface(r_squared).u[1], surface.u, "u of a lane");
         near(pairs.surface(r_squared).psi[1], surface.psi, "psi of a lane");

@@ -44,8 +44,8 @@ bool near(const Cloud& a, Index c, const Cloud& b, Index d, Real reach) {
   return false;
 }
 
-/// All pairs within reach are in the rows, in both directions and in order; none is farther than
-/// the list may reach. Returns how many there are.
+/// All pairs within reach are in the rows, in both directions and in order; no pair is farther
+/// apart than the list allows. Returns the number of pairs.
 template <int D>
 Index expect_complete(const ContactList<D>& list, const Cloud& a, const Cloud& b, Real reach,
                       Real farthest) {
@@ -92,7 +92,7 @@ void expect_complete_on_moving_clouds(unsigned seed) {
       for (Lanes& x : *cloud)
         for (int lane = 0; lane < 4; ++lane) x.set(lane, x[lane] + step(generator));
   }
-  EXPECT_GT(found, 1000);        // it was about something
+  EXPECT_GT(found, 1000);        // the test found pairs
   EXPECT_GT(list.builds(), 3);   // rebuilt,
   EXPECT_LT(list.builds(), 55);  // but not always
 }
@@ -117,13 +117,14 @@ TEST(ContactList, IsEmptyWhenTheCloudsAreApart) {
   for (std::size_t k = 0; k < b.size(); k += 3) b[k] += -10.0;  // a fast approach is noticed,
   EXPECT_TRUE(list.update(a, b));
   EXPECT_GT(list.pairs(), 0);
-  for (std::size_t k = 0; k < b.size(); k += 3) b[k] += 10.0;  // and that they part again
+  for (std::size_t k = 0; k < b.size(); k += 3) b[k] += 10.0;  // and so is the separation
   EXPECT_TRUE(list.update(a, b));
   EXPECT_EQ(list.pairs(), 0);
   EXPECT_TRUE(list.of_first().active.empty());
 }
 
-/// Each finds the partners of its own clusters, in what of the other cloud is near them.
+/// Each rank finds the partners of its own clusters, among the clusters of the other cloud near
+/// them.
 TEST(ContactList, OfRanksTogetherIsThatOfOne) {
   std::mt19937_64 generator(2);
   const Cloud a = random_cloud<3>(200, 3, 0.1, generator);

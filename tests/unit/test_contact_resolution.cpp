@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points per facet: as many as the estimate asks for make balls slide on each other, fewer do not;
-// far from a rigid partner fewer give the same forces.
+// Points per facet. With the estimated number of points balls slide on each other, with fewer they
+// do not. Far from a rigid partner fewer points give the same forces.
 #include "meniscus/physics/contact_forms.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
 #include "meniscus/physics/contact_resolution.hpp"
@@ -22,7 +22,7 @@ ContactLaw law() {
   return test::law<D>(D == 3 ? PairKernel::space : PairKernel::integrated, sigma0);
 }
 
-/// Turns X about `centre` by an angle, in the plane and a bit out of it.
+/// Rotates X about `centre` by an angle, in the plane of the first axes and slightly out of it.
 template <int D>
 Vec<D> turned(const Vec<D>& X, const Vec<D>& centre, Real angle) {
   const Vec<D> arm = X - centre;
@@ -38,7 +38,7 @@ Vec<D> turned(const Vec<D>& X, const Vec<D>& centre, Real angle) {
   return y + centre - X;
 }
 
-/// Largest tangential / normal force of two balls (2D: disks), each turned, some gap apart.
+/// Largest tangential over normal force of two rotated balls (2D: disks) with a gap.
 template <int D>
 Real friction(int points, Real gap) {
   const auto pair = test::round_pair<D>(gap);
@@ -101,7 +101,7 @@ TEST(ContactResolution, FollowsGapAndFacet) {
   EXPECT_FALSE(coarse.unfelt(1));
 }
 
-/// The same without a power by which it falls: all points, wherever they are.
+/// An interaction that gives no power of its decay: all points are used at any distance.
 class AllPoints final : public Interaction {
  public:
   explicit AllPoints(const ContactLaw& law) : law_(law, 1.2 * 0.7) {}
@@ -154,8 +154,9 @@ Real size_of_sum(const NodalVectors& f) {
   return largest({std::accumulate(f.begin(), f.end(), Lanes::zero())});
 }
 
-/// Forces and energies at gaps from near the core to far away, with fewer points and with all, on a
-/// surface with waves of the length of a facet, which fewer points see differently wherever it is.
+/// Forces and energies with fewer points and with all points, at gaps from near the core to far
+/// away. The surface has waves of the length of a facet, which fewer points resolve less well at
+/// any position.
 template <int D>
 void expect_same(const std::string& type, Real size, int points, bool on_patches) {
   SCOPED_TRACE(type + " in " + std::to_string(D) + "D, " + std::to_string(points) + " points");
@@ -196,7 +197,7 @@ TEST(FacetGrades, DoNotChangeForces) {
   expect_same<2>("frame", 0.2, 4, false);
 }
 
-/// What acts between a body and a ball has no torque about the centre of the ball, whatever the
+/// The forces between a body and a ball have no torque about the centre of the ball, with any
 /// grades of the facets.
 TEST(FacetGrades, KeepForcesBalanced) {
   const auto body = test::with_mass<3>(test::round<3>(Vec<3>::Zero()));
@@ -256,8 +257,8 @@ struct AllPairs {
 };
 
 /// Two round bodies with waves of the length of a facet, at gaps from near the core to the cut-off.
-/// Of several such pairs, since in one of them the nearest facets may be far from where forces are
-/// largest.
+/// Several such pairs, since in a single pair the nearest facets may be far from the largest
+/// forces.
 template <int D>
 void expect_same_of_pairs(Real size, int points) {
   SCOPED_TRACE(std::to_string(D) + "D, " + std::to_string(points) + " points");
@@ -312,7 +313,7 @@ TEST(FacetGrades, AreCoarserFarther) {
   const FacetGrades pairs = FacetGrades::of_pairs(6, interaction, 0.2);
   EXPECT_EQ(pairs.points(), (std::vector<int>{6, 4, 3, 2}));
   EXPECT_EQ(pairs.grade(0.05, 0.2), 0);
-  EXPECT_EQ(pairs.grade(50, 0.2), 2);  // two points tell the distance alone
+  EXPECT_EQ(pairs.grade(50, 0.2), 2);  // two points only measure the distance
   EXPECT_EQ(FacetGrades::of_pairs(3, interaction, 0.2).count(), 1);
 }
 

@@ -19,7 +19,7 @@ std::string contact(const std::string& bodies, const std::string& more) {
          "\n";
 }
 
-/// Two disks collide off-centre, a plate goes up below them.
+/// Two disks collide off-centre; a plate moves upward below them.
 std::string collision(const std::string& more_of_contact = "") {
   return "dimension = 2\n[time]\nend = 100\n" +
          disk("left", "centre = [-1.4, 0]\ninitial_velocity = [0.8, 0]") +
@@ -75,7 +75,7 @@ TEST(ContactRun, CollisionConservesEnergyAndMomenta) {
   EXPECT_LT(worst_energy, 5e-4);
 }
 
-/// The error of the energy is that of the time step: it falls by four when the step is halved.
+/// The time step causes the error of the energy, which falls to a quarter when the step is halved.
 TEST(ContactRun, EnergyErrorIsOfSecondOrderInTheStep) {
   const auto error_with = [](Real step) {
     SceneRun run(collision());
@@ -94,7 +94,7 @@ TEST(ContactRun, EnergyErrorIsOfSecondOrderInTheStep) {
   EXPECT_NEAR(fine / finest, 4, 0.3);
 }
 
-/// A plate that moves as prescribed does work.
+/// A plate with prescribed motion does work.
 TEST(ContactRun, WorkOfAMovingPlateIsBooked) {
   SceneRun run(collision_on_plate());
   run.simulation.begin();
@@ -105,7 +105,7 @@ TEST(ContactRun, WorkOfAMovingPlateIsBooked) {
   EXPECT_LT(std::abs(run.simulation.audit().balance_error(ledger)), 5e-4);
 }
 
-/// Also in the step in which the plate sets off and its power jumps.
+/// The order also holds in the step in which the plate starts and its power jumps.
 TEST(ContactRun, EnergyErrorIsOfSecondOrderWhereAPlateSetsOff) {
   const auto error_with = [](Real step) {
     SceneRun run("dimension = 2\n[time]\nend = 100\n" + disk("left", "") +
@@ -171,8 +171,8 @@ TEST(ContactRun, SameBitsForAnyThreadsAndAfterARestart) {
   EXPECT_EQ(state_after(1, 203), expected);
 }
 
-/// With a guard above the gap of the collision, steps are halved and the run ends at a complete
-/// state, naming the contact.
+/// With a guard above the smallest gap of the collision, steps are halved. The run then ends at a
+/// complete state and names the contact.
 TEST(ContactRun, OverlapHalvesTheStepAndThenStops) {
   SceneRun run(collision("least_gap = 0.55"));
   run.simulation.begin();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies inside of each other: found at the start and in runs, and never where they only touch.
+// Bodies inside each other: found at the start and in runs, but not where they only touch.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/containment.hpp"
 #include "meniscus/scene/simulation.hpp"
@@ -41,12 +41,12 @@ TEST(Containment, WindingNumbersKnowCavities) {
     EXPECT_NEAR(winding_number<3>(*hollow, {0, r, 0}), 0, 1e-12);
 }
 
-/// Of two balls (2D: disks) that lie `distance` apart after the motion.
+/// The failure of two balls (2D: disks) that are `distance` apart after the motion.
 template <int D>
 std::optional<Failure> balls_at(Real distance) {
   const auto pair = test::round_pair<D>(0.5);
   const NodalVectors u = pair.field([&](const Vec<D>& X) {
-    // The second one, which lies along the first axis mainly, comes to (distance, 0, 0), turned.
+    // The second ball, which lies mainly along the first axis, moves to (distance, 0, 0), rotated.
     Vec<D> centre = Vec<D>::Constant(0.3);
     centre[0] = 1;
     centre *= 2.5 / centre.norm();
@@ -77,7 +77,7 @@ TEST(Containment, OverlappingBallsAreFoundAndTouchingOnesAreNot) {
   expect_balls_found<3>();
 }
 
-/// The flat simplices of the cavity reach into the ball that fills it.
+/// Flat simplices of the cavity reach into the ball that fills it.
 TEST(Containment, ABallMayFillACavity) {
   auto hollow = shell<SphereShell>(1.4, 0.4);
   auto ball = test::with_mass<3>(test::ball(4, 2), hollow->size());
@@ -94,7 +94,7 @@ std::string disk(const std::string& name, Real radius, const std::string& more, 
          more + "\nmaterial = { type = \"neo_hookean\", density = 1, mu = 400, lambda = 300 }\n";
 }
 
-/// How a scene of disks ends: "" if it runs to its end.
+/// The message with which a scene of disks ends; "" if it runs to its end.
 std::string end_of(const std::string& bodies, const std::string& contact) {
   const std::string text =
       "dimension = 2\n[time]\nend = 0.4\n" + bodies + "[[contact]]\nname = \"contact\"\n" + contact;
@@ -140,7 +140,7 @@ TEST(Containment, PointsThatMissEachOtherAreRefused) {
              {"refused: ", "contact[0]", "'one' and 'two'", "unfelt", "allowed are distances"});
 }
 
-/// A repulsion that is much too weak, between points that miss each other.
+/// A repulsion that is much too weak, between points that do not meet.
 TEST(Containment, ABodyThatWentThroughTheSurfaceIsStopped) {
   expect_end(end_of(disk("one", 1, "centre = [-1.2, 0]\ninitial_velocity = [1.5, 0]", 6) +
                         disk("two", 1, "centre = [1.2, 0.3]\ninitial_velocity = [-1.5, 0]", 6),
@@ -152,7 +152,7 @@ TEST(Containment, ABodyThatWentThroughTheSurfaceIsStopped) {
              {"stopped: step ", "body 'one', particle", "rigid partner", "is inside"});
 }
 
-/// However fast: the step brings no body through the range of another.
+/// At any speed, no step carries a body through the range of another.
 TEST(Containment, StepsFollowTheSpeedOfApproach) {
   const auto pair = test::round_pair<2>(5);
   const auto term = test::contact_of<2>(pair, test::law<2>(), ContactForm::energy);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rows a rank has, and that they are those of one process.
+// The rows of a rank, and their equality with the rows of one process.
 #include "meniscus/body/body.hpp"
 #include "meniscus/core/divided.hpp"
 #include "meniscus/core/error.hpp"
@@ -19,7 +19,7 @@
 namespace meniscus::test_divided {
 namespace {
 
-/// Whose others bring their number in each byte.
+/// One rank of several. The data received from another rank contain its number in each byte.
 class OneOf final : public OneOfRanks {
  public:
   void gather(void* values, std::span<const std::size_t> begin) override {
@@ -45,7 +45,7 @@ TEST(Divided, EachRowIsOfOneRankInOrder) {
     }
 }
 
-/// The rank that has all rows of each body; -1: each has some.
+/// The rank that has all rows of each body; -1 if each rank has some.
 std::vector<int> owners(const std::vector<Index>& rows) {
   std::vector<int> found;
   const std::vector<Division> divisions = divide(rows);
@@ -65,7 +65,8 @@ TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
     EXPECT_EQ(owners({500, 500, 500, 500}), (Owners{0, 0, 1, 1})) << "half a share each";
     EXPECT_EQ(owners({500, 500, 500}), (Owners{-1, -1, -1})) << "two thirds of a share each";
     EXPECT_EQ(owners({10000}), Owners{-1});
-    // The first rank would have 5000 of the large one, the second one what is on it besides.
+    // The first rank would have 5000 rows of the large body, the second one 5000 and the small
+    // body.
     EXPECT_EQ(owners({10000, 500}), (Owners{-1, 1})) << "1.048 shares";
     EXPECT_EQ(owners({10000, 600}), (Owners{-1, -1})) << "1.057 shares";
     EXPECT_EQ(owners({600, 10000, 50, 600}), (Owners{0, -1, 1, 1}));
@@ -108,7 +109,7 @@ TEST(Divided, ItemsAreBroughtFromTheirRanks) {
   SharedItems items;
   items.add(2);
   items.add(2, Division(0));
-  items.add(3, evenly);  // as long as there is one rank only: all to the first
+  items.add(3, evenly);  // divided evenly; with one rank, all items are its own
   items.add(1);
   as_each_of<OneOf>(3, [&](int rank) {
     Values values(7, 7);
@@ -132,7 +133,7 @@ TEST(Divided, ItemsAreBroughtFromTheirRanks) {
   });
 }
 
-/// Of rows that are listed each rank does its own, also where it has none or all of them.
+/// Each rank computes its own rows of a list, also if it has none or all of them.
 TEST(Divided, ListedRowsAreOfTheRanksThatHaveThem) {
   const std::vector<Index> listed{1, 14, 15, 33, 46, 47};
   as_each_of<OneOf>(3, [&](int rank) {
@@ -188,7 +189,7 @@ TEST(RankReports, AnErrorIsThrownByAll) {
   as_each_of<OneOf>(2, [&](int rank) {
     std::vector<Report> reports(1);
     reports[0].known_by = 0;
-    if (rank > 0) {  // the first says nothing here
+    if (rank > 0) {  // the first rank throws nothing here
       EXPECT_NO_THROW(RankReports().complete(reports));
       return;
     }
@@ -233,7 +234,7 @@ bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-/// Row by row; of the others there is nothing.
+/// Compares each own row; rows of other ranks are empty.
 template <int D>
 void expect_rows_of(const CellRule<D>& some, const CellRule<D>& all, OwnItems cells) {
   ASSERT_EQ(some.groups(), all.groups());
@@ -270,7 +271,7 @@ void expect_parts_of_rule(Geometry<D> geometry, RowPrecision precision) {
 }
 
 TEST(Divided, RowsOfSomeCellsHaveTheBitsOfTheWhole) {
-  // More cells than are treated together.
+  // There are more cells than one block contains.
   expect_parts_of_rule<2>(test::brick<2>({32, 32}, 0.3), RowPrecision::full);
   expect_parts_of_rule<3>(test::brick<3>({10, 8, 8}, 0.3), RowPrecision::full);
   expect_parts_of_rule<3>(test::potato<3>(), RowPrecision::rounded);

@@ -35,7 +35,7 @@ TEST(DropDispersion, MatchesTheNanoDrop) {
 }
 
 TEST(DropDispersion, HasItsLimits) {
-  // Lamb: (l-1)(2l+1) Oh and sqrt(l (l-1) (l+2)); creeping: 20/19 / Oh.
+  // Lamb's limits are (l-1)(2l+1) Oh and sqrt(l (l-1) (l+2)), the creeping limit is 20/19 / Oh.
   EXPECT_NEAR(drop_mode_rate(3, 1e-5).imag(), std::sqrt(30.0), 1e-3);
   EXPECT_NEAR(drop_mode_rate(3, 1e-5).real(), -14e-5, 2e-6);
   EXPECT_NEAR(drop_mode_rate(2, 1e3).real(), -20.0 / 19 * 1e-3, 1e-8);

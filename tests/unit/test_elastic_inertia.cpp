@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inertia of thin bodies in relaxation: symmetric and positive, with long steps, on the way to
-// states that are known.
+// The inertia of thin bodies in relaxation: symmetric and positive, with long steps, leading to
+// known states.
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/solve/elastic_inertia.hpp"
 #include "meniscus/solve/relaxation.hpp"
@@ -80,14 +80,14 @@ TEST(ElasticInertia, IsSymmetricAndPositive) {
   EXPECT_NEAR(product(a, y), product(b, x), 1e-12 * size);
 }
 
-/// Under forces like its masses a body moves as a whole, in their direction alone, as if it had
-/// half of its mass.
+/// Under forces proportional to its masses, a body is accelerated as a whole in their direction, as
+/// if it had half of its mass.
 TEST(ElasticInertia, UniformForcesMoveBodiesAsAWhole) {
   Scene<3> scene = Relaxed::read(plate(rubber));
   const ElasticInertia<3> inertia(scene.system);
   const Body<3>& body = scene.system.bodies.front();
   NodalVectors r(scene.system.mass.size(), Lanes::zero()), z;
-  // T^t m: what the transform to places makes of forces that act at places.
+  // Forces m at the places of the particles, transferred to the coefficients by T^t.
   for (Index A = 0; A < body.size(); ++A) {
     const PointRows<3>& rows = body.at_particles;
     for (Offset e = at(rows.start, A); e < at(rows.start, A + 1); ++e)
@@ -113,7 +113,7 @@ TEST(ElasticInertia, AllowsLongSteps) {
       StableStepEstimator<3>(run.scene.system).estimate(run.simulation.state()).dt;
   const Real dt = step.at_state(inertia, run.simulation.state());
   EXPECT_GT(dt, 4 * by_masses);
-  // 2 over the frequency of any motion.
+  // The stable step is at most 2 over the frequency of any motion.
   const NodalVectors still(run.scene.system.mass.size(), Lanes::zero());
   for (unsigned seed = 1; seed < 6; ++seed) {
     const NodalVectors r = noise(run.scene.system.size(), seed);
@@ -150,8 +150,8 @@ TEST(ElasticInertia, ActivePlateReachesItsStretches) {
   EXPECT_LT(run.simulation.audit().momentum_error(ledger), 1e-10);
 }
 
-/// Bending is what is slow in a plate. What is left of the forces is not small beside those before
-/// they cancel, for these vanish as well.
+/// Bending is the slowest motion of a plate. The residual is not small relative to the forces
+/// before they cancel, since these vanish as well.
 TEST(ElasticInertia, BentPlateBecomesFlat) {
   std::string text = plate(rubber, "initial_displacement = [0, 0, \"0.05*x^2 - 0.03*x*y\"]\n");
   text.replace(text.find("1e-8"), 4, "0.02");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Young's modulus and Poisson's ratio of every isotropic law, as a tension test shows them.
+// Young's modulus and Poisson's ratio of every isotropic law, measured in a tension test.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/elastic_moduli.hpp"
 #include "meniscus/physics/law_registry.hpp"
@@ -90,7 +90,7 @@ TEST(ElasticModuli, CompleteInputReadsBackTheSame) {
   EXPECT_EQ(p_wave(SceneInput::from_text(complete)), M);
 }
 
-/// Where a number that follows from a graded modulus leaves its range, the modulus is named.
+/// If a graded modulus gives a derived number outside its range, the message names the modulus.
 TEST(ElasticModuli, AGradedModulusIsNamedWhereItIsBad) {
   std::string said;
   try {

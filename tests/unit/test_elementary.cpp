@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// log1p, expm1 and their remainders against long double arithmetic, on all scalars of the laws.
+// log1p, expm1 and their remainders against long double arithmetic, for all scalars of the laws.
 #include "meniscus/core/elementary.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Real worst_error(const std::vector<Real>& arguments, Function f, Exact exact) {
   return static_cast<Real>(worst);
 }
 
-/// Both signs, from 1e-12 to `high`, but none below `low`.
+/// Arguments of both signs, from 1e-12 to `high` in size, but none below `low`.
 std::vector<Real> arguments(Real low, Real high) {
   std::vector<Real> all;
   for (Real x = 1e-12; x < high; x *= 1.013)
@@ -42,7 +42,7 @@ std::vector<Real> arguments(Real low, Real high) {
   return all;
 }
 
-/// The sum over k >= 2 that is log(1 + x) - x, or e^x - 1 - x, where the difference would cancel.
+/// log(1 + x) - x, or e^x - 1 - x: by the sum over k >= 2 where the difference would cancel.
 long double log1p_remainder_exact(long double x) {
   if (std::abs(x) > 0.1L) return std::log1p(x) - x;
   long double sum = 0, power = -x;

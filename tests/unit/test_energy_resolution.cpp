@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The step resolves the exchange of energy after a sudden release, and leaves smooth motion alone.
+// The step resolves the exchange of energy after a sudden release; smooth motion keeps its stable
+// step.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/solve/energy_resolution.hpp"
@@ -19,7 +20,7 @@ std::string bar(const std::string& keys, double end) {
 }
 const std::string let_go = "initial_displacement = [\"0.1*x\", \"0\"]";
 const std::string translation = "initial_velocity = [\"0.3\", \"0.1\"]";
-/// The slowest bending of a free bar, nearly.
+/// About the slowest bending of a free bar.
 const std::string bending = "initial_velocity = [\"0\", \"1e-3*cos(4.73*x/4)\"]";
 
 struct Outcome {
@@ -52,7 +53,7 @@ TEST(EnergyResolution, KeepsTheBalanceAfterASuddenRelease) {
   const Outcome outcome = run(bar(let_go, 20));
   EXPECT_LT(outcome.balance, 1e-2);
   EXPECT_GT(outcome.shortened, 20);
-  // A step that followed every oscillation would make the energy drift.
+  // If the step followed every oscillation, the energy would drift.
   EXPECT_LT(outcome.changes, outcome.steps / 8);
 }
 
@@ -65,7 +66,8 @@ TEST(EnergyResolution, LeavesSmoothMotionItsStableStep) {
 }
 
 TEST(EnergyResolution, KnowsWhatASwirlWillExchangeBeforeItDoes) {
-  // Nothing is strained at the start, where S = 0: steps that wait for S leave 1.1e-2.
+  // Nothing is strained at the start, where S = 0: a step limited by S alone leaves an error of
+  // 1.1e-2.
   const Outcome outcome =
       run(bar("jitter = 0.4\ninitial_velocity = [\"0.02*sin(pi*x)*cos(pi*y)\", "
               "\"-0.02*cos(pi*x)*sin(pi*y)\"]",
@@ -94,7 +96,7 @@ struct Oscillator {
 };
 
 TEST(EnergyResolution, IsThatOfAnOscillator) {
-  // S + v.Kv = k^2 a^2/m at any time: half of it counts as long as S is less.
+  // S + v.Kv = k^2 a^2/m at any time: half of it is the bound as long as S is less.
   constexpr Real eta = 5e-3, k = Oscillator::k, m = Oscillator::m, a = Oscillator::a;
   const Real E = k * a * a / 2, half = k * k * a * a / m / 2, step = std::sqrt(8 * eta * E / half);
   Oscillator oscillator;
@@ -111,7 +113,7 @@ TEST(EnergyResolution, RejectsAStepThatDisturbsTheBalanceByHalfAsMuchAgainAsItMa
   EnergyResolution<2> resolution;
   oscillator.at_phase(0);
   resolution.longest_step(oscillator.system, oscillator.state);
-  // S = f^2/m comes from nothing, as where J comes close to 0.
+  // S = f^2/m appears suddenly, as when J comes close to 0.
   constexpr Real f = 5, S = f * f / Oscillator::m;
   const Real E = Oscillator::m / 2 * sum(oscillator.state.v[0] * oscillator.state.v[0]);
   oscillator.state.force[0].set(0, f);
@@ -121,7 +123,7 @@ TEST(EnergyResolution, RejectsAStepThatDisturbsTheBalanceByHalfAsMuchAgainAsItMa
 }
 
 TEST(EnergyResolution, LetsABodyGoInShortSteps) {
-  // At rest at x = a nothing is in motion yet.
+  // At rest at x = a no energy is in motion yet.
   Oscillator oscillator;
   EnergyResolution<2> resolution;
   oscillator.state.force[0].set(0, -Oscillator::k * Oscillator::a);

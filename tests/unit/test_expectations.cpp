@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers taken from a history and held against what a scene expects.
+// Numbers from a history, compared with the expectations of a scene.
 #include "meniscus/scene/expectations.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formulas: values, the language, sharing between threads, and the words of the messages.
+// Formulas: values, syntax, sharing between threads, and the words of the messages.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/expression.hpp"
 

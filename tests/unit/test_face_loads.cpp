@@ -80,7 +80,7 @@ TEST(Traction, PressureAllAroundBalancesACompressedBall) {
       fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_space));
 }
 
-/// Dead tractions of simple shear on the four sides.
+/// Dead tractions of simple shear on all four sides.
 TEST(Traction, DeadForcesBalanceAUniformStress) {
   // F = [1.2 0.3; 0 1], J = 1.2, cof F = [1 0; -0.3 1.2]
   constexpr Real mu = 1, lambda = 1.5, J = 1.2, c = lambda * (J - 1) - mu / J;
@@ -94,7 +94,8 @@ TEST(Traction, DeadForcesBalanceAUniformStress) {
   expect_rest<2>(text);
 }
 
-/// The potential is that of the force, and the work of a load that is dead is its change.
+/// The force is minus the gradient of the potential, and the work of a dead load is the change of
+/// the potential.
 TEST(Traction, DeadForcesHaveAPotential) {
   Scene<3> scene = test::scene_of<3>(
       block(3, "") +
@@ -107,7 +108,7 @@ TEST(Traction, DeadForcesHaveAPotential) {
   EXPECT_NEAR(measured(scene, scene.initial, "block-x_max-traction.force_x"), 1, 1e-12);
 }
 
-/// A stiff block on a soft spring: half a period.
+/// A stiff block on a soft spring moves for half a period.
 TEST(Spring, ABlockSwings) {
   constexpr Real k = 1e-3;
   for (const std::string on : {"face = \"x_min\"\nstiffness = 1e-3\ncomponents = [\"x\"]\n",
@@ -125,7 +126,7 @@ TEST(Spring, ABlockSwings) {
   }
 }
 
-/// By c = -m v'/v; heat is what the motion loses.
+/// The velocity obeys c = -m v'/v; the heat is the loss of kinetic energy.
 TEST(Spring, ADamperStopsABlock) {
   Scene<2> scene = test::scene_of<2>(
       block(2, "initial_velocity = [0.01, 0]\n", "end = 10") +
@@ -163,9 +164,9 @@ TEST(SolidViscosity, WavesDecay) {
   EXPECT_NEAR(ledger.balance(), begin, 2e-3 * begin);
 }
 
-/// Rate at which the energy of a bar held at x = 0 falls that begins with v = sin(pi x/2 L) in its
-/// slowest wave and rings for 7 periods: minus the slope of the line through ln(kinetic + strain),
-/// which falls in waves, fastest where the bar is fast.
+/// Rate at which the energy of a bar held at x = 0 falls. The bar begins with v = sin(pi x/2 L) in
+/// its slowest wave and rings for 7 periods. The rate is minus the slope of the line through
+/// ln(kinetic + strain), which falls in waves, fastest where the bar is fast.
 template <int D>
 Real rate_of_decay(const std::string& shape, Real length, Real modulus, const std::string& more,
                    const std::string& viscosity) {
@@ -192,11 +193,11 @@ Real rate_of_decay(const std::string& shape, Real length, Real modulus, const st
   return -(n * ty - t * y) / (n * tt - t * t);
 }
 
-/// What a ringing bar loses in 7 periods against c k^2/rho, where its sides leave it the modulus M,
-/// which viscosity makes M + c d/dt. Between rollers M = lambda + 2 mu, c = 2 eta + zeta. With free
-/// sides c = eta dM/dmu + zeta dM/dlambda: of M = 4 mu (lambda + mu)/(lambda + 2 mu) in plane
-/// strain, of M = E = mu (3 lambda + 2 mu)/(lambda + mu) in space, because a bar becomes thinner by
-/// its elastic constants, whatever eta: 2.36 eta here, not 2 (1 + nu) eta = 2.6 eta.
+/// The decay of a ringing bar in 7 periods against c k^2/rho. Viscosity changes the modulus M of
+/// the bar to M + c d/dt. Between rollers M = lambda + 2 mu, c = 2 eta + zeta. With free sides c =
+/// eta dM/dmu + zeta dM/dlambda, where M = 4 mu (lambda + mu)/(lambda + 2 mu) in plane strain and M
+/// = E = mu (3 lambda + 2 mu)/(lambda + mu) in 3D. The elastic constants alone determine the
+/// contraction of the bar: c is 2.36 eta here, not 2 (1 + nu) eta = 2.6 eta.
 TEST(SolidViscosity, ABarRingsWithItsExactDecrement) {
   constexpr Real k = std::numbers::pi / 2, M = 20.0 / 7;
   const std::string between_rollers =
@@ -217,7 +218,7 @@ TEST(SolidViscosity, ABarRingsWithItsExactDecrement) {
       "shape = \"box\"\nsize = [4, 0.25, 0.25]\ncorner = [0, 0, 0]\ncells = [32, 2, 2]\n", 4, 2.6,
       "", ", viscosity = 0.02 }\n");
   EXPECT_NEAR(bar / (2.36 * 0.02 * k * k / 16), 1,
-              0.015);  // as that of the plane, two cells across
+              0.015);  // as in 2D, two cells across
 }
 
 TEST(SolidViscosity, IsAnOptionOfEveryMaterialThatIsNoFluid) {
@@ -232,9 +233,9 @@ TEST(SolidViscosity, IsAnOptionOfEveryMaterialThatIsNoFluid) {
   EXPECT_THROW(rate(", viscosity = -1 }\n"), InputError);
 }
 
-/// A strip between rollers whose end is moved: a plane wave without change of form. Until it is
-/// back the force on the grip is rho c times its velocity. Largest error after the first steps, of
-/// the largest force.
+/// A strip between rollers whose end is moved: a plane wave of constant form. Until the wave
+/// returns, the force on the grip is rho c times its velocity. Returns the largest error after the
+/// first steps over the largest force.
 Real error_of_a_wave(int cells) {
   const Real c = std::sqrt(3.5), end = 3.2 / c;
   Scene<2> scene = test::scene_of<2>(

@@ -17,7 +17,7 @@ namespace {
 constexpr Real capacity = 0.7, stiffness = 2;
 
 /// A field s on the particles with the energy E = sum k_A (s_A - pull u_A,x)^2 / 2, k_A = k (1 +
-/// A/n): without pull every particle is on its own.
+/// A/n). Without pull the particles are independent.
 class Dye final : public ForceTerm {
  public:
   template <int D>
@@ -67,7 +67,7 @@ struct Dyed : test::OneBody<D> {
   }
 };
 
-/// Largest error at the time 1 after steps of dt.
+/// Largest error at time 1 with steps of dt.
 Real error_of(Evolution evolution, int steps) {
   Dyed<2> one(evolution, 0);
   start(one.system, one.state);
@@ -96,7 +96,7 @@ TEST(Fields, FollowTheirExactSolutionWithTheOrderOfTheScheme) {
 }
 
 TEST(Fields, LimitTheStep) {
-  // The stiffest particle decides.
+  // The stiffest particle limits the step.
   const auto limits = [](Evolution evolution) {
     Dyed<3> one(evolution, 0);
     one.state.force = one.state.u;
@@ -111,7 +111,7 @@ TEST(Fields, LimitTheStep) {
   limits(Evolution::inertial);
 }
 
-/// What the displacement loses, the field turns into heat.
+/// The field turns the energy lost by the displacement into heat.
 TEST(Fields, CoupledToTheDisplacementKeepTheBooks) {
   for (const Evolution evolution : {Evolution::relaxational, Evolution::inertial}) {
     Dyed<2> one(evolution, 0.3, 0.01);
@@ -156,7 +156,7 @@ struct DyedScene {
     const SceneInput input = SceneInput::from_text(scene_text);
     scene_dimension(input);
     scene = build_scene<2>(input);
-    EXPECT_TRUE(scene.initial.fields.empty());  // nothing asked for one
+    EXPECT_TRUE(scene.initial.fields.empty());  // no object needs a field
     scene.system.terms.push_back(std::make_unique<Dye>(scene.system, evolution, 0.2));
     scene.initial.fields = scene.system.fields;
     for (std::size_t A = 0; A < scene.initial.u.size(); ++A)

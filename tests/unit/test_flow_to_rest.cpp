@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fluids that flow to their equilibrium by implicit Euler and Newton's method: the resistance of a
-// step, exact circles, spheres and rates, books, restarts, what is refused.
+// Fluids that flow to equilibrium by implicit Euler and Newton's method: the resistance of a step,
+// exact circles, spheres and rates, energy balance, restarts, refused scenes.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/solve/implicit_euler.hpp"
@@ -31,7 +31,7 @@ std::string drop(int D, const std::string& time, Real viscosity, const std::stri
          std::to_string(viscosity) + " }\n[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n" + more;
 }
 
-/// A run, with what its history would have of each step.
+/// A run with the values that its history would have at each step.
 template <int D>
 struct Flow {
   Scene<D> scene;
@@ -58,7 +58,7 @@ struct Flow {
     energies.push_back(energy);
   }
   Ledger ledger() const { return take_ledger(scene.system, simulation.state()); }
-  /// Relative to what was dissipated.
+  /// The error relative to the dissipated energy.
   Real balance_error() const { return (ledger().balance() - first_balance) / ledger().dissipated; }
   Real energy_left() const {
     return simulation.stepper().residuals(simulation.state()).front().value;
@@ -70,8 +70,8 @@ struct Flow {
   }
 };
 
-/// Its force is minus the gradient of its potential, and what it changes by is linear, symmetric
-/// and positive.
+/// The force of the resistance is minus the gradient of its potential, and its tangent is linear,
+/// symmetric and positive.
 template <int D>
 void expect_resistance() {
   Scene<D> scene = test::scene_of<D>(drop(D, "end = 1\n", 0.5));
@@ -100,7 +100,7 @@ TEST(ImplicitEuler, ResistsByAPotentialOfTheIncrement) {
   expect_resistance<3>();
 }
 
-/// The radius under the pressure of its surface: kappa ln J = - (D - 1) gamma / R.
+/// The radius at rest under the pressure of the surface: kappa ln J = - (D - 1) gamma / R.
 Real radius_at_rest(int D, Real reference) {
   Real R = reference;
   for (int k = 0; k < 20; ++k) R = reference * std::exp(-(D - 1) * gamma / (R * bulk_modulus * D));
@@ -152,8 +152,8 @@ TEST(FlowToRest, FlowsAtTheRateOfViscosity) {
   EXPECT_LT(run.p2.back(), 0.7 * run.p2.front());
 }
 
-/// A load that grows: the drop follows it in steps that are not longer than those of the load; what
-/// it supplies is work.
+/// A load that grows: the steps of the drop are not longer than those of the load, and the supplied
+/// energy is work.
 TEST(FlowToRest, FollowsLoadsThatChange) {
   Flow<2> run(drop(2, "end = 2\nstep = 0.25\n", 0.5,
                    "[[body_force]]\nbody = \"drop\"\nacceleration = [0, \"0.5*y*min(t, 2)\"]\n"));
@@ -167,7 +167,7 @@ TEST(FlowToRest, FollowsLoadsThatChange) {
   EXPECT_LT(std::abs(run.balance_error()), 2e-2);
 }
 
-/// What a run on three threads keeps on its way is continued by another one on two.
+/// A run on two threads continues the state of a run on three threads.
 template <int D>
 void expect_same_bits() {
   const std::string text = drop(D, "end = 1e5\n", 0.5);
@@ -197,7 +197,7 @@ TEST(FlowToRest, HasTheSameBitsForAnyThreadsAndThroughARestart) {
   expect_same_bits<3>();
 }
 
-/// A drop that adheres to a soft disk, which is drawn to it, to their common rest.
+/// A drop and a soft disk that adhere to each other come to rest together.
 TEST(FlowToRest, TakesSolidsAlong) {
   std::string text =
       drop(2, "end = 1e4\nforce_tolerance = 1e-3\n", 0.5,
@@ -219,8 +219,8 @@ TEST(FlowToRest, TakesSolidsAlong) {
   EXPECT_LT(run.ledger().stored.at("contact"), -0.1);
 }
 
-/// A disk of fluid that a force draws apart on both sides is at an unstable equilibrium: it is
-/// left.
+/// A force that pulls both sides of a fluid disk apart starts from an unstable equilibrium, which
+/// the disk leaves.
 TEST(FlowToRest, LeavesWhatIsUnstable) {
   std::string text =
       drop(2, "end = 30\n", 1, "[[body_force]]\nbody = \"drop\"\nacceleration = [0, \"4*y\"]\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces predicted from those of the steps before.
+// Forces predicted from the forces of earlier steps.
 #include "meniscus/solve/force_prediction.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(ForcePrediction, ExtrapolatesWhatIsSmooth) {
     return test::sum_of(test::sum_of(a, 0.1 * n, b), 0.01 * n * n, c);
   };
   EXPECT_LT(error(parabola, 8), 1e-6 * test::norm(a));
-  // Of what has come in three steps the change goes on, of what has come in one nothing.
+  // After three steps the change is extrapolated; after one step it is not.
   EXPECT_LT(error(parabola, 3), 0.1 * test::norm(a));
   EXPECT_NEAR(error(parabola, 1), test::norm(test::sum_of(parabola(1), -1, parabola(0))), 1e-12);
 }
@@ -47,7 +47,7 @@ TEST(ForcePrediction, DampsWhatRings) {
   EXPECT_LT(error(ringing, 8), 1e-6 * test::norm(a));
 }
 
-/// Neither the jump itself nor what lies before it is extrapolated; nor is what longer steps did.
+/// The prediction extrapolates neither a jump, nor forces before it, nor forces of longer steps.
 TEST(ForcePrediction, EndsAtAJump) {
   const NodalVectors a = random(1), b = random(2), jump = random(3);
   const auto jumping = [&](int n) {

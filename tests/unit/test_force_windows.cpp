@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces of rows are added up chunk by chunk: the same bits for any number of threads, nothing of
-// what fails stays, and chunks of a cloud in spatial order touch few particles of others.
+// Forces of rows are added up chunk by chunk: the same bits for any number of threads, no remainder
+// of failed rows, and in spatial order chunks touch few particles of other chunks.
 #include "meniscus/approx/force_windows.hpp"
 #include "meniscus/body/ordering.hpp"
 
@@ -14,7 +14,7 @@
 namespace meniscus::test_force_windows {
 namespace {
 
-/// Rows that touch some particles near their own number and some anywhere.
+/// Rows that touch some particles near their own number and some random particles.
 struct Rows {
   std::vector<Offset> start{0};
   std::vector<Index> particle;
@@ -34,7 +34,7 @@ Rows scattered_rows(Index rows, Index particles) {
   return r;
 }
 
-/// A force of each entry that leaves rounding in every sum.
+/// A force of each entry that causes rounding in every sum.
 NodalVector part(Offset entry) {
   const Real x = std::sin(static_cast<Real>(entry));
   return {x, 1 / (2 + x), 1e3 * x * x, 0.0};
@@ -103,8 +103,8 @@ std::vector<Vec<3>> lattice(int side) {
   return ordered;
 }
 
-/// Rows that touch all within two layers of their own particle: a chunk of 8 x 16 x 16 particles
-/// touches those of its box grown by two layers, within the cube.
+/// Rows touch all particles within two layers of their own. A chunk of 8 x 16 x 16 particles then
+/// touches its box grown by two layers, within the cube.
 TEST(ForceWindows, ChunksInSpatialOrderTouchLittleOfOthers) {
   constexpr int side = 32, reach = 2;
   const std::vector<Vec<3>> points = lattice(side);

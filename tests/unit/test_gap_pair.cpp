@@ -35,7 +35,7 @@ std::unique_ptr<ForceTerm> term_of(const test::Pair<D>& pair, int points = 3) {
   return gap_pair<D>(*pair.first, *pair.second, std::make_shared<Decay>(), choice);
 }
 
-/// Two cubes (squares) of edge 2 beside each other, of which the second is larger.
+/// Two cubes (2D: squares) side by side; the first has the edge 2, the second is larger.
 template <int D>
 test::Pair<D> blocks(Real gap) {
   Brick<D> small, large;
@@ -74,13 +74,13 @@ TEST(GapPair, NearestPointsAreFound) {
   EXPECT_EQ(facets.foot(places, {9, 9, 9}, {}).facet, -1);
 }
 
-/// With the switch over the last quarter of the range.
+/// The energy with the switch over the last quarter of the range.
 Real energy_at(Real gap) {
   const Real t = std::clamp(4 * gap - 3, 0.0, 1.0);
   return Decay().at(gap).energy * (1 - t * t * t * (10 - t * (15 - 6 * t)));
 }
 
-/// By midpoints, over the range.
+/// The integral over the range, by the midpoint rule.
 template <class F>
 Real integral(F&& f) {
   constexpr int n = 2000;
@@ -89,8 +89,8 @@ Real integral(F&& f) {
   return sum;
 }
 
-/// The small face and what of the large one is opposite to it have one half of area times e(gap)
-/// each. What of the large face is beside it and the sides of the small block are farther away.
+/// The small face and the opposite part of the large face have half of area times e(gap) each. The
+/// rest of the large face and the sides of the small block are farther away.
 template <int D>
 void expect_flat() {
   const Real gap = 0.4, area = D == 3 ? 4 : 2;

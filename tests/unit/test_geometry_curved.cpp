@@ -61,19 +61,19 @@ TEST(CurvedCells, VolumeConvergesWithFourthOrder) {
 }
 
 TEST(CurvedCells, BiconcaveVolume) {
-  // pi times the integral of sqrt(u) thickness(r^2 = 1 - u) over 0 < u < 1.
+  // The volume is pi times the integral of sqrt(u) thickness(r^2 = 1 - u) over 0 < u < 1.
   const Real exact = pi * (0.207161 * 2 / 3 + 2.002558 * 4 / 15 - 1.122762 * 16 / 105);
   const auto error = [exact](int core, bool curved) {
     const Grid<3> grid = apply_map(biconcave(), shape_of<Ball>(core, core / 2).geometry()).grid;
     return std::abs(volume(curved ? grid : test::straight(grid)) / exact - 1);
   };
-  // Errors of convex and concave parts cancel: no clean order.
+  // Errors of convex and concave parts cancel: the order is not clean.
   EXPECT_LT(error(8, true), 2e-7);
   EXPECT_LT(error(16, true), 5e-9);
   EXPECT_NEAR(std::log2(error(8, false) / error(16, false)), 2, 0.1);
 }
 
-/// Calls f(cell, mode, middle of the edge or side) for all modes that cells may have.
+/// Calls f(cell, mode, middle of the edge or side) for all possible modes of cells.
 template <int D, class F>
 void for_middles(const Grid<D>& grid, F&& f) {
   for (Index e = 0; e < grid.cell_count(); ++e)
@@ -137,13 +137,13 @@ TEST(CurvedCells, StraightBodiesHaveNone) {
   box.centre = {1e4, -3, 0.1};
   EXPECT_TRUE(box.geometry().grid.bulges.empty());
   EXPECT_TRUE(box.geometry().grid.bulge_of.empty());
-  // Of a cylinder only the outer ring is curved, and only around the axis.
+  // In a cylinder only the outer ring is curved, and only around the axis.
   const Grid<3> cylinder = shape_of<Cylinder>(4, 2).geometry().grid;
   EXPECT_EQ(cylinder.bulges.size(), 16u * 3);
   for (const auto& bulge : cylinder.bulges) EXPECT_EQ(std::popcount(bulge.curved), 1);
 }
 
-/// Eight cells, of which one is missing, bent: one cell meets the re-entrant edges without a facet
+/// Eight bent cells, one of them missing: one cell touches the re-entrant edges without a facet
 /// there.
 Grid<3> bent_corner() {
   Brick<3> brick;
@@ -154,7 +154,7 @@ Grid<3> bent_corner() {
   for (int k = 0; k < 3; ++k)
     for (const Real level : {-0.5, 0.0, 0.5})
       planes.push_back(SurfacePatch<3>::plane(level * Vec<3>::Unit(k), Vec<3>::Unit(k)));
-  grid.X.pop_back();  // the node of the missing cell alone
+  grid.X.pop_back();  // the node that only the missing cell has
   return make_geometry<3>(grid, planes, false, smooth_map<3>([](const std::array<Jet<3>, 3>& X) {
                             auto x = X;
                             x[0] = X[0] + 0.3 * sin(2.0 * X[1]) + 0.2 * X[2] * X[2];

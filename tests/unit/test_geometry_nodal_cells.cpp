@@ -26,7 +26,7 @@ Grid<D> jittered_brick() {
   return grid;
 }
 
-/// Equal cells with oblique edges, whose moments are known without points.
+/// Equal cells with oblique edges, whose moments are known without quadrature points.
 template <int D>
 Grid<D> oblique_brick() {
   Brick<D> brick;

@@ -22,7 +22,7 @@ Ellipsoid long_ellipsoid() {
   return body;
 }
 
-/// The halves of a long body are cut across it.
+/// A long body is cut across its length.
 TEST(Ordering, HalvesAreCutAcrossTheLongestEdge) {
   Geometry<3> body = long_ellipsoid().geometry();
   const std::vector<Vec<3>> before = body.grid.X;
@@ -40,7 +40,7 @@ TEST(Ordering, HalvesAreCutAcrossTheLongestEdge) {
   EXPECT_LE(highest, lowest + 1e-5);
 }
 
-/// Layers that rounding makes uneven are cut as those of a perfect lattice.
+/// Layers with rounding errors in their coordinates are cut like those of a perfect lattice.
 TEST(Ordering, RoundingOfCoordinatesChangesNothing) {
   std::vector<Vec<2>> points, rounded;
   for (int k = 0; k < 35 * 35; ++k) {
@@ -50,7 +50,8 @@ TEST(Ordering, RoundingOfCoordinatesChangesNothing) {
   EXPECT_EQ(spatial_order<2>(points), spatial_order<2>(rounded));
 }
 
-/// Mean distance of numbers within a cell: what decides how near in memory neighbours are.
+/// Mean distance of particle numbers within a cell, a measure of the distance of neighbours in
+/// memory.
 template <int D>
 Real mean_spread(const Grid<D>& grid) {
   Real sum = 0;

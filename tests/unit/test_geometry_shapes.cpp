@@ -39,7 +39,7 @@ TEST(Shapes, HalfSphereIsHalfABall) {
   shape.centre = {1, 2, 3};
   const Geometry<3> body = shape.geometry();
   EXPECT_EQ(body.grid.cell_count(), (6 * 6 * 6 + 6 * 36 * 3) / 2);
-  // Nodes of the plane are in both halves: 7^2 of the core and 24 in each shell.
+  // Both halves contain the nodes of the common plane: 7^2 of the core and 24 in each shell.
   Ball whole;
   whole.core = 6;
   whole.layers = 3;
@@ -75,7 +75,7 @@ Geometry<D> shape_of(const std::string& text) {
   return body;
 }
 
-/// Distances from the middle of the nodes along an axis, in their order.
+/// Distances of the nodes along an axis from the middle, in their order.
 template <int D>
 std::vector<Real> along(const Grid<D>& grid, int axis) {
   std::vector<Real> found;
@@ -137,7 +137,7 @@ TEST(Shapes, CylinderCountsAndVolume) {
   EXPECT_EQ(body.grid.node_count(), 4036);
   EXPECT_EQ(body.grid.cell_count(), 2916);
   EXPECT_FALSE(body.surface->smooth());
-  // The cross-section is a regular 72-gon; with curved sides it is the circle but for 1.2e-7.
+  // The cross-section is a regular 72-gon; with curved sides it is a circle up to 1.2e-7.
   EXPECT_NEAR(volume(test::straight(body.grid)), 0.5 * 36 * 4 * std::sin(2 * pi / 72), 1e-12);
   EXPECT_NEAR(volume(body.grid) / (2 * pi), 1, 1.3e-7);
   std::array<std::size_t, 3> facets{};
@@ -371,7 +371,7 @@ TEST(Grid, JitterSequenceIsFixed) {
   brick.size = {2, 2};
   Grid<2> grid = brick.geometry().grid;
   jitter_interior(grid, 0.25, 5489);
-  // First two numbers of the standard's mt19937_64 with its default seed 5489.
+  // The first two numbers of the standard's mt19937_64 with its default seed 5489.
   const auto number = [](std::uint64_t bits) {
     return 0.25 * (2 * (static_cast<Real>(bits >> 11) * 0x1p-53) - 1);
   };
@@ -400,7 +400,7 @@ void expect_diagonals(const Grid<D>& grid, const Mat<D>& stretch, Real length) {
     EXPECT_NEAR(found, 1.5 * length, 1e-14);
 }
 
-/// Not longer at faces, edges and corners, unlike distances to neighbours.
+/// Unlike distances to neighbours, diagonals do not grow at faces, edges and corners.
 TEST(Grid, DiagonalsOfALatticeAreTheSameEverywhere) {
   Brick<3> brick;
   brick.cells = {2, 3, 4};
@@ -427,7 +427,7 @@ TEST(Grid, DiagonalsOfSimplicesAreThoseOfTheCubeTheyFill) {
   expect_diagonals<3>(cube, Mat<3>::Identity(), std::sqrt(3));
 }
 
-/// Of a node between cells of two lengths, their mean.
+/// A node between cells of two sizes has the mean of their diagonals.
 TEST(Grid, DiagonalsAreAveragedOverCells) {
   Grid<2> grid;
   grid.X = {{0, 0}, {1, 0}, {3, 0}, {0, 1}, {1, 1}, {3, 1}};

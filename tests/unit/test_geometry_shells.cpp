@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shells: exact volumes, areas, normals and curvatures of both surfaces, and the walls in between.
+// Shells: exact volumes, areas, normals and curvatures of both surfaces, and the walls between
+// them.
 #include "meniscus/body/imperfection.hpp"
 #include "meniscus/body/nodal_cells.hpp"
 #include "meniscus/body/shapes.hpp"
@@ -32,7 +33,7 @@ DiskShell cell_disk(Real spacing = 0.49, int layers = 4) {
   return s;
 }
 
-/// All that lies within `b` of a circular plate of radius `a`.
+/// Volume within the distance `b` of a circular plate of radius `a`.
 Real plate_volume(Real a, Real b) {
   return 2 * pi * a * a * b + pi * pi * a * b * b + 4.0 / 3 * pi * b * b * b;
 }
@@ -45,7 +46,7 @@ Real area(const SurfacePoints<3>& points) {
   for (const Real a : points.area) sum += a;
   return sum;
 }
-/// By the divergence theorem; negative where the normals point inwards.
+/// Enclosed volume by the divergence theorem; negative if the normals point inwards.
 Real enclosed(const SurfacePoints<3>& points) {
   Real sum = 0;
   for (Index q = 0; q < points.size(); ++q)
@@ -66,7 +67,7 @@ TEST(Shells, EncloseExactVolumesAndAreas) {
   const Geometry<3> g = cell_disk(0.25).geometry();
   const auto outer = surface_points(g, 4, SurfacePart::outer),
              inner = surface_points(g, 4, SurfacePart::inner);
-  // Facets across the circle where the rim begins see a jump of the curvature.
+  // The curvature jumps within facets across the circle where the rim begins.
   EXPECT_NEAR(area(outer), plate_area(3.5, 1.5), 2e-4 * area(outer));
   EXPECT_NEAR(area(inner), plate_area(3.5, 1.0), 2e-4 * area(inner));
   EXPECT_NEAR(enclosed(outer), plate_volume(3.5, 1.5), 2e-4 * enclosed(outer));
@@ -94,7 +95,7 @@ TEST(Shells, SphereIsExact) {
   }
 }
 
-/// Outer normals and director against a level set, inner surface parallel to the outer one.
+/// Outer normals and director against a level set; the inner surface is parallel to the outer one.
 template <class Shell, class Level>
 void expect_parallel_walls(const Shell& s, Level&& level) {
   const Geometry<3> g = s.geometry();

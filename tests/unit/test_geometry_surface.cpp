@@ -145,14 +145,13 @@ TEST(SurfacePoints, AreaAndVolumeConvergeSpectrally) {
   expect_spectral(disk.geometry(), 6 * pi, 9 * pi, 30);
 }
 
-/// Normal of the ellipsoid with these semi-axes at any point, and along its whole family of shells.
+/// Normal of the ellipsoid with these semi-axes at any point, and of all ellipsoids of its family.
 Vec<3> ellipsoid_normal(const Vec<3>& X, const Vec<3>& axes) {
   return X.cwiseQuotient(axes.cwiseProduct(axes)).normalized();
 }
 
 TEST(SurfacePoints, EllipsoidNormalAndGradientMatchItsEquation) {
-  // The twisted map reaches the same ellipsoid with other points: both must agree with the
-  // equation.
+  // The twisted map reaches the same ellipsoid with other points. Both must satisfy the equation.
   const Vec<3> axes(1, 1.5, 1);
   const auto points = surface_points(apply_map(twist_ellipsoid(), Ball{}.geometry()), 2);
   const Real h = 1e-3;

@@ -28,8 +28,8 @@ std::string block(int D, const std::string& held) {
          held;
 }
 
-/// Newton's method ends with 1e-9 of the energy that it has found. Begun anew where it has ended,
-/// that is 1e-9 of what was left, and so on: to round-off.
+/// Newton's method ends at 1e-9 of the released energy. Each new start from its end reduces the
+/// rest by another factor of 1e-9, down to round-off.
 template <int D>
 NodalVectors rest(Scene<D>& scene) {
   State state = scene.initial;
@@ -56,7 +56,7 @@ Real distance_from_linear(const Scene<D>& scene, const NodalVectors& u, const Te
   return error;
 }
 
-/// From a body at rest to the linear field that all held faces have, on a disordered cloud.
+/// Starts from a body at rest and moves all held faces to a linear field, on a disordered cloud.
 template <int D>
 Real error_of_linear_field(const std::string& held, const Tensor<Real>& H) {
   Scene<D> scene = test::scene_of<D>(block(D, held));
@@ -75,11 +75,11 @@ TEST(HeldEquilibria, FindLinearFieldsExactlyOnJitteredClouds) {
                 "[[held]]\nbody = \"block\"\nwhere = 1\ndisplacement = [\"0.1*x + 0.2*y - 0.1*z\", "
                 "\"-0.15*x + 0.05*y + 0.1*z\", \"0.05*x + 0.1*y - 0.1*z\"]\n",
                 H),
-            1e-11);  // S has a condition of 1e8 by edges and corners
+            1e-11);  // S has a condition number of 1e8 (edges, corners)
 }
 
-/// Uniform stress in an octant whose shells grow: forces are those of its planes alone, along their
-/// normals, on all particles that the round face does not touch.
+/// Uniform stress in a graded octant: forces act only on its planes, along their normals, on all
+/// particles whose supports do not reach the round face.
 TEST(HeldEquilibria, AGradedOctantOnRollersFeelsUniformStressOnItsPlanesOnly) {
   Scene<3> scene = test::scene_of<3>(
       "dimension = 3\n[time]\nend = 1\n[[body]]\nname = \"block\"\nshape = \"octant\"\nradius = "
@@ -93,7 +93,7 @@ TEST(HeldEquilibria, AGradedOctantOnRollersFeelsUniformStressOnItsPlanesOnly) {
   Index inside = 0;
   for (Index A = 0; A < scene.system.size(); ++A) {
     const Vec<3>& X = at(particles.X(), A);
-    // Of the particles that share a cell with it, too.
+    // Excludes particles that share a cell with such a particle as well.
     if (X.norm() + 2 * at(particles.support(), A) > 1) continue;
     for (int i = 0; i < 3; ++i) {
       const Real f = std::abs(at(state.force, A)[i]);
@@ -141,14 +141,14 @@ TEST(HeldEquilibria, FindUniaxialStressExactlyBetweenTwoFaces) {
   expect_uniaxial<3>();
 }
 
-/// A wall from radius a = 1/2 to 1 with the pressure p inside: the radii r of its faces.
+/// A wall from the radius a = 1/2 to 1 with the pressure p inside: present radii of both faces.
 struct Wall {
   Real inner, outer;
 };
 
-/// dP_r/dR + (D - 1) (P_r - P_t)/R = 0 with P_r = - p (r/R)^(D-1) inside and 0 outside, the law
-/// P_k = mu (s_k - 1/s_k) + lambda (J - 1) J/s_k of the stretches s; by the classical method of
-/// fourth order from inside, and bisection of the inner radius.
+/// Solves dP_r/dR + (D - 1) (P_r - P_t)/R = 0 with P_r = - p (r/R)^(D-1) inside and 0 outside. The
+/// law is P_k = mu (s_k - 1/s_k) + lambda (J - 1) J/s_k of the stretches s. Uses the classical
+/// Runge-Kutta method of fourth order from inside, and bisection of the inner radius.
 Wall exact_wall(int D, Real p) {
   constexpr Real mu = 1, lambda = 1.5, a = 0.5, b = 1;
   constexpr int steps = 400;
@@ -212,7 +212,7 @@ std::string ring(int around) {
   return fmt::format("shape = \"ring\"\naround = {}\nlayers = {}", around, around / 6);
 }
 
-/// The pressure in the cavity as an energy: by Newton's method.
+/// The pressure in the cavity has an energy; solved by Newton's method.
 TEST(HeldEquilibria, InflateThickWallsAsFarAsTheExactSolution) {
   const std::string filling = "[[cavity]]\nbody = \"wall\"\nramp = [0, 1]\npressure = ";
   const Wall exact = exact_wall(2, 0.4);
@@ -227,7 +227,8 @@ TEST(HeldEquilibria, InflateThickWallsAsFarAsTheExactSolution) {
   EXPECT_NEAR(found.inner / exact_wall(3, 0.5).inner, 1, 0.015);
 }
 
-/// The pressure as a traction that follows the surface: by relaxation, to second order.
+/// The pressure is a traction that follows the surface; solved by relaxation. The error is of
+/// second order.
 TEST(HeldEquilibria, InflateAThickWallByATractionThatFollowsIt) {
   const auto error = [](int around) {
     const Wall found = found_wall<2>(

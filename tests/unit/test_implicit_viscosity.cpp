@@ -17,7 +17,7 @@
 namespace meniscus::test_implicit_viscosity {
 namespace {
 
-/// A drop, elliptic in motion, that turns and flies.
+/// A drop with an elliptic velocity field, which rotates and translates.
 std::string drop(const std::string& time, Real viscosity) {
   return "dimension = 2\n[time]\nend = 1\n" + time +
          "[[body]]\nname = \"drop\"\nshape = \"disk\"\nradius = 1\ncore = 6\nrings = 3\n"
@@ -70,7 +70,7 @@ TEST(ImplicitViscosity, IsRefusedWhereItHasNoMeaning) {
   EXPECT_THROW_WITH(Simulation<2>{inviscid}, InputError, "this has none");
 }
 
-/// What `time` says in words, and its run.
+/// The note about the choice of `time`, and the run with it.
 struct Chosen : Flight {
   std::string note;
   Chosen(const std::string& time, Real viscosity) : Flight(drop(time, viscosity), 0) {
@@ -110,7 +110,8 @@ TEST(ImplicitViscosity, IsChosenForAFixedStepThatIsTooLongWithout) {
   EXPECT_EQ(inviscid.note, "viscosity is explicit: nothing is viscous");
 }
 
-/// A later state would choose otherwise, and the forces of the past are kept, too.
+/// A restored run keeps its choice, although a later state would lead to another one, and keeps the
+/// forces of past steps.
 TEST(ImplicitViscosity, ARestoredRunGoesOnAsItWasChosen) {
   for (const Real viscosity : {30.0, 0.01}) {
     Chosen run("viscosity = \"automatic\"\n", viscosity);
@@ -142,7 +143,7 @@ std::string gripped(const std::string& time) {
 }
 
 struct Grip : Flight {
-  Real missed = 0;  // most of C u - g at any step
+  Real missed = 0;  // largest C u - g of any step
   explicit Grip(const std::string& time, Real end = 0.4) : Flight(gripped(time), 0) {
     const Constraints& held = *scene.system.constraints;
     std::vector<Real> g(static_cast<std::size_t>(held.rows())), Cu = g;
@@ -191,8 +192,8 @@ TEST(ImplicitViscosity, HeldBodiesTakeStepsBeyondTheViscousLimitAndARestartGoesO
   expect_same_motion(run.simulation, again);
 }
 
-/// A crease in every cell leaves stress points less than 0.001 of their volume, as at the rim of a
-/// drop that spreads far on its first reference.
+/// A crease in every cell leaves stress points less than 0.001 of their volume. This happens at the
+/// rim of a drop that spreads far on its first reference.
 TEST(ImplicitViscosity, FindsTheVelocityOfCellsThatNearlyFold) {
   Scene<2> scene = test::scene_of<2>(
       "dimension = 2\n[time]\nend = 1\nviscosity = \"implicit\"\n[[body]]\nname = \"drop\"\nshape "
@@ -206,7 +207,7 @@ TEST(ImplicitViscosity, FindsTheVelocityOfCellsThatNearlyFold) {
   EXPECT_GT(viscosity.mean_iterations(), 300);
 }
 
-/// A force across the velocity, which conjugate gradients do not find in a long step.
+/// A force perpendicular to the velocity; with long steps conjugate gradients do not converge.
 class Gyroscope final : public ForceTerm {
  public:
   std::string name() const override { return "gyroscope"; }

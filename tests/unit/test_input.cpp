@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading the keys of tables: values, ranges, and the exact words of every message.
+// Keys of tables: values, ranges, and the exact words of every message.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -181,7 +181,7 @@ TEST(Input, MessagesAboutTables) {
   EXPECT_EQ(report("", defaults), "s.toml:1:1: output.folder: missing; allowed is a text");
   EXPECT_EQ(report("\n[output]", defaults),
             "s.toml:2:1: output.folder: missing; allowed is a text");
-  // The table is not one at all; its missing keys are not worth a further line.
+  // The value is not a table: one message, without further ones about missing keys.
   EXPECT_EQ(report("output = 1", defaults),
             "s.toml:1:10: output: is an integer; allowed is a table");
   const auto named = [](const Block& b) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged scenes, quantities, formulas and paths are read or refused, never a crash.
+// Damaged scenes, quantities, formulas and paths are read or refused, without a crash.
 #include <gtest/gtest.h>
 
 #include <random>

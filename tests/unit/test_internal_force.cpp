@@ -50,7 +50,7 @@ TEST(InternalForce, IsMinusTheGradientOfItsEnergy) {
   for_all<3>(expect_gradient<3>);
 }
 
-/// Energies that come along with forces are those asked for alone.
+/// The energy computed together with the force equals the energy computed alone.
 template <int D>
 void expect_reported_energy(Body<D>& body, ForceTerm& term) {
   const NodalVectors u = test::random_field<D>(body.size(), 0.06, 5), v = test::zeros(u);
@@ -101,7 +101,7 @@ void expect_rest(Body<D>& body, ForceTerm& term) {
   NodalVectors u = NodalVectors(static_cast<std::size_t>(body.size()), Lanes::zero());
   EXPECT_EQ(test::norm(test::force_of(term, u)), 0);
   EXPECT_EQ(test::energy_of(term, u), 0);
-  // Moved and turned as a whole.
+  // The body is translated and rotated as a whole.
   const Real c = std::cos(0.7), s = std::sin(0.7);
   u = test::field_on<D>(body, [&](const Vec<D>& X) {
     Vec<D> x = X;
@@ -111,7 +111,7 @@ void expect_rest(Body<D>& body, ForceTerm& term) {
   });
   EXPECT_LT(test::norm(test::force_of(term, u)), 1e-12);
   EXPECT_LT(std::abs(test::energy_of(term, u)), 1e-13);
-  // Spinning as a whole: no heat.
+  // The body spins as a whole: no heat.
   const NodalVectors spin = test::field_on<D>(body, [&](const Vec<D>& X) {
     Vec<D> v = Vec<D>::Zero();
     v[0] = -(s * X[0] + c * X[1]);
@@ -142,7 +142,7 @@ void expect_dissipation(Body<D>& body, ForceTerm& term) {
   }
   EXPECT_GT(heat, 0);
   EXPECT_NEAR(-test::dot(viscous, v), heat, 1e-12 * heat);
-  // Linear in the velocity.
+  // The viscous force is linear in the velocity.
   const NodalVectors twice = test::force_of(term, u, test::sum_of(v, 1, v));
   EXPECT_LT(test::norm(test::sum_of(test::sum_of(twice, -1, both), -1, viscous)),
             1e-12 * test::norm(viscous));
@@ -192,7 +192,8 @@ void expect_formulas() {
     EXPECT_NEAR(test::energy_of(*constant, u), test::energy_of(*uniform, u),
                 1e-14 * test::energy_of(*uniform, u));
 
-    // Really varying: still a gradient, balanced, and stiffer where it says so.
+    // With a modulus that really varies: still a gradient, balanced, and stiffer where the modulus
+    // is larger.
     const auto varying = test::internal_force<D>(
         *body, "neo_hookean", "density = 1.25\nmu = \"0.75*(1 + 0.3*x)\"\nlambda = 1.5",
         integration);
@@ -222,7 +223,7 @@ TEST(InternalForce, FormulasThatLeaveTheirRangeAreRefused) {
         InputError);
 }
 
-/// Owner of the first stress point with J <= 0, by an own loop over an own rule.
+/// Owner of the first stress point with J <= 0, by a separate loop over a separate rule.
 template <int D, class Rule>
 Index first_folded(const Rule& rule, const NodalVectors& u) {
   for (Index g = 0; g < rule.groups(); ++g) {
@@ -249,7 +250,7 @@ void expect_failures() {
       return first_folded<D>(build_nodal_rule(*body), u);
     };
     for (const Vec<D>& centre : {Vec<D>(Vec<D>::Constant(-1.2)), Vec<D>(Vec<D>::Constant(1.1))}) {
-      // Mirrored along x about `centre`.
+      // The displacement is mirrored along x about `centre`.
       const NodalVectors u = test::field_on<D>(*body, [&](const Vec<D>& X) {
         const Vec<D> arm = X - centre;
         return Vec<D>(-3 * std::exp(-arm.squaredNorm() / 3) * arm[0] * Vec<D>::Unit(0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long steps that are asked to stop: they end soon, and leave no trace.
+// Long steps that are interrupted: they end soon and leave the state unchanged.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 
@@ -10,7 +10,7 @@
 namespace meniscus::test_interrupted_steps {
 namespace {
 
-/// Each step is interrupted early, later and late, and then taken.
+/// Interrupts each step after 1, 10 and 100 queries, then completes it.
 void expect_no_trace(const std::string& text, int steps) {
   Scene<2> scene = test::scene_of<2>(text), same = test::scene_of<2>(text);
   Simulation<2> undisturbed(scene), disturbed(same);
@@ -22,7 +22,7 @@ void expect_no_trace(const std::string& text, int steps) {
       asks_left = asks;
       try {
         step();
-        return;  // in fewer asks than that
+        return;  // the step ended with fewer queries
       } catch (const Interrupted&) {
         ++interruptions;
         EXPECT_EQ(disturbed.snapshot().hash(), before) << "after " << asks;
@@ -44,7 +44,7 @@ void expect_no_trace(const std::string& text, int steps) {
   EXPECT_EQ(disturbed.take_notes(), undisturbed.take_notes());
 }
 
-/// An adhesive lid jumps on a soft disk: steps in pieces, a note of the jump.
+/// An adhesive lid jumps onto a soft disk: the step is divided, and the jump is noted.
 TEST(InterruptedSteps, LeaveNoTraceOfALoadStep) {
   expect_no_trace(
       "dimension = 2\n[time]\nsolver = \"newton\"\nend = 4\nstep = 0.5\n"

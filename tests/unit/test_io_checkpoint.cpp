@@ -16,7 +16,7 @@ namespace meniscus::test_io_checkpoint {
 namespace {
 
 TEST(Hash, IsFnv1a) {
-  // Values of the authors' test vectors (Fowler, Noll, Vo).
+  // Test vectors of the authors (Fowler, Noll, Vo).
   const auto hash = [](std::string_view text) {
     Fnv1a h;
     h.add(text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Result files: refusal, bad numbers, continuation, states of frames, full disk.
+// Result files: refusal, bad numbers, continuation, states of frames, full disks.
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/info.hpp"
@@ -29,7 +29,7 @@ class Results : public TemporaryDirectory {
     return {directory, provenance("test", input_), bodies, options};
   }
 
-  /// A frame whose numbers tell its step.
+  /// Writes a frame whose numbers depend on its step.
   std::int64_t write(ResultFile& file, std::int64_t step, const Snapshot* state = nullptr) {
     std::vector<Real> x(2 * particles, static_cast<Real>(step));
     const ResultField fields[] = {{"position", 2, "m", x},
@@ -144,7 +144,7 @@ TEST_F(Results, EpochsStandInFilesOfTheirOwnAndAreCountedThrough) {
   EXPECT_NE(content(path() / "run.vtkhdf.series").find("\"run.2.vtkhdf\", \"time\": 4"),
             std::string::npos);
   EXPECT_NE(describe_file(path()).find("  5     step 50"), std::string::npos);
-  {  // What comes after goes.
+  {  // Later frames are removed.
     const RunDirectory directory(path(), ExistingRun::keep);
     ResultFile file = open(directory, {.epoch = 1, .continue_after = 20});
     EXPECT_EQ(file.frames(), 1);
@@ -180,7 +180,7 @@ TEST_F(Results, StateOfAFrameIsReadBackBitForBit) {
       open(directory, {.precision = ResultOptions::Precision::float32, .compression = 9});
   write(file, 0);
   write(file, 4, &state(4));
-  // The file is open for writing: it can be read all the same.
+  // The file is still open for writing, and readable all the same.
   const ReadCheckpoint read = read_checkpoint(directory.result_file(), 1);
   EXPECT_EQ(read.checkpoint.state.hash(), state(4).hash());
   EXPECT_EQ(read.checkpoint.input, input_);
@@ -202,7 +202,7 @@ TEST_F(Results, SummaryNamesBodiesFieldsAndFrames) {
   EXPECT_THROW(describe_file(path() / "absent.h5"), FileError);
 }
 
-/// Files may not grow beyond this size while the object lives.
+/// Limits the size of files while the object lives.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Liquid crystal elastomer: reference values, what its parts mean, and bodies made of it.
+// Liquid crystal elastomer: reference values, the meaning of its parameters, and bodies made of it.
 #include "meniscus/core/error.hpp"
 #include "meniscus/solve/central_difference.hpp"
 
@@ -91,7 +91,7 @@ TEST_F(LiquidCrystalElastomer, ModelOfTheFreeDirectorHasTheReferenceValues) {
     EXPECT_LT((sigma - matrix(r["sigma"])).norm(), 1e-12 * mu);
     const Vector g = free.director_force(F, h0, h), s = g / F.determinant();
     EXPECT_LT((g - vector(r["dW_dh"])).norm(), 1e-12 * mu);
-    // Without the reaction stress of the director Cauchy's stress is not symmetric.
+    // Without the reaction stress of the director, Cauchy's stress is not symmetric.
     const Real aligning = 0.625;
     const Matrix hs = h * s.transpose();
     const Matrix reaction = aligning / 2 * (hs + hs.transpose()) - 0.5 * (hs - hs.transpose());
@@ -121,8 +121,8 @@ TEST_F(LiquidCrystalElastomer, IsTheFreeDirectorMovedWithTheDeformation) {
       EXPECT_NEAR(material->energy_density(H), free.energy(F, h0, h), 1e-12 * mu);
       EXPECT_LT((matrix(material->stress(H)) - free.stress(F, h0, h) - chain).norm(), 1e-12 * mu);
 
-      // Active Kirchhoff stress -zeta h h: by J smaller than the Cauchy stress -zeta h h of the
-      // reference values.
+      // The active Kirchhoff stress is -zeta h h. The reference values have the Cauchy stress -zeta
+      // h h, which is larger by the factor J.
       const auto active = law("activity = 0.4375\ndirector = \"" + rule +
                               "\"\nreference_director = " + c["director"].dump());
       const Matrix Pa = -0.4375 * h * (over_F * h).transpose();
@@ -145,7 +145,7 @@ TEST_F(LiquidCrystalElastomer, HasTheReferenceValues) {
         const Matrix F = matrix(c["F"]);
         const Tensor<Real> H = tensor(F - Matrix::Identity());
         const Matrix P = matrix(r["P"]);
-        // What is left at small strains is relative to the stress itself.
+        // At small strains the residual error is relative to the stress itself.
         const Real scale = label == "B_near_identity" ? std::min(mu, P.norm()) : mu;
         EXPECT_NEAR(material->energy_density(H), r["W"].get<Real>(), 1e-12 * scale);
         EXPECT_LT((matrix(material->stress(H)) - P).norm(), 1e-12 * scale);
@@ -166,7 +166,8 @@ TEST_F(LiquidCrystalElastomer, FreeBarsAreInEquilibrium) {
       const Tensor<Real> H = tensor(Matrix(stretch.asDiagonal()) - Matrix::Identity());
       EXPECT_LT(matrix(material->stress(H)).norm(), 1e-12 * mu) << bar.dump();
     }
-  // Constant as a Cauchy stress, the activity is by J larger as a Kirchhoff stress.
+  // If the activity is constant as a Cauchy stress, it is larger by the factor J as a Kirchhoff
+  // stress.
   const auto& fixed = data["bars"]["fixed_cauchy"];
   const Real t = fixed["t"], v = fixed["v"], zeta = fixed["zeta_cauchy"];
   EXPECT_NEAR(v, 1.12223, 5e-6);
@@ -188,7 +189,7 @@ TEST_F(LiquidCrystalElastomer, ShearModuliAlongAndAcrossTheDirector) {
   EXPECT_NEAR(modulus(*normal, 2, 1), s0 * mu, 1e-14);
   EXPECT_NEAR(modulus(*convected, 0, 2), mu / s0, 1e-15);
   EXPECT_NEAR(modulus(*convected, 2, 1), mu / s0, 1e-15);
-  // A director that stays behind by an angle costs mu (s - 1)^2/(2 s) sin^2.
+  // A director tilted by an angle has the energy mu (s - 1)^2/(2 s) sin^2.
   const Real angle = data["rest_tilt"]["angle"];
   const Real tilt =
       free.energy(Matrix::Identity(), Vector(0, 0, 1), Vector(std::sin(angle), 0, std::cos(angle)));
@@ -321,8 +322,8 @@ TEST(LiquidCrystalElastomerBody, ReportsFrankElasticity) {
   EXPECT_EQ(note("frank_constant = 3\n")->find("does not resolve"), std::string::npos);
 }
 
-/// Ramped activity in a body that spins and turns over: energy to second order in the step, momenta
-/// exactly.
+/// Ramped activity in a body that spins and turns over: the error of the energy is of second order
+/// in the step, momenta are exact.
 TEST(LiquidCrystalElastomerBody, KeepsEnergyAndMomenta) {
   const auto balance_error = [](const std::string& rule, int steps) {
     test::OneBody<3> one(

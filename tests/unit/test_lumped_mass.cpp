@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lumped masses keep mass, first and second moments of the body where some are raised to the floor.
+// Lumped masses keep mass, first and second moments of the body if some masses are raised to the
+// floor.
 #include <gtest/gtest.h>
 
 #include "support.hpp"
@@ -7,7 +8,7 @@
 namespace meniscus::test_lumped_mass {
 namespace {
 
-/// Mass, first and second moments about the origin, sorted as in a vector; per `density`.
+/// Mass, first and second moments about the origin.
 template <int D>
 struct Moments {
   Real mass = 0;

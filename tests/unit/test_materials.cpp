@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every registered material law passes the same tests; the laws we have also give the reference
-// values of tests/data/constitutive.json.
+// Every registered material law passes the same tests. The laws of the program also reproduce the
+// reference values of tests/data/constitutive.json.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
@@ -46,7 +46,7 @@ Matrix minus_identity(const Matrix& F) {
   return add_diagonal(F, -1.0);
 }
 
-/// Deformations from round-off size to large, all with J > 0.2, rotated and not.
+/// Deformations from round-off size to large, all with J > 0.2, with and without rotation.
 class Samples {
  public:
   Matrix random(Real size) {
@@ -79,7 +79,7 @@ class Samples {
   std::uniform_real_distribution<Real> uniform_{-1, 1};
 };
 
-/// A law under test: with typical numbers, or as given in a scene.
+/// A law under test: with its typical numbers, or with given ones.
 struct Subject {
   std::string name, label, toml;
   std::unique_ptr<AnyLaw> law() const {
@@ -110,7 +110,7 @@ class EveryLaw : public testing::TestWithParam<Subject> {
   Real modulus = law->p_wave_modulus();
   Samples samples;
 
-  /// Size of the terms that a stress at H is the sum of: what round-off is measured with.
+  /// Size of the terms that add up to the stress at H: the scale for round-off.
   Real scale(const Matrix& H) const { return largest(law->stress(H)) + modulus * largest(H); }
 };
 
@@ -210,7 +210,7 @@ TEST_P(EveryLaw, PWaveModulusIsThatOfUniaxialStrain) {
     auto H = Tensor<Complex>::zero();
     H(axis, axis) = Complex(0, 1e-100);
     EXPECT_NEAR(law->stress(H)(axis, axis).imag() / 1e-100, modulus, 4 * epsilon * modulus);
-    // Also the energy, and without cancellation.
+    // The energy is also accurate, without cancellation.
     auto small = Matrix::zero();
     small(axis, axis) = 1e-9;
     EXPECT_NEAR(law->energy_density(small) / (0.5e-18 * modulus), 1, 1e-7);
@@ -319,9 +319,10 @@ TEST_F(ReferenceValues, SimpleShear) {
 }
 
 TEST(StVenantKirchhoff, WarnsWhereEllipticityIsLost) {
-  // Hydrostatic compression, where the guard is exact: v^2 = (3 lambda + 2 mu)/(3 lambda + 4 mu).
+  // Hydrostatic compression, for which the condition is exact: v^2 = (3 lambda + 2 mu)/(3 lambda +
+  // 4 mu).
   for (const Real nu : {0.3, 0.45, 0.493}) {
-    const Real lambda = 2 * nu / (1 - 2 * nu);  // of mu = 1
+    const Real lambda = 2 * nu / (1 - 2 * nu);  // with mu = 1
     const auto law = law_from("st_venant_kirchhoff",
                               "density = 1.0\nmu = 1.0\nlambda = " + nlohmann::json(lambda).dump());
     const Real critical = std::sqrt((3 * lambda + 2) / (3 * lambda + 4));

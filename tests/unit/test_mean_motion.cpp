@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures of a body as a whole, against rigid bodies.
+// Measures of the motion of a body as a whole, against rigid bodies.
 #include "meniscus/run.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ material = { type = "neo_hookean", density = 3, mu = 3, lambda = 10 }
 constexpr double inertia[] = {3 * (4 + 0.25) / 12, 3 * (1 + 0.25) / 12, 3 * (4 + 1) / 12.0};
 
 TEST(MeanMotion, ARigidBodyThatFliesAndTurns) {
-  // v = V + omega x (X - c), V = (5, 6, 7), omega = (0.3, -0.2, 0.5)
+  // The velocity is v = V + omega x (X - c), V = (5, 6, 7), omega = (0.3, -0.2, 0.5).
   const meniscus::Run run = meniscus::Run::from_text(block + R"toml(initial_velocity = [
     "5 - 0.2*(z - 30) - 0.5*(y + 20)", "6 + 0.5*(x - 10) - 0.3*(z - 30)", "7 + 0.3*(y + 20) + 0.2*(x - 10)"])toml");
   const double V[] = {5, 6, 7}, omega[] = {0.3, -0.2, 0.5}, centre[] = {10, -20, 30};
@@ -45,10 +45,10 @@ TEST(MeanMotion, ARigidBodyThatFliesAndTurns) {
   EXPECT_NEAR(run.measure("block.kinetic_energy"), energy, 1e-10);
 }
 
-/// A box of side L has the second moment L^2/12 of an ellipsoid with the axis L sqrt(5/3).
+/// A box of side L has the same second moment L^2/12 as an ellipsoid with the axis L sqrt(5/3).
 TEST(MeanMotion, PrincipalExtentsTurnWithTheBody) {
   const double factor = std::sqrt(5.0 / 3);
-  // Turned by 0.7 about z, and away; then stretched by 1.5 along x.
+  // The body is rotated by 0.7 about z and moved; then stretched by 1.5 along x.
   for (const char* moved : {"initial_displacement = [0, 0, 0]",
                             R"toml(initial_displacement = [
     "cos(0.7)*(x - 10) - sin(0.7)*(y + 20) - x", "sin(0.7)*(x - 10) + cos(0.7)*(y + 20) - y", 5])toml",
@@ -84,7 +84,7 @@ TEST(MeanMotion, ASheetTurnsAboutZ) {
   EXPECT_EQ(std::count(names.begin(), names.end(), "sheet.spin_x"), 0);
 }
 
-/// Of itself and as the energy of the whole system is, whose one body it is.
+/// The measures of the only body equal the momenta and the energy of the audit.
 TEST(MeanMotion, IsThatOfTheAuditAndStaysWhereNothingActs) {
   meniscus::Run run = meniscus::Run::from_text(
       sheet + R"toml(initial_velocity = ["4 - 0.5*y*y", "0.5*x + 0.1*sin(3*y)"])toml");
@@ -97,7 +97,7 @@ TEST(MeanMotion, IsThatOfTheAuditAndStaysWhereNothingActs) {
   EXPECT_GT(std::abs(run.measure("sheet.kinetic_energy") - energy), 1e-6);  // it also deforms
 }
 
-/// It flies on when it is referred anew, up to how well the new cells fill the old ones.
+/// The motion continues after a remap, up to the difference between new and old cells.
 TEST(MeanMotion, OfADropThatIsReferredAnew) {
   meniscus::Run run = meniscus::Run::from_text(R"toml(
 dimension = 2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of mesh files: nodal cells, surfaces, patch tests, an exact motion, for every kind of
+// Bodies of mesh files: nodal cells, surfaces, patch tests and an exact motion, for every kind of
 // cell.
 #include "meniscus/body/face_cells.hpp"
 #include "meniscus/body/simplex.hpp"
@@ -29,7 +29,7 @@ template <int D>
 Grid<D> block(int n) {
   return test::brick<D>(std::vector<Real>(D, n), 0.3).grid;
 }
-/// Disordered inside.
+/// A ball (2D: disk) with disordered inner nodes.
 template <int D>
 Grid<D> round_body(int n) {
   Geometry<D> body;
@@ -109,7 +109,7 @@ TEST(MeshBodies, PartsOfASimplexAreEqual) {
   for (Index A = 0; A < 3; ++A) EXPECT_NEAR(thirds.volume(A), volume(plane) / 3, 1e-15);
 }
 
-/// Linear displacements have the right gradient at every stress point, and mass is that of the
+/// Linear displacements have the right gradient at every stress point, and the mass is that of the
 /// volume.
 template <int D>
 void expect_patch_test(const Geometry<D>& geometry) {
@@ -148,7 +148,7 @@ TEST(MeshBodies, PassThePatchTest) {
 struct SurfaceErrors {
   Real place = 0, normal = 0, curvature = 0, area = 0, volume = 0;
 };
-/// Of a unit ball.
+/// Errors for a unit ball.
 template <int D>
 SurfaceErrors errors_of(const Geometry<D>& body) {
   SurfaceErrors e;
@@ -209,7 +209,7 @@ TEST(MeshBodies, KeepTheirEdgesAndNameTheirFaces) {
   });
 }
 
-/// The area and volume of the closed surface by which drops hold together.
+/// Drops need the area and volume of a closed surface.
 TEST(MeshBodies, HaveAClosedSurface) {
   for_both_kinds([](bool simplices) {
     using Size = SurfacePatches<3>::Size;
@@ -228,7 +228,7 @@ TEST(MeshBodies, HaveAClosedSurface) {
   });
 }
 
-/// A unit square or cube, disordered inside.
+/// A unit square or cube with disordered inner nodes.
 template <int D>
 std::string file_of_unit_block(int n, bool simplices) {
   Grid<D> grid = test::brick<D>(std::vector<Real>(D, n), 0.2).grid;
@@ -239,7 +239,7 @@ std::string file_of_unit_block(int n, bool simplices) {
       test::msh_of<D>(grid, simplices ? test::simplices_of(grid) : test::cells_of(grid)));
 }
 
-/// The measures of a scene at its end.
+/// The measures of a scene at its end time.
 template <int D>
 class Ended {
  public:
@@ -303,8 +303,8 @@ TEST(MeshBodies, FollowAnExactMotion) {
   expect_exact_motion<3>(8, 0.1);
 }
 
-/// A drop at rest has the pressure (D - 1) gamma / R of Young and Laplace in the mean; and whatever
-/// its surface, D times pressure and volume is D - 1 times tension and area (the virial).
+/// The mean pressure of a drop at rest is (D - 1) gamma / R (Young and Laplace). For any surface, D
+/// times pressure and volume is D - 1 times tension and area (virial).
 template <int D>
 void expect_young_laplace(int n) {
   for_both_kinds([&](bool simplices) {
@@ -341,7 +341,7 @@ TEST(MeshBodies, HaveThePressureOfYoungAndLaplace) {
   expect_young_laplace<3>(4);
 }
 
-/// Row sums of tetrahedra of tools/mesh: the floor of the masses is for few particles, if any.
+/// Row sums of tetrahedra from tools/mesh: few particles, if any, need the floor of the masses.
 TEST(MeshBodies, OfCgalHaveRowSumsNearTheirCells) {
   for (const auto& [name, least] : {std::pair("ball_tetrahedra", 0.2), {"red_cell", 0.3}}) {
     const auto body = test::body_of<3>(test::geometry_of_file<3>(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plane modes of a uniform director and of the flow that it drives, which drives it in return.
+// Plane modes of a uniform director and the flow that it drives, with the reaction of the flow.
 #include "meniscus/approx/row_sums.hpp"
 #include "meniscus/core/dense.hpp"
 #include "meniscus/scene/simulation.hpp"
@@ -18,10 +18,10 @@
 namespace meniscus::test_nematic_backflow {
 namespace {
 
-/// A film between plates x = 0 and x = pi/k that hold the liquid and leave its director free, of a
-/// row of "backflow". A director along x (bend) or y (splay) that is tilted by phi cos(kx), and
-/// the velocity v sin(kx) along y, stay of these forms, whatever the length of the film along y:
-/// its ends may move along y, not along x, and have no traction then.
+/// A film between plates x = 0 and x = pi/k that hold the liquid and leave its director free, from
+/// a row of "backflow". The director along x (bend) or y (splay) is tilted by phi cos(kx), and the
+/// velocity is v sin(kx) along y. Both keep this form for any length of the film along y: its ends
+/// may move along y, not along x, and then have no traction.
 std::string film(const nlohmann::json& row, int cells, Real phi, Real v) {
   const Real k = row.at("k"), width = std::numbers::pi / k;
   const std::string tilt = fmt::format("\"{}*cos({}*x)\"", phi, k),
@@ -60,7 +60,7 @@ std::array<Real, 2> amplitudes(const Body<2>& body, const State& state, const nl
   return {phi / of_phi, v / of_v};
 }
 
-/// The linear map of both amplitudes over about a time `end`, and the time it is over.
+/// The linear map of both amplitudes over a time of about `end`, and this time.
 struct Map {
   Mat<2> M;
   Real time = 0;
@@ -85,7 +85,7 @@ Map map_over(const nlohmann::json& row, int cells, Real end) {
   return map;
 }
 
-/// The greatest error of the rates of a row, of the greatest rate.
+/// The greatest error of the rates of a row, over the greatest rate.
 Real error_of_rates(const nlohmann::json& row, int cells) {
   std::array<std::complex<Real>, 2> exact;
   for (int i = 0; i < 2; ++i)
@@ -102,8 +102,8 @@ Real error_of_rates(const nlohmann::json& row, int cells) {
   return std::min(error(1), error(-1));
 }
 
-/// s^2 + (K/gamma_1 + mu) k^2 s + (K mu/gamma_1 + a^2 K) k^4 = 0, with a = (1 + lambda)/2 where the
-/// director is bent, (lambda - 1)/2 where it is splayed.
+/// The rates satisfy s^2 + (K/gamma_1 + mu) k^2 s + (K mu/gamma_1 + a^2 K) k^4 = 0, with a = (1 +
+/// lambda)/2 for bend and (lambda - 1)/2 for splay.
 TEST(Nematic, DecaysAndSwingsAtTheRatesOfItsBackflow) {
   for (const auto& row : test::cells_reference().at("nematic").at("backflow").at("rows")) {
     const Real coarse = error_of_rates(row, 8), fine = error_of_rates(row, 16);

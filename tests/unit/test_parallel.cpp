@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks of rows cover all rows once, as many as the size asks for, whatever the threads; items in
-// buckets keep their order.
+// Chunks of rows cover each row once, in a number that depends on the size alone, not on the
+// threads; items in buckets keep their order.
 #include "meniscus/core/buckets.hpp"
 #include "meniscus/core/parallel.hpp"
 
@@ -27,7 +27,7 @@ TEST(Chunks, FollowFromTheSizeAlone) {
   }
 }
 
-/// A body so large that it has more than the least number of chunks.
+/// A sum so large that it has more than the least number of chunks.
 TEST(Chunks, SumsHaveTheSameBitsForAnyThreads) {
   constexpr Index n = 50 * 2048 + 77;
   const auto sum = [&] {
@@ -41,7 +41,7 @@ TEST(Chunks, SumsHaveTheSameBitsForAnyThreads) {
     EXPECT_EQ(sum(), one) << threads;
   }
   omp_set_num_threads(before);
-  // sum of sin i = sin(n/2) sin((n - 1)/2) / sin(1/2)
+  // The exact sum of sin i is sin(n/2) sin((n - 1)/2) / sin(1/2).
   EXPECT_NEAR(one, std::sin(n / 2.0) * std::sin((n - 1) / 2.0) / std::sin(0.5), 1e-9);
 }
 
@@ -52,7 +52,7 @@ std::vector<Index> taken_by_one(Index parts) {
   return taken;
 }
 
-/// Outside of loops the caller is the first of the threads, and the only one that takes.
+/// Outside of parallel loops the caller is the first thread, and the only one that takes shares.
 TEST(LoopShares, GiveAThreadItsOwnPartsFirstAndThenTheEndsOfOthers) {
   const int before = omp_get_max_threads();
   omp_set_num_threads(3);

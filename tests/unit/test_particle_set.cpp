@@ -44,7 +44,7 @@ TEST(ParticleSet, CandidatesReachTheBall) {
   }
 }
 
-/// Candidates of a ball are all that reach into it.
+/// The candidates of a ball include all particles whose supports reach into it.
 TEST(ParticleSet, StretchedSupportsReachTheBall) {
   Mat<2> stretch;
   stretch << 2, 0, 0, 0.5;
@@ -88,7 +88,7 @@ void expect_enlargement(Geometry<D> geometry, Real support) {
   }
   EXPECT_EQ(changed, enlarged);
   EXPECT_NO_THROW(build_point_rows<D>(particles, points, {.value = true}, "brick"));
-  EXPECT_EQ(particles.ensure_quality(points, "brick"), 0);  // and now it is good
+  EXPECT_EQ(particles.ensure_quality(points, "brick"), 0);  // now the quality is good
 }
 
 TEST(ParticleSet, TooSmallSupportsAreEnlarged) {
@@ -98,7 +98,7 @@ TEST(ParticleSet, TooSmallSupportsAreEnlarged) {
 }
 
 TEST(ParticleSet, OnlyParticlesNearAPoorPointAreEnlarged) {
-  // One particle of a good lattice has lost its neighbours.
+  // One particle of a good lattice has no near neighbours.
   std::vector<Vec<2>> X;
   for (int i = 0; i < 24; ++i)
     for (int j = 0; j < 24; ++j)
@@ -150,7 +150,7 @@ TEST(ParticleSet, TwoParticlesInOnePlaceAreNoHarm) {
 }
 
 }  // namespace
-/// Whatever their number, and however many of them were there before.
+/// For any number of candidates, and after any number before.
 TEST(NearCandidates, AreThoseThatReachOneOfFourPoints) {
   std::mt19937 random(3);
   std::uniform_real_distribution<Real> anywhere(-1, 1), support(0.2, 0.8);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every registered shape of a rigid partner: its distance is that of its closed-form field, with
-// the derivatives that it says.
+// Every registered shape of a rigid partner: its distance belongs to its closed-form field, and its
+// derivatives are consistent.
 #include "meniscus/physics/interaction_registry.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies mapped by formulas, turned and moved; derivatives of formulas.
+// Bodies mapped by formulas, rotated and moved; derivatives of formulas.
 #include "meniscus/body/placement.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/body/surface_points.hpp"
@@ -82,7 +82,7 @@ TEST(Placement, FormulasAreTheMapsOfTheStudies) {
   for (int i = 0; i < 3; ++i) EXPECT_LT((at(found.G, i) - at(expected.G, i)).norm(), 1e-13);
 }
 
-/// The middles of the surface points of two bodies agree with normal and curvature.
+/// Compares places, normals and curvatures of corresponding surface points of two bodies.
 template <int D>
 void expect_same_surface(const Geometry<D>& a, const Geometry<D>& b) {
   const SurfacePoints<D> p = surface_points(a, 3), q = surface_points(b, 3);

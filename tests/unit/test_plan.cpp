@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plan is read once; scenes can be built from it any number of times.
+// A plan is read once; any number of scenes can be built from it.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace meniscus::test_plan {
 namespace {
 
-/// After three steps.
+/// The state after three steps.
 template <int D>
 struct Outcome {
   explicit Outcome(Scene<D> scene) {
@@ -30,7 +30,7 @@ struct Outcome {
   std::uint64_t snapshot, state, next;
 };
 
-/// The references that the bodies of a scene have anyway.
+/// The present references of the bodies of a scene.
 template <int D>
 References<D> references_of(const Scene<D>& scene) {
   References<D> references;
@@ -83,7 +83,7 @@ Real default_support(const std::string& shape, const std::string& material,
   return settings_of<D>(shape, material, more).support_factor.value();
 }
 
-/// Performance note 3.1.
+/// Defaults of performance note 3.1.
 TEST(Plan, SupportsAreAsWideAsTheirUseAsksFor) {
   const std::string solid = example_solid(),
                     cube = "shape = \"box\"\ncells = [4, 4, 4]\nsize = [1, 1, 1]",
@@ -107,7 +107,7 @@ TEST(Plan, SupportsOfSolidsInSpaceDoNotGrowAtFaces) {
             "neighbours");
 }
 
-/// Cells note 6.
+/// Default of cells note 6.
 TEST(Plan, SupportsOfNematicsInThePlaneDoNotGrowAtTheSurface) {
   const std::string nematic =
                         "[body.material]\ntype = \"nematic\"\ndensity = 1\nbulk_modulus = 100\n"
@@ -124,7 +124,7 @@ TEST(Plan, SupportsOfNematicsInThePlaneDoNotGrowAtTheSurface) {
   EXPECT_EQ(settings_of<3>(ball + "support_by = \"cells\"\n", example_solid()).support_by, "cells");
 }
 
-/// A scene's supports are those multiples, at the surface as well as inside.
+/// Supports of a scene are the given multiples, at the surface as well as inside.
 TEST(Plan, SupportsByCellsAreMultiplesOfTheirDiagonals) {
   const SceneInput input = SceneInput::from_text(
       "dimension = 3\n[time]\nend = 1\n[[body]]\nname = \"body\"\nshape = \"box\"\ncells = [3, 3, "

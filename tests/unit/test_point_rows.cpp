@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of shape functions reproduce polynomials, and hold only what was asked for.
+// Rows of shape functions reproduce polynomials, and store only the requested derivatives.
 #include "meniscus/approx/point_rows.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
@@ -14,8 +14,8 @@ namespace {
 
 constexpr RowContent everything{.value = true, .gradient = true, .hessian = true};
 
-/// Largest errors of value, gradient and Hessian over all monomials up to 2 about the point itself,
-/// in units of the spacing h: fields are of order one there.
+/// Largest errors of value, gradient and Hessian over all monomials up to degree 2 about the point
+/// itself, in units of the spacing h, in which fields are of order one.
 struct Errors {
   Real value = 0, gradient = 0, hessian = 0;
 };
@@ -57,7 +57,8 @@ Errors reproduction_errors(const ParticleSet<D>& particles, const std::vector<Ve
   return worst;
 }
 
-/// Particles (also at corners and edges), Gauss points of the cells, and points of the surface.
+/// Test points at particles (also at corners and edges), Gauss points of the cells, and points of
+/// the surface.
 template <int D>
 std::vector<Vec<D>> test_points(const Geometry<D>& geometry) {
   std::vector<Vec<D>> points = geometry.grid.X;
@@ -112,7 +113,7 @@ Geometry<D> stretched(const Geometry<D>& round) {
   return apply_map<D>(affine_map<D>(A, Vec<D>::Constant(0.3)), round);
 }
 
-/// Supports that follow a stretch make the functions of the body before it.
+/// With stretched supports, a stretched body has the shape functions of the round body.
 template <int D>
 void expect_functions_of(const Geometry<D>& round) {
   const Geometry<D> geometry = stretched<D>(round);
@@ -163,7 +164,7 @@ TEST(PointRows, AreSortedAndCompressed) {
 TEST(PointRows, AreThoseOfEachPointHoweverManyThereAre) {
   const auto body = test::body_of<3>(test::ball(4, 2));
   const auto X = body->particles.X();
-  std::vector<Vec<3>> often;  // so many that they are put together in several blocks
+  std::vector<Vec<3>> often;  // so many points that rows are computed in several blocks
   while (often.size() < 10000) often.insert(often.end(), X.begin(), X.end());
   const PointRows<3> once = build_point_rows<3>(body->particles, X, everything, "body"),
                      rows = build_point_rows<3>(body->particles, often, everything, "body");
@@ -228,7 +229,7 @@ TEST(PointRows, HoldOnlyWhatWasAskedFor) {
   EXPECT_EQ(gradient.value.capacity() + gradient.hessian.capacity(), 0u);
   EXPECT_EQ(all.value.capacity(), entries);
   EXPECT_EQ(all.hessian.capacity(), 6 * entries);
-  // What is there does not depend on what else is.
+  // Values do not depend on the presence of derivatives.
   EXPECT_EQ(value.value, all.value);
   EXPECT_EQ(gradient.gradient, all.gradient);
 }
@@ -242,7 +243,8 @@ TEST(PointRows, SecondDerivativesExistForTheCurvatureFormOnly) {
     return static_cast<Real>(term.bytes()) / static_cast<Real>(term.pairs());
   };
   EXPECT_EQ(weak->pairs(), curvature->pairs());
-  // Of a pair: number 4, value 8, gradient 24, second derivatives 48; rest: points and windows.
+  // A pair has the number 4, value 8, gradient 24, second derivatives 48 bytes; the rest are points
+  // and windows.
   EXPECT_GT(per_pair(*curvature), 84);
   EXPECT_GT(curvature->bytes(), weak->bytes() + 48 * static_cast<std::size_t>(weak->pairs()));
   EXPECT_LT(per_pair(*weak), 28 + 8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Probes: what they read of fields that are known, and how they refuse what cannot be.
+// Probes: values of known fields, and messages for wrong probes.
 #include "meniscus/core/error.hpp"
 #include "meniscus/run.hpp"
 #include "meniscus/scene/scene.hpp"
@@ -86,7 +86,7 @@ fields = ["velocity", "demo_stretch"]
   }
 }
 
-/// Points are in the history without being asked for, lines are not.
+/// Probes at points are columns of the history by default, lines are not.
 TEST(Probe, IsInTheHistory) {
   const auto scene = test::scene_of<2>("dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
                                        "[[probe]]\nname = \"p\"\nbody = \"other\"\nat = [2.2, 0]\n"
@@ -97,7 +97,7 @@ TEST(Probe, IsInTheHistory) {
   EXPECT_EQ(scene.lines.front().compute(scene.initial.motion()).size(), 50u);
 }
 
-/// Of the body that it is on, not of the other one.
+/// The probe belongs to the body on which it lies, not to the other one.
 TEST(Probe, MovesWithItsBody) {
   meniscus::Run run =
       meniscus::Run::from_text("dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
@@ -109,7 +109,7 @@ TEST(Probe, MovesWithItsBody) {
   EXPECT_EQ(run.measure("q.displacement_x"), 0);
 }
 
-/// A drop that flies and turns: the probe stays on its material point through two new references.
+/// A drop that flies and turns: the probe keeps its material point through two remaps.
 TEST(Probe, StaysWhereItIsWhenTheBodyIsReferredAnew) {
   const std::string scene = R"toml(
 dimension = 2
@@ -140,7 +140,7 @@ at = [0.4, -0.5]
   for (const char* name : {"p.velocity_x", "p.velocity_y"})
     EXPECT_NEAR(anew.measure(name), kept.measure(name), 1e-4) << name;
   Real time = 0, x = 0, y = 0;
-  while (anew.time() < 0.4) {  // through the second one
+  while (anew.time() < 0.4) {  // through the second remap
     time = anew.time();
     x = anew.measure("p.displacement_x");
     y = anew.measure("p.displacement_y");

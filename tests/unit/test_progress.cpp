@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says of its progress, on a clock of the test.
+// Messages about the progress of a run, with a simulated clock.
 #include "meniscus/app/progress.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace meniscus::test_progress {
 namespace {
 
-/// A run on a clock of its own.
+/// A run with a simulated clock.
 struct Told {
   State state;
   double now = 1000;
@@ -51,7 +51,7 @@ TEST(Progress, ALineAfterTenSecondsThenEveryMinute) {
   told.step(0.01, 0.25);
   EXPECT_EQ(told.log.size(), 2u);
   told.step(0.01, 600);
-  EXPECT_EQ(told.log.size(), 3u);  // what was due while nobody could say it comes once
+  EXPECT_EQ(told.log.size(), 3u);  // several due messages are given once
 }
 
 TEST(Progress, ASteadyRunKnowsWhenItEnds) {
@@ -83,7 +83,7 @@ TEST(Progress, NoTimeLeftBeforeTenSteps) {
       << told.log.back();
 }
 
-/// Without the check it would say between a minute and an hour, of a run that never ends.
+/// Without the check, a run that never ends would report between a minute and an hour left.
 TEST(Progress, NoTimeLeftWhileTheStepCollapses) {
   Told told(100);
   told.steps(400, 0.01, 0.25);
@@ -95,7 +95,7 @@ TEST(Progress, NoTimeLeftWhileTheStepCollapses) {
   }
   for (std::size_t k = 3; k < told.log.size(); ++k)
     EXPECT_TRUE(says(told.log[k], "time left unknown")) << told.log[k];
-  told.steps(600, dt, 0.25);  // it stays short: that much can be told again
+  told.steps(600, dt, 0.25);  // the step stays short: the time left is known again
   EXPECT_TRUE(says(told.log.back(), " days left")) << told.log.back();
 }
 
@@ -115,7 +115,7 @@ TEST(Progress, ThePaceIsThatOfTheLastMinute) {
   EXPECT_NEAR(pace.seconds_to(state.time + 50).value(), 50, 1e-9);
   steps(800, 0.1);  // ten times as fast
   EXPECT_NEAR(pace.steps_per_second(), 10, 1e-9);
-  steps(20, 30);  // much slower: ten steps are looked at, whatever they take
+  steps(20, 30);  // much slower: the pace is that of ten steps, of any duration
   EXPECT_NEAR(pace.steps_per_second(), 1.0 / 30, 1e-9);
   EXPECT_EQ(pace.seconds_of_last_step(), 30);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces recovered from facets against the exact ones of the same grids.
+// Surfaces recovered from facets against the exact surfaces of the same grids.
 #include "meniscus/body/recovered_surface.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/error.hpp"
@@ -50,7 +50,7 @@ Errors errors(int core) {
     const Real w = at(a.area, q);
     total += w;
     other += at(b.area, q);
-    // Along the surface the points may lie elsewhere.
+    // Distances along the normal count; points may be shifted along the surface.
     e.place += w * std::pow(at(a.N, q).dot(at(a.X, q) - at(b.X, q)), 2);
     e.normal += w * (at(a.N, q) - at(b.N, q)).squaredNorm();
     e.curvature += w * std::pow(at(a.grad_N, q).trace() - at(b.grad_N, q).trace(), 2);
@@ -60,7 +60,7 @@ Errors errors(int core) {
           std::abs(other / total - 1)};
 }
 
-/// The order of an error between a grid and one of half its spacing, which is told.
+/// The order of an error between a grid and one of half its spacing, printed.
 Real order(const std::string& of, Real coarse, Real fine) {
   const Real p = std::log2(coarse / fine);
   fmt::print("recovered ellipsoid, {}: {:.2e}, {:.2e}, order {:.2f}\n", of, coarse, fine, p);

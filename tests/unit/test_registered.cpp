@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for everything that is registered: its forces are what it claims, a run with it has
-// the same bits for any number of threads and through a restart, and a scene without it does not
-// have it.
+// Properties of everything that is registered: its forces are as claimed; a run with it has the
+// same bits for any number of threads and through a restart; a scene without it does not build it.
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/measure/measure_registry.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
@@ -61,7 +60,7 @@ TEST(Registered, WhatBringsNoExampleIsNamed) {
             0u);
 }
 
-/// With their examples.
+/// Each entry appears with its example.
 TEST(Registered, EverythingIsInTheReferenceOfKeys) {
   std::ostringstream out;
   print_keys(out);
@@ -137,8 +136,8 @@ TEST(Registered, TangentsAreTheChangeOfForces) {
   expect_tangents<3>();
 }
 
-/// - C v is what the velocity adds to the force; C is symmetric, has no negative squares, and no
-/// diagonal that is larger than it is.
+/// C v equals the change of the force by the velocity. - C is symmetric and positive. The diagonal
+/// used is at most 1.2 times the exact one.
 template <int D>
 void expect_viscosity() {
   for_all<D>([](const Case&, Scene<D>& scene) {
@@ -210,7 +209,7 @@ TEST(Registered, ForcesHaveNoNetForceAndTorqueWhereClaimed) {
   expect_balance<3>();
 }
 
-/// After 24 steps.
+/// The result after 24 steps.
 struct Outcome {
   std::uint64_t state;
   std::vector<Real> measures;
@@ -244,7 +243,7 @@ class Threaded {
   Simulation<D> simulation_;
 };
 
-/// What a run on three threads keeps on its way is continued by another one on two.
+/// A run on two threads continues the state of a run on three threads.
 template <int D>
 void expect_same_runs() {
   for (const Case& c : test::cases<D>()) {
@@ -276,7 +275,7 @@ TEST(Registered, RunsHaveTheSameBitsForAnyThreadsAndThroughARestartIn3D) {
   expect_same_runs<3>();
 }
 
-/// Every group of measures is seen, on bodies of every shape.
+/// At least one shape of body has measures of every group.
 template <int D>
 void expect_measures() {
   for (const auto& entry : measures<D>()) {
@@ -315,7 +314,7 @@ TEST(Registered, LoadsAddNothingToASceneThatDoesNotNameThem) {
   expect_nothing_when_absent<3>();
 }
 
-/// The table of a law is the shorthand of another: the same bits.
+/// One table is a shorthand for the other: both give the same bits.
 TEST(Registered, SurfaceTensionIsTheSurfaceLawTension) {
   const auto force = [](const std::string& name) {
     const auto& all = test::cases<3>();
@@ -330,7 +329,7 @@ TEST(Registered, SurfaceTensionIsTheSurfaceLawTension) {
   EXPECT_EQ(std::memcmp(one.data(), other.data(), one.size() * sizeof(Lanes)), 0);
 }
 
-/// Of bodies without it, a field is zero; of the same name on the same body, it adds up.
+/// The field is zero on bodies without it, and adds up if one body has two of the same name.
 TEST(Registered, FieldsMayBeOfSomeBodiesOnly) {
   const std::string springs = "[[demo_springs]]\nbody = \"other\"\nstiffness = 2\n";
   const std::string bodies = "dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of a registry: sorted, each once, with help for those that are misspelt.
+// Names of a registry: sorted, unique, with suggestions for misspelt ones.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/registry.hpp"
 

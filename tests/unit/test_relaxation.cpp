@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Relaxation finds equilibria that are known, stops there by itself, keeps the books of energy, and
-// goes on from a snapshot with the same bits.
+// Relaxation finds known equilibria, stops there by itself, keeps the balance of energy, and
+// continues from a snapshot with the same bits.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 #include "meniscus/solve/central_difference.hpp"
@@ -66,8 +66,8 @@ class DeadLoad final : public ForceTerm {
 };
 
 /// The load that holds a body at given displacements brings it there from rest. The displacements
-/// are symmetric about the planes of the brick, so that nothing turns it, and pull in all
-/// directions: bodies that dead loads push together turn over.
+/// are symmetric about the planes of the brick, so that no torque acts, and pull in all directions:
+/// bodies compressed by dead loads turn over.
 template <int D>
 void expect_loaded_brick(const std::string& law) {
   test::OneBody<D> one(D == 3 ? test::brick<D>({4, 2, 3}) : test::brick<D>({6, 4}), law);
@@ -102,7 +102,9 @@ void expect_loaded_brick(const std::string& law) {
   }
   const Ledger last = take_ledger(one.system, one.state);
   EXPECT_GT(last.dissipated, 0.3 * last.external_work);
-  // The load comes at once, which costs the balance dt^2/8 |f|^2/m.
+  // The load acts at once, with an error of the balance of dt^2/8
+  // f
+  // ^2/m.
   EXPECT_LT(std::abs(audit.balance_error(last)), 0.03);
 }
 
@@ -126,7 +128,8 @@ TEST(Relaxation, BodiesWithoutLoadAreAtRestAtOnce) {
   EXPECT_LT(run.simulation.state().step, 100);
 }
 
-/// What drifts has its shape, and ends; under a force that nothing balances it says so.
+/// A drifting body has a constant shape, and the run ends. Under an unbalanced force the run names
+/// the net force.
 TEST(Relaxation, RigidDriftIsNoChangeOfShape) {
   const std::string drifting = sheet + "[[body_force]]\nbody = \"it\"\nacceleration = ";
   std::string text = sheet;
@@ -147,7 +150,7 @@ TEST(Relaxation, RigidDriftIsNoChangeOfShape) {
   EXPECT_LT(pulled.simulation.state().step, 2000);
 }
 
-/// Nothing brings the particles of a fluid back to where they were.
+/// No force returns the particles of a fluid to their initial places.
 template <int D>
 void expect_drop_at_rest(const std::string& shape) {
   Relaxed<D> run("dimension = " + std::to_string(D) +
@@ -190,13 +193,13 @@ TEST(Relaxation, ActiveBarReachesItsStretches) {
   EXPECT_NEAR(run.measure("bar.extent_z") / 2, 1.1222250670561522, 1e-6);
   EXPECT_NEAR(run.measure("bar.extent_x"), 0.9509088637224783, 1e-6);
   const Ledger ledger = run.simulation.audit_now();
-  EXPECT_LT(ledger.external_work, -0.01);  // the active stress shortens what it works on
+  EXPECT_LT(ledger.external_work, -0.01);  // the bar shortens under the active stress
   EXPECT_LT(std::abs(run.simulation.audit().balance_error(ledger)), 1e-4);
   EXPECT_LT(run.simulation.audit().angular_momentum_error(ledger), 1e-12);
 }
 
 TEST(Relaxation, KnowsHowFarItHasToGo) {
-  // Stopped early, the shape is off by about what is said to be left.
+  // If relaxation stops early, the error of the shape is about the reported remaining change.
   for (const std::string tolerance : {"1e-2", "1e-3"}) {
     std::string loose = active_bar;
     for (const std::string key : {"force_tolerance = 1e-8", "shape_tolerance = 1e-6"})

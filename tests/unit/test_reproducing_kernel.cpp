@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape functions at single points: reference values, and lanes that do not see each other.
+// Shape functions at single points: reference values, and lanes that do not influence each other.
 #include "meniscus/approx/reproducing_kernel.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-/// The reference has a weight w_A in front of each window. A weight is the same as that many
-/// particles in one place; the weights of the cases are multiples of 0.01.
+/// The reference has a weight w_A in front of each window. Weights are multiples of 0.01; 100 w_A
+/// particles in one place have the same effect, since a common factor cancels.
 template <int D>
 struct Weighted {
   std::vector<Candidate<D>> candidates;
@@ -145,7 +145,7 @@ TEST(ReproducingKernel, DerivativesAreThoseOfTheValues) {
 }
 
 TEST(ReproducingKernel, QualityIsZeroOrWorseWhereNothingIsDetermined) {
-  // All particles in a plane: no field of z can be told apart.
+  // All particles lie in a plane: fields of z cannot be reproduced.
   std::vector<Candidate<3>> flat;
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)

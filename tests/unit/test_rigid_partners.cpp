@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every rigid partner has in common: identities, continuation into the surface, motion.
+// Properties of every rigid partner: identities, continuation through the surface, motion.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/rigid_motion.hpp"
 #include "meniscus/physics/rigid_partner.hpp"
@@ -61,7 +61,7 @@ Mat<D> gradient(const std::function<Vec<D>(const Vec<D>&)>& f, const Vec<D>& x, 
   return gradient;
 }
 
-/// Calls check(case, x, distance in sigma0) for many points with such distances.
+/// Calls check(case, x, distance in sigma0) for many points whose distances lie in this range.
 template <int D, class Check>
 void for_points(Real from, Real to, Check&& check) {
   std::mt19937 random(5);
@@ -97,7 +97,7 @@ TEST(RigidPartner, DivSIsUAndGradSItsGradient) {
   expect_identities<3>();
 }
 
-/// Inside of the least gap, and inside of the material.
+/// Points nearer than the least gap, and inside the material.
 template <int D>
 void expect_continuation() {
   for_points<D>(-0.5, 0.95 * least_gap, [](const Case<D>& c, const Vec<D>& x, Real z) {
@@ -116,7 +116,7 @@ TEST(RigidPartner, RepelsPointsThatCameThrough) {
   expect_continuation<3>();
 }
 
-/// U along a path through the surface only grows.
+/// U grows along a path through the surface.
 template <int D>
 void expect_growing(const RigidPartner<D>& partner, Vec<D> from, Vec<D> direction, Real sigma0) {
   Real before = 0;
@@ -179,7 +179,7 @@ TEST(RigidMotion, IsTheFormulaAndItsDerivative) {
   EXPECT_EQ(v[2], 0);
 }
 
-/// Some of the four nearer than the least gap, some inside of the material.
+/// Some of the four points are nearer than the least gap, some are inside the material.
 template <int D>
 void expect_fields_of_points() {
   for (const Case<D>& c : cases<D>()) {

@@ -16,7 +16,7 @@ using test::expect_relative;
 const ContactLaw unit_integrated{PairKernel::integrated, 1, 1};
 const ContactLaw unit_planar{PairKernel::planar, 1, 1};
 
-/// By Gauss points on panels no longer than their distance from the point.
+/// Gauss points on panels not longer than their distance from the point.
 SegmentField by_quadrature(const ContactLaw& law, Real begin, Real end, Real h) {
   const GaussRule rule = gauss_rule(20);
   SegmentField sum{0, Vec<2>::Zero()};
@@ -48,7 +48,7 @@ TEST(SegmentField, HasTheReferenceValues) {
   expect_relative(f.u, reference.value[0], 1e-13, "u");
 }
 
-/// Long and short, beside and over the point, on the line itself, near and far.
+/// Segments long and short, beside and above the point, through the point, near and far.
 TEST(SegmentField, IsExactToRoundingEverywhere) {
   for (const PairKernel kernel : {PairKernel::integrated, PairKernel::planar}) {
     const ContactLaw law{kernel, 1.4, 0.5};
@@ -70,12 +70,12 @@ TEST(SegmentField, IsExactToRoundingEverywhere) {
         if (h * h < 1e-5 && begin <= 0 && end >= 0) continue;  // the point is on the segment
         if (std::abs(h) < 1e-8 && begin < 0.4 && end > -0.4) continue;
         const SegmentField f = segment_field(law, begin, end, h);
-        // Mirrored, so that the quadrature begins at its near end.
+        // The quadrature is mirrored, so that it begins at its near end.
         const bool left = end <= 0;
         const SegmentField g = by_quadrature(law, left ? -end : begin, left ? -begin : end, h);
         const std::string what = "h " + std::to_string(h) + " from " + std::to_string(begin) +
                                  " to " + std::to_string(end);
-        // u and psi change their sign: measured by the size of their two terms.
+        // u and psi change their sign: errors are relative to the size of their two terms.
         const Real r = std::hypot(std::max({begin, -end, 0.0}), h);
         const Real x = std::pow(law.sigma0 / r, 6), size = std::min(end - begin, r) * (x + x * x);
         EXPECT_NEAR(f.u, g.u, 1e-14 * size * r * r * std::max(r, 1.0)) << what;
@@ -119,7 +119,7 @@ TEST(RigidPolygons, FrameIsAHoleInItsOuterBox) {
   const Vec<2> low(-2, -1), high(3, 2), x(-1.1, 0.4), out = Vec<2>::Constant(1.5);
   const auto thick = rigid_frame(unit_integrated, 1, low, high, 1.5);
   const Vec<2> a = low - out, b = high + out;
-  // Left and right wall over the whole height, lower and upper between them.
+  // The left and right walls have the whole height, the lower and upper ones lie between them.
   const Real walls =
       rectangle_by_quadrature(unit_integrated, a, {low.x(), b.y()}, x, 12) +
       rectangle_by_quadrature(unit_integrated, {high.x(), a.y()}, b, x, 12) +

@@ -50,8 +50,8 @@ TEST(RigidHalfSpace, TiltsAndScales) {
   EXPECT_NEAR((f.grad_S - f.U * m * m.transpose()).norm(), 0, 1e-14 * std::abs(f.U));
 }
 
-/// {tangential, radial stress, U} of unit density, as the references have it: Sigma = -grad S. Of a
-/// full ball also inside of it.
+/// {tangential stress, radial stress, U} for unit density as in the references: Sigma = -grad S.
+/// Full balls are tested inside, too.
 template <int D>
 std::vector<Real> ball_values(const ContactLaw& law, Real a, Real R) {
   const RadialField f = std::conditional_t<D == 3, SphereField, CylinderField>(law, R).at(a);
@@ -83,7 +83,7 @@ TEST(RigidCylinder, HasTheReferenceValues) {
                             unit_planar);
 }
 
-/// The tensors of partners from their radial values, a cavity being minus the ball.
+/// The tensors of partners against their radial values; a cavity has the opposite sign of the ball.
 template <int D>
 void expect_tensors(const ContactLaw& law) {
   const Vec<D> centre = Vec<D>::Constant(0.3), k = Vec<D>::Ones().normalized();
@@ -111,7 +111,7 @@ TEST(RigidBall, HasTheFieldOfItsRadialValues) {
 }
 
 /// S and U of a cylinder from the definition: the trapezoidal rule on its circle, which converges
-/// exponentially, in points that lie the denser the nearer the circle is.
+/// exponentially. The number of points grows as the place approaches the circle.
 TEST(RigidCylinder, IsTheIntegralOverItsCircle) {
   const Real R = 3;
   for (const ContactLaw& law : {unit_integrated, unit_planar})
@@ -126,7 +126,7 @@ TEST(RigidCylinder, IsTheIntegralOverItsCircle) {
         S += line * f.u * normal[0];
       }
       const RadialField f = CylinderField(law, R).at(a);
-      // U near its zero, and the sums by their own rounding.
+      // Near its zero, U has the error of the rounding of its sum.
       const Real size = std::abs(U) + std::pow(std::abs(a - R), -6);
       EXPECT_NEAR(f.U, U, 2e-13 * size) << name_of(law.kernel) << " a " << a;
       EXPECT_NEAR(f.tangent, S / a, 2e-13 * (std::abs(S / a) + size))
@@ -149,7 +149,7 @@ TEST(RigidBall, SlopeIsTheDerivativeOfU) {
   }
 }
 
-/// Near and far formula, to the last digits, on both sides of where they change.
+/// The near and far formulas agree to the last digits, on both sides of their switch.
 TEST(RigidBall, SeriesAndClosedFormAgree) {
   for (const Real R : {0.7, 5.0}) {
     for (const Real ratio : {0.25, 4.0}) {
@@ -168,7 +168,7 @@ TEST(RigidBall, SeriesAndClosedFormAgree) {
   }
 }
 
-/// Far away a ball is a point with all its particles, U = V phi.
+/// A distant ball acts as a point with all its particles, U = V phi.
 TEST(RigidBall, IsAPointFarAway) {
   for (const Real a : {1e3, 1e5}) {
     const Real volume = 4 * pi / 3, phi = -2 * std::pow(a, -6);
@@ -184,7 +184,8 @@ TEST(RigidBall, BecomesAPlate) {
   for (const Real R : {1e2, 1e4, 1e6}) {
     const auto outside = ball_values<3>(unit_space, R + 0.7, R);
     const auto inside = ball_values<3>(unit_space, R - 0.7, R);
-    // The relative curvature term is 5 gap/R at this gap, near the zero of U; minus for a cavity.
+    // At this gap, near the zero of U, the relative curvature term is 5 gap/R; for a cavity it is
+    // negative.
     EXPECT_NEAR(outside[2], U, 5 / R);
     EXPECT_NEAR(-inside[2], U, 5 / R);
     EXPECT_NEAR(outside[0], 0, 5 / R);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of the cell rule in single precision: what their rounding may change and what it may not.
+// Rows of the cell rule in single precision: allowed changes by rounding, and sums that stay exact.
 #include "meniscus/core/dense.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ Real largest_difference(const CellRule<D>& a, const CellRule<D>& b, const NodalV
   return largest;
 }
 
-/// Without rounding to single precision far from the origin, where coordinates are large.
+/// Gradients of quadratic fields are as exact as in double precision, also far from the origin,
+/// where coordinates are large.
 template <int D>
 void expect_polynomials(Geometry<D> geometry) {
   for (Vec<D>& X : geometry.grid.X) X += Vec<D>::Constant(20);

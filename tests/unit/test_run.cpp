@@ -41,7 +41,7 @@ TEST(Run, FieldsHaveANumberForEveryParticleAndComponent) {
     const Field field = run.field("drop", name);
     EXPECT_EQ(field.values.size(), particles * static_cast<std::size_t>(field.components)) << name;
   }
-  // At rest in the reference: no displacement, F = I, places within the ellipse.
+  // The body is at rest in its reference: no displacement, F = I, places within the ellipse.
   for (const double u : run.field("drop", "displacement").values) EXPECT_EQ(u, 0);
   for (const double J : run.field("drop", "J").values) EXPECT_NEAR(J, 1, 1e-14);
   const auto x = run.field("drop", "position").values;

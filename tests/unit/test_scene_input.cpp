@@ -52,7 +52,7 @@ TEST(Input, DotsCountInKeysOnly) {
         "a = \"\"\"\n\\\"" + dots + "\"\"\"\"",
         "a = ['''it's # " + dots + "''', \"\\\"" + dots + "\"]", "'" + dots + "' = 1"})
     EXPECT_EQ(syntax_report(text), "") << text;
-  // What a key hides behind quotes, brackets and equal signs in its parts.
+  // Quotes, brackets and equal signs within parts of a key.
   for (const char* part : {".'='", ".\"=\"", ".'#'", ".\"\\\"=\"", ".''", ". '\"'"}) {
     std::string key = "a";
     for (int i = 0; i < 20000; ++i) key += part;
@@ -248,7 +248,7 @@ within = 0.1
 )toml");
 }
 
-/// The complete input without its comments, which tell defaults from given values.
+/// The complete input without its comments, which mark defaults.
 std::string without_comments(const std::string& toml) {
   std::istringstream lines(toml);
   std::string result;
@@ -315,7 +315,7 @@ TEST(Scenes, AreComparedKeyByKey) {
       "title = \"a\"\n[units]\nsystem = \"SI\"\n[[body]]\nname = \"one\"\nsize = [1, 2]\n"
       "[body.material]\nmu = 1\n[[body]]\nname = \"two\"\n";
   EXPECT_TRUE(differing_keys(scene, scene).empty());
-  // Order, spelling of numbers, comments and white space say nothing.
+  // Order, spelling of numbers, comments and white space do not count.
   EXPECT_TRUE(differing_keys(scene,
                              "# a copy\nbody = [{ material = { mu = 1.0 }, size = [1.0, 2e0], "
                              "name = 'one' }, { name = \"two\" }]\nunits.system = \"SI\"\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shells, cavities and profiles as a scene names them.
+// Shells, cavities and profiles in scenes.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/scene.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact points that several contacts of a body, or ranks, have together.
+// Contact points shared by several contacts of a body, or divided between ranks.
 #include "meniscus/core/shared_parts.hpp"
 #include "meniscus/physics/contact_demand.hpp"
 #include "meniscus/physics/contact_points.hpp"
@@ -37,8 +37,8 @@ NodalVectors force_of(ForceTerm& contact, const NodalVectors& u) {
   return force;
 }
 
-/// A contact beside another one of the same bodies, which differs in its weights, has the force
-/// that it has alone.
+/// Two contacts of the same bodies with different weights share points: each has the force that it
+/// has alone.
 template <int D>
 void expect_force_of_one_alone(ContactForm form) {
   const ContactLaw law = test::law<D>();
@@ -68,7 +68,7 @@ TEST(SharedContactPoints, GiveEachContactTheForceThatItHasAlone) {
   }
 }
 
-/// Each rank moves the points whose forces it adds up, with the bits of one that moves all.
+/// Each rank moves the points whose forces it adds up, with the same bits as if it moved all.
 TEST(ContactPoints, OfAListAreDividedBetweenRanks) {
   const auto pair = test::round_pair<3>(0.35);
   const NodalVectors u = pair.random(0.05, 3);
@@ -112,7 +112,7 @@ ContactPlaces<3> cloud(Real from, Real to, int count, std::mt19937& generator) {
   return places;
 }
 
-/// Clouds apart, side by side and through each other.
+/// Clouds apart, side by side and overlapping.
 TEST(Gap, IsTheLeastDistanceOfAnyTwoPoints) {
   std::mt19937 generator(5);
   for (const Real away : {3.0, 1.0, 0.9, 0.3, 0.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Operations on four lanes that are instructions of some processors and plain C++ on others.
+// Operations on four lanes that some processors have as instructions, and plain C++ elsewhere.
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/simd.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sparse factors, and the order of a grid that keeps them small.
+// Sparse factors, and the order of grid nodes that keeps them small.
 #include "meniscus/solve/nested_dissection.hpp"
 #include "meniscus/solve/sparse_factors.hpp"
 
@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-/// Unit cells along each direction.
+/// A grid of unit cells.
 template <int D>
 Grid<D> lattice(const std::array<Index, D>& cells) {
   Grid<D> grid;
@@ -101,7 +101,7 @@ TEST(NestedDissection, KeepsFactorsOfGridsSmall) {
 TEST(NestedDissection, HalvesHaveNoCellInCommon) {
   const Grid<3> grid = lattice<3>({24, 4, 4});
   const std::vector<Index> order = nested_dissection(grid);
-  // The last nodes are a plane across the bar.
+  // The last nodes form a plane across the bar.
   const std::set<Index> between(order.end() - 25, order.end());
   Real place = 0;
   for (const Index a : between) place += at(grid.X, a)[0] / 25;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of a failed step, as data and as a sentence.
+// Information about a failed step, as data and as a sentence.
 #include "meniscus/scene/simulation.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 namespace meniscus::test_step_error {
 namespace {
 
-/// Pressed together so fast that it folds within the first step, be it halved six times.
+/// A body compressed so fast that it folds within the first step, even if halved six times.
 const char* pressed = R"toml(
 dimension = 2
 [time]

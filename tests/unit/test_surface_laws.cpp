@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface laws: forces are the gradient of the energy, viscous stress is objective, bodies at rest
-// under elastic surfaces, flows that tensions drive, oscillation of a drop with a surface of its
-// own; what is refused. Larger clouds are in tests/verify/verify_surface_laws.cpp.
+// Surface laws: forces are the gradient of the energy, viscous stress is objective. Bodies at rest
+// under elastic surfaces, flows driven by tensions, oscillation of a drop with a surface law,
+// refused scenes. Larger clouds are in tests/verify/verify_surface_laws.cpp.
 #include "meniscus/core/error.hpp"
 #include "meniscus/physics/surface_registry.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 using test::law_of;
 
-/// The term of a law on a body that is alone.
+/// The term of a law on a single body.
 template <int D>
 std::unique_ptr<ForceTerm> term_of(const Body<D>& body, const std::string& type,
                                    const std::string& numbers) {
@@ -53,7 +53,7 @@ TEST(SurfaceLaws, ForcesAreTheGradientOfTheEnergyAndBalanced) {
   expect_gradients<3>();
 }
 
-/// A motion that is turned has the same energy, and no stress at all in the reference.
+/// A rotated motion has the same energy; the reference has no stress.
 TEST(SurfaceLaws, EnergiesAreThoseOfStrainAlone) {
   const auto body = test::body_of<3>(test::potato<3>());
   Mat<3> R, G;
@@ -72,8 +72,8 @@ TEST(SurfaceLaws, EnergiesAreThoseOfStrainAlone) {
   }
 }
 
-/// Heat of a ball that grows, 4 kappa area rate^2 (plane: (mu + kappa) length rate^2); none of a
-/// body that turns, however deformed it is.
+/// The heat of a growing ball is 4 kappa area rate^2 (2D: (mu + kappa) length rate^2). A rotating
+/// body, deformed in any way, has no heat.
 template <int D>
 void expect_viscosity() {
   const auto body = test::body_of<D>([] {
@@ -114,8 +114,7 @@ TEST(SurfaceLaws, ViscosityIsObjectiveAndHeats) {
   expect_viscosity<3>();
 }
 
-/// All rows of the disk; of the ball those of every law, which the others repeat for the whole
-/// table in the verification.
+/// All rows of the disk; for the ball one row of every law. The verification tests the whole table.
 TEST(SurfaceLaws, BallsAndDisksRestAtTheirExactRadius) {
   int balls = 0;
   for (const auto& row : test::cells_reference().at("surface").at("ball_radial").at("rows")) {
@@ -136,8 +135,8 @@ TEST(SurfaceLaws, TidesOfABallWithAnElasticSurface) {
   EXPECT_LT(test::tidal_error(rows[1], 4, 2), 0.02);
 }
 
-/// A body at rest has the mean stress -(1/V) int sigma_s da; with a small tension its volume is
-/// smaller by (2 gamma/3) (A/V)/kappa.
+/// A body at rest has the mean stress -(1/V) int sigma_s da; a small tension reduces its volume by
+/// (2 gamma/3) (A/V)/kappa.
 TEST(SurfaceLaws, TensionCompressesABoxByItsMeanStress) {
   constexpr Real tension = 1e-4, mu = 1, lambda = 1.5;
   Scene<3> scene = test::scene_of<3>(
@@ -159,7 +158,7 @@ TEST(SurfaceLaws, TensionCompressesABoxByItsMeanStress) {
              exact = -2 * tension / 3 * (4 / 0.5) / (lambda + 2.0 / 3 * mu);
   EXPECT_NEAR(exact, -2.4615e-4, 1e-8);
   EXPECT_NEAR(change, exact, 1e-3 * std::abs(exact));
-  // Of a plate of the edges a, a, t the mean stress along it is -gamma (2/t + 2/a), by its virial.
+  // By the virial, a plate with the edges a, a, t has the mean stress -gamma (2/t + 2/a) along it.
   const Body<3>& body = scene.system.bodies.front();
   const State& state = simulation.state();
   const NodalVectors stress = test::force_of(*scene.system.terms.front(), state.u);
@@ -170,10 +169,9 @@ TEST(SurfaceLaws, TensionCompressesABoxByItsMeanStress) {
   EXPECT_NEAR(virial / measured("b.volume"), along, 1e-3 * std::abs(along));
 }
 
-/// A cylinder with an elastic skin that is stretched along its axis: of two that differ in length
-/// the difference of the energies is that of a section, without the faces at the ends. The section
-/// is free to contract: strain across over that along it, and force over the strain and the area of
-/// the section.
+/// A cylinder with an elastic skin is stretched along its axis. The difference of the energies of
+/// two cylinders of different length is the energy of a section, without end faces. The section is
+/// free to contract. Compares the ratio of strains, and force over strain and area of the section.
 TEST(SurfaceLaws, ASectionOfAStretchedCylinderIsStifferByItsSkin) {
   constexpr Real mu = 1, lambda = 1.5, skin_mu = 0.3, skin_lambda = 0.4, h = 1e-4;
   const auto cylinder = [](int height) {
@@ -257,7 +255,8 @@ TEST(SurfaceLaws, UnstableSkinsNeedAStiffBody) {
   EXPECT_NE(with(liquid, "lambda = 1\nmu = -0.01\n"), "");
 }
 
-/// Where all tables together give the surface of a fluid less than nothing; a solid holds it.
+/// All tables together give the surface of a fluid a negative tension, which is refused; a solid
+/// holds it.
 TEST(SurfaceLaws, TensionsOfFluidsAreNowhereNegative) {
   const std::string heading = "dimension = 3\n[time]\nend = 1\n" + test::ball_of(3, 2, 2),
                     liquid =
@@ -286,7 +285,7 @@ TEST(SurfaceLaws, TensionsOfFluidsAreNowhereNegative) {
   EXPECT_NE(negative.find("nowhere negative"), std::string::npos) << negative;
 }
 
-/// An elastic skin alone is not what makes a body wet a wall.
+/// An elastic skin alone does not make a body wet a wall.
 TEST(SurfaceLaws, SkinsDoNotWet) {
   const auto wets = [](const std::string& law) {
     return !test::scene_of<3>(

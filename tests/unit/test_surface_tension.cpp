@@ -106,7 +106,7 @@ TEST(SurfaceTension, AreasOfRoundBodies) {
   EXPECT_NEAR(measure(*tension<2>(*round, Form::weak), "area", still), 2 * M_PI, 1e-6);
 }
 
-/// A map of degree 2 is reproduced exactly, so the force is that of the exact curvature.
+/// Shape functions reproduce a map of degree 2, so that the force belongs to the exact curvature.
 template <int D>
 void expect_exact_curvature(Geometry<D> geometry, Real tolerance) {
   const auto body = test::body_of<D>(std::move(geometry));
@@ -174,14 +174,14 @@ TEST(SurfaceTension, CurvatureIsRefusedOnEdges) {
     }
 }
 
-/// A round body stays round: the force has the direction of the normal and pulls inwards.
+/// On a ball the force is along the normal and points inwards.
 TEST(SurfaceTension, PullsASphereInwards) {
   const auto body = test::body_of<3>(test::ball(4, 2));
   const NodalVectors u(static_cast<std::size_t>(body->size()), Lanes::zero());
   const NodalVectors radial = test::field_on<3>(*body, [](const Vec<3>& X) { return X; });
   for (const Form form : {Form::weak, Form::curvature, Form::triangles}) {
     const auto term = tension<3>(*body, form);
-    // Growth of the radius by 1 per time costs dA/dt = 8 pi, exactly twice the area.
+    // If the radius grows at the rate 1, dA/dt is 8 pi, exactly twice the area.
     EXPECT_NEAR(-test::dot(test::force_of(*term, u), radial), 2 * measure(*term, "area", u), 1e-10);
     EXPECT_EQ(term->energy_kind(), "surface");
     EXPECT_FALSE(term->viscous());

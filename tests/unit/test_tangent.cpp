@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tangents of the terms against differences of their forces; linear, and symmetric where there is
+// Tangents of the terms against differences of their forces; linear, and symmetric for terms with
 // an energy.
 #include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/cavity.hpp"
@@ -63,11 +63,11 @@ void expect_tangent(ForceTerm& term, Index size) {
   const NodalVectors difference = difference_of(term, at, change, 1e-2);
   EXPECT_GT(test::norm(difference), 0);
   EXPECT_LT(test::norm(test::sum_of(tangent, -1, difference)), 1e-10 * test::norm(difference));
-  // Linear.
+  // The tangent is linear.
   const NodalVectors both = tangent_of(term, at, sum_of(change, -0.5, other));
   const NodalVectors sum = test::sum_of(tangent, -0.5, tangent_of(term, at, other));
   EXPECT_LT(test::norm(test::sum_of(both, -1, sum)), 1e-12 * test::norm(sum));
-  // Of an energy: symmetric along displacements; viscous forces have none.
+  // The tangent of an energy is symmetric for displacements; viscous forces have no energy.
   if (!term.stored_energy(at.motion())) return;
   const Fields still{at.u, test::zeros(at.u)};
   const Fields a{change.u, still.v}, b{other.u, still.v};
@@ -76,7 +76,7 @@ void expect_tangent(ForceTerm& term, Index size) {
   EXPECT_LT(std::abs(one - two), 1e-12 * test::norm(along_a) * test::norm(b.u));
 }
 
-/// Every law with every rule; the fluid also about the volume that its surface encloses.
+/// Every law with every rule, for fluids also with the enclosed volume.
 template <int D>
 void expect_tangents_of_laws() {
   const auto body = test::body_of<D>(test::potato<D>());
@@ -136,7 +136,7 @@ TEST(Tangent, OfSurfacesAndCavitiesIsThatOfTheirForces) {
   expect_tangents_of_surfaces<3>();
 }
 
-/// It has an energy, but its force is not the gradient.
+/// The curvature form has an energy, but its force is not the gradient.
 TEST(Tangent, OfCurvatureIsThatOfItsForces) {
   const auto body = test::body_of<3>(test::potato<3>());
   const auto term = curvature_surface_tension<3>(*body, 1, 3);
@@ -159,7 +159,7 @@ template <int D>
 void expect_tangents_of_pairs() {
   const auto pair = test::round_pair<D>(0.35);
   ContactLaw law = test::law<D>();
-  law.cutoff = 20;  // differences do not see the ends of its switch
+  law.cutoff = 20;  // the ends of the switch are out of reach
   for (const ContactForm form :
        {ContactForm::energy, ContactForm::pressure, ContactForm::volume, ContactForm::dissertation})
     for (const SiteDensity density : {SiteDensity::constant, SiteDensity::referential}) {
@@ -182,7 +182,8 @@ TEST(Tangent, OfPairsIsThatOfTheirForces) {
   expect_tangents_of_pairs<3>();
 }
 
-/// Rigid partners, whose field is differentiated by differences; on patches and on the surface.
+/// Rigid partners, whose field is differentiated numerically; with points on patches and on the
+/// surface.
 template <int D>
 void expect_tangents_of_partners() {
   const auto pair = test::round_pair<D>(0.35);
@@ -217,8 +218,8 @@ TEST(Tangent, OfRigidPartnersIsThatOfTheirForces) {
   expect_tangents_of_partners<3>();
 }
 
-/// By hand: dP = mu dF + (mu/J^2 + lambda) c cof F + (lambda (J - 1) - mu/J) dcof F, c = cof F :
-/// dF; of uniform strains, whose work on another is V G : dP.
+/// For uniform strains, dP = mu dF + (mu/J^2 + lambda) c cof F + (lambda (J - 1) - mu/J) dcof F
+/// with c = cof F : dF. The work of the change on another strain G is V G : dP.
 TEST(Tangent, OfNeoHookeanIsThatWrittenByHand) {
   const auto body = test::body_of<3>(test::potato<3>());
   constexpr Real mu = 0.7, lambda = 1.9;
@@ -249,13 +250,13 @@ TEST(Tangent, OfNeoHookeanIsThatWrittenByHand) {
     }
 }
 
-/// Newton's method for the equilibrium of a hanging block: the tangents as columns of a matrix.
-/// Each residual is of the order of the square of the one before.
+/// Newton's method for the equilibrium of a hanging block, with tangents as columns of a matrix.
+/// Each residual is of the order of the square of the last one.
 TEST(Tangent, MakesNewtonConvergeQuadratically) {
   const auto body = test::body_of<2>(test::brick<2>({2, 2}, 0.1));
   const auto force = test::internal_force<2>(*body, "neo_hookean");
   const std::size_t n = 2 * static_cast<std::size_t>(body->size());
-  // Held by springs at its upper coefficients, pulled down everywhere.
+  // The upper coefficients are held by springs; a force pulls all of them down.
   const auto residual_of = [&](const Fields& at) {
     NodalVectors f = force_of(*force, at);
     for (Index A = 0; A < body->size(); ++A) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same bits for any number of threads: every force term, and a whole small run.
+// The same bits for any number of threads: each force term, and a small run.
 #include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/physics/surface_tension.hpp"

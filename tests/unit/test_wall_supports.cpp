@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kernels of shells stay inside the wall, and what it costs when they do not.
+// Kernels of shells stay inside the wall; the stiffness if they do not.
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/body/wall_supports.hpp"
 #include "meniscus/physics/cavity.hpp"
@@ -92,7 +92,7 @@ struct Deflated {
   Real energy = 0;    ///< of strain, over that of finite elements at the same enclosed volume
 };
 
-/// Red blood cell note 4: energies at 0.7, 0.72 and 0.74 of the cavity, and between them.
+/// Red blood cell note 4: energies at 0.7, 0.72 and 0.74 of the volume of the cavity, interpolated.
 Real finite_element_energy(Real fraction) {
   const Real x = (fraction - 0.72) / 0.02;
   return 429.39556 + x * (372.39071 - 490.54635) / 2 +
@@ -140,8 +140,8 @@ Deflated deflated(bool in_wall) {
   return result;
 }
 
-// Red blood cell note 7 found 2.6 times the energy for 60 % of the kernels crossing, with 872
-// particles, too, but with nodal integration and supports it does not tell.
+// Red blood cell note 7 found 2.6 times the energy with 60 % of the kernels crossing, also with 872
+// particles, but with nodal integration and unknown supports.
 TEST(WallSupports, KernelsAcrossTheCavityMakeItFarTooStiff) {
   const Deflated crossing = deflated(false), within = deflated(true);
   EXPECT_NEAR(crossing.crossing, 0.6, 0.06);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Young's law as an interaction, and the cap that a drop on a wall resembles.
+// Young's law as an interaction, and the cap with the shape of a drop on a wall.
 #include "meniscus/core/error.hpp"
 #include "meniscus/measure/wetting_measures.hpp"
 #include "meniscus/physics/contact_numbers.hpp"

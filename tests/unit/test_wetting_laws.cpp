@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wetting in motion: energies and forces of adhesion that varies, cycles, friction, reactions.
+// Wetting in motion: energies and forces of varying adhesion, cycles, friction, reactions.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 
@@ -17,7 +17,7 @@
 namespace meniscus::test_wetting_laws {
 namespace {
 
-/// A drop of radius 1 with its lowest point 0.1 above a wall, in tension, and a contact 'wall' with
+/// A drop of radius 1 under tension, its lowest point 0.1 above a wall, and a contact 'wall' with
 /// these lines.
 template <int D>
 std::string on_wall_text(const std::string& lines, const std::string& partner = {},
@@ -59,7 +59,7 @@ const std::string varied =
     young + "adhesion = \"0.8 + 0.2*x*z + 0.3*sin(2*y + t)\"\nactin = \"0.1*x^2 + 0.05*t\"\n";
 const std::string varied_in_plane =
     young + "adhesion = \"0.8 + 0.2*x + 0.3*sin(2*y + t)\"\nactin = \"0.1*x^2 + 0.05*t\"\n";
-/// The lowest points are in the core.
+/// A contact in which the lowest points lie in the core.
 const std::string varied_in_core =
     "interaction = \"smooth_young\"\noffset = 0.16\nrange = 0.25\n"
     "adhesion = \"0.8 + 0.2*x*z + 0.3*sin(2*y + t)\"\n";
@@ -94,7 +94,7 @@ TEST(WettingLaws, ForcesAreTheGradientOfTheEnergy) {
     expect_gradient<2>(varied_in_plane, partner);
 }
 
-/// Two drops and a contact 'wall' between them, with these lines.
+/// Two drops and a contact 'wall' between them with these lines.
 template <int D>
 Scene<D> between_drops(const std::string& lines) {
   return test::scene_of<D>(
@@ -141,11 +141,11 @@ Scene<D> on_ground(const std::string& lines) {
       lines);
 }
 
-/// Over ground, by its reference, and with time.
+/// An adhesion that varies with the reference of the ground and with time.
 const std::string graded =
     "adhesion = \"0.8 + 0.5*sin(2*x + t) + 0.3*y*z\"\nactin = \"t > 0.3 ? 0.5 : 0\"\n";
 
-/// A drop on ground: forces are balanced; facets of the ground are below points whatever they do.
+/// A drop on ground: forces are balanced. Facets of the ground lie below the points in any motion.
 template <int D>
 void expect_gradient_on_ground() {
   const std::string up = D == 3 ? "up = [0.1, 0, 1]\n" : "up = [0.1, 1]\n";
@@ -170,7 +170,7 @@ TEST(SoftWetting, ForcesOnGroundAreTheGradientOfTheEnergy) {
   expect_gradient_on_ground<3>();
 }
 
-/// Flat ground at rest does to a drop what a rigid half space does.
+/// Flat ground at rest acts on a drop like a rigid half space.
 template <int D>
 void expect_ground_like_a_plane(const std::string& adhesion) {
   const bool space = D == 3;
@@ -203,7 +203,7 @@ TEST(SoftWetting, FlatGroundIsLikeARigidPlane) {
   }
 }
 
-/// Ground that no longer is below itself stops the run.
+/// The run ends if a facet of the ground turns over.
 TEST(SoftWetting, GroundThatFoldsOverIsAFailure) {
   const Scene<2> scene = on_ground<2>("up = [0, 1]\nadhesion = 0.7\n" + young);
   const Body<2>& layer = scene.system.bodies.back();
@@ -220,7 +220,7 @@ TEST(SoftWetting, GroundThatFoldsOverIsAFailure) {
   EXPECT_GE(failure->particle, layer.first);
 }
 
-/// With all particles held, the supply from outside against the change of the energy.
+/// The booked external work and the change of the energy, with all particles held.
 struct Supply {
   Real booked = 0, change = 0;
 };
@@ -271,7 +271,7 @@ TEST(WettingLaws, WorkOfAdhesionThatJumpsIsBooked) {
   }
 }
 
-/// A drop pressed into the core meets the tension of its own surface, whatever adheres.
+/// The core repels a drop with the tension of its own surface, at any adhesion.
 TEST(WettingLaws, TheCoreIsOneWhereHardlyAnythingAdheres) {
   const auto push = [](const std::string& adhesion) {
     Scene<3> scene = on_wall<3>("adhesion = " + adhesion + "\n" + young);
@@ -283,11 +283,12 @@ TEST(WettingLaws, TheCoreIsOneWhereHardlyAnythingAdheres) {
   };
   const Real weak = push("0.001");
   EXPECT_GT(weak, 1);
-  // Where adhesion varies the core is twice as stiff.
+  // With varying adhesion the core is twice as stiff.
   EXPECT_NEAR(weak, push("\"0.001*exp(-t)\"") / 2, 1e-2 * weak);
 }
 
-/// Two drops that hardly adhere are pressed together: the tension of both bears it.
+/// Two drops with hardly any adhesion are pressed together; the core of both tensions holds them
+/// apart.
 TEST(WettingLaws, TheCoreBetweenTwoDropsBearsWhatPressesThem) {
   Scene<2> scene =
       between_drops<2>(young +
@@ -299,7 +300,7 @@ TEST(WettingLaws, TheCoreBetweenTwoDropsBearsWhatPressesThem) {
   EXPECT_GT(measure(scene, "wall.gap", simulation.state().motion()), 0.03);
 }
 
-/// Between two bodies, too, and in the core.
+/// Work between two bodies is booked, also in the core.
 TEST(WettingLaws, WorkOfActinBetweenBodiesIsBooked) {
   for (const std::string offset : {"0.05", "0.16"})
     for (const Real step : {0.02, 0.037}) {
@@ -316,7 +317,7 @@ TEST(WettingLaws, WorkOfActinBetweenBodiesIsBooked) {
   EXPECT_NEAR(ground.booked, ground.change, 1e-12);
 }
 
-/// The wetted area between two bodies does not change with the adhesion, the energy does.
+/// The wetted area between two bodies does not depend on the adhesion, the energy does.
 TEST(WettingLaws, WettedAreaBetweenBodiesIsThatOfUnitAdhesion) {
   const Scene<2> scene = between_drops<2>(growing + young),
                  unit = between_drops<2>("adhesion = \"1 + 0*t\"\n" + young);
@@ -325,13 +326,14 @@ TEST(WettingLaws, WettedAreaBetweenBodiesIsThatOfUnitAdhesion) {
   EXPECT_GT(area, 0.01);
   EXPECT_EQ(measure(scene, "wall.wetted_area", {0.5, u, v}), area);
   EXPECT_NEAR(measure(unit, "wall.energy", {0, u, v}), -area,
-              1e-3 * area);  // the core is beside it
+              1e-3 * area);  // the core is excluded
   EXPECT_NEAR(measure(scene, "wall.energy", {0, u, v}), -0.8 * area, 1e-3 * area);
 }
 
-/// The work of the contact when a drop is widened far away, lowered, narrowed on the wall, raised.
+/// The work of the contact in a cycle: a drop is widened far away, lowered, narrowed on the wall,
+/// raised.
 struct Cycle {
-  Real net = 0, done = 0, spared = 0;  // wetted area less for the narrow drop
+  Real net = 0, done = 0, spared = 0;  // difference of the wetted areas
 };
 Cycle cycle(const std::string& lines, Real gap, int parts) {
   const Scene<2> scene = on_wall<2>(lines);
@@ -370,7 +372,7 @@ TEST(WettingLaws, AClosedCycleDoesNoWork) {
   EXPECT_LT(std::abs(c.net), 1e-10 * c.done);
 }
 
-/// The traction of the dissertation pulls the wide drop down and lets the narrow one go.
+/// The traction of the dissertation pulls the wide drop down and releases the narrow one.
 TEST(WettingLaws, AClosedCycleGainsTheAdhesionWithTheTractionOfTheDissertation) {
   const Cycle c = cycle(
       "interaction = \"scaled_lennard_jones\"\nadhesion = 2\nsigma0 = 0.2\n"
@@ -380,7 +382,8 @@ TEST(WettingLaws, AClosedCycleGainsTheAdhesionWithTheTractionOfTheDissertation) 
   EXPECT_NEAR(c.net, 2 * c.spared, 0.1 * c.net);
 }
 
-/// Of a W that grows evenly the net force is its slope times the wetted area, and the wall has it.
+/// With a constant gradient of W, the net force is the gradient times the wetted area, and the wall
+/// takes the reaction.
 TEST(WettingLaws, AGradientPullsByTheWettedArea) {
   const Scene<3> scene = on_wall<3>(young + "adhesion = \"1 + 0.05*x\"\n");
   const NodalVectors u = test::random_field<3>(scene.system.size(), 0.02, 6), v = test::zeros(u);
@@ -393,15 +396,15 @@ TEST(WettingLaws, AGradientPullsByTheWettedArea) {
                 1e-13 * force.norm());
 }
 
-/// Along x.
+/// Momentum along x.
 Real momentum_of(const Body<2>& body, const State& state) {
   Real p = 0;
   for (Index A = 0; A < body.size(); ++A) p += at(body.mass, A) * at(state.v, body.first + A)[0];
   return p;
 }
 
-/// A drop on W that grows to the right, and its mirror image. With Gauss points: those of nodal
-/// cells are mirrored to 1e-6 only, which the viscous stress sees.
+/// A drop on a W that grows to the right, and its mirror image. With Gauss points, since stress
+/// points of nodal cells are mirror images only to 1e-6, which changes the viscous stress.
 TEST(WettingLaws, AGradientAndItsMirrorImageDriveMirroredDrops) {
   const auto way = [](const char* sign) {
     std::string text = on_wall_text<2>(young + "adhesion = \"1 " + sign + " 0.2*x\"\n", {},
@@ -429,8 +432,8 @@ TEST(WettingLaws, AGradientAndItsMirrorImageDriveMirroredDrops) {
   EXPECT_NEAR(left, -right, 1e-8 * right);
 }
 
-/// The same on an elastic layer whose modulus and adhesion grow to the right: momenta of the drop,
-/// and of both.
+/// A drop on an elastic layer whose modulus and adhesion grow to the right, and its mirror image:
+/// momenta of the drop, and of both bodies.
 TEST(SoftWetting, AGradedLayerAndItsMirrorImageDriveMirroredDrops) {
   const auto way = [](const char* sign) {
     const std::string grown = std::string("(1 ") + sign + " 0.3*x)\"";
@@ -460,7 +463,8 @@ TEST(SoftWetting, AGradedLayerAndItsMirrorImageDriveMirroredDrops) {
   EXPECT_NEAR(left, -right, 1e-8 * right);
 }
 
-/// The core is as strong as the tension of the drop: it does not count for the area, in any unit.
+/// The core is as strong as the tension of the drop. It does not count for the wetted area, in any
+/// units.
 TEST(WettingLaws, TheWettedAreaOfVaryingAdhesionIsThatOfTheFilm) {
   const auto area = [](const char* tension) {
     std::string text = on_wall_text<2>(varied_in_core_of_plane);
@@ -473,7 +477,7 @@ TEST(WettingLaws, TheWettedAreaOfVaryingAdhesionIsThatOfTheFilm) {
   EXPECT_NEAR(area("20"), area("1"), 1e-12);
 }
 
-/// A drop that slides as a whole: force, reaction, heat, and the work of a wall that is moved.
+/// A drop that slides as a whole: force, reaction, heat, and the work of a moving wall.
 TEST(WettingLaws, FrictionBrakesByTheWettedArea) {
   for (const Real wall : {0.0, 0.2}) {
     const Scene<3> scene = on_wall<3>(
@@ -501,7 +505,7 @@ TEST(WettingLaws, FrictionBrakesByTheWettedArea) {
     EXPECT_NEAR(report.heat, -braked[0] * slip, 1e-10 * report.heat);
     EXPECT_EQ(report.external_work, 0);
     const Real later = term.add_force({0.1, u, v}, force).external_work;
-    EXPECT_NEAR(later, net<3>(force)[0] / 2 * wall * 0.1, 1e-9);  // `force` has both
+    EXPECT_NEAR(later, net<3>(force)[0] / 2 * wall * 0.1, 1e-9);  // `force` contains both bodies
     EXPECT_NEAR(measure(scene, "wall.slip_x", motion), slip, 1e-12);
     EXPECT_NEAR(measure(scene, "wall.slip_z", motion), 0, 1e-12);
   }
@@ -523,7 +527,7 @@ TEST(WettingLaws, TheLineMovesAsTheBaseGrows) {
   EXPECT_EQ(measure(scene, "wall.line_speed", {0, u, u}), 0);
 }
 
-/// Next to no traction: the tensions alone.
+/// Hardly any traction: the tensions act alone.
 const std::string switched =
     "interaction = \"legacy_switch\"\ncontact_angle = 60\nadhesion = 1e-12\nsigma0 = 0.3\n"
     "switch_gap = 0.6\n";
@@ -549,8 +553,8 @@ TEST(WettingLaws, SwitchedTensionsAreTheGradientWhileNothingSwitches) {
   expect_switched_tensions<3>();
 }
 
-/// A drop lowered onto the wall at once: W = gamma (1 + cos theta) times the area that becomes wet
-/// is lost, and comes back when it is raised.
+/// Lowering a drop onto the wall in one step loses W = gamma (1 + cos theta) times the area that
+/// becomes wet. Raising the drop returns this energy.
 TEST(WettingLaws, EnergyOfSwitchesIsCounted) {
   const Scene<3> scene = switching<3>();
   ForceTerm& term = *scene.system.terms.back();
@@ -591,7 +595,7 @@ TEST(WettingLaws, SwitchedTensionsGoWithTheirTriangles) {
                     InputError, "legacy_switch is for a body and a half space");
 }
 
-/// What an absent interaction and an absent form stand for.
+/// The complete input names the default interaction and the default form.
 TEST(WettingLaws, TheCompleteInputNamesTheLawThatActs) {
   const auto contact = [](const std::string& lines, const std::string& key) {
     std::string text = on_wall_text<2>(lines);
@@ -612,7 +616,7 @@ TEST(WettingLaws, TheCompleteInputNamesTheLawThatActs) {
   EXPECT_EQ(contact(switched, "form"), "dissertation");
 }
 
-/// Few points do no harm where the field of the partner is smooth.
+/// Few points suffice where the field of the partner is smooth.
 TEST(WettingLaws, UnresolvedGapsAreOfPartnersWithCorners) {
   const std::string few =
       "interaction = \"scaled_lennard_jones\"\nadhesion = 1\nsigma0 = 0.15\npoints = 1\n";
@@ -658,7 +662,7 @@ TEST(WettingLaws, WhatCannotBeIsRefused) {
                     "friction: is for rigid partners");
 }
 
-/// A drop over a layer that has been bent to a ridge of slope 0.3 below its rim.
+/// A drop over a layer with a ridge of slope 0.3 below its rim.
 Scene<2> over_ridge(const std::string& tension) {
   return test::scene_of<2>(
       "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"half_disk\"\nradius = "
@@ -677,7 +681,7 @@ TEST(SoftWetting, MeasuresTheRidgeAndItsAngles) {
   Scene<2> scene = over_ridge("[[surface_tension]]\nbody = \"layer\"\ngamma = 1\n");
   EXPECT_TRUE(scene.warnings.empty());
   const Motion motion = scene.initial.motion();
-  EXPECT_NEAR(measure(scene, "line.ridge_height", motion), 0.15, 0.015);  // rounded off
+  EXPECT_NEAR(measure(scene, "line.ridge_height", motion), 0.15, 0.015);  // the top is rounded
   EXPECT_NEAR(measure(scene, "line.ridge_radius", motion), 1, 0.02);
   const Real tilt = std::atan(0.3) * 180 / std::numbers::pi;
   EXPECT_NEAR(measure(scene, "line.solid_angle", motion), 180 - 2 * tilt, 0.5);
@@ -687,7 +691,7 @@ TEST(SoftWetting, MeasuresTheRidgeAndItsAngles) {
   EXPECT_GT(measure(scene, "line.wetted_area", motion), 0);
 }
 
-/// The contact takes half of the adhesion from the surface of the ground, which has to hold it.
+/// The contact takes half of the adhesion from the tension of the ground, which has to be larger.
 TEST(SoftWetting, WarnsWhereTheGroundHasTooLittleTension) {
   const Scene<2> scene = over_ridge("");
   ASSERT_EQ(scene.warnings.size(), 2u);
@@ -698,8 +702,8 @@ TEST(SoftWetting, WarnsWhereTheGroundHasTooLittleTension) {
             std::string::npos);
 }
 
-/// The rule takes the adhesion of the whole run; with a third of the modulus times the range the
-/// ground holds it.
+/// The warning uses the largest adhesion of the whole run. Ground with an adhesion below a third of
+/// modulus times range does not fold.
 TEST(SoftWetting, WarnsWhereTheGroundWouldFold) {
   const auto warned = [](const std::string& adhesion) {
     const Scene<2> scene = on_ground<2>("up = [0, 1]\noffset = 0.05\nrange = 0.25\n" + adhesion);
@@ -709,7 +713,7 @@ TEST(SoftWetting, WarnsWhereTheGroundWouldFold) {
                  "'layer', 0.209 N/m at most, 2.5 Pa and 0.25 m") == 0;
     });
   };
-  // E = 2.5
+  // Young's modulus is E = 2.5.
   EXPECT_FALSE(warned("adhesion = 0.208\n"));
   EXPECT_FALSE(warned("adhesion = 0.1\nactin = \"t > 0.5 ? 0.108 : 0\"\n"));
   EXPECT_TRUE(warned("adhesion = 0.209\n"));

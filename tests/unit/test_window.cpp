@@ -37,7 +37,7 @@ TEST(Window, MatchesReference) {
   }
 }
 
-/// Places where branches meet, and a little beside them.
+/// Distances at which branches meet, and slightly beside them.
 std::vector<Real> critical_distances() {
   std::vector<Real> z{1e-12, 1e-8, 1e-5, 0.01, 0.2, 0.45, 0.8, 0.99};
   for (const Real knot : {1.0 / 3, 0.5, 2.0 / 3, 1.0})
@@ -58,7 +58,8 @@ TEST(Window, DerivativesAreThoseOfTheFunction) {
       };
       const Values here = at_distance(window, z);
       EXPECT_NEAR(here.slope, (phi(z + h) - phi(z - h)) / (2 * h), 1e-8);
-      // Third derivatives jump at the knots of the cubic spline: first order there.
+      // Third derivatives of the cubic spline jump at its knots: the difference is of first order
+      // there.
       EXPECT_NEAR(here.bend, (slope(z + h) - slope(z - h)) / (2 * h), 1e-3);
     }
 }
