@@ -1,6 +1,6 @@
-# libFuzzer targets (label unit), in the build with sanitizers of clang only: from a kept corpus for
-# half a minute each, or as long as -DMENISCUS_FUZZ_SECONDS says. What they reach is compiled once
-# more, so that the fuzzer sees which branches are taken.
+# libFuzzer targets (label unit), only in the build with clang's sanitizers. Each starts from a kept
+# corpus and runs for half a minute, or for -DMENISCUS_FUZZ_SECONDS. The tested files are compiled
+# again with coverage, so that the fuzzer sees which branches are taken.
 if(NOT (MENISCUS_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang"))
   return()
 endif()
@@ -23,7 +23,7 @@ add_dependencies(meniscus_fuzzed meniscus_version)
 foreach(reader scene checkpoint)
   add_executable(meniscus_fuzz_${reader} fuzz/fuzz_${reader}.cpp)
   target_link_libraries(meniscus_fuzz_${reader} PRIVATE meniscus_fuzzed -fsanitize=fuzzer)
-  # The kept corpus is the second directory: what is found goes into the first.
+  # The kept corpus is the second directory; new inputs go into the first.
   file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/fuzz/${reader})
   add_test(NAME fuzz.${reader} COMMAND meniscus_fuzz_${reader} -max_total_time=${MENISCUS_FUZZ_SECONDS}
     -max_len=1000 -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=512 -seed=1 -print_final_stats=1

@@ -1,14 +1,14 @@
-# Every scene of inputs/ is a test (label scene). It is checked, and run if its first line says so:
-#   # test: full                run as it is
+# Every scene of inputs/ is a test (label scene). It is checked, and run if its first line is one of
+#   # test: full                run unchanged
 #   # test: short OPTION...     run with options of `meniscus run`, e.g. --until 0.02ns
-# tools/verify runs the others in full (label verify, configuration full), and variants of a scene
-# into verification/SCENE-NAME for each of its lines
+# tools/verify runs the other scenes in full (label verify, configuration full). For each line of the
+# form below, it runs a variant of the scene into verification/SCENE-NAME:
 #   # verify NAME: OPTION...
-# The program's exit code decides: 7 means that an expectation of the scene was missed.
+# A test passes by the exit code of the program; 7 means a missed expectation of the scene.
 
 file(GLOB scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/inputs/*.toml)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${scenes})
-# With one thread each, several at a time: results are those of any number of threads.
+# Each test has one thread, several tests run at once; results do not depend on the threads.
 set(scene_environment OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1)
 
 foreach(scene ${scenes})

@@ -1,4 +1,4 @@
-# Every study in its short form (label verify), where its orders and targets are asserted, and in
+# Every study in its short form (label verify), which asserts orders and targets, and in
 # full (configuration full: tools/verify), which writes verification/NAME.
 file(GLOB study_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/study/*.cpp)
 

@@ -75,7 +75,7 @@ Scene<3> two_balls(const std::string& form) {
   return build_scene<3>(input);
 }
 
-/// Pairs of points in the list; a pair acts on both.
+/// Pairs of points in the list; each pair acts on both points.
 Real pairs_of(const Scene<3>& scene, bool volume) {
   const auto points = [&](std::size_t k) {
     const Body<3>& body = scene.system.bodies.at(k);
@@ -114,8 +114,8 @@ void add_partner_case(const std::string& name, std::shared_ptr<const RigidPartne
   });
 }
 
-/// A step of the scene cylinder_impact, the left cylinder beside a wall at `gap` sigma0 and the
-/// right one as far from it: all contacts at work.
+/// A step of the scene cylinder_impact. The left cylinder is `gap` sigma0 from a wall and from the
+/// right cylinder, so that all contacts act.
 void add_impact_case(const std::string& name, Real gap) {
   add_case("step of the impact of two cylinders, 1 thread", name, 1,
            [gap](benchmark::State& state) {
@@ -132,8 +132,8 @@ void add_impact_case(const std::string& name, Real gap) {
              const Shares shares = shortest_step(
                  state, scene.system.terms.size(), [&] { advance(scene.system, moving, 1e-9); },
                  [&](std::size_t k) { scene.system.terms[k]->add_force(moving.motion(), sum); });
-             // The terms are the internal forces of both bodies, their contact, and those with the
-             // frame.
+             // The terms are the internal forces of both bodies, their contact, and their contacts
+             // with the frame.
              const Real internal = shares.part.at(0) + shares.part.at(1), pair = shares.part.at(2),
                         frame = shares.part.at(3) + shares.part.at(4);
              set_columns(state, {{"ns/particle-step", 1e9 * shares.step / scene.system.size()},
@@ -144,8 +144,8 @@ void add_impact_case(const std::string& name, Real gap) {
            });
 }
 
-/// A step of a scene in space whose last term is the contact that is asked about: its time per pair
-/// of points that it visits, and its share.
+/// A step of a 3D scene whose last term is the contact to be measured: its time per visited pair of
+/// points, and its share.
 void add_contact_step(const std::string& name, const std::string& file,
                       const std::vector<std::string>& settings) {
   add_case("step of a scene in contact, 1 thread", name, 1,

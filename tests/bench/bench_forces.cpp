@@ -42,7 +42,7 @@ std::string tension(const std::string& form) {
   return fmt::format("[[surface_tension]]\nbody = 'ball'\ngamma = 1\nform = '{}'", form);
 }
 
-/// The scene of a case, kept for the next case if that asks for the same one.
+/// The scene of a case, kept if the next case has the same input.
 Scene<3>& scene_of(const std::string& material, const std::string& body, const std::string& more) {
   static std::string built;
   static std::unique_ptr<Scene<3>> scene;
@@ -51,7 +51,7 @@ Scene<3>& scene_of(const std::string& material, const std::string& body, const s
     const int threads = omp_get_max_threads();
     omp_set_num_threads(omp_get_num_procs());
     const SceneInput input = ball(material, body, more);
-    scene_dimension(input);  // every key has to be read
+    scene_dimension(input);  // all keys have to be read
     scene = std::make_unique<Scene<3>>(build_scene<3>(input));
     start(scene->system, scene->initial);
     omp_set_num_threads(threads);
@@ -60,7 +60,7 @@ Scene<3>& scene_of(const std::string& material, const std::string& body, const s
   return *scene;
 }
 
-/// Term number `term` of the scene alone.
+/// Measures term number `term` of the scene.
 void add_term_case(const std::string& group, const std::string& name, std::size_t term,
                    const std::string& material, const std::string& body, const std::string& more) {
   for (const int threads : {1, 2})

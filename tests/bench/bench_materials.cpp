@@ -11,7 +11,8 @@
 namespace meniscus::bench {
 namespace {
 
-/// Stress points of the time loop come in blocks; here of 8 x 4, at strains of a few per cent.
+/// As in the time loop, stress points come in blocks; here 8 blocks of four, at strains of a few
+/// per cent.
 using Points = std::array<Tensor<Lanes>, 8>;
 
 Points sample(Real size) {
@@ -24,7 +25,7 @@ Points sample(Real size) {
   return points;
 }
 
-/// Calls per window: long against the resolution of the clock.
+/// Calls per time window, long compared with the resolution of the clock.
 constexpr int repeats = 200;
 
 template <class Evaluate>

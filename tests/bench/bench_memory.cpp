@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast memory is read by loops that do nothing else: what bounds the steps of large bodies.
+// Bandwidth of loops that only read memory: the bound for steps of large bodies.
 #include "meniscus/core/aligned.hpp"
 #include "meniscus/core/parallel.hpp"
 
@@ -10,10 +10,10 @@
 namespace meniscus::bench {
 namespace {
 
-/// Far beyond what caches hold.
+/// Far more than caches hold.
 constexpr std::size_t numbers = std::size_t{1} << 27;
 
-/// Lines are fetched ahead as those of rows are.
+/// Lines are prefetched like those of rows.
 Real sum_of(const Real* p, const Real* end) {
   constexpr std::ptrdiff_t line = 8, ahead = 512;
   Lanes even = Lanes::zero(), odd = even;

@@ -45,7 +45,7 @@ void add_shape_function_cases() {
                              {.value = true, .gradient = true, .hessian = true}}})
     add_case("shape functions", c.name, 1, [cloud, c](benchmark::State& state) {
       PointRows<3> rows;
-      // Parts of the cloud: short windows.
+      // Windows are short: each covers a part of the cloud.
       constexpr std::size_t part = 20;
       std::size_t begin = 0;
       double least = 1e300, neighbors = 0;
@@ -56,7 +56,7 @@ void add_shape_function_cases() {
               cloud->particles, std::span(cloud->points).subspan(begin, part), c.content, "ball");
         });
         state.SetIterationTime(time);
-        // Per neighbour, because the parts differ in their counts.
+        // The time is per neighbour, because the parts differ in their numbers of neighbours.
         least = std::min(least, time / static_cast<double>(rows.entries()));
         neighbors += static_cast<double>(rows.entries()) / part;
       }

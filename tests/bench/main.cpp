@@ -7,7 +7,7 @@
 namespace meniscus::bench {
 namespace {
 
-/// One line per case; a new head line where the group or its columns change.
+/// One line per case; a new header when the group or its columns change.
 class Table final : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How speed is measured: the shortest of many short windows, one table per group of cases.
+// Measurement of speed: the shortest of many short time windows, one table per group of cases.
 #pragma once
 #include <benchmark/benchmark.h>
 #include <omp.h>
@@ -13,7 +13,7 @@
 
 namespace meniscus::bench {
 
-/// Seconds of one call.
+/// Time of one call in s.
 template <class Work>
 double seconds(Work&& work) {
   using Clock = std::chrono::steady_clock;
@@ -25,16 +25,16 @@ double seconds(Work&& work) {
 /// Columns of a line of the table.
 using Columns = std::initializer_list<std::pair<const char*, double>>;
 
-/// Google Benchmark keeps counters sorted by name; the number in front keeps the order given.
+/// Google Benchmark sorts counters by name; the number in front keeps the given order.
 inline void set_columns(benchmark::State& state, Columns columns) {
   int n = 0;
   for (const auto& [name, value] : columns)
     state.counters[std::to_string(n++) + " " + name] = value;
 }
 
-/// Registers the case `group`/`name`. `run(state)` loops over the state, gives it the time of every
-/// iteration and sets the columns from the shortest one: on a machine with other users, some
-/// windows are undisturbed if they are short and many.
+/// Registers the case `group`/`name`. `run(state)` loops over the state, sets the time of each
+/// iteration, and sets the columns from the shortest one. Many short windows are used, since on a
+/// shared machine some of them are undisturbed.
 template <class Run>
 benchmark::internal::Benchmark* add_case(const std::string& group, const std::string& name,
                                          int threads, Run run) {
@@ -57,8 +57,8 @@ double shortest(benchmark::State& state, Work&& work) {
   return least;
 }
 
-/// Runs `advance()` as the loop of a case, `part(k)` being the work of part k of it alone; returns
-/// the shortest time of a step and the shares of the parts in it.
+/// Runs `advance()` as the loop of a case; `part(k)` does the work of part k alone. Returns the
+/// shortest time of a step and the shares of the parts.
 struct Shares {
   double step = 1e300;
   std::vector<double> part;  ///< in percent of the step

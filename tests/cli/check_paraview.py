@@ -101,7 +101,7 @@ class ParaView(unittest.TestCase):
         return reader
 
     def sizes(self, reader, **measures):
-        """Of each cell."""
+        """Volume (2D: area) of each cell."""
         quality = MeshQuality(Input=reader, **measures)
         quality.UpdatePipeline()
         return vtk_to_numpy(servermanager.Fetch(quality).GetCellData().GetArray("Quality"))
@@ -125,7 +125,7 @@ class ParaView(unittest.TestCase):
         self.assertEqual(types[10], 6 * 3**3)
         self.assertEqual(set(types), {10, 12})
         self.assertGreater(self.sizes(run, TetQualityMeasure="Volume", HexQualityMeasure="Volume").min(), 0)
-        # The ball by the polyhedron of its hexahedra, and the cube.
+        # The volumes of the ball (a polyhedron of its hexahedra) and of the cube.
         self.assertLess(abs(self.total(run, "Volume") - (4 * 3.14159265 / 3 + 1)), 0.4)
         surface = ExtractSurface(Input=run)
         surface.UpdatePipeline()
@@ -140,7 +140,7 @@ class ParaView(unittest.TestCase):
         self.assertGreater(high, low)
 
     def test_rigid_partners(self):
-        """The plane moves away, the ball stays."""
+        """The plane moves away, the ball is fixed."""
         walls = self.opened(self.run_of(IN_SPACE) / "partners.xdmf")
         self.assertEqual(len(walls.TimestepValues), 6)
         for time in (0, walls.TimestepValues[-1]):
@@ -155,7 +155,7 @@ class ParaView(unittest.TestCase):
             self.assertAlmostEqual(ball[5], -0.5, 6)
 
     def test_every_reader_of_paraview(self):
-        """There are three for XDMF."""
+        """ParaView has three readers for XDMF."""
         for text in (IN_SPACE, IN_THE_PLANE):
             out = self.run_of(text)
             for name in ("run", "partners"):

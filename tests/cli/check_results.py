@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens what result_writer wrote with h5py and compares numbers, units, XDMF references and the
+"""Opens the files of result_writer with h5py and compares numbers, units, XDMF references and the
 shapes that VTK expects. Usage: check_results.py RESULT_WRITER"""
 import hashlib
 import re

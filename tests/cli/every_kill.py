@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens run.h5 as a kill leaves it after each single write of its writer, and within each write at
-the ends of pages, where the system stops a process that is killed. Each time the file must open
-with all frames that were in it before, each once; also while a run that continues drops frames.
+"""Opens run.h5 as a kill leaves it: after each single write of its writer, and within each write at
+the ends of pages, where the system stops a killed process. Each time the file must open
+with all frames written before, each once; also while a continued run drops frames.
 Usage: every_kill.py WRITE_RECORDER FRAMES"""
 import io
 import os
@@ -34,7 +34,7 @@ def events(record):
 
 
 class Image:
-    """run.h5 as it is on the disk, from when it has its name."""
+    """run.h5 on the disk, from the moment at which it has its name."""
 
     def __init__(self):
         self.content = bytearray()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Kills result_writer with SIGKILL at 100 random times, most of them early. Each time run.h5 must
-open with every frame that was announced, the views must agree with the frames, and the checkpoints
+open with every announced frame, the views must agree with the frames, and the checkpoints
 must be complete.
 Usage: kill_writer.py RESULT_WRITER"""
 import random

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program under test, small scenes, and what its results are compared by."""
+"""The program under test, small scenes, and helpers that compare results."""
 import os
 import re
 import subprocess
@@ -41,14 +41,14 @@ body = "drop"
 gamma = "72.8 mN/m"
 """
 
-# The same, referred anew twice.
+# The drop with two remaps.
 REMAPPED_DROP = DROP + """
 [[remap]]
 body = "drop"
 at = ["17 ps", "35 ps"]
 """
 
-# An elastic block that is shaken.
+# An elastic block in oscillation.
 BLOCK = """
 dimension = 3
 [time]
@@ -72,7 +72,7 @@ body = "block"
 acceleration = ["20*sin(40*t)*(1 + z)", "5*y*cos(11*t)", 0]
 """
 
-# The same in the plane.
+# An elastic sheet in 2D.
 SHEET = """
 dimension = 2
 [time]
@@ -90,7 +90,7 @@ mu = 1e5
 lambda = 1e5
 """
 
-# The sheet, bent, comes to rest.
+# The bent sheet comes to rest.
 RELAXING_SHEET = SHEET.replace("end = 0.1", 'end = 20\nsolver = "relax"\ncheck_every = 40').replace(
     "[output]", "[output]\nframes_every = 0.05\nhistory_every = 0.01").replace(
     "[[body]]", '[[body]]\ninitial_displacement = ["0.1*y^2", "0.05*y"]')
@@ -102,7 +102,7 @@ def with_output(text, lines):
 
 
 class ProgramTest(unittest.TestCase):
-    """A test with a directory of its own, in which it runs the program."""
+    """A test that runs the program in a directory of its own."""
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -114,8 +114,8 @@ class ProgramTest(unittest.TestCase):
         return f"{name}.toml"
 
     def call(self, *arguments, code=0, **options):
-        """Runs the program; its output is an attribute of the result (stdout, stderr). `code`: what it
-        has to end with, None for any."""
+        """Runs the program; the result has its output as attributes (stdout, stderr). `code`: the
+        required exit code, None for any."""
         done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.directory, text=True,
                               capture_output=True, env=ENVIRONMENT, timeout=100, **options)
         if code is not None:
@@ -123,7 +123,7 @@ class ProgramTest(unittest.TestCase):
         return done
 
     def start(self, *arguments):
-        """Starts the program and leaves it running."""
+        """Starts the program without waiting for its end."""
         process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.directory, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT)
         self.addCleanup(process.__exit__, None, None, None)
@@ -131,7 +131,7 @@ class ProgramTest(unittest.TestCase):
         return process
 
     def refused(self, arguments, code, *words):
-        """The program ends with `code` and says all of `words` on stderr."""
+        """The program ends with the exit code `code` and prints all of `words` on stderr."""
         done = self.call(*arguments, code=code)
         for word in words:
             self.assertIn(word, done.stderr)
@@ -165,7 +165,7 @@ class ProgramTest(unittest.TestCase):
 
 
 def state_of(done):
-    """The hash of the state that a run ended with."""
+    """The hash of the last state of a run."""
     return re.search(r"state ([0-9a-f]{16})", done.stdout).group(1)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every scene of inputs/, in the form in which it is a test, ends with the same state hash alone,
+"""Every scene of inputs/, in the form of its test, ends with the same state hash in one process,
 on 2, 3 and 4 ranks, and stopped half-way on 3 ranks and continued on 2.
 Usage: ranks_of_scenes.py PROGRAM [SCENE...]"""
 import csv
@@ -15,12 +15,12 @@ from program import ENVIRONMENT
 from test_ranks import INPUTS, MPIRUN, RANKS_ENVIRONMENT
 
 SINGLE = {**ENVIRONMENT, "OMP_NUM_THREADS": "1"}
-# The program ends with these where a scene is not run to its end, or an expectation is missed.
+# Allowed exit codes: a shortened run may miss an expectation (7).
 ENDS = (0, 7)
 
 
 def options_of(scene):
-    """Of `meniscus run`; None if the scene is not run as a test."""
+    """Options of `meniscus run`; None if the scene is not a test."""
     with scene.open() as lines:
         form = re.match(r"# test: (full|short (.*))$", lines.readline().strip())
     return form and shlex.split(form[2] or "")
@@ -45,7 +45,7 @@ def middle(output):
 
 
 def differences(program, scene, options, directory):
-    """What is not as in a run alone."""
+    """Differences from a run in one process."""
     expected = state(program, 1, scene, *options, "--output", directory / "alone")
     found = {f"{ranks} ranks": state(program, ranks, scene, *options, "--output", directory / str(ranks))
              for ranks in (2, 3, 4)}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records every change of a file: linked into result_writer, it takes the place of the C library's
-// pwrite, ftruncate and rename and writes what they did to the file that RECORD_WRITES names.
-// Each record is a line: "write INODE OFFSET SIZE", followed by SIZE bytes and the end of a line,
-// "truncate INODE SIZE" or "rename INODE NAME".
+// Records every change of a file. Linked into result_writer, it replaces pwrite, ftruncate and
+// rename of the C library and writes their effects to the file named by RECORD_WRITES. Each record
+// is a line: "write INODE OFFSET SIZE", followed by SIZE bytes and the end of a line, "truncate
+// INODE SIZE" or "rename INODE NAME".
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a file in every way the program has, for hostile_files.py:
+// Reads a file with every reader of the program, for hostile_files.py:
 //   result_reader FILE
-// Prints a line for each way: what it is, and "read" or why it was refused. Only refusals by
-// FileError are well.
+// Prints a line for each reader: its name, and "read" or the reason for refusal. A refusal has to
+// be a FileError.
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/info.hpp"

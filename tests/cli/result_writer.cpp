@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a run whose numbers are known, for check_results.py, kill_writer.py and every_kill.py:
+// Writes a run with known numbers, for check_results.py, kill_writer.py and every_kill.py:
 //   result_writer DIR FRAMES float32|float64 COMPRESSION [LAST]
-// With LAST a run that is there is continued behind the frame LAST, without history and
-// checkpoints. A line "frame k" on stdout says that frame k is safe.
+// With LAST, continues an existing run after the frame LAST, without history and checkpoints. A
+// line "frame k" on stdout means that frame k is on disk.
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/history.hpp"
 #include "meniscus/io/result_file.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr Index particles = 300, first_body = 100;
 
-/// Value c of particle I in frame k; exact in single precision.
+/// Component c of particle I in frame k; exact in single precision.
 Real value(std::int64_t k, Index I, int c) {
   return static_cast<Real>(k) + I / 512.0 + c / 8.0;
 }
@@ -31,7 +31,8 @@ std::vector<Real> values(std::int64_t k, Index count, int components) {
   return all;
 }
 
-/// Corners of the cells A ... A + 7 for A = 0, 1, ...; the first facet is that of particles 0 to 3.
+/// Corners of the cells A ... A + 7 for A = 0, 1, ...; the first facet consists of particles 0 to
+/// 3.
 std::vector<Index> corners(Index count) {
   std::vector<Index> all;
   for (Index A = 0; A + 8 <= count; ++A)

@@ -91,11 +91,11 @@ class ResultsTable(ProgramTest):
         self.assertIn(results_table.BEGIN + self.table() + results_table.END, text_of(GALLERY))
 
     def test_rows_are_renewed(self):
-        """Those that the run has reached; the others stay."""
+        """Only rows that the run has reached are renewed."""
         scene = ROOT / "inputs" / "ellipsoid_drop.toml"
         self.call("run", scene, "--output", "out", "--until", "1 ps", "--quiet")
         before = self.table()
-        self.assertEqual(self.table("out"), before)  # nothing is reached
+        self.assertEqual(self.table("out"), before)  # the run reaches no result
         log = self.directory / "out" / "run.log"
         line = re.search(r"^.*aspect_25ps.*$", text_of(log), re.MULTILINE).group()
         reached = line.replace("not reached", "met").replace("  - ", "  1.328712345 ")

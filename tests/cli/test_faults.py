@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Streams that are closed or full, disks that are full, signals at any time, and others at work in
-the same directory: the exit code says what happened, and nothing written before is lost.
+"""Closed or full streams, full disks, signals at any time, and other programs in
+the same directory: the exit code names the cause, and no earlier output is lost.
 Usage: test_faults.py PROGRAM"""
 import itertools
 import os
@@ -19,7 +19,7 @@ from program import BLOCK, ENVIRONMENT, SHEET, ProgramTest, with_output
 class FaultTest(ProgramTest):
     def code(self, *arguments, closed=(), full=(), limit=None, ignored=()):
         """The exit code with some of the streams 0, 1, 2 closed or full and files of limited size;
-        what it printed on stderr is kept."""
+        keeps the text on stderr."""
         def prepare():
             for number in ignored:
                 signal.signal(number, signal.SIG_IGN)
@@ -43,7 +43,7 @@ class Streams(FaultTest):
         """Every combination of closed and full streams, for each kind of end."""
         good = self.scene(SHEET.replace("end = 0.1", "end = 0.02"))
         bad = self.scene(SHEET.replace("mu = 1e5", "mu = 0"), "bad")
-        # Pushed together far too fast for its step.
+        # Compressed far too fast for its step.
         pushed = BLOCK.replace("[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
         broken = self.scene(pushed.replace("[time]", "[time]\nstep = 0.008"), "broken")
         missed = self.scene(SHEET.replace("end = 0.1", "end = 0.02") + "[expect.step]\nvalue = 0\nwithin = 0\n",
@@ -75,7 +75,7 @@ class Streams(FaultTest):
             self.frames("out")
 
     def test_lost_reports(self):
-        """Where printing is all there is to do, a full stream is an error of files."""
+        """For commands that only print, a full stream is a file error."""
         file = self.scene(SHEET)
         self.call("run", file, "--output", "out")
         for command in (["keys"], ["version"], ["info", "out"], ["check", file], ["study", "--list"]):
@@ -84,7 +84,7 @@ class Streams(FaultTest):
             self.assertEqual(self.code(*command, closed=[1]), 0, command)
 
     def test_reader_that_goes(self):
-        """A run does not end with the program that reads its messages."""
+        """A run continues if the program that reads its messages ends."""
         file = self.scene(SHEET)
         read, write = os.pipe()
         os.close(read)
@@ -98,8 +98,8 @@ class Disk(FaultTest):
     FIELDS = "frames_every = 0.01\n"
 
     def test_file_size(self):
-        """Ten limits on the size of files: exit code 5 with the reason, also in the log where it
-        fits; what is there can be read, and a later run goes on from it."""
+        """Ten limits on the size of files: exit code 5 with the reason, also in the log if it
+        fits. The files can be read, and a later run continues from them."""
         file = self.scene(with_output(BLOCK, "restartable = true"))
         whole = program.state_of(self.call("run", file, "--output", "whole"))
         largest = (self.directory / "whole/run.h5").stat().st_size
@@ -132,7 +132,7 @@ class Disk(FaultTest):
         self.assertIn("No such file", stderr)
 
     def test_links_are_not_followed(self):
-        """A link under the temporary name of a file leads nowhere."""
+        """The program does not write through a link with the temporary name of a file."""
         file = self.scene(BLOCK)
         out = self.directory / "out"
         self.call("run", file, "--output", "out", "--until", "0.1")
@@ -158,11 +158,11 @@ class Disk(FaultTest):
 
 
 class Signals(FaultTest):
-    # Takes seconds to set up, on a machine several times faster too.
+    # The set-up takes seconds, even on a machine that is several times faster.
     LARGE = BLOCK.replace("cells = [4, 4, 4]", "cells = [48, 48, 48]")
 
     def test_checkpoint(self):
-        """Every signal that asks to stop leaves a checkpoint; the run goes on to the same end."""
+        """Every signal to stop leaves a checkpoint; the continued run reaches the same end."""
         file = self.scene(BLOCK)
         whole = program.state_of(self.call("run", file, "--output", "whole"))
         for number in (signal.SIGHUP, signal.SIGUSR1, signal.SIGXCPU, signal.SIGTERM, signal.SIGINT):
@@ -173,13 +173,13 @@ class Signals(FaultTest):
                     time.sleep(0.001)
                 process.send_signal(number)
                 _, stderr = process.communicate()
-                if process.returncode != 0:  # it may have been at its end
+                if process.returncode != 0:  # the run may have been at its end
                     self.assertEqual(process.returncode, 128 + number, stderr)
                 done = self.call("run", file, "--restart", output)
                 self.assertEqual(program.state_of(done), whole)
 
     def test_same_request_twice(self):
-        """`timeout` sends its signal to the program and at once to its group; the second one may come
+        """`timeout` sends its signal to the program and to its group; the second one may arrive
         when the program is about to exit."""
         process = self.start("run", self.scene(BLOCK.replace("end = 0.4", "end = 40")), "--output", "out")
         while not (self.directory / "out/run.xdmf").exists():
@@ -193,7 +193,7 @@ class Signals(FaultTest):
         self.assertIn("to continue, run the same command with --restart out", stderr)
 
     def test_set_up(self):
-        """While nothing was written yet, a signal ends the program at once."""
+        """Before the first output, a signal ends the program at once."""
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1, signal.SIGXCPU):
             process = self.start("run", self.scene(self.LARGE), "--output", "out")
             time.sleep(0.3)
@@ -204,7 +204,7 @@ class Signals(FaultTest):
             self.assertFalse((self.directory / "out").exists())
 
     def test_ignored(self):
-        """nohup stays in force."""
+        """The program respects nohup."""
         file = self.scene(BLOCK.replace("end = 0.4", "end = 40"))
         process = subprocess.Popen([program.PROGRAM, "run", file, "--output", "out"], cwd=self.directory,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT,

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tools/meniscus.py reads, and probes: fields at points and along lines.
+"""The reader tools/meniscus.py, and probes: fields at points and along lines.
 Usage: test_reader.py PROGRAM"""
 import re
 import sys
@@ -51,7 +51,7 @@ class Reader(ProgramTest):
             references.add(id(drop))
             np.testing.assert_array_equal(run.points(k, "drop"), frame["position"])
             np.testing.assert_array_equal(run.field(k, "J", drop), frame["J"])
-            # The cells around the points of this frame fill the drop, whatever the epoch.
+            # In each epoch the cells around the points of this frame fill the drop.
             corners = run.points(k, "drop")[drop.cells]
             edges = corners[:, [1, 3, 4]] - corners[:, :1]
             self.assertTrue((np.linalg.det(edges) > 0).all())
@@ -81,7 +81,7 @@ class Reader(ProgramTest):
         np.testing.assert_array_equal(self.open("out").history["time"], before)
 
     def test_the_line_for_pandas(self):
-        """README shows how pandas reads a history; where there is none, what it would see."""
+        """README shows how pandas reads a history. Without pandas, its input is tested."""
         readme = (ROOT / "README.md").read_text(encoding="utf-8")
         line = re.search(r"^.*pandas\.read_csv.*$", readme, re.M).group()
         self.assertIn("skiprows=[1]", line)
@@ -141,7 +141,7 @@ class Probes(ProgramTest):
 
 class Measures(ProgramTest):
     def test_every_measure_is_listed(self):
-        """Those that scenes of inputs/ write and expect are all in `keys --measures`, each with a meaning."""
+        """`keys --measures` lists all measures that scenes of inputs/ write and expect, with a meaning."""
         text = self.call("keys", "--measures").stdout
         self.assertEqual(text, self.call("keys", "--measures").stdout)
         listed = {}

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run that is stopped and continued, however, ends with the same bits as one that is not.
+"""A run that is stopped and continued in any way has the same bits as an uninterrupted one.
 Usage: test_restart.py PROGRAM"""
 import json
 import re
@@ -17,8 +17,8 @@ import program
 from hostile_files import sign
 from program import BLOCK, DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of, with_output
 
-# With one thread, where a test does not ask for more: two take half as much again for such small
-# bodies, and other tests run beside these.
+# One thread by default: two threads take half as long again for such small bodies, beside other
+# tests.
 program.ENVIRONMENT["OMP_NUM_THREADS"] = "1"
 
 
@@ -27,7 +27,7 @@ class Restart(ProgramTest):
 
     def reference(self, text):
         """The uninterrupted run: scene, hash, history and frames, each with the state. Each scene is
-        run once; a test may change what it finds."""
+        run once; a test may change its copy."""
         self.file = self.scene(with_output(text, "restartable = true"))
         self.end = re.search(r"end = (.*)", text).group(1).strip('"')
         if text not in self.kept:
@@ -61,7 +61,7 @@ class Restart(ProgramTest):
 
 
 class EveryWay:
-    """The ways to stop and go on, for a scene with a TIME in its middle."""
+    """All ways to stop and continue, for a scene with a TIME in its middle."""
 
     def test_threads(self):
         self.reference(self.SCENE)
@@ -81,7 +81,7 @@ class EveryWay:
         self.assert_same(self.go_on("part", "--restart", checkpoint), "part")
 
     def test_elsewhere(self):
-        """In another directory the rows and frames after the stop are there, and no others."""
+        """Another directory contains only the rows and frames after the stop."""
         self.reference(self.SCENE)
         self.stop_at(self.TIME, "part")
         rows = len((self.directory / "part/history.csv").read_text().splitlines())
@@ -93,13 +93,13 @@ class EveryWay:
         self.assert_same_frames(self.frames("rest"), self.whole_frames[len(self.frames("part")):])
 
     def test_frame(self):
-        """From a frame of a finished run; what comes after it is made again."""
+        """Continues from a frame of a finished run; later frames are made again."""
         self.reference(self.SCENE)
         self.assert_same(self.call("run", self.file, "--output", "whole", "--restart", "whole",
                                    "--frame", "3"), "whole")
 
     def test_stop_after_going_back(self):
-        """Going back to a frame leaves no checkpoint behind that would skip rows."""
+        """After a return to a frame, no checkpoint is left that would skip rows."""
         self.reference(self.SCENE)
         first = self.whole_frames[2]["time"] * (1 + 1e-9)
         self.call("run", self.file, "--restart", "whole", "--frame", "2", "--until", first)
@@ -132,7 +132,7 @@ class EveryWay:
         self.assert_same(self.go_on("part", "--restart", "part"), "part")
 
     def test_longer(self):
-        """A finished run goes on; from a frame before its end as if it had been longer."""
+        """A finished run continues, from a frame before its end as if it had been longer."""
         self.reference(self.SCENE)
         shorter = ["--set", f"time.end={self.TIME!r}"]
         self.call("run", self.file, "--output", "part", *shorter)
@@ -147,7 +147,7 @@ class Drop(EveryWay, Restart):
 
 
 class ViscousDrop(Restart):
-    """Its viscosity is implicit; stopped in the second epoch."""
+    """A drop with implicit viscosity, stopped in the second epoch."""
     SCENE = REMAPPED_DROP.replace("[time]\n", "[time]\nviscosity = \"automatic\"\n").replace(
         "0.6 mPa s", "6 mPa s")
 
@@ -166,7 +166,7 @@ class ViscousDrop(Restart):
 
 
 class ChangedState(Restart):
-    """A state with the right hash that no run has is refused, by its name."""
+    """An impossible state with a right hash is refused; the message names the value."""
     NO_NUMBERS = {"nan": np.nan, "inf": np.inf}
     LENGTHS = NO_NUMBERS | {"zero": 0.0, "negative": -1.0, "huge": 1e300}
     CHANGES = {
@@ -203,7 +203,7 @@ class ChangedState(Restart):
                                  "out of range" if np.isfinite(value) else f"'{name}' is {value}")
 
     def test_another_order_of_particles(self):
-        """As another version may number them."""
+        """Another version of the program may number particles in another order."""
         scene = self.scene(with_output(DROP.replace('"60 ps"', '"15 ps"'), "restartable = true"))
         self.call("run", scene, "--output", "out")
         with h5py.File(self.directory / "out/run.h5", "r+") as file:
@@ -214,11 +214,11 @@ class ChangedState(Restart):
 
 
 class RemappedDrop(EveryWay, Restart):
-    # Stopped in the second and the third epoch.
+    # The run is stopped in the second and the third epoch.
     SCENE, TIME, LATER = REMAPPED_DROP, "20.3 ps", "41 ps"
 
     def test_series(self):
-        """A file per epoch; the sidecars have all of them; the books are kept over all."""
+        """A file per epoch; sidecar files list all of them; the energy balance covers all."""
         self.reference(self.SCENE)
         names = ["run.h5", "run.1.h5", "run.2.h5"]
         self.assertEqual([file.name for file in self.result_files("whole")], names)
@@ -249,7 +249,7 @@ class RemappedDrop(EveryWay, Restart):
         self.assertLess(np.abs(history["angular_momentum_error"]).max(), 1e-12)
 
     def test_back_into_the_first_epoch(self):
-        """Files of later epochs go with their frames."""
+        """Files of later epochs are removed with their frames."""
         self.reference(self.SCENE)
         first = self.whole_frames[1]["time"] * (1 + 1e-9)
         self.call("run", self.file, "--restart", "whole", "--frame", "1", "--until", first)
@@ -265,7 +265,7 @@ class RemappedDrop(EveryWay, Restart):
 
 
 class Block(EveryWay, Restart):
-    # Deformed so much that the step changes several times.
+    # The deformation is so large that the step changes several times.
     SCENE = BLOCK.replace("20*sin", "60*sin").replace("check_every = 30", "check_every = 15").replace(
         "end = 0.4", "end = 0.8")
     TIME, LATER = "0.2 s", "0.43"
@@ -276,8 +276,8 @@ class Block(EveryWay, Restart):
 
 
 class RelaxingPlate(EveryWay, Restart):
-    """Thin, so that it moves by another inertia. Its residual has a floor near 0.05, with which it
-    would take 2100 steps instead of 500; where it ends is not what is tested."""
+    """A thin plate, which relaxes with an artificial inertia. Its residual has a floor near 0.05. A
+    lower tolerance would take 2100 steps instead of 500; the test does not depend on the state at the end."""
     SCENE = RELAXING_SHEET.replace("dimension = 2", "dimension = 3").replace("rectangle", "box").replace(
         "[1, 2]", "[1, 2, 0.08]").replace("[5, 10]", "[3, 6, 2]").replace(
         '["0.1*y^2", "0.05*y"]', '[0, 0, "0.1*y^2"]').replace(
@@ -299,11 +299,11 @@ class RelaxingSheet(EveryWay, Restart):
         self.assertLess(history["force_residual"][-1], 1e-5)
         self.assertLess(history["shape_change"][-1], 1e-4)
         self.assertIn("at rest at t = ", (self.directory / "whole/run.log").read_text())
-        # Continued, it is still at rest.
+        # A continued run is still at rest.
         self.assert_same(self.call("run", self.file, "--restart", "whole"), "whole")
 
     def test_relaxing_what_moved(self):
-        """The end of dynamics is the beginning of relaxation."""
+        """Relaxation begins at the end of dynamics."""
         moving = self.SCENE.replace('"relax"', '"dynamics"').replace("end = 20", "end = 0.2")
         self.call("run", self.scene(moving, "moving"), "--output", "moving")
         self.call("run", self.scene(self.SCENE), "--restart", "moving", "--output", "rest")
@@ -311,7 +311,7 @@ class RelaxingSheet(EveryWay, Restart):
 
 
 class Partners(ProgramTest):
-    """Frames of rigid partners go with those of the run."""
+    """Frames of rigid partners are removed and continued with those of the run."""
     WALL = """
 [[contact]]
 bodies = ["drop"]
@@ -351,7 +351,7 @@ class OtherScene(ProgramTest):
             self.refused(["run", file, "--restart", "out", "--set", change], 3, "another scene")
 
     def test_nor_may_a_mesh(self):
-        """A drop of a mesh continues bit for bit, and not with another file of the same name."""
+        """A drop of a mesh continues bit for bit; another file of the same name is refused."""
         self.call("new", "drop", "--like", "mesh_drop")
         scene, mesh = self.directory / "drop.toml", self.directory / "meshes/ball_tetrahedra.msh"
         scene.write_text(scene.read_text().partition("[expect]")[0])
@@ -369,7 +369,7 @@ class OtherScene(ProgramTest):
     def test_what_may_change(self):
         file = self.scene(BLOCK)
         self.call("run", file, "--output", "out", "--until", "0.02")
-        # Written out or left out, a default is the same.
+        # A default may be given or left out.
         self.call("run", file, "--restart", "out", "--until", "0.03", "--set", "title=other",
                   "--set", "body[0].support_factor=1.5", "--set", "time.safety=0.5")
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Settings of the curvature study: maps given by formulas, what is refused, and the pictures.
+"""Settings of the curvature study: maps given by formulas, refused settings, and the pictures.
 
 Usage: test_studies.py PROGRAM (meniscus)
 """
@@ -15,7 +15,7 @@ import unittest
 PROGRAM = sys.argv.pop(1)
 PLOT = pathlib.Path(__file__).resolve().parents[2] / "tools/plotting/plot.py"
 
-# twist_ellipsoid as formulas
+# twist_ellipsoid as formulas.
 TWIST = """
 x = "(x*cos(0.7*y) - z*sin(0.7*y))*cos(-0.6*(x*sin(0.7*y) + z*cos(0.7*y))) \
 - y*sin(-0.6*(x*sin(0.7*y) + z*cos(0.7*y)))"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // libFuzzer target of the readers of checkpoints and result files. The bytes are a recipe for an
-// HDF5 file: what is put where, of which type and extent. Every such file is refused by a FileError
-// or read as what it is.
+// HDF5 file: names, types, extents and values. Every such file is read correctly or refused with a
+// FileError.
 #include "meniscus/core/error.hpp"
 #include "meniscus/io/checkpoint.hpp"
 #include "meniscus/io/files.hpp"
@@ -19,7 +19,7 @@ using namespace meniscus;
 
 namespace {
 
-/// Bytes one after the other; zeros at the end.
+/// Returns one byte after the other; zeros at the end.
 class Recipe {
  public:
   Recipe(const unsigned char* data, std::size_t size) : data_(data), size_(size) {}
@@ -73,7 +73,7 @@ hid_t space_of(Recipe& recipe) {
   return H5Screate_simple(static_cast<int>(rank), size, nullptr);
 }
 
-/// Of which HDF5 would hold all bytes to write it.
+/// True if HDF5 would hold the whole dataset in memory to write it.
 bool is_bulky(hid_t type, hid_t space) {
   constexpr double most = 1 << 20;
   return static_cast<double>(H5Sget_simple_extent_npoints(space)) *
@@ -107,7 +107,7 @@ void put(hid_t group, Recipe& recipe) {
   H5Sclose(space);
 }
 
-/// A good checkpoint that is a result file as well, and then what the recipe says.
+/// Writes a good checkpoint, which is also a result file, and changes it by the recipe.
 void cook(const std::filesystem::path& path, const std::string& good, Recipe recipe) {
   std::filesystem::remove(path);
   write_new_file(path, good);
@@ -124,7 +124,7 @@ void cook(const std::filesystem::path& path, const std::string& good, Recipe rec
   }
   H5Pclose(between);
   H5Fclose(file);
-  // The checksum is right: it protects from damage, not from intent.
+  // The checksum is corrected: it protects against damage, not against intent.
   const std::string content = read_file(path);
   Fnv1a hash;
   hash.add(std::string_view(content).substr(512));

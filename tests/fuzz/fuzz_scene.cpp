@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// libFuzzer target of the scene reader: any text is read or refused, the complete input of what is
-// read is read again, and every problem has a place.
+// libFuzzer target of the scene reader: any text is read or refused, the complete input can be read
+// again, and every problem has a place.
 #include <cstdlib>
 
 #include "unit/input_scene.hpp"
@@ -9,7 +9,7 @@ using namespace meniscus;
 
 namespace {
 
-/// The complete input, or nothing and the report.
+/// The complete input and an empty report, or an empty text and the report.
 std::pair<std::string, std::string> read(const std::string& toml) {
   try {
     const SceneInput input = SceneInput::from_text(toml, "s.toml");

@@ -1,18 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pull-off of a rigid ball from an elastic half space by the law of Lennard-Jones: the reference of
-`study pull_off_map`, by boundary elements that share nothing with the program.
+"""Pull-off of a rigid ball from an elastic half space with the Lennard-Jones law: the reference of
+`study pull_off_map`, by boundary elements that share no code with the program.
 
-Linear elasticity of the half space (rings of even pressure, elliptic integrals), a frictionless
-surface, and the tension of two half spaces at the gap g,
+Linear elasticity of the half space (rings of uniform pressure, elliptic integrals), a frictionless
+surface, and the traction of two half spaces at the gap g,
     8 W/(3 g*) [(g*/g)^3 - (g*/g)^9]
-as Greenwood (1997) and Feng (2000) have it for paraboloids; here the gap is that of a ball. Equilibria
-are followed by arc length, through those that are not stable: where the distance of the ball turns
-back, a ball that is moved jumps. R = E* = 1, W = (tabor g*)^(3/2).
+as in Greenwood (1997) and Feng (2000) for paraboloids; here the gap is that of a ball. Equilibria
+are followed by arc length, through unstable ones: where the distance of the ball turns
+back, a moved ball jumps. R = E* = 1, W = (tabor g*)^(3/2).
 
 Usage: ball_on_half_space.py [--gap G] [--rings N] [--paraboloid] [--until D] [--curve] TABOR...
-Prints for each Tabor number the largest pull over 2 pi W R (stiff: 1, soft: 0.75) and Maugis and
-Dugdale's, distances in g* at which the ball jumps in and off, and the energy that is lost in a
+Prints for each Tabor number the largest pull over 2 pi W R (stiff: 1, soft: 0.75) and the value of
+Maugis and Dugdale, distances in g* at which the ball jumps in and off, and the energy lost in a
 cycle.
 """
 
@@ -24,7 +24,7 @@ from scipy.special import ellipe, ellipk
 
 
 def disc(r, a):
-    """Displacement at r by even pressure 1 on the radius a, E* = 1."""
+    """Displacement at r by a uniform pressure 1 within the radius a, E* = 1."""
     k = np.where(r < a, r / a, a / r) ** 2
     return 4 / np.pi * np.where(r < a, a * ellipe(k), r * (ellipe(k) - (1 - k) * ellipk(k)))
 
@@ -50,8 +50,8 @@ class Ball:
         return scale * (x**3 - x**9), -scale / self.gap * (3 * x**4 - 9 * x**10)
 
     def corrected(self, y, along):
-        """The equilibrium y = (gaps, distance), in units of `unit`, near y in the plane across
-        `along`, and the direction of the curve there; None where Newton's method needs more than a
+        """The equilibrium (gaps, distance), in units of `unit`, near y in the plane normal to
+        `along`, and the direction of the curve there; None if Newton's method needs more than a
         few iterations."""
         n = len(self.r)
         start = y

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A cylinder pressed on a block in plane strain, both soft, with adhesion: the reference curves of
-inputs/cylinder_indentation.toml, by finite elements that share nothing with the program.
+inputs/cylinder_indentation.toml, by finite elements that share no code with the program.
 
 Quadrilaterals of second order (nine nodes, 3 x 3 Gauss points), the neo-Hookean law mu/2 (I1 - 3 - 2 ln J)
 + lambda/2 (J - 1)^2, contact as the double sum of u(r) n1.n2 over Gauss points of both surfaces (CGCM note,
@@ -59,7 +59,7 @@ class Body:
         self.surface(points)
 
     def surface(self, points):
-        """Matrices of places and of area vectors (but for the turn) of Gauss points."""
+        """Matrices of places and of area vectors (before their rotation) of Gauss points."""
         count = {}
         for e in self.elements:
             for side in ((0, 1, 2), (2, 5, 8), (8, 7, 6), (6, 3, 0)):
@@ -77,7 +77,7 @@ class Body:
         self.surface_dofs = (2 * (nodes[:, None] + self.first) + np.arange(2)).ravel()
 
     def strain(self, x):
-        """Energy, forces and stiffness per element; None where an element is turned inside out."""
+        """Energy, forces and stiffness per element; None if an element is inverted."""
         F = np.einsum("eai,eqaj->eqij", x[self.dofs].reshape(-1, 9, 2), self.slope)
         J = np.linalg.det(F)
         if J.min() <= 0:
@@ -103,7 +103,7 @@ class Body:
 
 
 def pair(r, cutoff):
-    """u(r), u' and u'' of two surface elements, switched off between 3/4 of the cut-off and there."""
+    """u(r), u' and u'' of two surface elements, switched off between 3/4 of the cut-off and the cut-off."""
     x = (SIGMA / r) ** 6
     u = EPSILON * np.pi * r**3 * (x / 12 - 7 / 2304 * x**2)
     du = EPSILON * np.pi * r**2 * (7 / 256 * x**2 - x / 4)
@@ -181,7 +181,7 @@ class System:
         self.free = np.setdiff1d(np.arange(self.X.size), (2 * held[:, None] + [0, 1]).ravel())
 
     def at(self, x, stiffness=True):
-        """Whole energy, forces, stiffness; None where it has none."""
+        """Total energy, forces, stiffness; None if an element is inverted or the gap is too small."""
         contact = Contact(self.bodies, x, self.cutoff, stiffness)
         strain = [b.strain(x) for b in self.bodies]
         if contact.gap < 0.3 * SIGMA or None in strain:
@@ -208,7 +208,7 @@ class System:
         return self.strain_energy + contact.energy, force, K
 
     def rest(self, x):
-        """The equilibrium that is found downhill of x."""
+        """The equilibrium found from x by decreasing the energy."""
         for _ in range(60):
             E, force, K = self.at(x)
             r = -force[self.free]
@@ -230,7 +230,7 @@ class System:
         raise RuntimeError("no equilibrium")
 
     def follow(self, depths):
-        """States from depth to depth, in pieces of at most 0.02."""
+        """States at the given depths, with steps of at most 0.02."""
         x, before, now = self.X.ravel(), None, 0.0
         for depth in depths:
             pieces = max(1, int(np.ceil(abs(depth - now) / 0.02 - 1e-9)))
@@ -248,7 +248,7 @@ class System:
 
 
 def block(refine):
-    """10 x 5, elements of 0.12 / refine under the cylinder, larger ones away from it."""
+    """A block of 10 x 5, with elements of 0.12 / refine under the cylinder and larger ones elsewhere."""
 
     def growing(length, n, ratio):
         sizes = ratio ** np.arange(n)

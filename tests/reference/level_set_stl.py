@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Triangulated surfaces as scanners give them, of a ball of radius 1 or of a red blood cell at rest:
+"""Triangulated surfaces like those of scanners, of a ball of radius 1 or of a red blood cell at rest:
 the level set 0 of
     r^2 + (2 z/t)^2 - 1,  t = 2 or 0.207161 + 2.002558 r^2 - 1.122762 r^4,  r^2 = x^2 + y^2
-on a lattice, whose cubes are cut into six tetrahedra each, in which the surface is a plane (marching
+on a lattice. Each cube is cut into six tetrahedra, in which the surface is a plane (marching
 tetrahedra). Triangles may be thin and small; the surface is closed.
 
 Usage: level_set_stl.py FILE.stl [--ball] [--cell SIZE]
@@ -22,7 +22,7 @@ def level(x, ball):
 
 
 def triangles(size, ball):
-    """Places [triangle, corner, axis], outward."""
+    """Corner places [triangle, corner, axis] of triangles oriented outward."""
     counts = np.ceil(np.array([2.3, 2.3, 2.3 if ball else 1.1]) / size).astype(int)
     lattice = np.stack(np.meshgrid(*[np.arange(n + 1) for n in counts], indexing="ij"), -1)
     # Off the planes of symmetry, on which many places of the surface would be lattice points.
@@ -42,7 +42,7 @@ def triangles(size, ball):
 
 
 def cut(X, F):
-    """One triangle or two of a tetrahedron, outward."""
+    """One or two triangles of a tetrahedron, oriented outward."""
     low, high = np.flatnonzero(F < 0), np.flatnonzero(F >= 0)
 
     def between(i, j):

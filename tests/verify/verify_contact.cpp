@@ -12,8 +12,8 @@
 namespace meniscus::verify_contact {
 namespace {
 
-/// Two balls of radii R1 and R2 whose centres are D apart; the points of the second are turned, so
-/// that no lattice meets its mirror image.
+/// Two balls of radii R1 and R2 whose centres are D apart. The points of the second ball are
+/// rotated, so that no lattice faces its mirror image.
 struct Balls {
   test::Pair<3> pair;
   NodalVectors u;
@@ -36,7 +36,7 @@ struct Balls {
     return test::with_mass<3>(shape.geometry(), first);
   }
 
-  /// Repulsion on the second ball.
+  /// The repulsion of the second ball.
   Real force(ContactForm form, int points) const {
     ContactLaw law;
     law.cutoff = 40;
@@ -58,7 +58,8 @@ TEST(ContactSpheres, ForcesConvergeToTheExactValues) {
     const Real D = reference.inputs.at("D"), gap = D - R1 - R2, exact = reference.value.front();
     SCOPED_TRACE(fmt::format("radii {} and {}, gap {:.2f}", R1, R2, gap));
     const Balls balls(R1, R2, D, 8);
-    // Relative to the force, and where attraction and repulsion nearly cancel to the attraction.
+    // The error is relative to the force, or to the attraction where attraction and repulsion
+    // nearly cancel.
     const Real scale = std::max(std::abs(exact), 10 * R1 * R2 / (R1 + R2));
     const auto errors_of = [&](ContactForm form, const std::vector<int>& all_points) {
       std::vector<Real> errors;
@@ -74,13 +75,14 @@ TEST(ContactSpheres, ForcesConvergeToTheExactValues) {
     for (const ContactForm form :
          {ContactForm::energy, ContactForm::pressure, ContactForm::dissertation}) {
       const std::vector<Real> errors = errors_of(form, {1, 2, 4});
-      constexpr Real of_facets = 1e-5;  // their shape is quadratic
+      constexpr Real of_facets = 1e-5;  // from the quadratic shape of the facets
       for (std::size_t k = 1; k < errors.size(); ++k)
         EXPECT_LT(errors[k], std::max(errors[k - 1] / 4, of_facets));
       EXPECT_LT(errors.back(), 2e-3);
       finest = std::max(finest, errors.back());
     }
-    // One-point cells are too coarse at all these gaps; finer points only fit into small balls.
+    // Cells with one point are too coarse at all these gaps; finer points would be too many for
+    // large balls.
     const bool small = R1 + R2 <= 2;
     const std::vector<Real> errors =
         errors_of(ContactForm::volume, small ? std::vector{1, 2} : std::vector{1});

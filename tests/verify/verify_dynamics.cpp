@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Orders of convergence of whole runs, which a single scene cannot state; in full with larger
-// sizes.
+// Orders of convergence of whole runs, which scenes cannot test; the full form uses larger sizes.
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 
@@ -65,7 +64,7 @@ rate = {9:.17g}
 
 struct Outcome {
   Real state_error = 0;   ///< at the end
-  Real energy_error = 0;  ///< largest relative error of the balance
+  Real energy_error = 0;  ///< largest relative error of the energy balance
 };
 
 Outcome run(const LameCube& cube) {
@@ -88,8 +87,8 @@ Outcome run(const LameCube& cube) {
   return outcome;
 }
 
-// The step is short enough that its phase error over a period, 2 pi (w dt)^2 / 24, stays below the
-// spatial error.
+// The step is short: its phase error over a period, 2 pi (w dt)^2 / 24, stays below the spatial
+// error.
 TEST(LameCube, StateErrorIsOfThirdOrderInTheSpacing) {
   std::vector<int> sizes{4, 6, 8};
   if (test::full_verification()) sizes.insert(sizes.end(), {12, 16});
@@ -104,8 +103,8 @@ TEST(LameCube, StateErrorIsOfThirdOrderInTheSpacing) {
   EXPECT_GT(order, 2.8);
 }
 
-// Velocity Verlet: kinetic + strain energy of an oscillation of frequency w swings by (w dt)^2 / 4
-// of itself, whatever the cloud.
+// Velocity Verlet: for any cloud, kinetic + strain energy of an oscillation of frequency w varies
+// by the fraction (w dt)^2 / 4.
 TEST(LameCube, EnergySwingsWithTheSquareOfTheStep) {
   for (const Real step : {0.08, 0.04, 0.02}) {
     const LameCube cube{.cells = 4, .step = step};
@@ -114,7 +113,8 @@ TEST(LameCube, EnergySwingsWithTheSquareOfTheStep) {
   }
 }
 
-// Particles as the only integration points leave modes without energy: clearly worse than q_scni.
+// Integration at the particles alone leaves modes without energy, and is much less accurate than
+// q_scni.
 TEST(LameCube, NodalIntegrationIsMuchLessAccurate) {
   const Real smoothed = run({.cells = 8, .step = 0.01}).state_error;
   const Real nodal = run({.cells = 8, .step = 0.01, .body = "integration = \"nodal\""}).state_error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The short form of verifications, and the full one that tools/verify asks for by
+// The short form of verifications, and the full one, which tools/verify requests with
 // MENISCUS_VERIFY=full in the environment.
 #pragma once
 #include <cstdlib>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nematic drops against exact solutions, at the resolution of a scene; in short some of the cases.
+// Nematic drops against exact solutions, at the resolution of a scene; the short form tests some
+// cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ TEST(Nematic, RadialDirectors) {
   for (const auto& row : rows("hedgehog")) {
     const Real eps = row.at("eps");
     const bool ball = row.at("d") == 3;
-    if (eps < (ball ? 0.15 : 0.07) || (!full && ball)) continue;  // others are not resolved
+    if (eps < (ball ? 0.15 : 0.07) || (!full && ball)) continue;  // the others are not resolved
     const test::Radial coarse = ball ? test::radial<3>(row, 4, 2) : test::radial<2>(row, 8, 4),
                        fine = ball ? test::radial<3>(row, 6, 3) : test::radial<2>(row, 16, 8);
     fmt::print("{}D, eps {}, W/K {}: energy {:+.2e}, {:+.2e}, profile {:.2e}, {:.2e}\n",

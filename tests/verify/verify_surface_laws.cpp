@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces with elasticity and viscosity at the resolution of a scene, and their orders; in short
-// some of the cases.
+// Surfaces with elasticity and viscosity at the resolution of a scene, and their orders of
+// convergence; the short form tests some cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,7 +80,7 @@ TEST(SurfaceLaws, OscillationOfADropWithASurfaceOfItsOwn) {
   }
 }
 
-/// A drop with all of them: second order in the spacing.
+/// A drop with all surface laws: second order in the spacing.
 TEST(SurfaceLaws, OscillationConverges) {
   const auto& rows = test::cells_reference().at("oscillation").at("rows");
   const auto& row = *std::find_if(rows.begin(), rows.end(), [](const auto& r) {
@@ -99,7 +99,7 @@ TEST(SurfaceLaws, OscillationConverges) {
 }
 
 /// Rate of the approach exp(-nu r t), r = 14.97875 (disk: 9.32836), between the times at which a
-/// tenth and a fiftieth of the way are left.
+/// tenth and a fiftieth of the difference are left.
 Real rate(const test::Marangoni& run) {
   const auto when = [&](Real left) {
     std::size_t k = 1;
@@ -126,11 +126,11 @@ TEST(SurfaceLaws, TensionsDriveTheExactFlows) {
   EXPECT_LT(std::abs(ball.shape), 1e-4);
 }
 
-/// Viscous forces are those of the velocity half a step before: the rate r of a decay is too large
-/// by r dt/2.
+/// Viscous forces use the velocity half a step earlier: the rate r of a decay is too large by r
+/// dt/2.
 TEST(SurfaceLaws, FlowsStartAtTheExactRates) {
   test::MarangoniCase weak;
-  weak.g = 1e-3;  // strains g t do not matter then
+  weak.g = 1e-3;  // strains g t are negligible then
   const auto error = [](const test::Marangoni& run, Real exact) {
     return rate(run) / (0.5 * exact) - 1;
   };
@@ -144,8 +144,8 @@ TEST(SurfaceLaws, FlowsStartAtTheExactRates) {
   for (const Real fine : {ball_fine, disk_fine}) EXPECT_NEAR(fine, 0, 0.005);
 }
 
-/// gamma = 1 + g P2: the flow is of third degree, and the drop is flatter by g/20 P2, with the
-/// viscous surface of the other case 0.10294 g P2.
+/// gamma = 1 + g P2: the flow is of third degree. The drop is flatter by g/20 P2, or by 0.10294 g
+/// P2 with the viscous surface of the other case.
 TEST(SurfaceLaws, TensionsOfTheSecondModeDriveTheExactFlows) {
   for (const auto& [drop, shape] :
        {std::pair(test::MarangoniCase{2, 0.5, 0, 0, "place", 1e-3}, -0.05),
@@ -167,7 +167,7 @@ TEST(SurfaceLaws, TensionsOfTheSecondModeDriveTheExactFlows) {
     print("balance", fine.balance);
     EXPECT_NEAR(fine.amplitude.back(), 1, 0.01);
     EXPECT_LT(fine.beside, 0.02);
-    EXPECT_LT(std::abs(fine_shape), 3e-3);  // of normal stresses 2 g P2, which nearly cancel
+    EXPECT_LT(std::abs(fine_shape), 3e-3);  // normal stresses 2 g P2 nearly cancel
     EXPECT_GT(order(coarse_shape, fine_shape), 1.5);
     EXPECT_LT(fine.balance, 1e-3);
   }

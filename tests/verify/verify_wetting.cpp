@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drops on walls: the whole outline of one at rest under its weight against the profile of
-// Bashforth and Adams, how fast a wetted area grows at first, and the ridge on soft ground.
+// Drops on walls: the outline of a drop at rest under its weight against the profile of Bashforth
+// and Adams, the initial growth of the wetted area, and the ridge on soft ground.
 #include "meniscus/body/surface_patches.hpp"
 #include "meniscus/scene/simulation.hpp"
 
@@ -15,7 +15,7 @@
 namespace meniscus::verify_wetting {
 namespace {
 
-/// Half the outline of a plane drop, by its depth below the top, until the surface is vertical:
+/// Half the outline of a plane drop against the depth below its top, until the surface is vertical:
 /// dx/ds = cos p, dz/ds = sin p, dp/ds = k0 + z (rho = g = gamma = 1).
 std::vector<Vec<2>> outline(Real k0) {
   const auto rate = [k0](const Vec<3>& y) {
@@ -39,7 +39,7 @@ Real area(const std::vector<Vec<2>>& points) {
   return sum;
 }
 
-/// Of a drop of area pi.
+/// The profile of a drop of area pi.
 std::vector<Vec<2>> profile() {
   Real low = 0.1, high = 1;
   for (int k = 0; k < 50; ++k) {
@@ -49,7 +49,7 @@ std::vector<Vec<2>> profile() {
   return outline(low);
 }
 
-/// Of inputs/sessile_drop.toml, with settings of its time.
+/// Tests inputs/sessile_drop.toml with other settings of [time].
 void expect_profile(const std::vector<std::string>& settings) {
   const std::vector<Vec<2>> exact = profile();
   const Real height = exact.back()[1];
@@ -73,7 +73,7 @@ void expect_profile(const std::vector<std::string>& settings) {
   int compared = 0;
   for (const Vec<2>& x : places) {
     const Real above = x[1] - lowest;
-    if (above < 0.1) continue;  // bent by the range of the wall
+    if (above < 0.1) continue;  // within the range of the wall
     Real distance = unbounded;
     for (const Vec<2>& y : exact)
       distance = std::min(distance, (y - Vec<2>(std::abs(x[0]), height - above)).norm());
@@ -93,7 +93,7 @@ TEST(SessileDrop, FlowsToTheProfileOfBashforthAndAdams) {
                   "time.viscosity=\"explicit\""});
 }
 
-/// Slope of A/(pi R^2) over t/t_in in 0.05 < t/t_in < 0.8 of the drop of
+/// Slope of A/(pi R^2) against t/t_in in 0.05 < t/t_in < 0.8 for the drop of
 /// inputs/droplet_spreading.toml, and r^2 of the line.
 std::pair<Real, Real> early_growth(const std::string& viscosity) {
   constexpr Real inertial_time = 41.437, radius = 5;
@@ -120,7 +120,7 @@ std::pair<Real, Real> early_growth(const std::string& viscosity) {
   return {spread(0, 1) / spread(0, 0), spread(0, 1) * spread(0, 1) / (spread(0, 0) * spread(1, 1))};
 }
 
-/// Slopes of the axisymmetric finite-element calculation: 0.55 and 1.01.
+/// The axisymmetric finite-element calculation has the slopes 0.55 and 1.01.
 TEST(Spreading, IsLinearAtFirstWithAndWithoutMuchViscosity) {
   for (const auto& [viscosity, slope] :
        std::vector<std::pair<std::string, Real>>{{"0.6034 mPa s", 0.55}, {"0.06034 mPa s", 1.01}}) {
@@ -130,12 +130,12 @@ TEST(Spreading, IsLinearAtFirstWithAndWithoutMuchViscosity) {
   }
 }
 
-/// A plane layer of thickness 1 that adheres to a rigid ground, under tension.
+/// A plane layer of thickness 1 under tension on rigid ground.
 struct LinearLayer {
   Real mu, nu, tension;
 
-  /// Of its surface at x = a, under line forces 1 upward at x = -a, a and the pressure 1/a between
-  /// them (wetting note 10).
+  /// Height of its surface at x = a under line forces 1 upward at x = -a, a and the pressure 1/a
+  /// between them (wetting note 10).
   Real ridge(Real a) const {
     constexpr Real dk = 0.005, most = 400;
     Real sum = 0;
@@ -152,8 +152,8 @@ struct LinearLayer {
   }
 };
 
-/// gamma/mu is the thickness of the layer, and 2.5 times that; its tension is so much larger than
-/// that of the drop that slopes are small.
+/// gamma/mu is the thickness of the layer, and 2.5 times the thickness. The tension of the layer is
+/// much larger than that of the drop, so that slopes are small.
 TEST(SoftLayer, HasTheRidgeOfLineForcesOnALinearLayer) {
   for (const auto& layer : {LinearLayer{1, 0.45, 4}, LinearLayer{0.4, 0.45, 2}}) {
     const SceneInput input = SceneInput::from_file(

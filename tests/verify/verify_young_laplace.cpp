@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Young-Laplace: a twisted ellipsoid as reference, deformed to the unit sphere. The pressure that
-// balances surface tension best is 2 gamma/R (RKPM note 4).
+// Young-Laplace: a twisted ellipsoid as reference, deformed to the unit sphere. The best fit of the
+// pressure that balances surface tension is 2 gamma/R (RKPM note 4).
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 
@@ -27,7 +27,7 @@ class YoungLaplace : public testing::Test {
   }
   static void TearDownTestSuite() { body_.reset(); }
 
-  /// Force of a unit pressure from inside: sum_q N_A cof(F) N dA, with k x k points per facet.
+  /// Force of a unit pressure inside: sum_q N_A cof(F) N dA, with k x k points per facet.
   static NodalVectors unit_pressure(int k) {
     const SurfacePoints<3> surface = surface_points(body_->geometry, k);
     const auto rows =
@@ -47,7 +47,13 @@ class YoungLaplace : public testing::Test {
     return force;
   }
 
-  /// |p - 2| / 2 of the fitted pressure and |f_s + p f_n| / |f_s|.
+  /// Tests
+  /// p - 2
+  /// / 2 of the fitted pressure and
+  /// f_s + p f_n
+  /// /
+  /// f_s
+  /// .
   static void expect_jump(ForceTerm& term, int k, Real pressure_error, Real residual) {
     const NodalVectors tension = test::force_of(term, u_), normal = unit_pressure(k);
     const Real p = -test::dot(tension, normal) / test::dot(normal, normal);
