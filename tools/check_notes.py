@@ -2,8 +2,8 @@
 """Checks that every "NAME note 1.2" resolves: src/theory has a file titled "# NAME note ..." with a
 heading of that number. Reports each violation as file:line, and fails if there is one.
 
-A list of numbers belongs to one note ("RKPM notes 3.1, 4 and 8"); the files of src/theory may leave
-out the word "note" and link instead. A sentence may be broken by lines of a comment.
+A list of numbers belongs to one note ("RKPM notes 3.1, 4 and 8"). The files of src/theory may link
+instead of using the word "note". A citation may extend over several lines of a comment.
 """
 
 import argparse
@@ -59,7 +59,7 @@ def citations(text, names, in_theory):
 def check_file(path, headings, name_of, report):
     text = path.read_text(errors="replace")
     in_theory = path.parent == ROOT / THEORY
-    if in_theory:  # [RKPM note](rkpm.md) 5.4 is RKPM 5.4
+    if in_theory:  # [RKPM note](rkpm.md) 5.4 means RKPM 5.4
         for match in re.finditer(r"\]\((\w+\.md)\)", text):
             if not (path.parent / match.group(1)).is_file():
                 report(path, text, match.start(), f"there is no file {match.group(1)}")

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Instructions of small scenes by effect (see tools/instructions).
 
-A function belongs to an effect by its name, that of an outlined loop by the function it is in.
-Functions that register materials and describe keys run at every start and belong to none.
+The name of a function determines its effect; an outlined loop belongs to the function that contains it.
+Functions that register materials and describe keys run at every start and belong to no effect.
 """
 
 import argparse
@@ -48,7 +48,7 @@ PLATE = (
     'partner = { type = "half_space", point = [0, 0, -0.65], normal = [0, 0, 1] }\n'
 )
 
-# name of the scene: text, the effects it has
+# name of the scene: text, its effects
 SCENES = {
     "elastic cube": (CUBE + SPIN + SOLID, {"internal force"}),
     "elastic cube, cell average": (
@@ -98,7 +98,7 @@ def instructions(profile):
         elif line.startswith("calls="):
             is_call = True
         elif re.match(r"[0-9+*-]", line):
-            if not is_call:  # else what the called function takes
+            if not is_call:  # otherwise the count of the called function
                 count[function] += int(line.split()[1])
             is_call = False
     return count
@@ -110,7 +110,7 @@ def measure(program, text, folder):
     done = subprocess.run(
         ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}",
          program, "run", folder / "scene.toml", "--output", folder / "out", "--overwrite", "-q"],
-        # With its settings of libraries the program would begin anew, which valgrind does not follow.
+        # To set options of libraries the program would start itself again, which valgrind does not follow.
         env=dict(os.environ, OMP_NUM_THREADS="1", GLIBC_TUNABLES="", OMP_WAIT_POLICY="passive"), capture_output=True, text=True,
     )  # fmt: skip
     if done.returncode:

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of the gallery in inputs/README.md, from runs of scenes of inputs/: of each the last
-frame, as a movie has it, into inputs/pictures/gallery.
+"""Draws the pictures of the gallery in inputs/README.md from runs of scenes of inputs/: the last
+frame of each run, as in a movie, into inputs/pictures/gallery.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from PIL import Image
 
 import results_table
 
-# That one has put tools/plotting on the path.
+# results_table has put tools/plotting on the path.
 import movies  # isort: skip
 from results import Results  # isort: skip
 from runlog import Log  # isort: skip
@@ -27,7 +27,7 @@ COLOURS = 64  # of a palette: a third of the bytes
 
 
 def draw(folder, pictures):
-    """Of the run in `folder`. Returns the path. Raises OSError or ValueError if it is no such run."""
+    """Draws the run in `folder`. Returns the path. Raises OSError or ValueError if it is not such a run."""
     scene = results_table.scene_of(Log(folder / "run.log"), folder)
     run = Results(folder)
     last = len(run.frames) - 1

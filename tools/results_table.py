@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of results in inputs/README.md, renewed from finished runs of scenes of inputs/: of each
-scene its expectations, and what the run has obtained, to a hundredth of what it may be off by.
+"""Renews the table of results in inputs/README.md from finished runs of scenes of inputs/: the
+expectations of each scene, and the results of the run, rounded to a hundredth of the tolerance.
 """
 
 import argparse
@@ -21,7 +21,7 @@ HEAD = "| scene | expectation | expected | within | obtained |\n|---|---|---|---
 
 
 def rounded(obtained, within):
-    """As text, to a hundredth of `within`, and to seven digits at most."""
+    """The number as text, rounded to a hundredth of `within`, with at most seven digits."""
     size, finest = abs(float(obtained)), float(within) / 100
     if size == 0 or finest == 0:
         return f"{float(obtained):.7g}"
@@ -42,8 +42,8 @@ def rows_of_table(text):
 
 
 def asked(scene):
-    """What a scene expects: by name the texts (expected, within) as a run prints them; None where they
-    have units."""
+    """The expectations of a scene by name: the texts (expected, within) as a run prints them; None if
+    they have units."""
     texts = {}
     for name, e in tomllib.loads(scene.read_text(encoding="utf-8")).get("expect", {}).items():
         value, within, relative = e["value"], e.get("within", 0), e.get("within_relative", 0)
@@ -57,7 +57,7 @@ def call_of(log):
 
 
 def scene_of(log, folder):
-    """File of the scene of a run. Raises ValueError if it is none of inputs/."""
+    """File of the scene of a run. Raises ValueError if it is not in inputs/."""
     named = re.search(r"(\w+)\.toml", call_of(log))
     scene = ROOT / "inputs" / f"{named.group(1) if named else folder.name}.toml"
     if not scene.is_file():
@@ -66,7 +66,7 @@ def scene_of(log, folder):
 
 
 def rows_of_run(folder):
-    """The scene of a run, and rows of the table. Raises ValueError if it is not that scene as it is."""
+    """The scene of a run, and rows of the table. Raises ValueError if the run changed the scene."""
     log = Log(folder / "run.log")
     if "--set" in call_of(log):
         raise ValueError(f"{folder} is a run of a scene that was changed by --set")

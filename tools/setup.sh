@@ -3,7 +3,7 @@
 # Sourced by the other tools. Gives them $root (top of the source tree), $cores, and the functions
 #   need SECTION...         install the packages of these sections of packages.txt if any is missing
 #   quietly LOG COMMAND...  run with all output into LOG; show its end only on failure, and on a
-#                           terminal how far it is: "building 61/120"
+#                           terminal the progress: "building 61/120"
 #   configure DIR OPTION... configure the build tree DIR (relative to $root)
 #   refuse ARGUMENT...      exit 2 if there is an argument
 # and answers --help with the comment at the top of the script.
@@ -82,14 +82,14 @@ quietly() {
   return 1
 }
 
-# Files are compiled in batches: these trees are built as a whole.
+# Files are compiled in batches, since these trees are built as a whole.
 configure() {
   local dir=$1
   shift
   cmake -S "$root" -B "$root/$dir" -G Ninja -DCMAKE_UNITY_BUILD=ON "$@"
 }
 
-# Sourced without arguments of its own, this has those of the script.
+# A script that sources this file without arguments passes its own arguments on.
 for argument; do
   case $argument in
     -h | --help)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Markdown tables of the studies in directories: how many of their checks are met, and of each
-method the finest level: its first error, the observed order against the level before, wall time
+"""Prints Markdown tables of the studies in directories: the number of checks met, and for each
+method at its finest level the first error, the observed order from the level before, wall time
 (set-up + method) and memory.
 """
 

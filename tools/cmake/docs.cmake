@@ -1,5 +1,5 @@
-# The documents as HTML, `cmake --build build --target docs`: by pandoc what is Markdown, into docs/ of the
-# build tree, and by doxygen the headers, into docs/api. Of what is not installed there is nothing.
+# The documents as HTML, `cmake --build build --target docs`: pandoc writes Markdown documents to docs/ of the
+# build tree, doxygen writes the headers to docs/api. Without pandoc or doxygen the part is left out.
 find_program(PANDOC pandoc)
 find_program(DOXYGEN doxygen)
 if(NOT PANDOC AND NOT DOXYGEN)

@@ -1,5 +1,5 @@
-# Texts that the program has with it, so that it is the same one everywhere: the guide, the scenes and the
-# meshes of inputs/, as arrays of C++ in the file `output`.
+# Embeds texts in the program, so that it works without other files: the guide, the scenes and the
+# meshes of inputs/, as C++ arrays in the file `output`.
 
 # The C++ expression of a std::string with that text: compilers need not take a literal of more than 65536
 # characters, so it is made of pieces, cut where lines end.

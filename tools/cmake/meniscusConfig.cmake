@@ -1,4 +1,4 @@
-# What find_package(meniscus) reads in an installed tree: the target meniscus::meniscus.
+# The file that find_package(meniscus) reads in an installed tree: the target meniscus::meniscus.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 3.4 NO_MODULE)
 find_dependency(fmt)

@@ -8,7 +8,7 @@ function Header(header)
   end
 end
 
--- What is no page here (sources, folders) is named only.
+-- Links to targets that are not pages (sources, folders) become plain text.
 function Link(link)
   if link.target:match("^%a+:") or link.target:match("^#") then
     return link
@@ -25,5 +25,5 @@ function Meta(meta)
   return meta
 end
 
--- The heading has to be met before the title is asked for.
+-- The heading has to be read before the title is set.
 return { { Header = Header, Link = Link }, { Meta = Meta } }

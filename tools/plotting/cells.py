@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cross-sections of shells over the shape of a red blood cell and over a profile of the scene, and
-what they look like in the end."""
+the shape at the end."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,7 +11,7 @@ import surfaces
 
 
 def draw(run):
-    """A picture for each shell, in its own axes: the motion as a whole is taken out."""
+    """A picture for each shell, in its own axes: the rigid motion is removed."""
     return {
         f"cell_{body.name}": picture(run, body)
         for body in run.bodies

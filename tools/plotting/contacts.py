@@ -17,7 +17,7 @@ def draw(run):
 
 
 def main_component(run, vector):
-    """The component that changes most; none if the history has none of this vector."""
+    """The component that changes most; None if the history has no component of this vector."""
     columns = [f"{vector}_{i}" for i in "xyz" if f"{vector}_{i}" in run.history]
     return max(columns, key=lambda column: np.ptp(run.history[column]), default=None)
 
@@ -57,8 +57,8 @@ def picture(run, name):
 
 
 def curve(axis, x, push, first, labels):
-    """Force over x: one colour for the steps that end in a record that is `first`, another for the
-    others."""
+    """Force over x: one colour for steps that end at a record marked in `first`, another for the
+    other steps."""
     for number, (shown, label) in enumerate(zip((first, ~first), labels)):
         joined = shown | np.append(shown[1:], False)  # each piece from where the last one ended
         axis.plot(x, np.where(joined, push, np.nan), color=style.COLORS[number], lw=0.9, label=label)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Directors of nematics as rods, one at each particle that a picture shows."""
+"""Directors of nematics as rods, one at each particle in a picture."""
 
 import numpy as np
 from matplotlib.collections import LineCollection
 
-LENGTH = 0.8  # of a director of length one, in spacings
+LENGTH = 0.8  # of a rod for a director of length one, in spacings
 
 
 def rods(run, frame, body, near, axes):
-    """Segments [rod, end, i] along these axes at the particles `near`; none without the field
+    """Segments [rod, end, i] along these axes at the particles `near`; None without the field
     `director`. A rod is shorter where it points out of the picture, and in the core of a defect."""
     if "director" not in run.fields:
         return np.empty((0, 2, 2))
@@ -18,5 +18,5 @@ def rods(run, frame, body, near, axes):
 
 
 def draw(axis, segments, factor=1):
-    """`factor`: of the lengths in the picture."""
+    """`factor`: the scale of lengths in the picture."""
     axis.add_collection(LineCollection(segments * factor, colors="k", linewidths=0.7))

@@ -23,7 +23,7 @@ def tension(run, body):
 
 
 def applies(run, body, gamma):
-    """A free three-dimensional ellipsoidal drop of a Newtonian liquid, p2 of it recorded."""
+    """True for a free ellipsoidal drop of a Newtonian liquid in 3D whose p2 is recorded."""
     return (
         body.dimension == 3
         and body.settings["shape"] == "ellipsoid"
@@ -56,7 +56,7 @@ def decay(run, body, gamma):
     return figure
 
 
-FIT = (1.5, 2.5)  # in periods: nonlinear before, at the resolution of the surface after
+FIT = (1.5, 2.5)  # in periods: before it is nonlinear, afterwards too small for the resolution
 
 
 def slow_mode(time, p2, rate):

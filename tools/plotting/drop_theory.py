@@ -31,7 +31,7 @@ def mismatch(x, ohnesorge, mode):
 
 
 def secant(f, a, b):
-    """A root near a and b; real numbers stay real only as long as f is."""
+    """A root near a and b; real if a, b and the values of f are real."""
     fa, fb = f(a), f(b)
     for _ in range(100):
         if fa == fb or abs(b - a) <= 1e-15 * abs(b):
@@ -47,7 +47,7 @@ def slow_real_root(ohnesorge, mode):
     def f(x):
         return mismatch(x, ohnesorge, mode).real
 
-    # Below the first pole, which is at q about l + 3.
+    # The root lies below the first pole, at q of about l + 3.
     places = [1e-9 + 4 * mode**2 * k / 4000 for k in range(4000)]
     bracket = next(((a, b) for a, b in zip(places, places[1:]) if f(a) > 0 >= f(b)), None)
     if bracket is None:
@@ -62,7 +62,7 @@ def slow_real_root(ohnesorge, mode):
 
 
 def slow_rate(ohnesorge, mode=2):
-    """sigma T with T = sqrt(rho R^3/gamma): real if overdamped, else the one with Im > 0."""
+    """sigma T with T = sqrt(rho R^3/gamma): real if overdamped, otherwise the root with Im > 0."""
     root = slow_real_root(ohnesorge, mode)
     if root is None:
         root = oscillating_root(ohnesorge, mode)

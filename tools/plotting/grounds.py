@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drops on soft ground: outlines through time with the way of their middle, and the height of the
-face of the ground below them."""
+"""Drops on soft ground: outlines through time with the path of the centre, and the height of the
+face of the ground below."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -21,7 +21,7 @@ def draw(run, count):
 
 
 def middle(run, frame, name):
-    """Of the volume."""
+    """The centre of the volume."""
     body = run.body(name, frame)
     return body.volume @ run.points(frame, body) / body.volume.sum()
 
@@ -60,7 +60,7 @@ def picture(run, contact, frames):
     time_factor, time_unit = style.scale(run.time_unit, run.times)
     shown = np.concatenate([run.points(frames[0], body)[:, plane.axes] for body in run.epochs[frames[0]]])
     width, height = np.ptp(shown, axis=0)
-    height *= 1.2 * WIDTH / width  # enough for the width to be that of the panel below
+    height *= 1.2 * WIDTH / width  # so that the width fits the panel below
     figure, (top, below) = plt.subplots(
         2, 1, figsize=(WIDTH + 1.9, height + 2), sharex=True, height_ratios=(height, 1.3), layout="constrained"
     )

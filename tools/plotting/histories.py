@@ -29,8 +29,8 @@ def time_axis(run, axis):
 
 
 def energies(run):
-    """Kinetic energy, changes of the others since the start, the sum of all less the external work
-    and what remaps brought, and below it the error of the balance."""
+    """Kinetic energy, changes of the other energies since the start, the sum of all minus external work
+    and the changes by remaps, and below these the error of the balance."""
     columns = {"kinetic": run.history["kinetic_energy"]}
     for name, values in run.history.items():
         if name.endswith("_energy") and name != "kinetic_energy":
@@ -67,7 +67,7 @@ def column(name):
 
 
 def panels(run, groups, height=2.3):
-    """A panel for each group of columns that the run has, with their curves: figure and axes with
+    """A panel with curves for each group of columns in the run: figure and axes with
     their names, or None."""
     groups = [[name for name in names if name in run.history] for names in groups]
     groups = [names for names in groups if names]
@@ -84,7 +84,7 @@ def panels(run, groups, height=2.3):
 
 
 def shape(run, body):
-    """Aspect and extents of a body with what the scene expects of them."""
+    """Aspect and extents of a body with the expectations of the scene."""
     extents = [f"{body.name}.extent_{i}" for i in "xyz"[: body.dimension]]
     drawn = panels(run, ([f"{body.name}.aspect"], extents))
     return drawn and drawn[0]
@@ -99,7 +99,7 @@ def measures(run, name):
     return drawn and drawn[0]
 
 
-# Curves that may coincide (two extents of a round body) stay visible under one another.
+# Curves may coincide (two extents of a round body); line styles keep them all visible.
 LINES = ["-", (0, (5, 3)), (0, (1.5, 2.5))]
 
 

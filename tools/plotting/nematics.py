@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Force dipole m = h x s and tilt of the directors inside nematic drops, in sections through time:
-the size of m, its component out of the picture, which is all that an axisymmetric flow has, and P2 of
-the angle between the director and that of the start."""
+the size of m, its component out of the picture (the only one in an axisymmetric flow), and P2 of
+the angle between the director and the initial director."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,7 +11,7 @@ import sections
 import style
 from histories import time_axis
 
-DECADES = 3  # of the size of the dipole that are shown
+DECADES = 3  # shown of the size of the dipole
 
 
 def draw(run, count):
@@ -28,7 +28,7 @@ def draw(run, count):
 
 
 class Row:
-    """One quantity in all frames: values [frame][particle of the cut], and how they are coloured."""
+    """One quantity in all frames: values [frame][particle of the cut], and their colours."""
 
     def __init__(self, values, norm, colors, text):
         self.values, self.norm, self.colors, self.text = values, norm, colors, text

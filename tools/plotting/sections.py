@@ -22,9 +22,9 @@ def draw(run, name, count):
 
 
 class Plane:
-    """The reference plane of the section: through the centre, across the shortest extent (z if
-    there is a choice), so that it contains the longest axis, but along the normals of walls and of
-    ground; for shells across y, so that it contains their axis. In 2D everything is in the plane."""
+    """The reference plane of the section through the centre. It is normal to the shortest extent (z if
+    there is a choice) and contains the longest axis, but also the normals of walls and of
+    ground. For shells it is normal to y and contains their axis. In 2D it contains the whole body."""
 
     def __init__(self, run):
         X = np.concatenate([body.X for body in run.bodies])
@@ -43,8 +43,8 @@ class Plane:
 
 
 class Cut:
-    """What one body shows in the plane. The particles are chosen in the reference state: all frames
-    show the same ones."""
+    """The part of a body in the plane. Its particles are chosen in the reference state: all frames
+    show the same particles."""
 
     def __init__(self, run, body, plane, frame, name):
         x = run.points(frame, body)
@@ -66,7 +66,7 @@ def outline(body, x, plane):
     """Segments [segment, end, i] of the current surface in the material plane of the section."""
     if plane.normal is None:
         return x[body.surface]
-    # A plane a little beside the middle: no corner lies on it.
+    # The plane is slightly off-centre, so that no corner lies on it.
     height = body.X[:, plane.normal] - plane.place - 1e-4 * body.spacing
     segments = []
     for quad in body.surface[:, [0, 1, 3, 2]]:

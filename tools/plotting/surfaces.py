@@ -18,7 +18,7 @@ AMBIENT, GLOSS, SHININESS = 0.40, 0.30, 40
 
 
 def draw(run, field=None, count=3):
-    """The surface in the first frame, in those between, and in the last; with a field also coloured
+    """The surface in the first, some intermediate and the last frame; with a field also coloured
     by it."""
     if run.dimension == 2:
         return {}
@@ -31,7 +31,7 @@ def draw(run, field=None, count=3):
 
 
 class Coloring:
-    """Colours of the values of a field at the particles, the same for all of the frames."""
+    """Colours of the values of a field at the particles; all frames have the same colour map."""
 
     def __init__(self, run, name, frames):
         self.run, self.name = run, name
@@ -69,7 +69,7 @@ def view(bodies):
 
 
 def window(run, frames, axes_of_view):
-    """Lower corner and size (right, up) of what is seen of all bodies in those frames."""
+    """Lower corner and size (right, up) of the view of all bodies in the given frames."""
     seen = []
     for k in frames:
         points = np.concatenate([run.points(k, body) for body in run.epochs[k]])
@@ -101,7 +101,7 @@ def picture(run, frames, coloring=None):
 
 
 def panel_of(axis, run, frame, axes_of_view, seen, coloring=None, parts=6):
-    """One frame: bodies, and behind or before them the walls."""
+    """One frame: bodies, and the walls behind or in front of them."""
     corner, size = seen
     bodies = run.epochs[frame]
     scene = [run.points(frame, body) @ axes_of_view.T for body in bodies]
@@ -118,8 +118,8 @@ def panel_of(axis, run, frame, axes_of_view, seen, coloring=None, parts=6):
 
 
 def facets(bodies, scene, colors=None, parts=6):
-    """Polygons from back to front. `scene`: positions of each body, seen; `colors`: [body][particle],
-    those of the bodies if not given."""
+    """Polygons from back to front. `scene`: positions of each body in the view; `colors`: [body][particle],
+    by default the colours of the bodies."""
     polygons, depths, faces, edges = [], [], [], []
 
     def add(corners, depth, face, edge):
@@ -133,7 +133,7 @@ def facets(bodies, scene, colors=None, parts=6):
         seen = normals[:, :, 2].max(axis=1) > 0
         quads, normals = quads[seen], normals[seen]
         outline = quads[:, [0, 1, 3, 2]]
-        # Before the neighbouring facets, too, which else would cover half of the line.
+        # In front of the neighbouring facets, which would otherwise cover half of the line.
         add(outline, outline[:, :, 2].max(axis=1) + 0.5 * body.spacing, (0, 0, 0, 0), EDGE)
         color = np.array(plt.matplotlib.colors.to_rgb(style.COLORS[number % len(style.COLORS)]))
         corner_colors = np.broadcast_to(color, (*quads.shape[:2], 3))
@@ -187,7 +187,7 @@ def divided(quads, normals, colors, parts):
 
 def shade(normals, colors, of_field):
     """Lambert's law for two lights, and a highlight of the first (Blinn); [patch, i]. Colours of a field
-    are those of its bar, but for a little shade."""
+    match its colour bar, apart from a little shade."""
     light = np.full(len(normals), AMBIENT)
     for direction, strength in ((KEY, KEY_STRENGTH), (FILL, FILL_STRENGTH)):
         light += strength * np.clip(normals @ (direction / np.linalg.norm(direction)), 0, None)

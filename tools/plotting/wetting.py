@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drops on rigid walls: meridian profiles with the circle that fits them and the wedge of the
-contact angle, base radius and angle over time, and the wetted patch seen from below."""
+"""Drops on rigid walls: meridian profiles with the fitted circle and the wedge of the
+contact angle, base radius and angle over time, and the wetted patch from below."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,7 +9,7 @@ from matplotlib.collections import PolyCollection
 import style
 from histories import panels
 
-FREE_ABOVE = 0.35  # of the height: what the range of the wall does not bend
+FREE_ABOVE = 0.35  # of the height: there the range of the wall does not bend the surface
 
 
 def draw(run, count):
@@ -40,7 +40,7 @@ class Wall:
         return (x - self.point) @ self.normal
 
     def along(self, x):
-        """Coordinates in the wall, of which there are one less than of x."""
+        """Coordinates in the wall: one fewer than those of x."""
         return (x - self.point) @ np.linalg.svd(self.normal[None])[2][1:].T
 
 
@@ -59,8 +59,8 @@ def body_of(run, wall, frame):
 
 
 class Profile:
-    """Places (r, z) of the particles of the surface about the middle of the drop, and the circle
-    through the free ones."""
+    """Places (r, z) of the surface particles about the middle of the drop, and the circle
+    through the particles of the free surface."""
 
     def __init__(self, run, wall, frame):
         body = body_of(run, wall, frame)
@@ -115,7 +115,7 @@ def profiles(run, wall, frames):
 
 
 def patches(run, wall, frames):
-    """Facets that face the wall, by their gap."""
+    """Facets that face the wall, coloured by their gap."""
     seen = []
     for frame in frames:
         body = body_of(run, wall, frame)
@@ -154,7 +154,7 @@ def patches(run, wall, frames):
 
 
 def fronts(run, wall):
-    """Base and angles over time, over what the scene expects of them."""
+    """Base and angles over time, with the expectations of the scene."""
     angles = [f"{wall.name}.contact_angle", f"{wall.name}.contact_angle_vh"]
     drawn = panels(run, ([f"{wall.name}.base_radius"], angles))
     if not drawn:
