@@ -3,6 +3,7 @@
 #include "meniscus/io/files.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/regular_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -11,7 +12,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
+#include <limits>
 
 namespace meniscus {
 namespace {
@@ -53,12 +54,7 @@ std::string read_file(const std::filesystem::path& path) {
 
 void read_pieces(const std::filesystem::path& path,
                  const std::function<void(std::string_view)>& take) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             std::fclose);
-  if (!file) throw_file_error("read", path, errno);
-  char piece[65536];
-  while (const std::size_t n = std::fread(piece, 1, sizeof piece, file.get())) take({piece, n});
-  if (std::ferror(file.get())) throw_file_error("read", path, errno);
+  read_regular_file(path.string(), std::numeric_limits<std::uintmax_t>::max(), take);
 }
 
 void write_new_file(const std::filesystem::path& path, std::string_view content) {

@@ -3,13 +3,14 @@
 #include "meniscus/body/mesh_file.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/memory.hpp"
+#include "meniscus/core/regular_file.hpp"
 
 #include <fmt/core.h>
 
-#include <cerrno>
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
 
 namespace meniscus {
 
@@ -20,21 +21,14 @@ std::string text_of_mesh_file(const std::string& path) {
   };
   if (file.extension() != ".msh" && file.extension() != ".vtu")
     refuse("is no mesh; expected is a file whose name ends with .msh or .vtu");
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) refuse("is a directory; expected is a file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    refuse(
-        fmt::format("cannot be read: {}; expected is a file, named from the folder of the scene "
-                    "on",
-                    std::generic_category().message(errno)));
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  constexpr std::uintmax_t most = 4'000'000'000;
-  if (ignored || size > most) refuse("is no file of at most 4 GB; expected is one");
-  std::string text(size, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(size));
-  if (stream.gcount() != static_cast<std::streamsize>(size)) refuse("reading failed");
-  return text;
+  const Real most =
+      std::clamp(available_memory() / 8, 0.0, 4e9);  // cells take more than their text
+  try {
+    return content_of_regular_file(path, static_cast<std::uintmax_t>(most));
+  } catch (const FileError& error) {
+    throw InputError(
+        fmt::format("{}; expected is a mesh, named from the folder of the scene on", error.what()));
+  }
 }
 
 MeshData read_mesh(std::string_view text, const std::string& path) {
