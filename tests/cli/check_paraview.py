@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens runs as ParaView does: cells, times, volumes, a surface, a slice, rigid partners.
+"""Opens runs as ParaView does: cells, times, volumes, a surface, a slice, rigid partners; and reads the
+meshes that VTK writes.
 Usage: check_paraview.py PROGRAM"""
 import itertools
 import subprocess
@@ -12,6 +13,9 @@ from pathlib import Path
 from paraview.simple import (Delete, ExtractSurface, IntegrateVariables, MeshQuality, Slice, Xdmf3ReaderS,
                              Xdmf3ReaderT, XDMFReader, servermanager)  # fmt: skip
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkUnstructuredGrid
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 PROGRAM = str(Path(sys.argv.pop(1)).resolve())
 MATERIAL = 'material = { type = "neo_hookean", density = 1, mu = 1, lambda = 2 }\n'
@@ -82,6 +86,26 @@ def cube_of_tetrahedra(n):
     )
 
 
+def block_of_hexahedra(n):
+    """A grid of VTK in the unit cube with a vector, whose range VTK writes as <InformationKey>."""
+    number = {x: k for k, x in enumerate(itertools.product(range(n + 1), repeat=3))}
+    grid, points, field = vtkUnstructuredGrid(), vtkPoints(), vtkDoubleArray()
+    points.SetDataTypeToDouble()
+    field.SetName("vector")
+    field.SetNumberOfComponents(3)
+    for x in number:
+        points.InsertNextPoint(*(v / n for v in x))
+        field.InsertNextTuple3(*x)
+    grid.SetPoints(points)
+    grid.GetPointData().AddArray(field)
+    for array in (field, points.GetData()):
+        array.GetRange(-1)
+    for i, j, k in itertools.product(range(n), repeat=3):
+        around = [(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        grid.InsertNextCell(VTK_HEXAHEDRON, 8, [number[x] for x in around])
+    return grid
+
+
 class ParaView(unittest.TestCase):
     def run_of(self, text):
         folder = tempfile.TemporaryDirectory()
@@ -138,6 +162,37 @@ class ParaView(unittest.TestCase):
         low, high = servermanager.Fetch(cut).GetPointData().GetArray("velocity").GetRange(0)
         self.assertLess(abs(high - 0.1), 0.1)
         self.assertGreater(high, low)
+
+    def test_meshes_of_vtk(self):
+        """Every data mode, compressed as by default or not, appended as base64 or as bytes."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        directory = Path(folder.name)
+        (directory / "scene.toml").write_text(
+            f'dimension = 3\ntime.end = 1\n[[body]]\nname = "block"\nshape = "mesh"\nfile = "block.vtu"\n{MATERIAL}'
+        )
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputData(block_of_hexahedra(3))
+        writer.SetFileName(str(directory / "block.vtu"))
+        default = (writer.Appended, True, True, 32, 32768)
+        for mode, base64, zlib, header, block in (
+            default,
+            (writer.Ascii, True, True, 32, 32768),
+            (writer.Binary, True, True, 64, 256),
+            (writer.Binary, True, False, 32, 32768),
+            (writer.Appended, False, True, 64, 256),
+            (writer.Appended, False, False, 64, 32768),
+            (writer.Appended, True, False, 32, 32768),
+        ):
+            writer.SetDataMode(mode)
+            writer.SetEncodeAppendedData(base64)
+            writer.SetBlockSize(block)
+            (writer.SetCompressorTypeToZLib if zlib else writer.SetCompressorTypeToNone)()
+            (writer.SetHeaderTypeToUInt64 if header == 64 else writer.SetHeaderTypeToUInt32)()
+            writer.Write()
+            said = subprocess.run([PROGRAM, "check", "scene.toml"], cwd=directory, capture_output=True, text=True)
+            self.assertEqual((said.returncode, said.stderr), (0, ""), (mode, base64, zlib, header, block))
+            self.assertIn("27 hexahedra of a mesh, surface closed, with area 6 and volume 1 within", said.stdout)
 
     def test_rigid_partners(self):
         """The plane moves away, the ball is fixed."""

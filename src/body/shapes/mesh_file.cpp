@@ -27,7 +27,7 @@ std::string text_of_mesh_file(const std::string& path) {
     return content_of_regular_file(path, static_cast<std::uintmax_t>(most));
   } catch (const FileError& error) {
     throw InputError(
-        fmt::format("{}; expected is a mesh, named from the folder of the scene on", error.what()));
+        fmt::format("{} (a mesh is named from the folder of the scene on)", error.what()));
   }
 }
 
