@@ -3,6 +3,7 @@
 #include "build_body.hpp"
 
 #include "meniscus/body/ordering.hpp"
+#include "meniscus/body/straightened_facets.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/body/wall_supports.hpp"
 #include "meniscus/measure/measure_registry.hpp"
@@ -125,6 +126,11 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
         fmt::format("body '{}': the volume change is averaged over each nodal cell (volumetric = "
                     "\"cell_average\")",
                     name));
+  if (const Index straightened = straightened_facets(body.geometry); straightened > 0)
+    assembly.warn(fmt::format(
+        "body '{}': {} of {} facets of the mesh have a straight edge where the surface is curved, "
+        "for a cell would fold otherwise; use smaller cells there, or facets = \"flat\"",
+        name, straightened, body.geometry.grid.facets.size()));
   report_masses(name, built.mass, assembly);
   if (built.warning) assembly.warn(fmt::format("body '{}': {}", name, *built.warning));
   if (built.note) assembly.note(fmt::format("body '{}': {}", name, *built.note));

@@ -17,6 +17,7 @@
 #include <optional>
 #include <utility>
 
+#include "mesh_checks.hpp"
 #include "mesh_surface.hpp"
 
 namespace meniscus {
@@ -35,6 +36,7 @@ struct Mesh {
   std::string file;  ///< with the folder of the scene, if it is relative
   std::string text;  ///< of the file
   std::optional<Real> unit;
+  std::string facets;
 
   static Rows<Mesh> rows();
   Geometry<D> geometry() const;
@@ -51,7 +53,7 @@ std::filesystem::path folder_of(const Block& block) {
 template <int D>
 Rows<Mesh<D>> Mesh<D>::rows() {
   return {{"file", "text", "", "", "required",
-           "a Gmsh mesh (.msh, text, version 2.2 or 4.1) or an unstructured grid of VTK (.vtu); "
+           "a Gmsh mesh (.msh, version 2.2 or 4.1) or an unstructured grid of VTK (.vtu); "
            "from the folder of the scene on",
            [](Mesh& m, const Block& block) {
              m.file = block.text("file", {});
@@ -74,10 +76,15 @@ Rows<Mesh<D>> Mesh<D>::rows() {
                                                    given, m.file, digest));
            }},
           {"unit", "number", rows::si_symbol(dimension::length), "> 0", "that of the scene",
-           "length of 1 in the file, e.g. \"1 mm\"", [](Mesh& m, const Block& block) {
+           "length of 1 in the file, e.g. \"1 mm\"",
+           [](Mesh& m, const Block& block) {
              if (block.has("unit"))
                m.unit = block.real("unit", dimension::length, range::positive, {});
-           }}};
+           }},
+          choice_row("facets", &Mesh::facets, {"curved", "flat"},
+                     "the surface goes through the nodes as a smooth one does between sharp edges, "
+                     "where no cell folds by that; or its facets are flat",
+                     "curved")};
 }
 
 constexpr bool is_solid(MeshShape shape, int D) {
@@ -135,13 +142,16 @@ class MeshMaker {
       if (cell.shape == shape) add(cell, unit);
     require_distinct();
     for (std::size_t e = 0; e < grid_.cells.size(); ++e) orient(static_cast<Index>(e));
+    require_simple_body<D>(grid_, [&](Index e) { return at(cell_of_, e)->where; });
     note_middles(unit);
     for (const MeshCell& cell : data.cells)
       if (cell.shape < shape && !cell.face.empty())
         if (const auto key = own_nodes(cell.corners)) given_.face[*key] = cell.face;
   }
 
-  Geometry<D> geometry() && { return mesh_geometry(std::move(grid_), given_); }
+  Geometry<D> geometry(MeshFacets facets) && {
+    return mesh_geometry(std::move(grid_), given_, facets);
+  }
 
  private:
   void require_flat() const {
@@ -241,7 +251,8 @@ template <int D>
 Geometry<D> Mesh<D>::geometry() const {
   const MeshData data = read_mesh(text, file);
   try {
-    return MeshMaker<D>(data, unit.value_or(1)).geometry();
+    return MeshMaker<D>(data, unit.value_or(1))
+        .geometry(facets == "flat" ? MeshFacets::flat : MeshFacets::curved);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file, error.what()));
   }

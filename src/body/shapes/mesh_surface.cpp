@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces of the surface of a mesh, and the points that quadratic patches go through.
+// The surface of a mesh: names of its faces of a mesh, and the points that quadratic patches go
+// through.
 #include "mesh_surface.hpp"
 
 #include "meniscus/approx/neighbor_search.hpp"
 #include "meniscus/body/quadratic_surface.hpp"
 #include "meniscus/body/recovered_surface.hpp"
 #include "meniscus/body/simplex.hpp"
+#include "meniscus/body/straightened_facets.hpp"
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/core/parallel.hpp"
 
 #include <fmt/core.h>
 
@@ -18,17 +20,20 @@
 #include <set>
 #include <utility>
 
+#include "mesh_pieces.hpp"
+
 namespace meniscus {
 namespace {
-
-using Key = std::vector<Index>;
 
 /// A surface whose faces have names; all else is that of another one.
 template <int D>
 class NamedSurface final : public Surface<D> {
  public:
-  NamedSurface(std::shared_ptr<const Surface<D>> surface, std::vector<std::string> names)
-      : surface_(std::move(surface)), names_(std::move(names)) {}
+  NamedSurface(std::shared_ptr<const Surface<D>> surface, std::vector<std::string> names,
+               Index straightened)
+      : surface_(std::move(surface)), names_(std::move(names)), straightened_(straightened) {}
+
+  Index straightened() const { return straightened_; }
 
   SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const override {
     return surface_->points(grid, k, part);
@@ -40,161 +45,24 @@ class NamedSurface final : public Surface<D> {
   bool hollow() const override { return surface_->hollow(); }
   std::string face_name(int patch) const override { return at(names_, patch); }
   std::shared_ptr<const Surface<D>> renumbered(std::span<const Index> order) const override {
-    return std::make_shared<NamedSurface>(surface_->renumbered(order), names_);
+    return std::make_shared<NamedSurface>(surface_->renumbered(order), names_, straightened_);
   }
   std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
                                            const Grid<D>& grid) const override {
-    return std::make_shared<NamedSurface>(surface_->mapped(map, grid), names_);
+    return std::make_shared<NamedSurface>(surface_->mapped(map, grid), names_, straightened_);
   }
 
  private:
   std::shared_ptr<const Surface<D>> surface_;
   std::vector<std::string> names_;
-};
-
-Key key_of(Key nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
-/// What neighbours share: edges of a facet, in the plane its ends.
-template <int D>
-std::vector<Key> borders(const Facet<D>& facet) {
-  if constexpr (D == 2) {
-    return {{facet.nodes[0]}, {facet.nodes[1]}};
-  } else {
-    std::vector<Key> edges;
-    for (const auto& [a, b] : {std::pair(0, 1), {1, 3}, {3, 2}, {2, 0}})
-      if (Key edge = key_of({at(facet.nodes, a), at(facet.nodes, b)}); edge.size() == 2)
-        edges.push_back(std::move(edge));
-    return edges;
-  }
-}
-
-/// Times the area, within a factor.
-template <int D>
-Vec<D> facet_normal_of(const Facet<D>& facet, const std::vector<Vec<D>>& X) {
-  const Vec<D> along = at(X, facet.nodes[1]) - at(X, facet.nodes[0]);
-  if constexpr (D == 2) {
-    return Vec<2>(along[1], -along[0]);
-  } else {
-    return cross(at(X, facet.nodes[3]) - at(X, facet.nodes[0]),
-                 at(X, facet.nodes[2]) - at(X, facet.nodes[1]));
-  }
-}
-
-template <int D>
-class Pieces {
- public:
-  explicit Pieces(const Grid<D>& grid) : grid_(grid) {
-    for (std::size_t f = 0; f < grid.facets.size(); ++f) {
-      normal_.push_back(facet_normal_of(grid.facets[f], grid.X).normalized());
-      for (const Key& border : borders(grid.facets[f])) at_border_[border].push_back(f);
-    }
-    for (const auto& [border, facets] : at_border_)
-      if (D == 3 && is_sharp(border)) {
-        sharp_at_[border.front()].push_back(border.back());
-        sharp_at_[border.back()].push_back(border.front());
-      }
-    piece_ = flooded([&](const Key& border) { return !is_sharp(border); });
-    part_ = flooded([](const Key&) { return true; });
-    find_inner();
-  }
-
-  bool is_sharp(const Key& border) const {
-    const auto& facets = at_border_.at(border);
-    return facets.size() != 2 || at(normal_, facets[0]).dot(at(normal_, facets[1])) < least_cosine;
-  }
-  bool any_sharp() const {
-    return std::any_of(at_border_.begin(), at_border_.end(),
-                       [&](const auto& border) { return is_sharp(border.first); });
-  }
-  int count() const { return 1 + *std::max_element(piece_.begin(), piece_.end()); }
-  int of(std::size_t facet) const { return at(piece_, facet); }
-  /// Whether a facet is of a closed part of the surface around a cavity.
-  bool inner(std::size_t facet) const { return at(inner_, at(part_, facet)); }
-
-  /// The middle of a sharp edge between a and b: of the parabolas through them and the next node
-  /// of the curve at either end, if that is there.
-  Vec<D> middle_of_curve(Index a, Index b) const {
-    const Vec<D>&A = at(grid_.X, a), &B = at(grid_.X, b);
-    const Real h = (B - A).norm();
-    Vec<D> bend = Vec<D>::Zero();  // 1/8 of the second derivative over an edge
-    int found = 0;
-    for (const auto& [end, other] : {std::pair(a, b), std::pair(b, a)})
-      if (const auto next = next_on_curve(end, other)) {
-        const Vec<D> on = (at(grid_.X, *next) - at(grid_.X, end)),
-                     back = at(grid_.X, other) - at(grid_.X, end);
-        const Real l = on.norm();
-        bend += 2 * h * h / (h + l) * (on / l + back / h) / 8;
-        ++found;
-      }
-    return 0.5 * (A + B) - (found ? Vec<D>(bend / found) : bend);
-  }
-
- private:
-  std::vector<int> flooded(const auto& passes) const {
-    std::vector<int> number(grid_.facets.size(), -1);
-    int count = 0;
-    for (std::size_t first = 0; first < number.size(); ++first) {
-      if (number[first] >= 0) continue;
-      std::vector<std::size_t> open{first};
-      number[first] = count;
-      while (!open.empty()) {
-        const std::size_t f = open.back();
-        open.pop_back();
-        for (const Key& border : borders(grid_.facets[f])) {
-          if (!passes(border)) continue;
-          for (const std::size_t other : at_border_.at(border))
-            if (number[other] < 0) {
-              number[other] = count;
-              open.push_back(other);
-            }
-        }
-      }
-      ++count;
-    }
-    return number;
-  }
-
-  void find_inner() {
-    std::vector<Real> volume(
-        static_cast<std::size_t>(1 + *std::max_element(part_.begin(), part_.end())), 0.0);
-    for (std::size_t f = 0; f < grid_.facets.size(); ++f) {
-      Vec<D> middle = Vec<D>::Zero();
-      for (const Index node : grid_.facets[f].nodes) middle += at(grid_.X, node);
-      at(volume, part_[f]) +=
-          facet_normal_of(grid_.facets[f], grid_.X).dot(middle / (1 << (D - 1)) - grid_.X.front());
-    }
-    for (const Real v : volume) inner_.push_back(v < 0);
-  }
-
-  /// The node with which a sharp curve goes on beyond `end`, not around a corner.
-  std::optional<Index> next_on_curve(Index end, Index from) const {
-    const std::vector<Index>& beside = sharp_at_.at(end);
-    if (beside.size() != 2) return {};
-    const Index next = beside[0] == from ? beside[1] : beside[0];
-    const Vec<D> ahead = at(grid_.X, end) - at(grid_.X, from),
-                 further = at(grid_.X, next) - at(grid_.X, end);
-    if (further.normalized().dot(ahead.normalized()) < least_cosine) return {};
-    return next;
-  }
-
-  static constexpr Real least_cosine = 0.643;  // of 50 degrees
-  const Grid<D>& grid_;
-  std::vector<Vec<D>> normal_;
-  std::map<Key, std::vector<std::size_t>> at_border_;
-  std::map<Index, std::vector<Index>> sharp_at_;  ///< 3D: nodes beside a node on sharp edges
-  std::vector<int> piece_, part_;
-  std::vector<char> inner_;
+  Index straightened_;
 };
 
 /// Each piece recovered by itself; `f` is a facet of the grid.
 template <int D>
 class RecoveredPieces {
  public:
-  RecoveredPieces(const Grid<D>& grid, const Pieces<D>& pieces) : pieces_(pieces) {
+  RecoveredPieces(const Grid<D>& grid, const MeshPieces<D>& pieces) : pieces_(pieces) {
     grids_.resize(static_cast<std::size_t>(pieces.count()));
     for (std::size_t f = 0; f < grid.facets.size(); ++f)
       at(grids_, pieces.of(f)).facets.push_back(grid.facets[f]);
@@ -209,7 +77,7 @@ class RecoveredPieces {
   }
 
  private:
-  const Pieces<D>& pieces_;
+  const MeshPieces<D>& pieces_;
   std::vector<Grid<D>> grids_;
   std::vector<std::shared_ptr<const RecoveredSurface<D>>> surfaces_;
 };
@@ -217,9 +85,9 @@ class RecoveredPieces {
 /// The middle of a facet whose edges have middles: that of the serendipity patch, of a triangle of
 /// that through its six points, at the middle of the collapsed square.
 Vec<3> middle_of_facet(const Facet<3>& facet, const std::vector<Vec<3>>& X,
-                       const std::map<Key, Vec<3>>& middle) {
+                       const std::map<MeshKey, Vec<3>>& middle) {
   const auto& n = facet.nodes;
-  const auto between = [&](int a, int b) { return middle.at(key_of({at(n, a), at(n, b)})); };
+  const auto between = [&](int a, int b) { return middle.at(mesh_key({at(n, a), at(n, b)})); };
   if (n[2] == n[3])
     return -0.125 * (at(X, n[0]) + at(X, n[1])) + 0.25 * between(0, 1) +
            0.5 * (between(0, 2) + between(1, 2));
@@ -227,20 +95,39 @@ Vec<3> middle_of_facet(const Facet<3>& facet, const std::vector<Vec<3>>& X,
          0.5 * (between(0, 1) + between(1, 3) + between(3, 2) + between(2, 0));
 }
 
+/// Points of patches by their keys.
+template <int D>
+using PatchPoints = std::map<MeshKey, Vec<D>>;
+
+/// The points of straight edges and of the facets between them.
+template <int D>
+PatchPoints<D> flat_points(const Grid<D>& grid) {
+  PatchPoints<D> points;
+  for (const Facet<D>& facet : grid.facets)
+    for (int a = 0; a < PatchFunctions<D>::nodes; ++a) {
+      const MeshKey key = patch_key(facet, patch_node<D>(a));
+      if (key.size() <= 2) points[key] = 0.5 * (at(grid.X, key.front()) + at(grid.X, key.back()));
+    }
+  if constexpr (D == 3)
+    for (const Facet<3>& facet : grid.facets)
+      points[patch_key(facet, Vec<2>(0, 0))] = middle_of_facet(facet, grid.X, points);
+  return points;
+}
+
 /// The points of quadratic patches, by their keys: those of the file if it has all middles of
 /// edges.
 template <int D>
-std::map<Key, Vec<D>> patch_points(const Grid<D>& grid, const Pieces<D>& pieces,
-                                   const MeshSurface<D>& given, bool second_order) {
+PatchPoints<D> patch_points(const Grid<D>& grid, const MeshPieces<D>& pieces,
+                            const MeshSurface<D>& given, bool second_order) {
   std::optional<RecoveredPieces<D>> recovered;
   if (!second_order) recovered.emplace(grid, pieces);
-  std::map<Key, Vec<D>> points;
+  PatchPoints<D> points;
   for (std::size_t f = 0; f < grid.facets.size(); ++f) {
     const Facet<D>& facet = grid.facets[f];
     Vec<D> bulge = Vec<D>::Zero();  // of the middle, with edges that are curves
     for (int a = 0; a < PatchFunctions<D>::nodes; ++a) {
       const Vec<D - 1> xi = patch_node<D>(a);
-      const Key key = patch_key(facet, xi);
+      const MeshKey key = patch_key(facet, xi);
       if (key.size() == 1) {
         points[key] = at(grid.X, key[0]);
       } else if (key.size() == 2) {
@@ -254,7 +141,7 @@ std::map<Key, Vec<D>> patch_points(const Grid<D>& grid, const Pieces<D>& pieces,
       }
     }
     if constexpr (D == 3) {
-      const Key key = patch_key(facet, Vec<2>(0, 0));
+      const MeshKey key = patch_key(facet, Vec<2>(0, 0));
       const auto middle = given.middle.find(key);
       points[key] = !second_order ? Vec<3>(recovered->point(f, facet, Vec<2>(0, 0)) + bulge)
                     : middle != given.middle.end() ? middle->second
@@ -268,22 +155,22 @@ std::map<Key, Vec<D>> patch_points(const Grid<D>& grid, const Pieces<D>& pieces,
 template <int D>
 bool has_middles(const Grid<D>& grid, const MeshSurface<D>& given) {
   return std::all_of(grid.facets.begin(), grid.facets.end(), [&](const Facet<D>& facet) {
-    std::vector<Key> edges = borders(facet);
-    if (D == 2) edges = {key_of({facet.nodes[0], facet.nodes[1]})};
+    std::vector<MeshKey> edges = facet_borders(facet);
+    if (D == 2) edges = {mesh_key({facet.nodes[0], facet.nodes[1]})};
     return std::all_of(edges.begin(), edges.end(),
-                       [&](const Key& key) { return given.middle.count(key) > 0; });
+                       [&](const MeshKey& key) { return given.middle.count(key) > 0; });
   });
 }
 
 /// Numbers the patches of the facets and returns their names.
 template <int D>
-std::vector<std::string> name_faces(Grid<D>& grid, const Pieces<D>& pieces,
+std::vector<std::string> name_faces(Grid<D>& grid, const MeshPieces<D>& pieces,
                                     const MeshSurface<D>& given) {
   std::map<std::pair<int, std::string>, int> patch;
   std::vector<std::string> names;
   for (std::size_t f = 0; f < grid.facets.size(); ++f) {
     Facet<D>& facet = grid.facets[f];
-    const auto named = given.face.find(key_of({facet.nodes.begin(), facet.nodes.end()}));
+    const auto named = given.face.find(mesh_key({facet.nodes.begin(), facet.nodes.end()}));
     const std::string name = named != given.face.end() ? named->second : "";
     const auto [found, is_new] =
         patch.try_emplace({pieces.of(f), name}, static_cast<int>(names.size()));
@@ -310,36 +197,111 @@ std::function<Vec<D>(const Vec<D>&)> outer_normal(const Geometry<D>& geometry) {
   };
 }
 
+/// Cells at the surface that are folded.
+template <int D>
+std::vector<Index> folded_cells(const Grid<D>& grid) {
+  std::vector<char> is_folded(grid.cells.size(), 0);
+  parallel_for(grid.cell_count(), [&](Index e) {
+    if (grid.bulge(e)) at(is_folded, e) = find_fold(grid, e).has_value();
+  });
+  std::vector<Index> folded;
+  for (Index e = 0; e < grid.cell_count(); ++e)
+    if (at(is_folded, e)) folded.push_back(e);
+  return folded;
+}
+
+/// Makes the edges of the surface straight that belong to folded cells; adds the facets with such
+/// edges to `straightened`. Returns false if all of them are straight already.
+template <int D>
+bool straighten(const Grid<D>& grid, const std::vector<Index>& folded, PatchPoints<D>& points,
+                std::set<std::size_t>& straightened) {
+  std::set<MeshKey> between;  // pairs of nodes of a folded cell
+  for (const Index e : folded)
+    for (const Index a : at(grid.cells, e))
+      for (const Index b : at(grid.cells, e))
+        if (a < b) between.insert({a, b});
+  bool changed = false;
+  for (std::size_t f = 0; f < grid.facets.size(); ++f) {
+    const Facet<D>& facet = grid.facets[f];
+    bool any = false;
+    for (int a = 0; a < PatchFunctions<D>::nodes; ++a) {
+      const MeshKey key = patch_key(facet, patch_node<D>(a));
+      if (key.size() != 2 || between.count(key) == 0) continue;
+      const Vec<D> middle = 0.5 * (at(grid.X, key[0]) + at(grid.X, key[1]));
+      changed = changed || points[key] != middle;
+      points[key] = middle;
+      any = true;
+    }
+    if (!any) continue;
+    straightened.insert(f);
+  }
+  if constexpr (D == 3)
+    for (const std::size_t f : straightened) {
+      Vec<3>& point = points[patch_key(grid.facets[f], Vec<2>(0, 0))];
+      const Vec<3> middle = middle_of_facet(grid.facets[f], grid.X, points);
+      changed = changed || point != middle;
+      point = middle;
+    }
+  return changed;
+}
+
+/// The body with quadratic patches through these points.
+template <int D>
+Geometry<D> geometry_of_patches(const Grid<D>& grid, const PatchPoints<D>& by_key, bool smooth,
+                                const std::vector<char>& inner) {
+  const PatchNodes<D> nodes(grid);
+  std::vector<Vec<D>> points(static_cast<std::size_t>(nodes.count()));
+  for (const auto& [key, number] : nodes.number) at(points, number) = by_key.at(key);
+  Geometry<D> geometry{grid, std::make_shared<QuadraticSurface<D>>(grid, points, smooth, inner)};
+  curve_boundary(geometry);
+  return geometry;
+}
+
 }  // namespace
 
 template <int D>
-Geometry<D> mesh_geometry(Grid<D> grid, const MeshSurface<D>& given) {
+Geometry<D> mesh_geometry(Grid<D> grid, const MeshSurface<D>& given, MeshFacets facets) {
   find_boundary(grid);
-  const Pieces<D> pieces(grid);
+  const MeshPieces<D> pieces(grid);
   std::vector<std::string> names = name_faces(grid, pieces, given);
-  const bool second_order = has_middles(grid, given), sharp = pieces.any_sharp();
-  std::shared_ptr<const Surface<D>> surface;
-  if (!second_order && !sharp) surface = RecoveredSurface<D>::if_smooth(grid);
-  if (!surface) {
-    const auto by_key = patch_points(grid, pieces, given, second_order);
-    const PatchNodes<D> nodes(grid);
-    std::vector<Vec<D>> points(static_cast<std::size_t>(nodes.count()));
-    for (const auto& [key, number] : nodes.number) at(points, number) = by_key.at(key);
+  const bool flat = facets == MeshFacets::flat, second_order = !flat && has_middles(grid, given),
+             sharp = pieces.any_sharp();
+  std::set<std::size_t> straightened;
+  Geometry<D> geometry;
+  if (!flat && !second_order && !sharp) {
+    geometry = {grid, RecoveredSurface<D>::if_smooth(grid)};
+    if (geometry.surface) curve_boundary(geometry);
+  }
+  if (!geometry.surface || !folded_cells(geometry.grid).empty()) {
+    PatchPoints<D> points =
+        flat ? flat_points(grid) : patch_points(grid, pieces, given, second_order);
     std::vector<char> inner(names.size(), 0);
     for (std::size_t f = 0; f < grid.facets.size(); ++f)
       at(inner, grid.facets[f].patch) = pieces.inner(f);
-    surface = std::make_shared<QuadraticSurface<D>>(grid, points, second_order && !sharp,
-                                                    std::move(inner));
+    const bool smooth = second_order && !sharp;
+    geometry = geometry_of_patches(grid, points, smooth, inner);
+    // Each round makes an edge straight, or is the last one.
+    for (auto folded = folded_cells(geometry.grid);
+         !folded.empty() && straighten(grid, folded, points, straightened);
+         folded = folded_cells(geometry.grid))
+      geometry = geometry_of_patches(grid, points, false, inner);
   }
-  Geometry<D> geometry{std::move(grid),
-                       std::make_shared<NamedSurface<D>>(std::move(surface), std::move(names))};
-  curve_boundary(geometry);
   check_jacobians(geometry.grid, "the surface");
+  geometry.surface = std::make_shared<NamedSurface<D>>(geometry.surface, std::move(names),
+                                                       static_cast<Index>(straightened.size()));
   if (geometry.surface->hollow()) geometry.director = outer_normal(geometry);
   return geometry;
 }
 
-#define MENISCUS_INSTANTIATE(D) template Geometry<D> mesh_geometry(Grid<D>, const MeshSurface<D>&);
+template <int D>
+Index straightened_facets(const Geometry<D>& geometry) {
+  const auto* surface = dynamic_cast<const NamedSurface<D>*>(geometry.surface.get());
+  return surface ? surface->straightened() : 0;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                   \
+  template Geometry<D> mesh_geometry(Grid<D>, const MeshSurface<D>&, MeshFacets); \
+  template Index straightened_facets(const Geometry<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE
