@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace meniscus {
@@ -225,19 +226,60 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
   return enlarged;
 }
 
+namespace {
+
+/// How many planes (2D: lines) across a direction the points lie in; 3 where there are more.
+template <int D>
+int planes_across(const Vec<D>& direction, const std::vector<Vec<D>>& points, Real rounding) {
+  std::vector<Real> heights;
+  for (const Vec<D>& X : points) heights.push_back(direction.dot(X));
+  std::sort(heights.begin(), heights.end());
+  int planes = 1;
+  for (std::size_t i = 1; i < heights.size(); ++i) planes += heights[i] > heights[i - 1] + rounding;
+  return std::min(planes, 3);
+}
+
+/// Whether points lie in two planes: then a quadratic basis does not tell x^2 from x, however large
+/// supports are. Looks along the axes and where the points extend least.
+template <int D>
+bool lie_in_two_planes(const std::vector<Vec<D>>& points) {
+  if (points.size() < 2) return false;
+  Vec<D> mean = Vec<D>::Zero();
+  for (const Vec<D>& X : points) mean += X / Real(points.size());
+  Mat<D> spread = Mat<D>::Zero();
+  for (const Vec<D>& X : points) spread += (X - mean) * (X - mean).transpose();
+  const Real rounding = 1e-6 * std::sqrt(spread.trace() / Real(points.size()));
+  // Powers of the inverse turn any vector into the direction of the least extent.
+  const Mat<D> towards_least = inverse<D>(spread + 1e-9 * spread.trace() * Mat<D>::Identity());
+  Vec<D> least = Vec<D>::Ones();
+  for (int k = 0; k < 30; ++k) least = (towards_least * least).normalized();
+  bool two = planes_across<D>(least, points, rounding) < 3;
+  for (int k = 0; k < D; ++k) two = two || planes_across<D>(Vec<D>::Unit(k), points, rounding) < 3;
+  return two;
+}
+
+}  // namespace
+
 template <int D>
 void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& body) const {
   std::vector<Candidate<D>> near;
   candidates(x, 0, near);
   std::string place;
   for (int i = 0; i < D; ++i) place += fmt::format("{}{:.6g}", i ? ", " : "", x[i]);
+  std::vector<Vec<D>> neighbours;
+  for (const Candidate<D>& candidate : near) neighbours.push_back(at(X_, candidate.particle));
+  const char* remedy =
+      !limit_.empty()
+          ? "more particles through the wall and along it: supports must end before the "
+            "other side of the cavity"
+      : lie_in_two_planes<D>(neighbours)
+          ? (D == 3 ? "two layers of cells or more: the particles around lie in two planes"
+                    : "two rows of cells or more: the particles around lie on two lines")
+          : "a larger support or a less distorted cloud";
   throw SolveError(fmt::format(
       "body '{}': the shape functions are not determined at point ({}): {} neighbours, quality of "
       "the moment matrix {:.2g}, at least {:.0e} is needed; use {}",
-      body, place, near.size(), quality, unusable_quality,
-      limit_.empty() ? "a larger support or a less distorted cloud"
-                     : "more particles through the wall and along it: supports must end before the "
-                       "other side of the cavity"));
+      body, place, near.size(), quality, unusable_quality, remedy));
 }
 
 template class ParticleSet<2>;
