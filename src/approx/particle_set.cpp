@@ -239,23 +239,27 @@ int planes_across(const Vec<D>& direction, const std::vector<Vec<D>>& points, Re
   return std::min(planes, 3);
 }
 
-/// Whether points lie in two planes: then a quadratic basis does not tell x^2 from x, however large
-/// supports are. Looks along the axes and where the points extend least.
+/// Whether points lie in two parallel planes, or in one: then a quadratic basis cannot tell x^2
+/// from x across them, however large supports are. Three of the first points (2D: two) lie in one
+/// of them.
 template <int D>
 bool lie_in_two_planes(const std::vector<Vec<D>>& points) {
-  if (points.size() < 2) return false;
-  Vec<D> mean = Vec<D>::Zero();
-  for (const Vec<D>& X : points) mean += X / Real(points.size());
-  Mat<D> spread = Mat<D>::Zero();
-  for (const Vec<D>& X : points) spread += (X - mean) * (X - mean).transpose();
-  const Real rounding = 1e-6 * std::sqrt(spread.trace() / Real(points.size()));
-  // Powers of the inverse turn any vector into the direction of the least extent.
-  const Mat<D> towards_least = inverse<D>(spread + 1e-9 * spread.trace() * Mat<D>::Identity());
-  Vec<D> least = Vec<D>::Ones();
-  for (int k = 0; k < 30; ++k) least = (towards_least * least).normalized();
-  bool two = planes_across<D>(least, points, rounding) < 3;
-  for (int k = 0; k < D; ++k) two = two || planes_across<D>(Vec<D>::Unit(k), points, rounding) < 3;
-  return two;
+  const std::size_t first = std::min<std::size_t>(points.size(), 12);
+  const auto found = [&](const Vec<D>& normal, Real length) {
+    return normal.norm() > 1e-3 * length &&
+           planes_across<D>(normal.normalized(), points, 1e-6 * std::sqrt(length)) < 3;
+  };
+  for (std::size_t i = 0; i < first; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec<D> along = points[i] - points[j];
+      if constexpr (D == 2) {
+        if (found(Vec<2>(-along[1], along[0]) * along.norm(), along.squaredNorm())) return true;
+      } else {
+        for (std::size_t k = 0; k < j; ++k)
+          if (found(cross(along, points[k] - points[j]), along.squaredNorm())) return true;
+      }
+    }
+  return false;
 }
 
 }  // namespace
@@ -273,8 +277,8 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
           ? "more particles through the wall and along it: supports must end before the "
             "other side of the cavity"
       : lie_in_two_planes<D>(neighbours)
-          ? (D == 3 ? "two layers of cells or more: the particles around lie in two planes"
-                    : "two rows of cells or more: the particles around lie on two lines")
+          ? (D == 3 ? "two layers of cells or more: the particles around lie in two planes at most"
+                    : "two rows of cells or more: the particles around lie on two lines at most")
           : "a larger support or a less distorted cloud";
   throw SolveError(fmt::format(
       "body '{}': the shape functions are not determined at point ({}): {} neighbours, quality of "

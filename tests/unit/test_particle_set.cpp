@@ -133,7 +133,23 @@ TEST(ParticleSet, ParticlesInAPlaneAreRefused) {
     EXPECT_NE(what.find("body 'leaf'"), std::string::npos) << what;
     EXPECT_NE(what.find("point (0, 0, 3)"), std::string::npos) << what;
     EXPECT_NE(what.find(" neighbours"), std::string::npos) << what;
-    EXPECT_NE(what.find("larger support"), std::string::npos) << what;
+    EXPECT_NE(what.find("use two layers of cells or more"), std::string::npos) << what;
+  }
+}
+
+/// One layer of cells, of any direction: no support is large enough.
+TEST(ParticleSet, ParticlesInTwoPlanesAreToldThatTheyNeedAThird) {
+  const Vec<3> e = Vec<3>(1, 2, 2) / 3, f = Vec<3>(2, 1, -2) / 3, g = Vec<3>(2, -2, 1) / 3;
+  for (const int layers : {2, 3}) {
+    std::vector<Vec<3>> X;
+    for (int k = 0; k < layers; ++k)
+      for (int i = 0; i < 8; ++i)
+        for (int j = 0; j < 8; ++j) X.push_back(i * e + j * f + k * g);
+    const std::string what = refusal({X, 2.6, Window::cubic_spline});
+    if (layers == 2)
+      EXPECT_NE(what.find("use two layers of cells or more"), std::string::npos) << what;
+    else
+      EXPECT_EQ(what, "accepted");
   }
 }
 
