@@ -126,9 +126,9 @@ std::shared_ptr<const Surface<D>> QuadraticSurface<D>::mapped(const SmoothMap<D>
 }
 
 template <int D>
-Geometry<D> quadratic_geometry(Grid<D> grid, const std::vector<Vec<D>>& points) {
+Geometry<D> quadratic_geometry(Grid<D> grid, const std::vector<Vec<D>>& points, bool smooth) {
   find_boundary(grid);
-  auto surface = std::make_shared<QuadraticSurface<D>>(grid, points);
+  auto surface = std::make_shared<QuadraticSurface<D>>(grid, points, smooth);
   Geometry<D> geometry{std::move(grid), std::move(surface)};
   curve_boundary(geometry);
   check_jacobians(geometry.grid, "the new reference");
@@ -137,7 +137,7 @@ Geometry<D> quadratic_geometry(Grid<D> grid, const std::vector<Vec<D>>& points) 
 
 #define MENISCUS_INSTANTIATE(D)       \
   template class QuadraticSurface<D>; \
-  template Geometry<D> quadratic_geometry(Grid<D>, const std::vector<Vec<D>>&);
+  template Geometry<D> quadratic_geometry(Grid<D>, const std::vector<Vec<D>>&, bool);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

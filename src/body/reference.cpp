@@ -70,7 +70,7 @@ void Reference<D>::archive(const Archive& a) {
     geometry = moved(geometry, std::move(X), recovered);
   } else {
     geometry.grid.X = std::move(X);
-    geometry = quadratic_geometry(std::move(geometry.grid), surface);
+    geometry = quadratic_geometry(std::move(geometry.grid), surface, geometry.surface->smooth());
   }
 }
 

@@ -35,10 +35,6 @@ struct Remaps final : Load<D> {
 
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     const BodyPlan<D>* planned = require_body(block, bodies, body);
-    if (planned && planned->geometry.surface && !planned->geometry.surface->smooth())
-      block.problem("body", fmt::format("the surface of '{}' has edges, which cannot be recovered; "
-                                        "allowed are smooth shapes such as ball",
-                                        body));
     if (planned && nodes == "even" && is_simplex<D>(planned->geometry.grid.cells.front()))
       block.problem("nodes", fmt::format("'even' places the nodes of hexahedra, but '{}' is of {}; "
                                          "allowed is particles",

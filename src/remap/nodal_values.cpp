@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus {
 template <int D>
@@ -50,6 +51,11 @@ std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
                                std::span<const Vec<D>> x) {
   constexpr int most_iterations = 30;
   const Real spacing = mean_spacing(body.geometry.grid);
+  // Places far from the origin are known less exactly than spacings are.
+  Real farthest = 0;
+  for (const Vec<D>& place : x) farthest = std::max(farthest, place.cwiseAbs().maxCoeff());
+  const Real round_off =
+      std::max(1e-13 * spacing, 8 * std::numeric_limits<Real>::epsilon() * farthest);
   const auto reference = body.particles.X();
   const std::vector<Vec<D>> now = places(body, u);
   const NeighborSearch<D> search(now);
@@ -82,7 +88,7 @@ std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
       step *= std::min(1.0, spacing / step.norm());
       if (at(left, q) > 1e-15 * spacing) at(X, q) += step;
     });
-    if (*std::max_element(left.begin(), left.end()) <= 1e-13 * spacing) return X;
+    if (*std::max_element(left.begin(), left.end()) <= round_off) return X;
   }
   const auto worst = std::max_element(left.begin(), left.end());
   std::string place;

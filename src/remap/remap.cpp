@@ -7,6 +7,7 @@
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/remap/nodal_values.hpp"
+#include "meniscus/remap/present_surface.hpp"
 
 #include <fmt/core.h>
 
@@ -122,6 +123,17 @@ std::vector<Vec<D>> present_nodes(const Body<D>& body, const NodalVector* u,
 }
 
 template <int D>
+Seeds<D> on_present_patches(const Body<D>& body, const NodalVector* u) {
+  const Grid<D>& grid = body.geometry.grid;
+  const PresentSurface<D> surface(body, u);
+  Seeds<D> seeds(places(body, u));
+  seeds.surface = surface.points();
+  for (const auto& [key, number] : PatchNodes<D>(grid).number)
+    if (key.size() == 1) at(seeds.nodes, key.front()) = at(seeds.surface, number);
+  return seeds;
+}
+
+template <int D>
 Remap<D> remap(const Body<D>& body, const NodalVector* u, Seeds<D> seeds,
                std::span<const Real> volume_change) {
   std::vector<Vec<D>>& x = seeds.nodes;
@@ -137,7 +149,8 @@ Remap<D> remap(const Body<D>& body, const NodalVector* u, Seeds<D> seeds,
     next->surface = std::move(seeds.surface);
     Grid<D> grid = body.geometry.grid;
     grid.X = std::move(x);
-    next->geometry = quadratic_geometry(std::move(grid), next->surface);
+    next->geometry =
+        quadratic_geometry(std::move(grid), next->surface, body.geometry.surface->smooth());
   } else {
     if (same_boundary && old) next->surface = old->surface;
     next->recovered = !same_boundary || (old && old->recovered);
@@ -207,6 +220,7 @@ State carried(const System<D>& before, const State& state, const System<D>& afte
 #define MENISCUS_INSTANTIATE(D)                                                                 \
   template std::vector<Vec<D>> present_nodes(const Body<D>&, const NodalVector*,                \
                                              std::span<const Real>);                            \
+  template Seeds<D> on_present_patches(const Body<D>&, const NodalVector*);                     \
   template Remap<D> remap(const Body<D>&, const NodalVector*, Seeds<D>, std::span<const Real>); \
   template State carried(const System<D>&, const State&, const System<D>&,                      \
                          const std::map<std::string, Remap<D>>&);

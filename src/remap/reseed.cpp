@@ -14,6 +14,8 @@
 #include <numbers>
 #include <set>
 
+#include "edges.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -48,7 +50,12 @@ template <int D>
 class MovingNodes {
  public:
   MovingNodes(const Grid<D>& grid, const PresentSurface<D>& surface)
-      : grid_(grid), surface_(surface), x_(grid.X.size()), foot_(x_.size()), held_(x_.size(), 0) {
+      : grid_(grid),
+        surface_(surface),
+        x_(grid.X.size()),
+        foot_(x_.size()),
+        held_(x_.size(), 0),
+        edge_(held_) {
     facets_at_.resize(x_.size());
     for (std::size_t f = 0; f < grid.facets.size(); ++f)
       for (const Index node : grid.facets[f].nodes)
@@ -72,6 +79,11 @@ class MovingNodes {
     place(node, foot);
     at(held_, node) = 1;
   }
+  /// Holds a node of an edge, across which facets do not count as turned.
+  void hold_on_edge(Index node) {
+    at(held_, node) = 1;
+    at(edge_, node) = 1;
+  }
   const Foot<D>& foot(Index node) const { return at(foot_, node); }
 
   /// Nodes that are not held move to the middle of their facets, which count by area and, eight
@@ -91,11 +103,11 @@ class MovingNodes {
       int beside = 0;
       for (const Index node : grid_.facets[f].nodes)
         for (const Index other : at(facets_at_, node))
-          if (other != static_cast<Index>(f)) {
+          if (other != static_cast<Index>(f) && !at(edge_, node)) {
             turn += 1 - area[f].dot(at(area, other)) / (area[f].norm() * at(area, other).norm());
             ++beside;
           }
-      weight[f] = area[f].norm() * (1 + weight_of_turns * turn / beside);
+      weight[f] = area[f].norm() * (1 + weight_of_turns * turn / std::max(beside, 1));
     }
     for (std::size_t node = 0; node < x_.size(); ++node) {
       if (facets_at_[node].empty() || held_[node]) continue;
@@ -119,7 +131,7 @@ class MovingNodes {
   const PresentSurface<D>& surface_;
   std::vector<Vec<D>> x_;  // [node]; of no meaning inside
   std::vector<Foot<D>> foot_;
-  std::vector<char> held_;
+  std::vector<char> held_, edge_;
   std::vector<std::vector<Index>> facets_at_;  // [node]
 };
 
@@ -371,7 +383,10 @@ Seeds<D> reseeded(const Body<D>& body, const NodalVector* u, const Grid<D>& idea
   const Grid<D>& grid = body.geometry.grid;
   const PresentSurface<D> surface(body, u);
   MovingNodes<D> nodes(grid, surface);
-  if (line) hold_at_line(*line, time, grid, surface, nodes);
+  const std::vector<Index> edges =
+      body.geometry.surface->smooth() ? std::vector<Index>{} : nodes_on_edges(grid, surface);
+  for (const Index node : edges) nodes.hold_on_edge(node);
+  if (line && edges.empty()) hold_at_line(*line, time, grid, surface, nodes);
   for (int sweep = 0; sweep < sweeps; ++sweep) nodes.relax();
 
   Seeds<D> seeds(nodes.x());

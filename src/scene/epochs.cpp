@@ -133,6 +133,7 @@ Seeds<D> Epochs<D>::seeds(const PlannedRemap& planned, std::size_t b) const {
   const State& state = simulation_->state();
   const Body<D>& body = scene_->system.bodies[b];
   const NodalVector* u = state.u.data() + body.first;
+  if (!planned.even && !body.geometry.surface->smooth()) return on_present_patches<D>(body, u);
   if (!planned.even) return present_nodes<D>(body, u, volume_changes(*scene_, b, state.motion()));
   Geometry<D> ideal = plan_.bodies[b].geometry;
   order_spatially(ideal);

@@ -41,8 +41,9 @@ class QuadraticSurface final : public Surface<D> {
   std::vector<char> inner_;
 };
 
-/// The body of a grid (X and cells) with that surface. Throws InputError if a cell folds.
+/// The body of a grid (X and cells) with that surface, which has no edges if it is `smooth`. Throws
+/// InputError if a cell folds.
 template <int D>
-Geometry<D> quadratic_geometry(Grid<D> grid, const std::vector<Vec<D>>& points);
+Geometry<D> quadratic_geometry(Grid<D> grid, const std::vector<Vec<D>>& points, bool smooth = true);
 
 }  // namespace meniscus

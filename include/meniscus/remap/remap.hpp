@@ -25,6 +25,12 @@ template <int D>
 std::vector<Vec<D>> present_nodes(const Body<D>& body, const NodalVector* u,
                                   std::span<const Real> volume_change);
 
+/// The nodes where the particles are in the present configuration, and the surface the patches
+/// through their present points: edges stay. `u` is that of the body. Throws SolveError if shape
+/// functions cannot be built.
+template <int D>
+Seeds<D> on_present_patches(const Body<D>& body, const NodalVector* u);
+
 /// Refers a body to its present configuration, with the same cells and their nodes at `seeds`;
 /// those on its boundary lie on its present surface. `volume_change` is J - 1 of its nodal cells,
 /// relative to the reference of the scene.

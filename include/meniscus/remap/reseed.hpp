@@ -29,7 +29,8 @@ struct ContactLine {
 
 /// The cells of the body with their nodes evenly in its present configuration (wetting note 9):
 /// those of the surface are moved along it to the middles of what is around them, closer together
-/// where it is bent; a ring of them lies on the contact line, if there is one; the surface is that
+/// where it is bent; nodes on edges stay on them, or a ring of them lies on the contact line, if
+/// there is one; the surface is that
 /// of patches which fit the present ones best, and encloses the same volume; those inside follow by
 /// a harmonic map from `ideal`, the same cells as the scene makes them. `u` is that of the body.
 /// Throws SolveError if shape functions cannot be built.
