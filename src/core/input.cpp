@@ -6,6 +6,7 @@
 #include "meniscus/core/text.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "input_node.hpp"
@@ -61,6 +62,14 @@ void Block::Node::note(const scene_tree::Place& where, const std::string& full_p
   document->problems.push_back({where, full_path.empty() ? what : full_path + ": " + what});
 }
 
+void Block::Node::mark_guess(const Value& value) {
+  if (const auto* array = std::get_if<Array>(&value.data))
+    for (const Value& element : *array) mark_guess(element);
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (text == nullptr || !document->constants.broken_in(*text)) return;
+  wrong = guessed = true;
+}
+
 void Block::Node::note_missing(std::string_view key, const std::string& allowed) {
   if (!quiet) note(place, joined(path, key), "missing; allowed is " + allowed);
 }
@@ -104,6 +113,8 @@ T Block::Node::read(std::string_view key, const std::string& allowed, const std:
     return *fallback;
   }
   const std::optional<T> value = attempt(entry->value, called(key), convert);
+  if constexpr (!std::is_same_v<T, std::string> && !std::is_same_v<T, std::vector<std::string>>)
+    mark_guess(entry->value);
   if (!value) return fallback.value_or(harmless);
   echo(key, input_values::toml(*value), unit, false);
   return *value;
@@ -318,6 +329,7 @@ std::vector<std::pair<std::string, Block>> Block::named_tables() const {
 }
 
 void Block::problem(std::string_view key, const std::string& what) const {
+  if (node_->guessed) return;  // it may follow from the value that stands in
   const Entry* entry = node_->find(key);
   node_->note(entry == nullptr ? node_->place : entry->value.place,
               key.empty() ? path() : joined(path(), key), what);

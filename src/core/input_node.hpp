@@ -56,8 +56,9 @@ struct Block::Node {
   const scene_tree::Table* table = nullptr;  ///< points into the document; null when absent
   std::string path;
   scene_tree::Place place;
-  bool quiet = false;  ///< not a table, or of unknown kind: missing keys are not worth a line
-  bool wrong = false;  ///< something was noted
+  bool quiet = false;    ///< not a table, or of unknown kind: missing keys are not worth a line
+  bool wrong = false;    ///< something was noted, or a value needs a broken constant
+  bool guessed = false;  ///< another value stands in for one that needs a broken constant
   std::vector<std::string> known;  ///< keys that were asked for, for messages
   std::vector<std::string> was_read;
   std::vector<Echo> echoes;
@@ -73,6 +74,8 @@ struct Block::Node {
   /// The full path of `key`, for messages; of a supplied one that of what it follows from, too.
   std::string called(std::string_view key) const;
   void note(const scene_tree::Place& where, const std::string& full_path, const std::string& what);
+  /// Marks the table if a value needs a broken constant, whose problem is noted elsewhere.
+  void mark_guess(const scene_tree::Value& value);
   void note_missing(std::string_view key, const std::string& allowed);
   void echo(std::string_view key, std::string value, const std::string& unit, bool fallback);
   /// The node of a sub-table, the same one each time it is asked for.

@@ -59,6 +59,17 @@ void apply_settings(Document& document) {
   if (!report.empty()) throw InputError(report);
 }
 
+/// A long list of allowed names stands in the first line that has it; later lines refer to it.
+void refer_to_list_above(std::string& line, std::unordered_set<std::string>& said) {
+  constexpr std::string_view begin = "allowed are ";
+  constexpr std::size_t few = 80;
+  const std::size_t first = line.find(begin);
+  if (first == std::string::npos) return;
+  const std::size_t last = std::min(line.find("; ", first), line.size());
+  if (last - first <= few || said.insert(line.substr(first, last - first)).second) return;
+  line.replace(first + begin.size(), last - first - begin.size(), "the names listed above");
+}
+
 }  // namespace
 
 std::string Document::place_text(const scene_tree::Place& place) const {
@@ -121,6 +132,8 @@ void SceneInput::check() const {
     const std::string line = document.place_text(problem.place) + ": " + problem.text;
     if (known.insert(line).second && known.size() <= most) lines.push_back(line);
   }
+  std::unordered_set<std::string> said;
+  for (std::string& line : lines) refer_to_list_above(line, said);
   if (known.size() > most)
     lines.push_back(fmt::format("{}: and {} more problems", document.name, known.size() - most));
   throw InputError(joined(lines, "\n"));

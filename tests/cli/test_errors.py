@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is wrong is said where it is wrong, before anything is computed or overwritten, with the
 exit code of its kind. Usage: test_errors.py PROGRAM"""
+import json
 import math
 import re
 import resource
@@ -71,6 +72,45 @@ class Scenes(ProgramTest):
         report = self.assert_refused(text, "scene.toml:4:7: time.end", "did you mean 'drop'?",
                                      "did you mean 'viscosity'?", "body[0].layers")
         self.assertEqual(len(report.splitlines()), 5, report)  # viscosity is also missing
+
+    def test_wrong_constant_alone(self):
+        """Nothing is said of what would follow from the number that stands in for it."""
+        ring = """
+        dimension = 2
+        [constants]
+        T = "0.1 mmm"
+        U = "2*T"
+        [functions]
+        "wide(a)" = "a*U"
+        [time]
+        end = "U"
+        [[body]]
+        name = "ring"
+        shape = "ring"
+        radius = 0.5
+        thickness = "{}"
+        material = {{ type = "neo_hookean", density = 1, mu = 1, lambda = 1 }}
+        [[cavity]]
+        body = "ring"
+        surface = "inner"
+        [expect]
+        late = {{ of = "ring.volume", at = 3, value = 1, within = 1 }}
+        """
+        for thickness in "T", "U + T", "wide(2)":
+            report = self.assert_refused(ring.format(thickness), "constants.T", "mmm")
+            self.assertEqual(len(report.splitlines()), 1, report)
+        late = ring.format("0.1 m").replace('"0.1 mmm"', "1").replace('end = "U"', 'end = "2 pm"')
+        report = self.assert_refused(late, "time.end")
+        self.assertEqual(len(report.splitlines()), 1, report)
+
+    def test_long_lists_once(self):
+        """The names that are allowed stand in the first line about one that is not."""
+        names = [f"drop.measure_{k}" for k in range(12)] + ["drop.volme"]
+        text = re.sub("measures = .*", "measures = " + json.dumps(names), DROP)
+        report = self.assert_refused(text, *names, "drop.volume",
+                                     "the names listed above; did you mean 'drop.volume'?")
+        self.assertEqual(report.count("allowed are the names listed above"), 12, report)
+        self.assertEqual(len(report.splitlines()), 13, report)
 
     def test_overlap_of_bodies_in_contact(self):
         disk = """
