@@ -3,6 +3,7 @@
 #include "meniscus/app/advice.hpp"
 
 #include "meniscus/app/print.hpp"
+#include "meniscus/core/box.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/text.hpp"
 #include "meniscus/scene/simulation.hpp"
@@ -97,6 +98,24 @@ std::optional<Real> stable_step(const SceneInput& input) {
   return std::nullopt;
 }
 
+/// How far a body gets within the end time by its mean velocity and the net force of the start,
+/// over its size.
+template <int D>
+Real way_ahead(const Scene<D>& scene, const Body<D>& body, const State& state) {
+  Vec<D> momentum = Vec<D>::Zero(), force = momentum;
+  Real mass = 0, volume = 0;
+  for (Index A = 0; A < body.size(); ++A) {
+    mass += at(body.mass, A);
+    volume += body.cells.volume(A);
+    for (int i = 0; i < D; ++i) {
+      momentum[i] += at(body.mass, A) * at(state.v, body.first + A)[i];
+      force[i] += at(state.force, body.first + A)[i];
+    }
+  }
+  const Real T = scene.time.end;
+  return (momentum.norm() * T + force.norm() * T * T / 2) / mass / std::pow(volume, 1.0 / D);
+}
+
 }  // namespace
 
 void say_units(const UnitSystem& units) {
@@ -148,9 +167,36 @@ void say_softer_drops(const Scene<D>& scene, const RunRequest& request, Real sta
       joined(moduli, ", "), *longer / stable);
 }
 
-#define MENISCUS_INSTANTIATE(D)                                       \
-  template void say_drop_numbers(const Scene<D>&, const SceneInput&); \
-  template void say_softer_drops(const Scene<D>&, const RunRequest&, Real);
+template <int D>
+void warn_of_idle_contacts(const Scene<D>& scene, const State& state) {
+  constexpr Real no_share = 1e-6, no_way = 1e-3;
+  if (scene.system.steady_after() > 0) return;
+  for (const ContactBetween& contact : scene.contacts) {
+    const auto energy =
+        std::find_if(scene.measures.begin(), scene.measures.end(),
+                     [&](const MeasureSource& m) { return m.name == contact.name + ".energy"; });
+    if (energy == scene.measures.end()) continue;
+    Real area = 0;
+    bool moves = false;
+    for (const Body<D>& body : scene.system.bodies) {
+      const auto& names = contact.bodies;
+      if (std::find(names.begin(), names.end(), body.name) == names.end()) continue;
+      area = std::pow(box_around<D>(body.particles.X()).extent().maxCoeff(), D - 1);
+      moves = moves || !(way_ahead(scene, body, state) < no_way);
+    }
+    if (moves || !(std::abs(energy->compute(state.motion())) <= no_share * contact.adhesion * area))
+      continue;
+    say("warning: contact '{}': nothing is in its reach at the start, and nothing moves '{}': no "
+        "velocity, no net force, no load that changes; they meet only if their shapes change by as "
+        "much. Move them nearer, or give an initial_velocity or a [[body_force]]\n",
+        contact.name, joined(contact.bodies, "' and '"));
+  }
+}
+
+#define MENISCUS_INSTANTIATE(D)                                             \
+  template void say_drop_numbers(const Scene<D>&, const SceneInput&);       \
+  template void say_softer_drops(const Scene<D>&, const RunRequest&, Real); \
+  template void warn_of_idle_contacts(const Scene<D>&, const State&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

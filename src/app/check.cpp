@@ -97,6 +97,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
   Simulation<D> simulation = set_up(input, [&] { return Simulation<D>(scene); });
   set_up(input, [&] { simulation.begin(); });
   for (const std::string& note : simulation.take_notes()) say("{}\n", note);
+  warn_of_idle_contacts(scene, simulation.state());
   if (scene.time.solver == "newton") {
     const StableStep stable = StableStepEstimator<D>(scene.system).estimate(simulation.state());
     say("stable step of motion {:.6g} {}; newton: load steps of {:.6g}\n", stable.dt,

@@ -230,6 +230,7 @@ void Contact<D>::build(Assembly<D>& assembly) const {
   if (!partner && model->placed(surfaces(assembly)))
     assembly.keep_reference(bodies[1], "the adhesion of its [[contact]] is a formula of it");
   assembly.add(std::move(term), name);
+  assembly.contact({name, bodies, flat(assembly).adhesion});
   if (partner) {
     assembly.draw({name, partner->shape, partner_motion()});
     measure_wetting(assembly);

@@ -10,6 +10,7 @@
 
 #include "add_director.hpp"
 #include "build_body.hpp"
+#include "watch_surfaces.hpp"
 
 namespace meniscus {
 namespace {
@@ -54,27 +55,6 @@ std::vector<Division> divide_bodies(const Plan<D>& plan, const References<D>& re
     particles.push_back(static_cast<Index>(geometry.grid.X.size()));
   }
   return divide(particles);
-}
-
-/// Bodies that share space: particles of one closer to one of the other than half its spacing.
-template <int D>
-void warn_of_overlaps(Scene<D>& scene) {
-  const auto& bodies = scene.system.bodies;
-  std::vector<Index> found;
-  for (std::size_t a = 0; a < bodies.size(); ++a)
-    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
-      const Real near = 0.5 * mean_spacing(bodies[b].geometry.grid);
-      Index count = 0;
-      for (const Vec<D>& X : bodies[a].particles.X()) {
-        bodies[b].particles.search().within_unsorted(X, near, found);
-        count += found.empty() ? 0 : 1;
-      }
-      if (count > 0)
-        scene.warnings.push_back(
-            fmt::format("bodies '{}' and '{}' overlap: {} particles of the first "
-                        "lie within half a spacing of the second",
-                        bodies[a].name, bodies[b].name, count));
-    }
 }
 
 }  // namespace
@@ -132,7 +112,7 @@ Scene<D> build(const Plan<D>& plan, const References<D>& references) {
   if (auto constraints = assembly.take_constraints(); !constraints.empty())
     scene.system.hold(std::move(constraints), scene.initial);
   for (const PlannedRemap& remap : scene.remaps) require_remappable(scene, remap.body);
-  if (references.empty()) warn_of_overlaps(scene);
+  watch_surfaces(scene, references.empty());
   return scene;
 }
 

@@ -142,6 +142,7 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
   state_ = std::move(state);
   ++state_.epoch;
   last_step_ = before.last_step_;
+  possible_at_ = before.possible_at_;
   start(scene_.system, state_);
   state_.books.remapped += take_ledger(scene_.system, state_).balance() -
                            take_ledger(before.scene_.system, before.state_).balance();
@@ -243,16 +244,19 @@ void Simulation<D>::or_give_up(const Work& work) {
 }
 
 template <int D>
-void Simulation<D>::refuse_impossible_states() const {
+void Simulation<D>::refuse_impossible_states() {
   for (const StateCheck& check : scene_.checks)
     if (const auto found = check(state_.motion())) {
       StepFailure failure = scene_.system.located(*found, state_.motion());
+      if (possible_at_)
+        failure.cause += fmt::format("; this was not so at t = {:.9g}", *possible_at_);
       failure.step = state_.step;
       failure.time = state_.time;
       failure.dt = last_step_;
       throw StepError(failure);
     }
   refuse_impossible_surfaces();
+  possible_at_ = state_.time;
 }
 
 /// A surface smaller than that of the ball (2D: disk) of the same volume cannot be: its quadrature

@@ -102,6 +102,27 @@ def cell(*more):
                 *more)
 
 
+def pressed(name, pressure):
+    return f'[[traction]]\nbody = "{name}"\nface = "outer"\npressure = {pressure}\nramp = [0, 20]\n'
+
+
+DROPS = "".join(drop(f'shape = "disk"\nradius = 1\ncore = 4\nrings = 2\ncentre = [{x}, {y}]',
+                     f"initial_velocity = [{-x}, 0]").replace('"drop"', f'"{name}"')
+                for name, x, y in (("left", -1.2, 0), ("right", 1.2, 0.2)))
+CURLED = """
+[[held]]
+body = "sheet"
+face = "x_min"
+displacement = [0, 0]
+[[held]]
+body = "sheet"
+face = "x_max"
+angle = "max(0.28*t, 1e-6)"
+centre = [5, 0]
+displacement = ["10/max(0.28*t, 1e-6)*sin(max(0.28*t, 1e-6)) - 10",
+                "10/max(0.28*t, 1e-6)*(1 - cos(max(0.28*t, 1e-6)))"]
+"""
+
 # name, scene, exit code, word of the output or the log
 TABLE = [
     # Particles and rules
@@ -181,7 +202,7 @@ TABLE = [
      contact(["small", "large"], "points = 2", sigma0=0.001), 3, "unfelt"),
     ("through a surface", head(0.4) + disk("left", (-1.2, 0), 1, (1.5, 0), core=6) +
      disk("right", (1.2, 0.3), 1, (-1.5, 0), core=6) + contact(["left", "right"], "points = 2", sigma0=0.05), 4,
-     "is inside of body"),
+     "their [[contact]] does not hold them"),
     ("thrown at a wall", head(0.6) + disk("ball", (0, 1.5), 1, (0, -3)) +
      contact(["ball"], epsilon=30, partner=PLATE.format(0, "")), 0, ""),
     ("behind a wall", head(1) + TARGET + contact(["large"], partner=PLATE.format(0, "")), 3, "surfaces overlap"),
@@ -203,6 +224,17 @@ TABLE = [
     ("contact of volumes", head(0.3) + LEFT + RIGHT + contact(["left", "right"], 'form = "volume"', epsilon=30), 0, ""),
     ("contact of the dissertation", head(0.3) + LEFT + RIGHT + contact(["left", "right"], 'form = "dissertation"', epsilon=30), 0,
      "not the gradient"),
+    # Surfaces that go through themselves or each other
+    ("drops without a contact", head(1.5) + DROPS, 4, "nothing keeps them apart: add a [[contact]] with bodies = "),
+    ("blocks that overlap", head(1) + TARGET + disk("small", (1.1, 0), 0.4), 3, "move them farther apart"),
+    ("hollow ball pressed flat", head(30, RELAX, dimension=3) + body(
+        "ball", 'shape = "sphere_shell"\nradius = 1\nthickness = 0.12\nlayers = 3\nspacing = 0.25', law(1, 10)) +
+     pressed("ball", 0.5), 4, "the surface goes through itself"),
+    ("ring pressed flat", head(60, RELAX) + body(
+        "ring", 'shape = "ring"\nradius = 1\nthickness = 0.2\naround = 48\nlayers = 3', law(1, 10)) +
+     pressed("ring", 0.1), 4, "the surface goes through itself"),
+    ("strip bent beyond a circle", head(30) + sheet(law(100, 100), cells=(60, 3), size=(10, 0.5)) + CURLED, 4,
+     "a body has no contact with itself"),
     # Shells
     ("shell that swells", head(0.5, dimension=3) + cell() + cavity("volume_target = 1.2", "ramp = [0, 0.4]"), 0, ""),
     ("shell around a wall too thick", head(1, dimension=3) + cell().replace("thickness = 0.5", "thickness = 3") +

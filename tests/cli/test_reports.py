@@ -373,8 +373,51 @@ class Reports(ProgramTest):
         self.assertNotIn("turns", self.call("check", self.scene(text.format(0.9))).stdout)
 
     def test_overlap(self):
+        """Bodies that share space are refused; those beside each other are named, without a warning."""
         second = BLOCK[BLOCK.index("[[body]]"):BLOCK.index("[[body_force]]")].replace("block", "twin")
-        self.assertIn("overlap", self.call("check", self.scene(BLOCK + second)).stdout)
+        for shift in 0, 0.5:
+            moved = second.replace("[body.material]", f"move = [{shift}, 0, 0]\n[body.material]")
+            self.refused(["check", self.scene(BLOCK + moved)], 3, "'block'", "'twin'", "nothing keeps them apart",
+                         'bodies = ["block", "twin"]')
+        beside = second.replace("[body.material]", "move = [1.05, 0, 0]\n[body.material]")
+        said = self.call("check", self.scene(BLOCK + beside)).stdout
+        self.assertIn("no [[contact]] keeps apart 'block' and 'twin'", said)
+        self.assertNotIn("warning", said)
+
+    def test_contact_that_nothing_reaches(self):
+        """A drop at rest beyond the reach of its wall stays there for ever."""
+        wall = """
+        [[contact]]
+        name = "wall"
+        bodies = ["drop"]
+        contact_angle = 90
+        offset = 0.04
+        range = 0.08
+        [contact.partner]
+        type = "half_space"
+        point = [0, {}]
+        normal = [0, 1]
+        """
+        drop = """
+        dimension = 2
+        time.end = 1
+        [[body]]
+        name = "drop"
+        shape = "disk"
+        radius = 1
+        core = 6
+        rings = 3
+        {}
+        material = {{ type = "newtonian", density = 1, bulk_modulus = 100, viscosity = 1 }}
+        [[surface_tension]]
+        body = "drop"
+        gamma = 1
+        """
+        weight = '[[body_force]]\nbody = "drop"\nacceleration = [0, -1]\n'
+        for height, velocity, more, idle in ((-1.5, "", "", True), (-1.06, "", "", False), (-1.5, "", weight, False),
+                                             (-1.5, "initial_velocity = [0, -1]", "", False)):
+            said = self.call("check", self.scene(drop.format(velocity) + wall.format(height) + more)).stdout
+            self.assertEqual("nothing moves 'drop'" in said, idle, said)
 
     def test_keys(self):
         text = self.call("keys").stdout

@@ -21,4 +21,10 @@ void say_drop_numbers(const Scene<D>& scene, const SceneInput& input);
 template <int D>
 void say_softer_drops(const Scene<D>& scene, const RunRequest& request, Real stable);
 
+/// Warns of contacts without force at the start between bodies that nothing moves: they have no
+/// velocity and no net force, and no load changes with time. `state` is that of the start, with its
+/// forces.
+template <int D>
+void warn_of_idle_contacts(const Scene<D>& scene, const State& state);
+
 }  // namespace meniscus

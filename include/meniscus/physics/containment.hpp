@@ -5,7 +5,9 @@
 #include "meniscus/core/box.hpp"
 #include "meniscus/physics/force_term.hpp"
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace meniscus {
 
@@ -45,6 +47,18 @@ class Polyhedron {
 template <int D>
 std::optional<Failure> body_inside(const Body<D>& first, const Body<D>& second,
                                    const Motion& motion);
+
+/// The numbers of two bodies and a particle of one of them in the other.
+struct Contained {
+  std::size_t first, second;
+  Failure failure;
+};
+/// The first pair of bodies, among those that are `watched`, of which one is inside of the other.
+/// All ranks call this and find the same.
+template <int D>
+std::optional<Contained> any_body_inside(
+    const std::vector<const Body<D>*>& bodies, const Motion& motion,
+    const std::function<bool(std::size_t, std::size_t)>& watched);
 
 /// One of these places of a rigid partner in the body; none while all are outside.
 template <int D>

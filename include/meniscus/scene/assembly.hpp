@@ -53,6 +53,8 @@ class Assembly {
   void keep_reference(const std::string& body, std::string why) {
     scene_.kept_references[body] = std::move(why);
   }
+  /// Says which bodies a contact is between.
+  void contact(ContactBetween contact) { scene_.contacts.push_back(std::move(contact)); }
   /// Watches for what cannot be.
   void check(StateCheck check) { scene_.checks.push_back(std::move(check)); }
   /// Shear viscosity of each particle of a fluid; empty for a solid.

@@ -58,6 +58,13 @@ struct Wetting {
   ContactLine<D> line;
 };
 
+/// The bodies that a [[contact]] is between: two, or one beside a rigid partner.
+struct ContactBetween {
+  std::string name;
+  std::vector<std::string> bodies;
+  Real adhesion;  ///< energy per area
+};
+
 /// A rigid partner, as viewers draw it.
 template <int D>
 struct DrawnPartner {
@@ -89,6 +96,7 @@ struct Scene : RunSettings {
   std::map<std::string, std::string> kept_references;  ///< [body] why it cannot be referred anew
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
+  std::vector<ContactBetween> contacts;
 
   /// How a sum over bodies is written.
   std::string symbol_of_sum(Dimension d) const { return units.symbol(of_sum(d, D)); }

@@ -79,7 +79,7 @@ class Simulation {
   void archive_orders(const Archive& a) const;
   void step(Real dt);
   void step_or_halve(Real dt);
-  void refuse_impossible_states() const;
+  void refuse_impossible_states();
   void refuse_impossible_surfaces() const;
   [[noreturn]] void give_up(StepFailure failure);
   /// Failures of `work` get their step and time; of one that is interrupted nothing is left.
@@ -97,6 +97,7 @@ class Simulation {
   std::vector<std::string> notes_;
   Audit audit_;
   Real last_step_ = 0;
+  std::optional<Real> possible_at_;  // time of the last state that passed all checks
 };
 
 }  // namespace meniscus

@@ -109,13 +109,35 @@ std::optional<Real> Polyhedron<D>::depth(const Vec<D>& x) const {
   return depth;
 }
 
+namespace {
+
 template <int D>
-std::optional<Failure> body_inside(const Body<D>& first, const Body<D>& second,
-                                   const Motion& motion) {
-  const PlacedBody<D> one(first, motion), two(second, motion);
+std::optional<Failure> either_inside(const PlacedBody<D>& one, const PlacedBody<D>& two) {
   if (!overlap(one.box, two.box)) return std::nullopt;
   if (const auto failure = particle_inside(one, two)) return failure;
   return particle_inside(two, one);
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Failure> body_inside(const Body<D>& first, const Body<D>& second,
+                                   const Motion& motion) {
+  return either_inside<D>({first, motion}, {second, motion});
+}
+
+template <int D>
+std::optional<Contained> any_body_inside(
+    const std::vector<const Body<D>*>& bodies, const Motion& motion,
+    const std::function<bool(std::size_t, std::size_t)>& watched) {
+  std::vector<PlacedBody<D>> placed;
+  for (const Body<D>* body : bodies) placed.emplace_back(*body, motion);
+  for (std::size_t a = 0; a < placed.size(); ++a)
+    for (std::size_t b = a + 1; b < placed.size(); ++b)
+      if (watched(a, b))
+        if (auto failure = either_inside(placed[a], placed[b]))
+          return Contained{a, b, std::move(*failure)};
+  return std::nullopt;
 }
 
 template <int D>
@@ -140,6 +162,9 @@ std::optional<Failure> partner_inside(const Body<D>& body, std::span<const Vec<D
   template struct PlacedBody<D>;                                                              \
   template class Polyhedron<D>;                                                               \
   template std::optional<Failure> body_inside(const Body<D>&, const Body<D>&, const Motion&); \
+  template std::optional<Contained> any_body_inside(                                          \
+      const std::vector<const Body<D>*>&, const Motion&,                                      \
+      const std::function<bool(std::size_t, std::size_t)>&);                                  \
   template std::optional<Failure> partner_inside(const Body<D>&, std::span<const Vec<D>>,     \
                                                  const Motion&);
 MENISCUS_INSTANTIATE(2)
