@@ -286,7 +286,9 @@ Real Relaxation<D>::force_residual(const State& state) const {
     if (fluids_.holds(A)) return 0.0;
     return std::sqrt(sum(at(state.force, A) * at(state.force, A)));
   });
-  if (fluids_.any()) left += fluids_.force_of_power(state, fluids_.clock(uncancelled));
+  if (fluids_.any())
+    left +=
+        fluids_.force_of_power(state, fluids_.clock(uncancelled)) + fluids_.unbalanced_force(state);
   return left / uncancelled;
 }
 

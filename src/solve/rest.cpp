@@ -149,6 +149,25 @@ Real FluidRest<D>::force_of_power(const State& state, Real time) const {
 }
 
 template <int D>
+Real FluidRest<D>::unbalanced_force(const State& state) const {
+  Real largest = 0;
+  for (const Body<D>* body : bodies_) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (Index A = 0; A < body->size(); ++A) centre += place_of(*body, state, A) / body->size();
+    Mat<D> moment = Mat<D>::Zero();
+    Vec<D> sum = Vec<D>::Zero();
+    for (Index A = 0; A < body->size(); ++A) {
+      const Vec<D> x = (place_of(*body, state, A) - centre).template head<D>(),
+                   f = spatial(at(state.force, body->first + A)).template head<D>();
+      sum += f;
+      moment += f * x.transpose();
+    }
+    largest = std::max({largest, sum.norm(), moment.norm() / extent_});
+  }
+  return largest;
+}
+
+template <int D>
 std::string net_forces(const System<D>& system, const State& state) {
   constexpr Real most = 0.1;
   std::string text;

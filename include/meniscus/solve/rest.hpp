@@ -36,6 +36,10 @@ class FluidRest {
   /// The force that would do the power of the fluids, of their forces and of what is turned into
   /// heat, by moving them by their extent in a time.
   Real force_of_power(const State& state, Real time) const;
+  /// Of the fluid whose forces are farthest from balance: the size of their sum and, divided by its
+  /// extent, of the sum of their products with the places. Both vanish at equilibrium, and at a
+  /// turning point, where nothing moves, they are what sets the fluid in motion again.
+  Real unbalanced_force(const State& state) const;
 
  private:
   /// Lengths of the principal axes (roots of the second moments) of a body, from places.
