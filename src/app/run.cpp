@@ -194,9 +194,29 @@ void report_contacts(const System<D>& system, RunLog& log) {
                       term->name(), contact->pairs_per_force(), others));
 }
 
-/// Says whether the bodies are at rest; false if they should be, but are not.
+/// Says whether the state at which a run has arrived is stable; false if it is not.
 template <int D>
-bool report_rest(const Simulation<D>& simulation, RunLog& log) {
+bool report_stability(Simulation<D>& simulation, const std::string& time, RunLog& log) {
+  simulation.complete_state();
+  const std::optional<Real> least = simulation.stepper().stability(simulation.state());
+  if (!least)
+    log.info(
+        "it is not known whether this rest is stable: that is tested for solids of up to 1000 "
+        "particles (2D: 5000) whose forces all have a potential; solver = \"newton\" tests more "
+        "particles");
+  if (!least || *least >= 0) return true;
+  log.error(fmt::format(
+      "the equilibrium at {} is not stable: its least stiffness is {:.3g} of that of the material, "
+      "and the slightest disturbance grows; solver = \"newton\" leaves such states, and so does an "
+      "imperfection of the body, such as an initial_displacement without the symmetry of the scene",
+      time, *least));
+  return false;
+}
+
+/// Says whether the bodies are at rest, at a state that is stable; false if they should be, but are
+/// not.
+template <int D>
+bool report_rest(Simulation<D>& simulation, RunLog& log) {
   const State& state = simulation.state();
   const std::vector<Residual> residuals = simulation.stepper().residuals(state);
   if (residuals.empty() || !simulation.finished()) return true;
@@ -216,7 +236,7 @@ bool report_rest(const Simulation<D>& simulation, RunLog& log) {
                           obstacle.empty()
                               ? "a later time.end gives more time, if there is an equilibrium"
                               : obstacle + ", which nothing balances"));
-  return rest;
+  return rest && report_stability(simulation, time, log);
 }
 
 std::string name_of(int signal) {

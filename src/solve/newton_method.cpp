@@ -4,12 +4,15 @@
 
 #include "meniscus/core/dense.hpp"
 #include "meniscus/core/nodal_algebra.hpp"
+#include "meniscus/core/random.hpp"
 #include "meniscus/solve/least_spacing.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
 
 namespace meniscus {
 namespace {
@@ -114,58 +117,113 @@ Real NewtonMethod<D>::apply(Real time, const NodalVectors& u) {
   return dot(p_, q_);
 }
 
-/// Conjugate gradients for A s = r until the residual, in the norm of the preconditioner, has
-/// fallen to the square root of `share` of itself. Their coefficients are the numbers of a
-/// tridiagonal matrix whose eigenvalues are among those of P^-1 A (Lanczos).
+/// Conjugate gradients for A s_ = g_ from s_ = 0 until `done` of the residual, in the squared norm
+/// of the preconditioner, or to a direction p_ of negative curvature, where it returns true. Their
+/// coefficients are the numbers of a tridiagonal matrix whose eigenvalues are among those of P^-1 A
+/// (Lanczos).
 template <int D>
-typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const NodalVectors& u,
-                                                               Real share) {
+template <class Done>
+bool NewtonMethod<D>::conjugate_gradients(Real time, const NodalVectors& u, Lanczos& seen,
+                                          const Done& done) {
   const auto precondition = [&] {
     preconditioner_->apply(g_, z_);
     free_.remove_from(z_);
     return dot(g_, z_);
   };
-  if (step_) step_->look_back();
-  g_ = r_;
   s_ = still_;
   Real rz = precondition();
   const Real first = rz;
   p_ = z_;
-  Direction found;
-  std::vector<Real> diagonal, beside;
   Real carried = 0;  // of the last iteration to the diagonal
   for (int k = 0; k < most_tangents && rz > 0; ++k) {
     if (asked_to_stop_()) throw Interrupted();
     const Real curvature = apply(time, u);
-    diagonal.push_back(curvature / rz + carried);
-    if (!(curvature > 0)) {
-      found.bent = true;
-      if (k == 0) s_ = z_;
-      break;
-    }
+    seen.diagonal.push_back(curvature / rz + carried);
+    if (!(curvature > 0)) return true;
     const Real a = rz / curvature;
     add(s_, a, p_);
     add(g_, -a, q_);
     const Real before = rz;
     rz = precondition();
-    if (rz <= std::max(share * first, polished * tolerance_ * energy_scale_)) break;
+    if (done(first, rz)) break;
     const Real b = rz / before;
-    beside.push_back(std::sqrt(b) / a);
+    seen.beside.push_back(std::sqrt(b) / a);
     carried = b / a;
     sweep(system_.size(), [&](Index begin, Index end) {
       for (Index A = begin; A < end; ++A) at(p_, A) = at(z_, A) + b * at(p_, A);
     });
   }
+  return false;
+}
+
+template <int D>
+Real NewtonMethod<D>::Lanczos::least() const {
+  return least_eigenvalue(
+      diagonal,
+      {beside.begin(), beside.begin() + static_cast<std::ptrdiff_t>(diagonal.size()) - 1});
+}
+
+/// Until the residual, in the norm of the preconditioner, has fallen to the square root of `share`
+/// of itself.
+template <int D>
+typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const NodalVectors& u,
+                                                               Real share) {
+  if (step_) step_->look_back();
+  g_ = r_;
+  Direction found;
+  Lanczos seen;
+  found.bent = conjugate_gradients(time, u, seen, [&](Real first, Real left) {
+    return left <= std::max(share * first, polished * tolerance_ * energy_scale_);
+  });
+  if (found.bent && seen.diagonal.size() == 1) s_ = z_;
   // A few iterations see the stiffest modes alone.
   constexpr std::size_t enough = 10;
-  if (!diagonal.empty()) {
-    beside.resize(diagonal.size() - 1);
-    const Real least = least_eigenvalue(diagonal, beside);
-    if (diagonal.size() >= enough || least < stability_) stability_ = least;
+  if (!seen.diagonal.empty()) {
+    const Real least = seen.least();
+    if (seen.diagonal.size() >= enough || least < stability_) stability_ = least;
   }
   stability_ = std::min(stability_, 1e3);  // where there was nothing to see
   found.decrement = 0.5 * dot(s_, r_);
   return found;
+}
+
+/// Forces of a symmetric scene at a symmetric state have no part of the modes that break the
+/// symmetry, and iterations that begin with such forces never see them. These begin with random
+/// forces, which have a part of every mode. The numbers are the same on any machine, with any
+/// number of threads and ranks. Iterations end where the least eigenvalue seen hardly falls any
+/// more, by its own size, so that the nearer it is to zero the better it is known.
+template <int D>
+bool NewtonMethod<D>::is_stable_at(Real time, const NodalVectors& u) {
+  constexpr Real neutral = 1e-6, settled = 0.15, all_gone = 1e-12;
+  constexpr std::size_t fewest = 12, apart = 4;  // iterations
+  std::mt19937_64 bits(61);
+  for (NodalVector& force : g_)
+    for (int i = 0; i < D; ++i) force.set(i, symmetric_uniform(bits));
+  free_.remove_from(g_);
+  Lanczos seen;
+  Real before = unbounded;
+  const bool bent = conjugate_gradients(time, u, seen, [&](Real first, Real left) {
+    if (left <= all_gone * first) return true;
+    const std::size_t k = seen.diagonal.size();
+    if (k % apart != 0) return false;
+    const Real least = seen.least();
+    const bool falls = std::exchange(before, least) - least > settled * least;
+    return k >= fewest && !falls;
+  });
+  stability_ = std::min(seen.diagonal.empty() ? unbounded : seen.least(), 1e3);
+  if (!(stability_ > -1e3)) stability_ = -1e3;  // also not a number
+  // Round-off bends a motion against which no force acts.
+  if (stability_ > -neutral) stability_ = std::max(stability_, 0.0);
+  return !bent || stability_ >= 0;
+}
+
+template <int D>
+Real NewtonMethod<D>::find_stability(Real time, const NodalVectors& u) {
+  prepare();
+  free_ = FreeMotions<D>(system_, {time, u, still_}, spacing_);
+  system_.add_up({time, u, still_}, r_);
+  is_stable_at(time, u);
+  return stability_;
 }
 
 template <int D>
@@ -222,7 +280,9 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
     if (solution.iterations > 0 && stability_ > 0 && !bent &&
         size <= 2 * stability_ * polished * tolerance_ * energy_scale_) {
       left_ = size / (2 * stability_ * energy_scale_);
-      return;
+      if (stays(start.time, point, solution)) return;
+      before = 0;
+      continue;
     }
     // As sharp as the quadratic convergence of the last iteration is worth (Eisenstat & Walker
     // 1996).
@@ -240,7 +300,9 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
       add(point.u, 1, s_);
       if (!evaluate(start.time, point, r_))
         solution.failure = "forces cannot be computed there: " + broken_;
-      return;
+      if (!solution.failure.empty() || stays(start.time, point, solution)) return;
+      before = 0;
+      continue;
     }
     Real decrement = found.decrement;
     if (small) {  // nothing pulls away from a state that is not stable
@@ -262,6 +324,20 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
           fmt::format("no step of Newton's method lowers the energy, {:.2g} of it is left", left_);
     return;
   }
+}
+
+/// False where an equilibrium was not stable and has been left. Where the way back to it is found
+/// again and again, it is as flat as round-off.
+template <int D>
+bool NewtonMethod<D>::stays(Real time, Point& point, Solution& solution) {
+  constexpr int often = 3;
+  // A step of implicit Euler is not an equilibrium.
+  if (step_ || is_stable_at(time, point.u) || solution.saddles == often) return true;
+  solution.bent = true;
+  leave_saddle();
+  if (!search(time, point, 0)) return true;
+  ++solution.saddles;
+  return false;
 }
 
 template <int D>

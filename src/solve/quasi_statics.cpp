@@ -73,6 +73,7 @@ void QuasiStatics<D>::step(State& state, Real dt) {
         book_jump(next, state.time, exchange.released());
       else
         work_.book_bend(state, next);
+      if (solution.saddles > 0) note_saddle(time);
       work_.go_on(jump);
       state = std::move(next);
       system_.commit(state.motion());
@@ -120,6 +121,7 @@ void QuasiStatics<D>::settle(State& state) {
   if (!solution.failure.empty())
     throw SolveError(fmt::format("no equilibrium is found at the beginning: {}{}", solution.failure,
                                  unbalanced(system_, state, state.time)));
+  if (solution.saddles > 0) note_saddle(state.time);
   state.books.dissipated += work_.move(state, state.time, solution.u).released();
   system_.commit(state.motion());
   at_equilibrium_ = true;
@@ -133,6 +135,14 @@ void QuasiStatics<D>::book_jump(State& state, Real since, Real released) {
       fmt::format("jump between t = {:.6g} and {:.6g}: {:.4g} of energy released, booked as "
                   "dissipated",
                   since, state.time, released));
+}
+
+template <int D>
+void QuasiStatics<D>::note_saddle(Real time) {
+  notes_.push_back(
+      fmt::format("t = {:.6g}: an equilibrium was found that is not stable; it was left for one of "
+                  "less energy, beside which there may be others that are as near",
+                  time));
 }
 
 template <int D>

@@ -19,6 +19,7 @@
 #include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/solve/central_difference.hpp"
+#include "meniscus/solve/newton_method.hpp"
 
 #include <fmt/core.h>
 
@@ -195,6 +196,19 @@ bool Relaxation<D>::pulled(const State& state) const {
   return std::none_of(system_.terms.begin(), system_.terms.end(),
                       [](const auto& term) { return term->stops_drift(); }) &&
          !net_forces(system_, state).empty();
+}
+
+/// Relaxation has no part of a mode that breaks the symmetry of its scene, and comes to rest at a
+/// symmetric state whether that is stable or not.
+template <int D>
+std::optional<Real> Relaxation<D>::stability(const State& state) const {
+  constexpr Index most_particles = D == 3 ? 1000 : 5000;  // whose factors take a second
+  const bool has_potential =
+      std::all_of(system_.terms.begin(), system_.terms.end(),
+                  [&](const auto& term) { return term->potential(state.motion()).has_value(); });
+  if (!has_potential || fluids_.any() || !system_.fields.empty() || system_.size() > most_particles)
+    return {};
+  return NewtonMethod<D>(system_, nullptr, 1).find_stability(state.time, state.u);
 }
 
 template <int D>

@@ -498,6 +498,35 @@ class Failures(ProgramTest):
                                     "nothing balances")
         self.assertNotIn("more time", message)
 
+    def test_unstable_rest(self):
+        """A straight strut far beyond Euler's load: relaxation stays straight, Newton's method leaves it and says so."""
+        text = """
+        dimension = 2
+        [time]
+        {}
+        [[body]]
+        name = "strut"
+        shape = "rectangle"
+        size = [10, 0.5]
+        cells = [40, 2]
+        material = {{ type = "st_venant_kirchhoff", density = 1, mu = 0.5, lambda = 0 }}
+        [[held]]
+        name = "left"
+        body = "strut"
+        face = "x_min"
+        [[held]]
+        name = "right"
+        body = "strut"
+        face = "x_max"
+        displacement = {}
+        """
+        relaxed = text.format('solver = "relax"\nend = 4000', "[-0.14, 0]\nramp = [0, 10]")
+        self.assert_fails(relaxed, "the equilibrium at t = ", "is not stable: its least stiffness is -", "newton",
+                          "initial_displacement")
+        newton = text.format('solver = "newton"\nend = 1\nstep = 0.125', '["-0.14*t", 0]')
+        self.call("run", self.scene(newton), "--output", "newton")
+        self.assertIn("an equilibrium was found that is not stable", (self.directory / "newton/run.log").read_text())
+
     def test_body_in_another(self):
         """The points of two surfaces miss each other, and what repels them is weak."""
         disk = """

@@ -332,6 +332,61 @@ TEST(QuasiStatics, StretchesAHeldBarUniformly) {
   EXPECT_NEAR(error / finer, 8, 1.5);
 }
 
+/// A strut between clamped ends that are moved together by 1.7 times what it buckles at. All is
+/// perfectly straight, so that no force ever points out of the axis.
+std::string straight_strut(const std::string& time, const std::string& way) {
+  return "dimension = 2\n[time]\n" + time +
+         "[[body]]\nname = \"strut\"\nshape = \"rectangle\"\nsize = [10, 0.5]\ncells = [40, 2]\n"
+         "[body.material]\ntype = \"st_venant_kirchhoff\"\ndensity = 1\nmu = 0.5\nlambda = 0\n"
+         "[[held]]\nname = \"left\"\nbody = \"strut\"\nface = \"x_min\"\n"
+         "[[held]]\nname = \"right\"\nbody = \"strut\"\nface = \"x_max\"\n" +
+         way;
+}
+
+/// Beyond Euler's load P = E I (2 pi/L)^2 the straight strut is not stable, which iterations from
+/// forces along the axis do not see. The bent one keeps about this load and is deflected by a,
+/// (pi a)^2/(4 L) = shortening - P L/(E A).
+TEST(QuasiStatics, AStraightStrutBuckles) {
+  const Real load = std::pow(2 * std::acos(-1.0) / 10, 2) * std::pow(0.5, 3) / 12,
+             deflection = 2 * std::sqrt(10 * (0.14 - load * 10 / 0.5)) / std::acos(-1.0);
+  Found<2> run(straight_strut("solver = \"newton\"\nend = 1\nstep = 0.125\n",
+                              "displacement = [\"-0.14*t\", 0]\n"));
+  EXPECT_GT(run.newton().method().stability(), 0);
+  EXPECT_NEAR(run.measure("right.force_x") / -load, 1, 0.03);
+  EXPECT_NEAR((run.measure("strut.extent_y") - 0.5) / deflection, 1, 0.03);
+  ASSERT_FALSE(run.notes.empty());
+  EXPECT_NE(run.notes.front().find("an equilibrium was found that is not stable"),
+            std::string::npos)
+      << run.notes.front();
+  EXPECT_EQ(run.simulation.stepper().stability(run.simulation.state()),
+            run.newton().method().stability());
+}
+
+/// Below it the straight one is stable, and stiffer the farther below: the least stiffness relative
+/// to that of the strut without a load is about 1 - P/P_Euler.
+TEST(QuasiStatics, KnowsHowFarAStrutIsFromBuckling) {
+  for (const Real share : {0.7, 0.9}) {
+    Found<2> run(straight_strut("solver = \"newton\"\nend = 1\nstep = 1\n",
+                                "displacement = [" + std::to_string(-0.082247 * share) + ", 0]\n"));
+    EXPECT_NEAR(run.newton().method().stability(), 1 - share, 0.05);
+    EXPECT_NEAR(run.measure("strut.extent_y"), 0.5, 1e-9);
+    EXPECT_TRUE(run.notes.empty());
+  }
+}
+
+/// Relaxation stays straight, and what is asked at the end says that this is not stable.
+TEST(QuasiStatics, RelaxationToAnUnstableRestIsNoticed) {
+  for (const Real share : {0.7, 1.7}) {
+    Found<2> run(straight_strut(
+        "solver = \"relax\"\nend = 4000\n",
+        "displacement = [" + std::to_string(-0.082247 * share) + ", 0]\nramp = [0, 10]\n"));
+    EXPECT_TRUE(run.simulation.stepper().arrived());
+    EXPECT_NEAR(run.simulation.stepper().stability(run.simulation.state()).value(), 1 - share,
+                0.05);
+    EXPECT_NEAR(run.measure("strut.extent_y"), 0.5, 1e-9);
+  }
+}
+
 std::string refusal(const std::string& text) {
   try {
     Scene<2> scene = test::scene_of<2>(text);

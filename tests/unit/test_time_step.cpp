@@ -305,6 +305,27 @@ TEST(StableStep, FindsAModeFarFromTheOneItHad) {
   EXPECT_LT(found.dt, 0.7 * first);
 }
 
+/// A brick without any irregularity is pressed across more and more, and along less and less: its
+/// critical mode comes to be one of another symmetry, of which the mode before has no part. The
+/// mode before has what round-off left in it, and the response that tells of the change is rough.
+TEST(StableStep, FollowsAModeThatChangesItsSymmetry) {
+  OneBody<2> one(test::brick<2>({12, 6}), "neo_hookean", "density = 1\nmu = 1\nlambda = 1\n");
+  StableStepEstimator<2> estimator(one.system);
+  const auto press = [&](Real along, Real across) {
+    one.state.u = test::field_on<2>(
+        one.body(), [&](const Vec<2>& X) { return Vec<2>(-along * X[0], -across * X[1]); });
+    start(one.system, one.state);
+  };
+  press(0.4, 0);
+  StableStep found = estimator.estimate(one.state);
+  for (Real across = 0.02; across < 0.4; across += 0.02) {
+    SCOPED_TRACE(across);
+    press(0.4 - across, across);
+    found = estimator.estimate_again(one.state, found);
+    EXPECT_LT(found.dt, 1.02 * exact_limit(one));
+  }
+}
+
 TEST(StableStep, CountsStiffSurfaces) {
   OneBody<2> one(test::disk(4, 2), "newtonian",
                  "density = 1\nbulk_modulus = 1e-3\nviscosity = 0\n");

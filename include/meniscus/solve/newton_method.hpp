@@ -40,6 +40,7 @@ class NewtonMethod {
     NodalVectors u;
     int iterations = 0;
     bool bent = false;    ///< negative curvature was seen on the way
+    int saddles = 0;      ///< equilibria on the way that were not stable, and were left
     bool stuck = false;   ///< nothing lowers the energy, although a force is left
     std::string failure;  ///< why there is none; empty: there is
     /// Such that it may be far from the state before.
@@ -50,9 +51,13 @@ class NewtonMethod {
   Solution solve(const Start& start);
   void stop_when(const std::function<bool()>& asked) { asked_to_stop_ = asked; }
 
-  /// Least eigenvalue of the tangent, relative to the preconditioner, that the last iteration has
-  /// seen: negative at a state that is not stable.
+  /// Least eigenvalue of the tangent, relative to the preconditioner: negative at a state that is
+  /// not stable. At an equilibrium it is looked for among all modes; after a step of implicit Euler
+  /// it is the least one that the last iteration has seen.
   Real stability() const { return stability_; }
+  /// Sets stability() at an equilibrium `u` that something else has found, and returns it. Throws
+  /// as prepare().
+  Real find_stability(Real time, const NodalVectors& u);
   /// Energy that the last solution has left, relative to the largest released.
   Real left() const { return left_; }
   Real spacing() const { return spacing_; }
@@ -79,6 +84,16 @@ class NewtonMethod {
   /// Fills force and point.potential for point.u; false where forces cannot be computed.
   bool evaluate(Real time, Point& point, NodalVectors& force);
   Direction direction(Real time, const NodalVectors& u, Real share);
+  /// Numbers of Lanczos' method.
+  struct Lanczos {
+    std::vector<Real> diagonal, beside;
+    Real least() const;  ///< eigenvalue
+  };
+  template <class Done>
+  bool conjugate_gradients(Real time, const NodalVectors& u, Lanczos& seen, const Done& done);
+  /// Sets stability_. Where it returns false p_ is a direction of negative curvature.
+  bool is_stable_at(Real time, const NodalVectors& u);
+  bool stays(Real time, Point& point, Solution& solution);
   /// q_ = A p_; returns p_.q_.
   Real apply(Real time, const NodalVectors& u);
   /// u += a s_ with a = 1, 1/2, .. until the potential is lower by a share of what is expected;

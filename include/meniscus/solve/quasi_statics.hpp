@@ -33,6 +33,7 @@ class QuasiStatics final : public Stepper<D> {
   bool arrived() const override { return arrived_; }
   std::vector<Residual> residuals(const State& state) const override;
   std::string obstacle(const State& state) const override;
+  std::optional<Real> stability(const State&) const override { return method_.stability(); }
   std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   std::string effort() const override { return method_.effort(); }
   void stop_when(const std::function<bool()>& asked) override { method_.stop_when(asked); }
@@ -45,6 +46,7 @@ class QuasiStatics final : public Stepper<D> {
   typename NewtonMethod<D>::Solution solve(const State& state, Real time);
   bool is_far(const State& state, Real time,
               const typename NewtonMethod<D>::Solution& solution) const;
+  void note_saddle(Real time);
   void book_jump(State& state, Real since, Real released);
 
   System<D>& system_;

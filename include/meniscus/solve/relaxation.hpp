@@ -51,10 +51,13 @@ class Relaxation final : public Stepper<D> {
   bool blocked() const override { return pulled_windows_ >= 10; }
   std::vector<Residual> residuals(const State& state) const override;
   std::string obstacle(const State& state) const override { return net_forces(system_, state); }
+  /// Of solids whose forces all have a potential, and of so many particles that the factors of
+  /// their elements are quickly made.
+  std::optional<Real> stability(const State& state) const override;
   std::string effort() const override;
   void archive(const Archive& a, const State& state) override;
 
-  /// Of the present state; of fluids FluidRest::force_of_power().
+  /// Of the present state; of fluids FluidRest::force_of_power() + unbalanced_force().
   Real force_residual(const State& state) const;
   /// Left to go, as extrapolated from the last window; 1 before there was one.
   Real shape_change() const { return shape_change_; }

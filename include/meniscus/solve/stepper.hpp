@@ -67,6 +67,10 @@ class Stepper {
 
   /// Keeps what decides how the run goes on; `state` is that of the archive.
   virtual void archive(const Archive&, const State&) {}
+
+  /// At the state at which the stepper has arrived: the least stiffness of the equilibrium relative
+  /// to that of linear elements, negative if it is not stable; none where that is not known.
+  virtual std::optional<Real> stability(const State&) const { return {}; }
 };
 
 /// What a scene says to its stepper.
