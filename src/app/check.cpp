@@ -17,37 +17,58 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace meniscus {
 namespace {
 
-/// Which of the two ways to equilibrium is expected to be faster, and by how much.
 template <int D>
-void say_expected_effort(Scene<D>& scene, const State& state, Real stable) {
+bool flows(const Scene<D>& scene) {
+  return std::any_of(scene.viscosity.begin(), scene.viscosity.end(),
+                     [](const auto& viscosity) { return !viscosity.empty(); });
+}
+
+/// What the two ways to equilibrium are expected to take; none if that is not known.
+template <int D>
+std::optional<ExpectedEffort> effort_to_rest(Scene<D>& scene, const State& state, Real stable) {
   constexpr Real usual_steps = 20;
   std::vector<bool> fluid;
   for (const auto& viscosity : scene.viscosity) fluid.push_back(!viscosity.empty());
-  const bool flows = std::find(fluid.begin(), fluid.end(), true) != fluid.end();
   const Real steady = scene.system.steady_after(), end = scene.time.end;
   const Real duration = steady > 0 ? std::min(steady, end) : end;
-  const Real steps = steady == 0 ? !flows
+  const Real steps = steady == 0 ? !flows(scene)
                      : scene.time.solver == "newton" && scene.time.step
                          ? duration / *scene.time.step
                          : usual_steps;
-  const auto effort = expected_effort(scene.system, state, std::ceil(steps - 1e-9),
-                                      std::min(steady, end), stable, fluid);
-  if (!effort) return;
-  say("newton: {:.0f} {} of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: "
-      "about "
+  return expected_effort(scene.system, state, std::ceil(steps - 1e-9), std::min(steady, end),
+                         stable, fluid);
+}
+
+/// Which of the two ways is expected to be faster, and by how much.
+void say_effort(const ExpectedEffort& effort, bool flows) {
+  say("newton: {:.0f} {} of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: about "
       "{:.0f} steps at {:.2g} s, expected {:.2g} s\n",
-      effort->load_steps, flows ? "steps of implicit Euler" : "load steps",
-      effort->tangents_per_step, effort->seconds_per_tangent, effort->newton_seconds(),
-      effort->relaxation_steps, effort->seconds_per_force, effort->relaxation_seconds());
-  const Real ratio = effort->relaxation_seconds() / effort->newton_seconds();
+      effort.load_steps, flows ? "steps of implicit Euler" : "load steps", effort.tangents_per_step,
+      effort.seconds_per_tangent, effort.newton_seconds(), effort.relaxation_steps,
+      effort.seconds_per_step, effort.relaxation_seconds());
+  const Real ratio = effort.relaxation_seconds() / effort.newton_seconds();
   say("{} is expected to be {:.1f} times as fast, within a factor of two or three\n",
       ratio > 1 ? "newton" : "relax", std::max(ratio, 1 / ratio));
+}
+
+/// The stable step is that of the bodies as they are at the start.
+template <int D>
+void say_what_shortens_steps(const Scene<D>& scene) {
+  const Real steady = scene.system.steady_after();
+  if (steady == 0) return;
+  const std::string until =
+      steady < scene.time.end ? fmt::format("until t = {:.6g}", steady) : "until the end";
+  say("loads or motions change {}: steps become shorter where they stretch or press bodies, the "
+      "more the farther, so that there may be many more steps than the start lets expect\n",
+      until);
 }
 
 template <int D>
@@ -102,7 +123,8 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     const StableStep stable = StableStepEstimator<D>(scene.system).estimate(simulation.state());
     say("stable step of motion {:.6g} {}; newton: load steps of {:.6g}\n", stable.dt,
         unit(dimension::time), scene.time.step.value_or(scene.time.end / 20));
-    say_expected_effort(scene, simulation.state(), stable.dt);
+    if (const auto effort = effort_to_rest(scene, simulation.state(), stable.dt))
+      say_effort(*effort, flows(scene));
     for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
     say("the scene is in order\n");
     return;
@@ -128,20 +150,34 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
         "ones, for a few iterations per step\n",
         ratio);
 
-  if (scene.time.solver == "relax")
-    say_expected_effort(scene, simulation.state(), thin ? dt / 0.9 : stable.dt);
-  const auto begin = std::chrono::steady_clock::now();
-  constexpr int trial_steps = 10;
+  const bool relaxes = scene.time.solver == "relax";
+  std::optional<ExpectedEffort> effort;
+  if (relaxes) effort = effort_to_rest(scene, simulation.state(), dt / 0.9);
+  // In some of these steps the stable step is looked for, which later steps hardly ever do.
+  std::array<double, 10> seconds{};
   set_up(input, [&] {
-    for (int k = 0; k < trial_steps; ++k) simulation.advance();
+    for (double& of_step : seconds) {
+      const auto begin = std::chrono::steady_clock::now();
+      simulation.advance();
+      of_step = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
   });
-  const double per_step =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / trial_steps;
-  const Real steps = std::ceil(std::min(scene.time.end, stop) / dt);
-  say("{:.0f} steps, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
+  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
+  const double per_step = seconds[seconds.size() / 2];
+  Real steps = std::ceil(std::min(scene.time.end, stop) / dt);
+  bool rests = false;
+  if (effort) {
+    effort->seconds_per_step = per_step;
+    say_effort(*effort, flows(scene));
+    rests = effort->relaxation_steps < steps;
+    if (rests) steps = std::round(effort->relaxation_steps);
+  }
+  say("{}{:.0f} steps{}, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
       "forces\n",
-      steps, steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
+      relaxes && !effort ? "at most " : "", steps, rests ? " to rest" : "", steps * per_step,
+      omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
       1e-6 * static_cast<Real>(scene.system.bytes()));
+  say_what_shortens_steps(scene);
   if (!scene.time.step) say_softer_drops(scene, request, stable_at_start);
   for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
   say("the scene is in order\n");

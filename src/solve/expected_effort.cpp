@@ -2,6 +2,7 @@
 // An estimate from counts.
 #include "meniscus/solve/expected_effort.hpp"
 
+#include "meniscus/core/nodal_algebra.hpp"
 #include "meniscus/core/parallel.hpp"
 #include "meniscus/solve/free_motions.hpp"
 #include "meniscus/solve/held_preconditioner.hpp"
@@ -21,27 +22,48 @@ Real seconds_of(int times, F&& f) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / times;
 }
 
-/// Of linear elements, without what is free: by inverse iteration.
+/// The forces that set the bodies in motion: those of the final loads at the state of the start,
+/// with held faces where they come to be; without such loads the inertia of the way of the held
+/// faces; without either random ones.
 template <int D>
-Real slowest_frequency(const System<D>& system, const HeldPreconditioner<D>& P,
-                       const FreeMotions<D>& free) {
-  constexpr int iterations = 8;
-  NodalVectors w(static_cast<std::size_t>(system.size())), r = w;
+NodalVectors exciting_forces(System<D>& system, const HeldPreconditioner<D>& P, const State& state,
+                             Real time) {
+  NodalVectors u = state.u, f(state.u.size(), Lanes::zero());
+  const NodalVectors still = f;
+  P.meet(time, u);
+  if (!system.add_up({time, u, still, state.fields}, f).failure) {
+    if (system.constraints) {
+      std::vector<Real> lambda(static_cast<std::size_t>(system.constraints->rows()));
+      system.constraints->balance(f, lambda);
+    }
+    if (largest(f) > 0) return f;
+  }
   for (Index A = 0; A < system.size(); ++A)
-    at(w, A) =
+    at(f, A) = at(system.mass, A) * (at(u, A) - at(state.u, A));
+  if (largest(f) > 0) return f;
+  for (Index A = 0; A < system.size(); ++A)
+    at(f, A) =
         Lanes(std::sin(12.9898 * A), std::sin(78.233 * A), D == 3 ? std::sin(37.719 * A) : 0.0, 0);
+  return f;
+}
+
+/// The frequency, with linear elements and without what is free, of about the slowest mode that the
+/// forces excite: by a few inverse iterations, which keep the symmetry of the loads. Modes that the
+/// loads do not excite do not delay the rest.
+template <int D>
+Real excited_frequency(const System<D>& system, const HeldPreconditioner<D>& P,
+                       const FreeMotions<D>& free, NodalVectors r) {
+  constexpr int iterations = 3;
+  NodalVectors w = r;
   Real square = 0;
   for (int k = 0; k < iterations; ++k) {
-    for (Index A = 0; A < system.size(); ++A) at(r, A) = at(system.mass, A) * at(w, A);
     free.remove_from(r);
-    const Real up =
-        parallel_sum(system.size(), 0.0, [&](Index A) { return sum(at(w, A) * at(r, A)); });
-    const Real down = P.apply(r, w);
-    square = up / down;
-    const Real size = std::sqrt(parallel_sum(system.size(), 0.0, [&](Index A) {
-      return at(system.mass, A) * sum(at(w, A) * at(w, A));
-    }));
-    for (NodalVector& x : w) x = x / size;
+    const Real stiffness = P.apply(r, w);
+    const Real inertia = parallel_sum(
+        system.size(), 0.0, [&](Index A) { return at(system.mass, A) * sum(at(w, A) * at(w, A)); });
+    square = stiffness / inertia;
+    for (Index A = 0; A < system.size(); ++A)
+      at(r, A) = (at(system.mass, A) / std::sqrt(inertia)) * at(w, A);
   }
   return std::sqrt(square);
 }
@@ -70,7 +92,7 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
   std::optional<HeldPreconditioner<D>> P;
   effort.set_up_seconds = seconds_of(1, [&] { P.emplace(system, euler ? &*euler : nullptr); });
   constexpr int times = 3;
-  effort.seconds_per_force = seconds_of(times, [&] { system.add_up(motion, f); });
+  effort.seconds_per_step = seconds_of(times, [&] { system.add_up(motion, f); });
   effort.seconds_per_tangent = seconds_of(times, [&] {
     for (auto& term : system.terms) term->add_tangent(motion, {state.time, f, still}, z);
     if (euler) euler->add_change(f, z);
@@ -87,7 +109,13 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
   // Four or five iterations of Newton's method.
   effort.tangents_per_step = D == 3 ? 150 : 50;
   const FreeMotions<D> free(system, motion, std::cbrt(system.bodies.front().cells.volume(0)));
-  const Real period = 2 * std::numbers::pi / slowest_frequency(system, *P, free);
+  const Real period = 2 * std::numbers::pi /
+                      excited_frequency(system, *P, free,
+                                        exciting_forces(system, *P, state,
+                                                        std::isfinite(steady_after)
+                                                            ? std::max(steady_after, state.time)
+                                                            : state.time));
+  if (!std::isfinite(period)) return std::nullopt;
   effort.relaxation_steps = (steady_after + 2 * period) / (0.9 * stable);
   return effort;
 }
