@@ -231,6 +231,7 @@ void Contact<D>::build(Assembly<D>& assembly) const {
     assembly.keep_reference(bodies[1], "the adhesion of its [[contact]] is a formula of it");
   assembly.add(std::move(term), name);
   assembly.contact({name, bodies, flat(assembly).adhesion});
+  for (const std::string& body : bodies) assembly.touches(body);
   if (partner) {
     assembly.draw({name, partner->shape, partner_motion()});
     measure_wetting(assembly);
@@ -420,7 +421,10 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
              return WallHeight{foot.distance, foot.bend.trace() / (D - 1)};
            },
            flat(assembly).peak_gap, partner->shape->flat()))
-    assembly.measure(name, std::move(source));
+    if (source.name == "film")
+      assembly.measure(name, std::move(source));
+    else
+      assembly.measure_of_cap(bodies[0], name, std::move(source), this->place);
 }
 
 /// Whether the first is a drop, and the second is not.

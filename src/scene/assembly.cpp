@@ -4,6 +4,8 @@
 
 #include "meniscus/core/error.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -46,6 +48,40 @@ template <int D>
 void Assembly<D>::record(const std::string& prefix, MeasureSource source) {
   scene_.output.measures.push_back(prefix + "." + source.name);
   measure(prefix, std::move(source));
+}
+
+template <int D>
+void Assembly<D>::measure_of_cap(const std::string& body, const std::string& prefix,
+                                 MeasureSource source, const std::string& place) {
+  caps_[body].push_back({prefix + "." + source.name, place});
+  measure(prefix, std::move(source));
+}
+
+template <int D>
+void Assembly<D>::withhold_caps() {
+  const auto is_asked_for = [&](const std::string& name) {
+    const auto& measures = scene_.output.measures;
+    return std::find(measures.begin(), measures.end(), name) != measures.end() ||
+           std::any_of(scene_.expectations.begin(), scene_.expectations.end(),
+                       [&](const auto& expectation) { return expectation.second.of == name; });
+  };
+  for (const auto& [body, caps] : caps_) {
+    if (contacts_[body] < 2) continue;
+    const std::string why = fmt::format(
+        "body '{}' has {} contacts, and the free surface of a drop between walls is no part of a "
+        "sphere",
+        body, contacts_[body]);
+    std::string all;
+    for (const auto& [name, place] : caps) {
+      if (is_asked_for(name))
+        throw InputError(fmt::format(
+            "{}: '{}' is not measured: {}; leave it out of output.measures and of [expect]", place,
+            name, why));
+      all += (all.empty() ? "" : ", ") + name;
+      std::erase_if(scene_.measures, [&](const MeasureSource& m) { return m.name == name; });
+    }
+    note(fmt::format("not measured: {}: {}", all, why));
+  }
 }
 
 template <int D>

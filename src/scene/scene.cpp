@@ -109,6 +109,7 @@ Scene<D> build(const Plan<D>& plan, const References<D>& references) {
     if (nematics[b]) add_director(scene.system.bodies[b], std::move(*nematics[b]), scene, assembly);
   set_initial_state(plan, scene);
   for (const auto& load : plan.loads) load->build(assembly);
+  assembly.withhold_caps();
   if (auto constraints = assembly.take_constraints(); !constraints.empty())
     scene.system.hold(std::move(constraints), scene.initial);
   for (const PlannedRemap& remap : scene.remaps) require_remappable(scene, remap.body);

@@ -35,6 +35,16 @@ class Assembly {
   /// The same, and it is in the history whether the scene asks for it or not.
   void record(const std::string& prefix, MeasureSource source);
   bool has_measure(const std::string& name) const;
+  /// Adds a measure that takes a body for the cap of a sphere on one wall; `place`: of the contact
+  /// in the scene.
+  void measure_of_cap(const std::string& body, const std::string& prefix, MeasureSource source,
+                      const std::string& place);
+  /// Counts a contact of a body.
+  void touches(const std::string& body) { ++contacts_[body]; }
+  /// Takes back the measures of caps whose bodies have more than one contact, once all are counted:
+  /// the free surface between two walls is no part of a sphere. Throws InputError if the scene asks
+  /// for one of them.
+  void withhold_caps();
   /// Adds a line of points, for a file of its own.
   void line(ProbedLine line) { scene_.lines.push_back(std::move(line)); }
   /// What was added of that body so far.
@@ -115,6 +125,11 @@ class Assembly {
   std::map<std::string, std::string> tension_form_;
   mutable std::map<std::string, Real> shear_modulus_;
   mutable NodalVectors rest_, sheared_;
+  std::map<std::string, int> contacts_;  // of a body
+  struct CapMeasure {
+    std::string name, place;
+  };
+  std::map<std::string, std::vector<CapMeasure>> caps_;  // by body
 };
 
 }  // namespace meniscus
