@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 
 import program
-from program import BLOCK, DROP, ENVIRONMENT, SHEET, ProgramTest, state_of, with_output
+from program import BLOCK, DROP, ENVIRONMENT, RELAXING_SHEET, SHEET, ProgramTest, state_of, with_output
 
 FIELDS = {"displacement": (3, "m"), "velocity": (3, "m/s"), "force": (3, "N"), "J": (1, "1"),
           "F": (9, "1"), "pressure": (1, "Pa"), "von_mises": (1, "Pa"), "cauchy_stress": (9, "Pa")}
@@ -260,6 +260,49 @@ class Reports(ProgramTest):
         for word in ("A drop", "176 particles", "MB", "stable step", "steps, about", "in order"):
             self.assertIn(word, text)
         self.assertFalse((self.directory / "results").exists())
+
+    def test_no_cap_between_plates(self):
+        """A drop between two plates is no cap: its angle is not measured, and the log says why."""
+        text = """
+        dimension = 2
+        time.end = 0.01
+        [[body]]
+        name = "drop"
+        shape = "disk"
+        radius = 1
+        core = 4
+        rings = 2
+        material = { type = "newtonian", density = 1, bulk_modulus = 200, viscosity = 0.3 }
+        [[surface_tension]]
+        body = "drop"
+        gamma = 1
+        """
+        for name, side in ("lower", -1), ("upper", 1):
+            text += f"""
+        [[contact]]
+        name = "{name}"
+        bodies = ["drop"]
+        contact_angle = 90
+        sigma0 = 0.2
+        partner = {{ type = "half_space", point = [0, {1.13 * side}], normal = [0, {-side}] }}
+        """
+        text += '[output]\nmeasures = ["lower.film"{}]\n'
+        self.call("run", self.scene(text.format("")), "--output", "out")
+        log = (self.directory / "out/run.log").read_text()
+        self.assertIn("not measured: lower.contact_angle, lower.height, lower.contact_angle_vh, upper.contact_angle", log)
+        self.assertIn("body 'drop' has 2 contacts", log)
+        self.refused(["run", self.scene(text.format(', "upper.contact_angle"'))], 3, "scene.toml:",
+                     "'upper.contact_angle' is not measured: body 'drop' has 2 contacts", "output.measures")
+
+    def test_times_to_rest(self):
+        """The number of steps that check expects of relax is one, and about right; ramps may shorten steps."""
+        text = self.scene(RELAXING_SHEET.replace("end = 20", "end = 2000"))
+        expected = self.call("check", text).stdout
+        steps = int(re.search(r"relax: about (\d+) steps", expected)[1])
+        self.assertIn(f"\n{steps} steps to rest, about ", expected)
+        self.call("run", text, "--output", "out")
+        made = int(re.search(r"(\d+) steps in ", (self.directory / "out/run.log").read_text())[1])
+        self.assertLess(max(steps / made, made / steps), 2)
 
     def test_numbers_of_drops(self):
         """Ohnesorge and Bond number and times of a drop by hand; softer ones take as many steps as is said."""
