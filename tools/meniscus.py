@@ -19,11 +19,46 @@ there when it is opened is read.
 
 import csv
 import functools
+import os
 import pathlib
+import stat
 import tomllib
 
 import h5py
 import numpy as np
+
+
+LARGEST_TEXT = 1 << 30  # bytes of a text file
+EXPANSION = 1100  # no array takes more than that many times its bytes in the file: deflate gives 1032
+
+
+def item(group, name):
+    """The group or array of that name, which is stored in the file itself. Raises ValueError if there is
+    none: links to other files, arrays whose bytes are elsewhere, and arrays that claim to be larger than
+    the file can hold are refused."""
+    for part in name.split("/"):
+        if not isinstance(group, h5py.Group) or not isinstance(group.get(part, getlink=True), h5py.HardLink):
+            raise ValueError(f"{group.file.filename} has no '{name}' of its own")
+        group = group[part]
+    if isinstance(group, h5py.Dataset):
+        where = f"'{group.name}' of {group.file.filename}"
+        if group.external or group.is_virtual:
+            raise ValueError(f"{where} is stored in another file")
+        if group.nbytes > EXPANSION * group.id.get_storage_size():
+            raise ValueError(f"{where} claims {group.nbytes} bytes, which the file does not hold")
+    return group
+
+
+def text_of(path):
+    """The text of a regular file of a gigabyte at most. Raises OSError or ValueError for others: a named
+    pipe or a device would never end."""
+    with open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK)) as file:
+        status = os.fstat(file.fileno())
+        if not stat.S_ISREG(status.st_mode):
+            raise OSError(f"{path} is not a regular file")
+        if status.st_size > LARGEST_TEXT:
+            raise OSError(f"{path} has {status.st_size} bytes; allowed are {LARGEST_TEXT}")
+        return file.read(LARGEST_TEXT).decode()
 
 
 class Body:
@@ -43,27 +78,27 @@ class Body:
     @functools.cached_property
     def X(self):
         """Reference places [particle, i]; in 2D the file has a third column, 0."""
-        return self._group["X"][:, : self.dimension]
+        return item(self._group, "X")[:, : self.dimension]
 
     @functools.cached_property
     def volume(self):
         """Of nodal cells [particle]; 2D: area."""
-        return self._group["volume"][()]
+        return item(self._group, "volume")[()]
 
     @functools.cached_property
     def mass(self):
         """[particle]"""
-        return self._group["mass"][()]
+        return item(self._group, "mass")[()]
 
     @functools.cached_property
     def cells(self):
         """Hexahedra (2D: quadrilaterals) [cell, corner] in the order of VTK, the body's own numbers."""
-        return self._group["cells"][()]
+        return item(self._group, "cells")[()]
 
     @functools.cached_property
     def surface(self):
         """Facets [facet, corner] in tensor order, the body's own numbers."""
-        return self._group["surface"][()]
+        return item(self._group, "surface")[()]
 
     @property
     def spacing(self):
@@ -76,19 +111,22 @@ class Run:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.files = [h5py.File(path, "r") for path in result_series(self.folder)]
-        self.input = tomllib.loads(self.files[0]["meta/input"][()].decode())  # complete, in its units
+        self.input = tomllib.loads(item(self.files[0], "meta/input")[()].decode())  # complete, in its units
         self.dimension = self.input["dimension"]
+        if self.dimension not in (2, 3):
+            raise ValueError(f"{self.folder}/run.h5 has the dimension {self.dimension}")
         settings = {table["name"]: table for table in self.input["body"]}
         self.frames = []  # groups /steps/<k> of all files
         self.epochs = []  # [frame] bodies in the reference that the frame is in
         for file in self.files:
-            groups = file["reference"]
+            groups = item(file, "reference")
             bodies = [
-                Body(name, groups[name], settings[name], self.dimension)
-                for name in sorted(groups, key=lambda name: groups[name].attrs["id"])
+                Body(name, item(groups, name), settings[name], self.dimension)
+                for name in sorted(groups, key=lambda name: item(groups, name).attrs["id"])
             ]
-            for k in sorted(file["steps"], key=int):
-                self.frames.append(file["steps"][k])
+            steps = item(file, "steps")
+            for k in sorted(steps, key=int):
+                self.frames.append(item(steps, k))
                 self.epochs.append(bodies)
         if not self.frames:
             raise ValueError(f"{self.folder}/run.h5 has no frames")
@@ -118,7 +156,8 @@ class Run:
     @property
     def fields(self):
         """Names of the fields of all frames."""
-        return [name for name, item in self.frames[0].items() if isinstance(item, h5py.Dataset)]
+        frame = self.frames[0]
+        return [name for name in frame if frame.get(name, getclass=True) is h5py.Dataset]
 
     def unit_of(self, field):
         return self._of_frame(0, field).attrs["units"].decode()
@@ -148,23 +187,29 @@ class Run:
     def _of_frame(self, frame, name):
         if name not in self.fields:
             raise ValueError(f"there is no field '{name}'; there are {', '.join(self.fields)}")
-        return self.frames[frame][name]
+        return item(self.frames[frame], name)
 
 
-def result_series(folder):
-    """run.h5, run.1.h5, ..., as many as there are."""
-    paths = [folder / "run.h5"]
-    while (path := folder / f"run.{len(paths)}.h5").exists():
+def result_series(folder, name="run"):
+    """run.h5, run.1.h5, ..., as many as there are. Raises OSError if there is none."""
+    paths = [folder / f"{name}.h5"]
+    if not paths[0].is_file():
+        if (folder / "sweep.csv").exists():
+            runs = sorted(path.parent.name for path in folder.glob("*/run.h5"))
+            raise OSError(f"{folder} is a sweep; name one of its runs: {', '.join(runs) or 'it has none'}")
+        raise OSError(f"there is no {name}.h5 in {folder}; expected is the directory of a run")
+    while (path := folder / f"{name}.{len(paths)}.h5").is_file():
         paths.append(path)
     return paths
 
 
 def read_history(path):
     """Columns of history.csv by name, and their units. A row that is being written is left out."""
-    with open(path, newline="", encoding="utf-8") as file:
-        lines = list(csv.reader(line for line in file if line.endswith("\n")))
+    lines = list(csv.reader(text_of(path).split("\n")[:-1]))
     if len(lines) < 3:
         raise ValueError(f"{path} has no records")
     names, units = ([text.lstrip("# ") for text in line] for line in lines[:2])
+    if any(len(line) != len(names) for line in lines):
+        raise ValueError(f"{path} has rows of different lengths")
     values = np.array([[float(text) for text in line] for line in lines[2:]])
     return dict(zip(names, values.T)), dict(zip(names, units))

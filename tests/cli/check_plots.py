@@ -28,6 +28,7 @@ import nematics  # noqa: E402
 import partners  # noqa: E402
 import sections  # noqa: E402
 import style  # noqa: E402
+from results import Results  # noqa: E402
 
 PROGRAM = sys.argv.pop(1)
 
@@ -109,14 +110,6 @@ class Words(unittest.TestCase):
                               ("deg", "°"), ("s", "s"), ("um^3/us", "µm³/µs")):  # fmt: skip
             self.assertEqual(style.pretty(unit), printed)
 
-    def test_where_a_partner_is(self):
-        t = 0.3
-        for formula, value in ((2, 2), ("-0.42*(1 - abs(t - 2)/2)", -0.42 * (1 - 1.7 / 2)),
-                               ("0.1*sin(2*pi*t)^2", 0.1 * math.sin(0.6 * math.pi) ** 2),
-                               ("min(1, max(0, (t - 4)/5))", 0), ("t < 1 ? t : 1", None), ("x", None),
-                               ("__import__('os')", None), ("1/(t - 0.3)", None)):  # fmt: skip
-            found = partners.value_at(formula, t)
-            self.assertTrue(found == value or abs(found - value) < 1e-14, formula)
 
 
 class Pictures(unittest.TestCase):
@@ -356,6 +349,40 @@ displacement = {zeros}, "-0.4*t"]
                 for before, after in zip(frames, frames[1:]):
                     self.assertGreater(np.abs(after - before).max(), 50)
 
+    def test_where_a_partner_is(self):
+        """Where the program has written it, whatever formula moves it; none where nothing was written."""
+        wall = """
+[[contact]]
+name = "roof"
+bodies = ["drop"]
+contact_angle = 80
+[contact.partner]
+type = "half_space"
+point = [0, 3]
+normal = [0, -1]
+[[contact]]
+bodies = ["drop"]
+contact_angle = 80
+[contact.partner]
+type = "half_space"
+point = [0, -1.1]
+normal = [0, 1]
+displacement = ["0.1*sin(20*t)^2", "t < 0.03 ? -0.4*t : -0.012"]
+"""
+        scene = SCENE.format(dimension=2, shape="shape = 'disk'\nradius = 1\ncore = 4\nrings = 2") + wall
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "scene.toml").write_text(scene)
+            subprocess.run([PROGRAM, "run", "-q", folder / "scene.toml", "--output", folder / "run"], check=True)
+            run = Results(folder / "run")
+            for frame, t in enumerate(run.times):
+                [(_, at_rest), (partner, moved)] = partners.partners(run, frame)
+                self.assertEqual((partner["type"], *at_rest), ("half_space", 0, 0))
+                expected = [0.1 * math.sin(20 * t) ** 2, -0.4 * t if t < 0.03 else -0.012]
+                np.testing.assert_allclose(moved, expected, atol=1e-15)
+            (folder / "run/partners.h5").unlink()
+            self.assertEqual(len(list(partners.partners(Results(folder / "run"), 0))), 1)
+
     def test_gallery(self):
         """The last frame, known by the scene whatever the directory is called."""
         with tempfile.TemporaryDirectory() as folder:
@@ -383,7 +410,7 @@ displacement = {zeros}, "-0.4*t"]
     def test_unknown_field(self):
         shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2"
         done, pictures = self.draw(2, shape, "--field", "presure")
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("there is no field 'presure'", done.stderr)
         self.assertEqual(pictures, {})
 

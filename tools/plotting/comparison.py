@@ -18,7 +18,7 @@ def draw(runs, names):
     shared = [n for n in first(runs).history if all(n in r.history for r in runs.values())]
     names = names or [n for n in shared if "." in n]
     if missing := [n for n in names if n not in shared]:
-        raise ValueError(f"not in all histories: {', '.join(missing)}; those share {', '.join(shared)}")
+        raise style.UsageError(f"not in all histories: {', '.join(missing)}; those share {', '.join(shared)}")
     figure, axes = plt.subplots(
         len(names), 1, figsize=(4.6, 2.2 * len(names) + 0.3), sharex=True, squeeze=False,
         layout="constrained",

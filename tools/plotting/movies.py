@@ -10,6 +10,7 @@ from matplotlib import animation
 from matplotlib.collections import PolyCollection
 
 import directors
+import outside
 import partners
 import style
 import surfaces
@@ -19,11 +20,11 @@ FORMATS = ("mp4", "gif")
 
 
 def file_format(wanted):
-    """That one, or where nobody says: mp4 where ffmpeg is installed, else gif. Raises ValueError if
+    """That one, or where nobody says: mp4 where ffmpeg is installed, else gif. Raises style.UsageError if
     it cannot be written here."""
     has_ffmpeg = animation.writers.is_available("ffmpeg")
     if wanted == "mp4" and not has_ffmpeg:
-        raise ValueError("mp4 is written by ffmpeg, which is not installed; gif needs nothing more")
+        raise style.UsageError("mp4 is written by ffmpeg, which is not installed; gif needs nothing more")
     return wanted if wanted in FORMATS else "mp4" if has_ffmpeg else "gif"
 
 
@@ -36,7 +37,8 @@ def write(run, folder, wanted="best", field=None, count=None):
     per_second = int(np.clip(len(frames) / SECONDS, 5, 25))
     writer = animation.FFMpegWriter(per_second) if ending == "mp4" else animation.PillowWriter(per_second)
     path = pathlib.Path(folder) / f"movie.{ending}"
-    with writer.saving(figure, path, dpi=120):
+    outside.require_reasonable(figure)
+    with outside.new_file(path) as made, writer.saving(figure, made, dpi=120):
         for frame in frames:
             draw(frame)
             writer.grab_frame()

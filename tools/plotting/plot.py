@@ -3,7 +3,6 @@
 
 import argparse
 import pathlib
-import sys
 
 import matplotlib
 
@@ -17,6 +16,7 @@ import grounds
 import histories
 import movies
 import nematics
+import outside
 import probes
 import sections
 import studies
@@ -91,22 +91,18 @@ def pictures_of_run(run, field, frames):
 
 def main():
     args = arguments()
-    folder = args.dir / "plots"
-    try:
-        if args.movie:
-            run = Results(args.dir)
-            folder.mkdir(exist_ok=True)
-            print(movies.write(run, folder, args.movie, args.field, args.frames))
-            return
-        pictures = pictures_of(args)
-    except (OSError, ValueError) as error:
-        sys.exit(f"{style.COMMAND}: {error}")
-    folder.mkdir(exist_ok=True)
+    if args.movie:
+        run = Results(args.dir)
+        outside.say(movies.write(run, outside.folder_in(args.dir, "plots"), args.movie, args.field, args.frames))
+        return
+    pictures = pictures_of(args)
+    folder = outside.folder_in(args.dir, "plots")
     for name, figure in pictures.items():
-        path = folder / f"{name}.{args.format}"
-        figure.savefig(path, dpi=style.DPI, bbox_inches="tight", pad_inches=0.04)
-        print(path)
+        path = folder / f"{outside.file_name(name)}.{args.format}"
+        with outside.new_file(path) as made:
+            outside.save(figure, made, dpi=style.DPI)
+        outside.say(path)
 
 
 if __name__ == "__main__":
-    main()
+    outside.call(main, style.COMMAND)

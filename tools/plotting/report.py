@@ -7,13 +7,13 @@ import base64
 import html
 import io
 import pathlib
-import sys
 
 import numpy as np
 
+import outside
 import plot
 import style
-from results import Results
+from results import Results, meniscus
 from runlog import Log
 
 LOOKS = """
@@ -90,7 +90,7 @@ def figures(run, args):
     shown = []
     for name, figure in plot.pictures_of_run(run, args.field, args.frames).items():
         picture = io.BytesIO()
-        figure.savefig(picture, format="png", dpi=130, bbox_inches="tight", pad_inches=0.04)
+        outside.save(figure, picture, format="png", dpi=130)
         text = base64.b64encode(picture.getvalue()).decode()
         width = int.from_bytes(picture.getvalue()[16:20], "big")  # two curves beside each other
         shown.append(f'<figure><img alt="{escaped(name)}" width="{0.72 * width:.0f}" '
@@ -100,7 +100,7 @@ def figures(run, args):
 
 
 def provenance(run):
-    attributes = run.files[-1]["meta"].attrs
+    attributes = meniscus.item(run.files[-1], "meta").attrs
     texts = {}
     for name in sorted(attributes):
         value = attributes[name]
@@ -125,7 +125,7 @@ def page(run, log, args):
         "<h2>What was decided</h2>",
         items(log.decided),
         "<h2>Input</h2><p>With all defaults; itself a scene.</p>",
-        f"<pre>{escaped(run.files[-1]['meta/input'][()].decode())}</pre>",
+        f"<pre>{escaped(meniscus.item(run.files[-1], 'meta/input')[()].decode())}</pre>",
         "<h2>Provenance</h2>",
         provenance(run),
         items(log.calls) if len(log.calls) > 1 else "",
@@ -146,14 +146,12 @@ def main():
     parser.add_argument("--field", help="as of tools/plot")
     parser.add_argument("--frames", type=int, help="as of tools/plot")
     args = parser.parse_args()
-    try:
-        text = page(Results(args.dir), Log(args.dir / "run.log"), args)
-    except (OSError, ValueError) as error:
-        sys.exit(f"{style.COMMAND}: {error}")
     path = args.dir / "report.html"
-    path.write_text(text, encoding="utf-8")
-    print(path)
+    text = page(Results(args.dir), Log(args.dir / "run.log"), args)
+    with outside.new_file(path) as made:
+        made.write_text(text, encoding="utf-8")
+    outside.say(path)
 
 
 if __name__ == "__main__":
-    main()
+    outside.call(main, style.COMMAND)

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What pictures need of a run besides what tools/meniscus.py reads."""
 
+import functools
 import pathlib
 import sys
 
+import h5py
 import numpy as np
 
 import style
@@ -31,11 +33,40 @@ class Results(meniscus.Run):
         targets = np.linspace(0, way[-1], min(count, len(way)))
         return sorted({int(np.argmin(np.abs(way - target))) for target in targets})
 
+    def displacement_of_partner(self, frame, number):
+        """[i] of the rigid partner of that number in the scene, as the run has written it beside the frame;
+        None if it has not."""
+        moved = self.partner_steps.get(int(self.steps[frame]))
+        if moved is None:
+            return None
+        file, step = moved
+        reference = meniscus.item(file, "reference")
+        partners = [meniscus.item(reference, name) for name in reference]
+        partner = next(partner for partner in partners if partner.attrs["id"] == number)
+        position = meniscus.item(step, "position")[int(partner.attrs["first_particle"])]
+        return (position - meniscus.item(partner, "X")[0])[: self.dimension]
+
+    @functools.cached_property
+    def partner_steps(self):
+        """(file, frame) of partners.h5 by the number of the step; none if no partner was written."""
+        found = {}
+        try:
+            files = meniscus.result_series(self.folder, "partners")
+        except OSError:
+            return found
+        for path in files:
+            file = h5py.File(path, "r")
+            steps = meniscus.item(file, "steps")
+            for k in steps:
+                frame = meniscus.item(steps, k)
+                found[int(frame.attrs["step"])] = (file, frame)
+        return found
+
     def field_of(self, name):
-        """That field, or the default one. Raises ValueError if there is none."""
+        """That field, or the default one. Raises style.UsageError if there is none."""
         name = name or self.default_field()
         if name not in self.fields:
-            raise ValueError(f"there is no field '{name}' in run.h5; it has {', '.join(self.fields)}")
+            raise style.UsageError(f"there is no field '{name}' in run.h5; it has {', '.join(self.fields)}")
         return name
 
     def sizes(self, frame, name, body):

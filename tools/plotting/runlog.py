@@ -2,7 +2,12 @@
 """What a run has said: its run.log."""
 
 import collections
+import pathlib
 import re
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+import meniscus  # noqa: E402  pylint: disable=wrong-import-position
 
 
 class Log:
@@ -13,7 +18,7 @@ class Log:
 
     def __init__(self, path):
         said = []
-        for line in path.read_text(encoding="utf-8").splitlines():
+        for line in meniscus.text_of(path).splitlines():
             if match := self.LINE.match(line):
                 said.append(match.groups())
             elif said:  # a message of several lines

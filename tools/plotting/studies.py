@@ -13,6 +13,7 @@ import matplotlib.ticker
 import numpy as np
 
 import style
+from results import meniscus
 
 COLUMNS = 4
 MARKERS = "osD^vPXd"
@@ -24,7 +25,7 @@ class Study:
 
     def __init__(self, folder):
         path = folder / "study.json"
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(meniscus.text_of(path))
         self.h_meaning = content["h"]
         self.panels = {}  # panel -> line -> measurements, coarse to fine
         for m in content["measurements"]:
@@ -39,7 +40,7 @@ def draw(study, error=None):
     """Pictures by name. `error` chooses among the errors when there are pictures for each; by
     default the first two are drawn."""
     if error is not None and error not in study.errors:
-        raise ValueError(f"there is no error '{error}'; there are {', '.join(study.errors)}")
+        raise style.UsageError(f"there is no error '{error}'; there are {', '.join(study.errors)}")
     if len(study.panels) == 1:
         lines = next(iter(study.panels.values()))
         plots = [(name, lines, name) for name in ([error] if error else study.errors)]

@@ -12,6 +12,12 @@ import numpy as np
 # How the scripts here were called, for messages.
 COMMAND = os.environ.get("MENISCUS_COMMAND", f"tools/{pathlib.Path(sys.argv[0]).stem}")
 DPI = 200
+
+
+class UsageError(ValueError):
+    """An option asks for something that is not there."""
+
+
 # Distinguishable with any kind of colour vision (Okabe and Ito).
 COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
 
