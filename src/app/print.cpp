@@ -4,11 +4,11 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/ranks.hpp"
+#include "meniscus/core/text.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -21,6 +21,12 @@ namespace {
 int lost = 0;  ///< errno of the first text that could not be written to stdout
 std::string complaint;
 
+void write_out(std::string_view text) {
+  if (launch().rank > 0) return;  // the first rank speaks for all
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written && lost == 0) lost = errno;
+}
+
 }  // namespace
 
 void secure_streams() {
@@ -31,19 +37,21 @@ void secure_streams() {
 }
 
 void print_text(std::string_view text) {
-  if (launch().rank > 0) return;  // the first rank speaks for all
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!written && lost == 0) lost = errno;
+  write_out(printable(text));
+}
+
+void print_over_line(std::string_view text) {
+  write_out("\r\033[K" + printable(text));
+}
+
+void keep_complaint(std::string_view text) {
+  complaint = readable(text);
 }
 
 void print_complaint(std::string_view text) {
-  complaint = text;
+  keep_complaint(text);
   if (launch().rank > 0) return;
-  std::string line(text);
-  std::replace_if(
-      line.begin(), line.end(),
-      [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; }, '?');
-  line += '\n';
+  const std::string line = complaint + '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

@@ -82,7 +82,7 @@ void Progress::show(const State& state, Real dt, const std::optional<Ledger>& le
   }
   if (shown_ == Shown::on_terminal && now >= next_on_terminal_) {
     next_on_terminal_ = now + seconds_on_terminal;
-    say("\r\033[K{}", line(state, dt));
+    print_over_line(line(state, dt));
     std::fflush(stdout);
   }
 }
@@ -110,7 +110,7 @@ std::string Progress::line(const State& state, Real dt) const {
 }
 
 void Progress::finish() {
-  if (shown_ == Shown::on_terminal) say("\r\033[K");
+  if (shown_ == Shown::on_terminal) print_over_line("");
   std::fflush(stdout);
 }
 

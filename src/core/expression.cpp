@@ -132,6 +132,8 @@ std::string explain(const mu::ParserError& error, const mu::Parser& parser,
           place(), parser.GetConst().size() > own_constants ? ", the [constants]" : "",
           did_you_mean(name, known_names(parser)));
     }
+    case mu::ecEXPRESSION_TOO_LONG:
+      return fmt::format("it is longer than {} characters", int{mu::MaxLenExpression});
     case mu::ecEMPTY_EXPRESSION:
       return "it is empty";
     case mu::ecUNEXPECTED_EOF:

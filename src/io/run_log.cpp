@@ -3,6 +3,7 @@
 #include "meniscus/io/run_log.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/text.hpp"
 
 #include <fmt/core.h>
 #include <spdlog/logger.h>
@@ -58,10 +59,10 @@ RunLog::RunLog(RunLog&&) noexcept = default;
 RunLog& RunLog::operator=(RunLog&&) noexcept = default;
 
 void RunLog::info(std::string_view message) {
-  logger_->log.info(message);
+  logger_->log.info(readable(message));
 }
 void RunLog::warning(std::string_view message) {
-  logger_->log.warn(message);
+  logger_->log.warn(readable(message));
   auto& all = logger_->warnings;
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const auto& known) { return known.first == message; });
@@ -71,7 +72,7 @@ void RunLog::warning(std::string_view message) {
     ++found->second;
 }
 void RunLog::error(std::string_view message) {
-  logger_->log.error(message);
+  logger_->log.error(readable(message));
 }
 const std::vector<std::pair<std::string, int>>& RunLog::warnings() const {
   return logger_->warnings;

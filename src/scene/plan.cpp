@@ -213,6 +213,15 @@ void require_reachable(const Block& block, const ExpectSettings& e, Real end) {
                                    : "is missing; reduce = \"falls\" counts falls below it");
 }
 
+/// The names are words of tables and columns of sweep.csv, "drop.aspect" among them.
+void require_name_of_expectation(const Block& block, const std::string& name) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-' || c == '.';
+  };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), plain))
+    block.problem("", "cannot be a name; allowed are letters, digits, _, - and .");
+}
+
 RunSettings read_settings(const Block& root) {
   RunSettings run;
   run.title = root.text("title", "");
@@ -235,6 +244,7 @@ RunSettings read_settings(const Block& root) {
   output.done();
   if (const auto expect = root.table("expect"))
     for (const auto& [name, block] : expect->named_tables()) {
+      require_name_of_expectation(block, name);
       ExpectSettings e = read<ExpectSettings>(block);
       if (e.of.empty()) e.of = name;
       require_reachable(block, e, end);

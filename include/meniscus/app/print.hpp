@@ -13,11 +13,16 @@ namespace meniscus {
 /// reported where they occur. To be called first.
 void secure_streams();
 
-/// Writes to stdout. Here and below, only the first of several ranks does.
+/// Writes to stdout what is printable() of the text. Here and below, only the first of several
+/// ranks writes.
 void print_text(std::string_view text);
-/// Writes a line to stderr with control characters as '?'.
+/// Writes the text over the present line of a terminal.
+void print_over_line(std::string_view text);
+/// Writes what is readable() of the text to stderr, as a line.
 void print_complaint(std::string_view text);
-/// Whether it was written or not; empty if there was none.
+/// Keeps the text as the complaint of this rank without writing it.
+void keep_complaint(std::string_view text);
+/// The complaint printed or kept last, also on ranks that do not write; empty if there was none.
 const std::string& last_complaint();
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... arguments) {
