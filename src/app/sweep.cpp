@@ -80,7 +80,7 @@ std::vector<std::string> directory_names(const std::vector<SweptKey>& keys,
 
 /// The last row of the history of a run; nothing if there is none.
 Columns last_row(const std::filesystem::path& history) {
-  if (!std::filesystem::exists(history)) return {};
+  if (!is_there(history)) return {};
   std::istringstream lines(read_file(history));
   std::string names, units, row, line;
   std::getline(lines, names);
@@ -178,7 +178,7 @@ class Sweep {
     const std::string scene = read_file(request_.scene);
     make_directory(folder_);
     if (request_.overwrite) remove_file(csv);
-    if (!request_.overwrite && std::filesystem::exists(csv)) {
+    if (!request_.overwrite && is_there(csv)) {
       if (read_file(copy) != scene)
         throw InputError(fmt::format(
             "{} has runs of another scene, that of {}; --output names another directory, "
@@ -190,8 +190,8 @@ class Sweep {
   }
 
   int run_one(Child& child, const Values& values, const std::filesystem::path& directory) {
-    const bool begun = std::filesystem::exists(directory / "checkpoint-a.h5") ||
-                       std::filesystem::exists(directory / "checkpoint-b.h5");
+    const bool begun =
+        is_there(directory / "checkpoint-a.h5") || is_there(directory / "checkpoint-b.h5");
     std::optional<ChildEnd> end;
     if (begun && !request_.overwrite)
       end = child.call(arguments(values, {"--restart", directory.string()}));
@@ -241,6 +241,11 @@ SweptKey swept_key(const std::string& setting) {
     const std::size_t first = value.find_first_not_of(' '), last = value.find_last_not_of(' ');
     if (first == std::string::npos)
       throw InputError(fmt::format("--set {}: a value is missing", setting));
+    if (value[first] == '=' || value[first] == '@')  // a table would compute it in sweep.csv
+      throw InputError(
+          fmt::format("--set {}: a value begins with '{}'; allowed are numbers, texts "
+                      "and formulas",
+                      setting, value[first]));
     result.values.push_back(value.substr(first, last + 1 - first));
     value.clear();
   };

@@ -106,7 +106,7 @@ Newest newest_checkpoint(const std::filesystem::path& directory) {
   Newest newest;
   for (const char* name : file_names) {
     const auto file = directory / name;
-    if (!std::filesystem::exists(file)) continue;
+    if (!is_there(file)) continue;
     const auto header = valid_header(file);
     if (!header)
       newest.warnings.push_back(damaged(file));
@@ -207,7 +207,7 @@ std::filesystem::path CheckpointWriter::write(std::int64_t step, Real time, cons
 
 ReadCheckpoint read_checkpoint(const std::filesystem::path& path,
                                std::optional<std::int64_t> frame) {
-  const bool directory = std::filesystem::is_directory(path);
+  const bool directory = is_directory_there(path);
   if (frame) return directory ? read_frame_of_run(path, *frame) : read_frame(path, *frame);
   return directory ? read_newest(path) : read_file_of_checkpoint(path);
 }

@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -46,9 +47,59 @@ RemovedUnlessRenamed::~RemovedUnlessRenamed() {
   std::filesystem::remove(temporary_, ignored);
 }
 
+bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto type = std::filesystem::status(path, error).type();
+  if (type == std::filesystem::file_type::none) throw_file_error("read", path, error.value());
+  return type != std::filesystem::file_type::not_found;
+}
+
+bool is_directory_there(const std::filesystem::path& path) {
+  std::error_code error;
+  return is_there(path) && std::filesystem::is_directory(path, error);
+}
+
+bool are_same(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  return is_there(a) && is_there(b) && std::filesystem::equivalent(a, b, error);
+}
+
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> paths;
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(directory, error), end; !error && at != end;
+       at.increment(error))
+    paths.push_back(at->path());
+  if (error) throw_file_error("read", directory, error.value());
+  return paths;
+}
+
+void refuse_unless_regular(const std::filesystem::path& path) {
+  std::error_code error;
+  switch (std::filesystem::symlink_status(path, error).type()) {
+    case std::filesystem::file_type::none:
+      throw_file_error("read", path, error.value());
+    case std::filesystem::file_type::not_found:
+    case std::filesystem::file_type::regular:
+      return;
+    case std::filesystem::file_type::symlink:
+      throw FileError(
+          fmt::format("'{}' is a link, through which nothing is written; remove it or put the file "
+                      "in its place",
+                      path.string()));
+    default:
+      throw FileError(fmt::format("'{}' is not a regular file; remove it", path.string()));
+  }
+}
+
 std::string read_file(const std::filesystem::path& path) {
+  constexpr std::size_t most = std::size_t{1} << 32;
   std::string content;
-  read_pieces(path, [&](std::string_view piece) { content += piece; });
+  read_pieces(path, [&](std::string_view piece) {
+    if (content.size() > most)
+      throw FileError(fmt::format("'{}' is larger than 4 GB", path.string()));
+    content += piece;
+  });
   return content;
 }
 

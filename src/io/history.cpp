@@ -80,7 +80,7 @@ std::string kept_part(const std::filesystem::path& path, const std::vector<Histo
 HistoryWriter::HistoryWriter(const std::filesystem::path& file, std::vector<HistoryColumn> columns,
                              std::optional<Real> continue_after)
     : path_(file), columns_(std::move(columns)), file_(nullptr, std::fclose) {
-  const bool continuing = continue_after && std::filesystem::exists(path_);
+  const bool continuing = continue_after && is_there(path_);
   replace_file(path_,
                continuing ? kept_part(path_, columns_, *continue_after) : header_text(columns_));
   file_.reset(std::fopen(path_.c_str(), "ab"));

@@ -3,11 +3,11 @@
 #include "meniscus/io/info.hpp"
 
 #include "meniscus/core/error.hpp"
+#include "meniscus/core/text.hpp"
+#include "meniscus/io/files.hpp"
 #include "meniscus/io/run_directory.hpp"
 
 #include <fmt/core.h>
-
-#include <algorithm>
 
 #include "hdf5_file.hpp"
 #include "meta.hpp"
@@ -116,18 +116,14 @@ std::int64_t describe(const std::filesystem::path& path, std::int64_t first_numb
 
 std::string describe_file(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files{path};
-  if (std::filesystem::is_directory(path)) {
+  if (is_directory_there(path)) {
     files = result_series(path);
     if (files.empty()) files = {path / "run.h5"};  // which is missing
   }
   std::string text;
   std::int64_t frames = 0;
   for (const auto& file : files) frames += describe(file, frames, text);
-  // Texts of a file are not to command the terminal.
-  std::replace_if(
-      text.begin(), text.end(),
-      [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; }, '?');
-  return text;
+  return printable(text);  // texts of a file are not to command the terminal
 }
 
 }  // namespace meniscus

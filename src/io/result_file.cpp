@@ -105,7 +105,7 @@ class ResultFile::Writer {
       : options_(options),
         sidecars_(directory.path(), options.name),
         path_(place_in_series(directory, options.name, options.epoch, sidecars_)),
-        continuing_(options.continue_after && std::filesystem::exists(path_)),
+        continuing_(options.continue_after && is_there(path_)),
         file_(continuing_ ? hdf5::File::open_to_append(path_)
                           : hdf5::File::create(temporary_name(path_))) {
     for (const BodyReference& body : bodies) {

@@ -24,7 +24,7 @@ constexpr const char* series_names[] = {"run", "partners"};
 
 void refuse_existing_run(const std::filesystem::path& directory) {
   for (int i = 0; i < telling_files; ++i)
-    if (std::filesystem::exists(directory / run_files[i]))
+    if (is_there(directory / run_files[i]))
       throw FileError(
           fmt::format("'{}' already holds a run ({}); choose another directory with --output, "
                       "replace the run with --overwrite, or continue it with --restart",
@@ -52,11 +52,19 @@ void remove_temporaries(const std::filesystem::path& directory) {
 /// probe-NAME.csv of the lines of any run.
 std::vector<std::filesystem::path> probe_files(const std::filesystem::path& directory) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(directory))
-    if (entry.path().filename().string().starts_with("probe-") &&
-        entry.path().extension() == ".csv")
-      files.push_back(entry.path());
+  for (const auto& path : entries_of(directory))
+    if (path.filename().string().starts_with("probe-") && path.extension() == ".csv")
+      files.push_back(path);
   return files;
+}
+
+/// Throws if a file that a run writes is a link: somebody else may have put it there.
+void refuse_links(const std::filesystem::path& directory) {
+  for (const char* name : run_files) refuse_unless_regular(directory / name);
+  for (const char* name : series_names)
+    for (const auto& file : result_series(directory, name))
+      for (const auto& path : {file, view_of(file)}) refuse_unless_regular(path);
+  for (const auto& file : probe_files(directory)) refuse_unless_regular(file);
 }
 
 void remove_run(const std::filesystem::path& directory) {
@@ -73,7 +81,7 @@ void remove_run(const std::filesystem::path& directory) {
 std::vector<std::filesystem::path> result_series(const std::filesystem::path& directory,
                                                  const std::string& name) {
   std::vector<std::filesystem::path> files;
-  while (std::filesystem::exists(in_series(directory, name, files.size())))
+  while (is_there(in_series(directory, name, files.size())))
     files.push_back(in_series(directory, name, files.size()));
   return files;
 }
@@ -91,13 +99,13 @@ RunDirectory::RunDirectory(std::filesystem::path path, ExistingRun existing)
     : path_(std::move(path)) {
   if (existing == ExistingRun::leave) return;
   make_directory(path_);
-  if (!std::filesystem::is_directory(path_)) throw_file_error("write to", path_, ENOTDIR);
+  if (!is_directory_there(path_)) throw_file_error("write to", path_, ENOTDIR);
   if (access(path_.c_str(), W_OK | X_OK) != 0) throw_file_error("write to", path_, errno);
   if (existing == ExistingRun::refuse) refuse_existing_run(path_);
   lock();
   try {
     remove_temporaries(path_);
-    if (existing == ExistingRun::replace) remove_run(path_);
+    existing == ExistingRun::replace ? remove_run(path_) : refuse_links(path_);
   } catch (...) {
     close(lock_);
     throw;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small text files, written so that a reader never meets half of one. All throw FileError with the
-// reason of the operating system.
+// Files and directories: small text files, written so that a reader never meets half of one, and
+// what is there. All throw FileError with the reason of the operating system.
 #pragma once
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace meniscus {
 
@@ -28,8 +29,22 @@ class RemovedUnlessRenamed {
   std::filesystem::path temporary_;
 };
 
+/// Whether there is something of that name. Throws if that cannot be known: in a directory without
+/// permission, in a loop of links, for a name that is too long.
+bool is_there(const std::filesystem::path& path);
+/// Whether that is a directory. Throws as is_there().
+bool is_directory_there(const std::filesystem::path& path);
+/// Whether both are there and are one file or directory.
+bool are_same(const std::filesystem::path& a, const std::filesystem::path& b);
+/// Paths of all that is in a directory, in no order.
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& directory);
+/// Throws if the path is there and is not a regular file itself: nothing is written through a link,
+/// into a pipe or a device.
+void refuse_unless_regular(const std::filesystem::path& path);
+
+/// The content of a regular file of 4 GB at most.
 std::string read_file(const std::filesystem::path& path);
-/// Calls take(piece) for the bytes of a file, in order.
+/// Calls take(piece) for the bytes of a regular file, in order.
 void read_pieces(const std::filesystem::path& path,
                  const std::function<void(std::string_view)>& take);
 /// Writes a file that is not there yet; never through a link.
