@@ -4,7 +4,9 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/input.hpp"
+#include "meniscus/core/ranks.hpp"
 #include "meniscus/core/text.hpp"
+#include "meniscus/io/files.hpp"
 
 #include <fmt/core.h>
 
@@ -35,7 +37,7 @@ std::vector<std::string> filtered(const std::vector<std::string>& keys,
 
 /// The directory that a file or directory of a run stands for.
 std::filesystem::path run_of(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) return path;
+  if (is_directory_there(path)) return path;
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
@@ -43,17 +45,20 @@ std::filesystem::path run_of(const std::filesystem::path& path) {
 
 std::filesystem::path output_directory(const RunRequest& request) {
   if (!request.output.empty()) return request.output;
-  if (!request.restart.empty() && std::filesystem::is_directory(request.restart))
-    return request.restart;
+  if (!request.restart.empty() && is_directory_there(request.restart)) return request.restart;
   return std::filesystem::path("results") / std::filesystem::path(request.scene).stem();
 }
 
 std::optional<Restart> read_restart(const RunRequest& request, const std::string& input) {
   if (request.restart.empty()) return std::nullopt;
+  std::optional<ReadCheckpoint> from;
+  on_each_rank([&] { from = read_checkpoint(request.restart, request.frame); });
+  require_alike(fmt::format("{:016x}", from->checkpoint.state.hash()),
+                fmt::format("state of '{}'", from->file.string()));
   const std::filesystem::path output = output_directory(request);
-  Restart restart{read_checkpoint(request.restart, request.frame),
-                  std::filesystem::exists(output) &&
-                      std::filesystem::equivalent(run_of(request.restart), output)};
+  bool in_place = false;
+  on_first_rank([&] { in_place = are_same(run_of(request.restart), output); });
+  Restart restart{*std::move(from), ranks().largest(in_place ? 1 : 0) == 1};
   const std::vector<std::string> changed = differing_keys(restart.from.checkpoint.input, input);
   if (const auto keys = filtered(changed, is_physics); !keys.empty())
     throw InputError(fmt::format(

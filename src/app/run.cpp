@@ -306,6 +306,10 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   } catch (const SolveError& e) {
     progress.finish();
     log.error(e.what());
+    if (!ranks().all_come()) {  // nothing more that all have to do together
+      keep_complaint(e.what());
+      return exit_numerical;
+    }
     repeat_warnings(request.quiet, log);
     recorder.write_last_good_frame();
     return exit_numerical;
@@ -350,12 +354,25 @@ RunLog opened_log(const RunDirectory& directory) {
   return log;
 }
 
+/// Of all nodes of all bodies: it tells whether all ranks have read the same meshes.
+template <int D>
+std::string mark_of_places(const Plan<D>& plan) {
+  Fnv1a hash;
+  for (const BodyPlan<D>& body : plan.bodies)
+    for (const Vec<D>& X : body.geometry.grid.X)
+      hash.add({reinterpret_cast<const char*>(X.data()), sizeof(Real) * D});
+  return fmt::format("{:016x}", hash.value());
+}
+
 template <int D>
 int run_scene(const SceneInput& input, const RunRequest& request) {
   Interruption interruption(request.max_walltime);
   Plan<D> plan = set_up(input, [&] { return read_plan<D>(input); });
+  require_alike(mark_of_places(plan), "mesh");
   const std::string complete = input.complete();
-  const Real stop = std::min(plan.time.end, time_to_stop(request, plan.units));
+  constexpr Real of_rounding = 1e-9;  // eight steps of 0.1 s come to 0.7999999999999999 s
+  const Real until = time_to_stop(request, plan.units),
+             stop = until < plan.time.end ? until * (1 - of_rounding) : plan.time.end;
   const std::optional<Restart> restart = read_restart(request, complete);
   const Snapshot* state = restart ? &restart->from.checkpoint.state : nullptr;
 
@@ -378,6 +395,7 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
     return run_recorded(*epochs, request, origin, restart, interruption, stop, *directory, log);
   } catch (const FileError& e) {
     log.error(e.what());
+    keep_complaint(e.what());
     return exit_file;
   }
 }
@@ -386,7 +404,10 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
 
 int run(const RunRequest& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
-  const SceneInput input = SceneInput::from_file(request.scene, request.set);
+  std::optional<SceneInput> read;
+  on_each_rank([&] { read.emplace(SceneInput::from_file(request.scene, request.set)); });
+  const SceneInput& input = *read;
+  require_alike(input.text(), fmt::format("scene '{}'", request.scene));
   return scene_dimension(input) == 2 ? run_scene<2>(input, request) : run_scene<3>(input, request);
 }
 

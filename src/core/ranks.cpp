@@ -4,6 +4,8 @@
 
 #include "meniscus/core/error.hpp"
 
+#include <fmt/core.h>
+
 #include <cstdlib>
 #include <stdexcept>
 
@@ -38,7 +40,8 @@ Launch launch_in_environment() {
   return {};
 }
 
-constexpr char of_files = 'F', of_input = 'I', of_run = 'S';
+constexpr char of_files = 'F', of_input = 'I', of_run = 'S', of_request = 'Q', of_memory = 'M',
+               of_program = 'P';
 
 /// How `work` fails: the kind, then what it says; empty if it does not.
 std::string failure_of(const std::function<void()>& work) {
@@ -50,6 +53,12 @@ std::string failure_of(const std::function<void()>& work) {
     return of_input + std::string(error.what());
   } catch (const SolveError& error) {
     return of_run + std::string(error.what());
+  } catch (const Interrupted&) {
+    return {of_request};
+  } catch (const std::bad_alloc&) {
+    return {of_memory};
+  } catch (const std::exception& error) {
+    return of_program + std::string(error.what());
   }
   return {};
 }
@@ -59,7 +68,10 @@ void fail_as(const std::string& failure) {
   const std::string said = failure.substr(1);
   if (failure.front() == of_files) throw FileError(said);
   if (failure.front() == of_input) throw InputError(said);
-  throw SolveError(said);
+  if (failure.front() == of_run) throw SolveError(said);
+  if (failure.front() == of_request) throw Interrupted();
+  if (failure.front() == of_memory) throw OutOfMemory();
+  throw std::runtime_error(said);
 }
 
 }  // namespace
@@ -116,6 +128,17 @@ void on_first_rank(const std::function<void()>& work) {
 void on_each_rank(const std::function<void()>& work) {
   if (ranks().alone()) return work();
   fail_as(ranks().first_said(failure_of(work)));
+}
+
+void require_alike(const std::string& text, const std::string& name) {
+  if (ranks().alone()) return;
+  const bool differs = ranks().of_rank(0, text) != text;
+  const std::int64_t last = ranks().largest(differs ? ranks().rank() : 0);
+  if (last > 0)
+    throw FileError(
+        fmt::format("the ranks 0 and {} have read another {}; expected is a directory "
+                    "that all of them share",
+                    last, name));
 }
 
 }  // namespace meniscus

@@ -102,6 +102,7 @@ class PetscRanks final : public Ranks {
           launch().rank, launch().size, size_));
     // Apart from what a rank that failed alone leaves the others waiting in.
     MPI_Comm_dup(PETSC_COMM_WORLD, &at_the_end_);
+    MPI_Comm_dup(PETSC_COMM_WORLD, &apart_);
   }
 
   int rank() const override { return rank_; }
@@ -163,6 +164,12 @@ class PetscRanks final : public Ranks {
 
   Traffic traffic() const override { return traffic_; }
 
+  bool all_come() override {
+    MPI_Request all_here = MPI_REQUEST_NULL;
+    MPI_Ibarrier(apart_, &all_here);
+    return comes_true(all_here);
+  }
+
  private:
   void hand_out_in_turn(std::byte* values, std::span<const std::size_t> begin) {
     for (std::size_t r = 0; r + 1 < begin.size(); ++r)
@@ -194,7 +201,7 @@ class PetscRanks final : public Ranks {
   }
 
   int rank_ = 0, size_ = 1;
-  MPI_Comm at_the_end_ = MPI_COMM_NULL;
+  MPI_Comm at_the_end_ = MPI_COMM_NULL, apart_ = MPI_COMM_NULL;
   std::vector<int> count_, begin_;  // of gather(), [rank]
   Traffic traffic_;
 };

@@ -4,6 +4,7 @@
 Usage: test_ranks.py PROGRAM"""
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -487,6 +488,38 @@ class Failures(RanksTest):
         for count in (2, 4):
             done = self.ranks(count, "run", scene, "--output", f"ranks{count}", code=4)
             self.assert_said_once(done, words)
+
+    def in_two_directories(self, *arguments, code=0):
+        """Runs the program on two ranks, each in a directory of its own, as on machines that share none."""
+        rank = [program.PROGRAM, *map(str, arguments)]
+        command = [*MPIRUN, "1", "--wdir", self.directory / "a", *rank, ":", "-n", "1", "--wdir",
+                   self.directory / "b", *rank]
+        done = subprocess.run(command, cwd=self.directory, text=True, capture_output=True,
+                              env=RANKS_ENVIRONMENT, timeout=60)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def test_ranks_that_see_different_directories(self):
+        """Whether a run is continued in place is for the first rank to say; what all read has to be alike."""
+        (self.directory / "a").mkdir()
+        scene = self.scene(SHORT_BLOCK, "a/scene")
+        self.call("run", scene, "--output", "a/out", "--until", "0.02")
+        (self.directory / "a/from").symlink_to("out")
+        shutil.copytree(self.directory / "a", self.directory / "b", symlinks=True)
+        (self.directory / "b/from").unlink()
+        shutil.copytree(self.directory / "b/out", self.directory / "b/from")
+        run = ["run", "scene.toml", "--restart", "from", "--output", "out"]
+        done = self.in_two_directories(*run)
+        self.assertEqual(state_of(done), state_of(self.call("run", scene, "--output", "whole")))
+        shutil.rmtree(self.directory / "b/from")
+        self.assert_said_once(self.in_two_directories(*run, code=5), "'from'")
+        shutil.copytree(self.directory / "a/out", self.directory / "b/from")
+        self.call("run", scene, "--output", "a/out", "--overwrite", "--until", "0.03")
+        self.assert_said_once(self.in_two_directories(*run, code=5), "the ranks 0 and 1 have read another state")
+        (self.directory / "b/scene.toml").write_text(SHORT_BLOCK.replace("mu = 1e5", "mu = 2e5"))
+        self.assert_said_once(self.in_two_directories(*run, code=5), "the ranks 0 and 1 have read another scene")
+        (self.directory / "b/scene.toml").unlink()
+        self.assert_said_once(self.in_two_directories(*run, code=5), "cannot read the scene")
 
     def test_full_disk(self):
         """The first rank cannot write: all end, by the exit code of files."""

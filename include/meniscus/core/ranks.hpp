@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,6 +71,10 @@ class Ranks {
   virtual int leave(int exit_code, const std::string& complaint);
 
   virtual Traffic traffic() const { return {}; }
+
+  /// True once all ranks have called this; false if some do not within 20 s: then this rank has
+  /// failed alone, and others wait for it elsewhere.
+  virtual bool all_come() { return true; }
 };
 
 /// The ranks of this run.
@@ -83,12 +88,22 @@ bool can_join_ranks();
 /// Says how; returns true.
 bool register_ranks(std::unique_ptr<Ranks> (*join)());
 
-/// Calls what only one rank may do, as to write a file, on the first one. What fails there as
-/// FileError, InputError or SolveError fails on all ranks.
+/// Calls what only one rank may do, as to write a file, on the first one. An exception there is
+/// thrown on all ranks: as FileError, InputError, SolveError or Interrupted if it is one of these,
+/// as OutOfMemory if memory is missing, else as std::runtime_error.
 void on_first_rank(const std::function<void()>& work);
 
-/// Calls what each rank does for a part of its own, as to build rows. What fails so on one of them
-/// fails on all.
+/// Calls what each rank does for a part of its own, as to build rows. An exception on one of them
+/// is thrown on all, as by on_first_rank().
 void on_each_rank(const std::function<void()>& work);
+
+/// Throws FileError on all ranks if they do not give the same text. `name`: what it is, for the
+/// message. Ranks read files by themselves, and directories of their machines may differ.
+void require_alike(const std::string& text, const std::string& name);
+
+/// Memory that is missing on one of the ranks.
+struct OutOfMemory : std::bad_alloc {
+  const char* what() const noexcept override { return "on one of the ranks"; }
+};
 
 }  // namespace meniscus

@@ -4,10 +4,22 @@
 
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/memory.hpp"
+#include "meniscus/core/ranks.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace meniscus {
+namespace {
+
+/// The least of what the ranks have, so that all of them decide alike.
+Real least_of_ranks(Real bytes) {
+  constexpr Real most = 9e18;  // of an integer
+  return -static_cast<Real>(ranks().largest(-static_cast<std::int64_t>(std::min(bytes, most))));
+}
+
+}  // namespace
 
 template <int D>
 void require_affordable(Real cells, Real cells_per_particle) {
@@ -24,7 +36,7 @@ template void require_affordable<2>(Real, Real);
 template void require_affordable<3>(Real, Real);
 
 void require_memory(Real bytes, const std::string& what) {
-  const Real there = available_memory();
+  const Real there = least_of_ranks(available_memory());
   if (bytes > there)
     throw InputError(
         fmt::format("{} and take about {:.3g} GB of memory, {:.3g} GB are there; use fewer cells",
