@@ -32,11 +32,13 @@ namespace {
 
 using namespace meniscus;
 
-void print_version() {
+std::string version_text() {
   const Build b = build();
-  say("meniscus {}\ngit {}{}\ncompiler {}\nflags {}\n", b.version, b.git_hash,
-      b.git_dirty ? " (modified)" : "", b.compiler, b.flags);
-  for (const auto& library : b.libraries) say("{} {}\n", library.first, library.second);
+  std::string text = fmt::format("meniscus {}\ngit {}{}\ncompiler {}\nflags {}", b.version,
+                                 b.git_hash, b.git_dirty ? " (modified)" : "", b.compiler, b.flags);
+  for (const auto& library : b.libraries)
+    text += fmt::format("\n{} {}", library.first, library.second);
+  return text;
 }
 
 /// What `meniscus keys` is asked for.
@@ -79,7 +81,7 @@ void add_keys_options(CLI::App& command, KeysRequest& request) {
 }
 
 void add_scene_options(CLI::App& command, RunRequest& request) {
-  command.add_option("SCENE", request.scene, "scene file (TOML)")->required();
+  command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
   command.add_option("--set", request.set, "replace a key of the scene, e.g. time.end='1 ns'")
       ->type_name("KEY=VALUE")
       ->type_size(1)
@@ -92,14 +94,16 @@ void add_scene_options(CLI::App& command, RunRequest& request) {
           "stop after the first step that reaches this time, e.g. '0.1 ns', with a "
           "checkpoint. Steps, rows and frames are those of the whole run, so that --restart "
           "continues it bit for bit (the end of the scene, time.end, is hit exactly)")
-      ->type_name("TIME");
+      ->type_name("TIME")
+      ->check(not_empty());
 }
 
 void add_run_options(CLI::App& command, RunRequest& request) {
   command
       .add_option("--output", request.output,
                   "directory of the results; by default results/SCENE, or DIR of --restart DIR")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   command.add_flag("--overwrite", request.overwrite, "replace results that are already there");
   CLI::Option* restart =
       command
@@ -107,9 +111,11 @@ void add_run_options(CLI::App& command, RunRequest& request) {
               "--restart", request.restart,
               "continue bit for bit from a checkpoint, or from the newest one of a run; any "
               "number of threads. Only [time], [output] and [expect] of the scene may "
-              "change. A finished run goes on if time.end is made larger; its last two "
+              "change, and in the same directory neither fields nor columns. A finished run goes "
+              "on if time.end is made larger; its last two "
               "steps, which were fitted to the old end, stay")
-          ->type_name("FILE|DIR");
+          ->type_name("FILE|DIR")
+          ->check(not_empty());
   command
       .add_option("--frame", request.frame,
                   "continue from this frame of the run instead; later rows and frames are replaced")
@@ -156,14 +162,14 @@ void write_new_scene(const NewRequest& request) {
     const std::filesystem::path beside =
         std::filesystem::path(file).parent_path() / file_of_mesh(mesh);
     make_directory(beside.parent_path());
-    if (!std::filesystem::exists(beside)) write_new_file(beside, mesh.text);
+    if (!is_there(beside)) write_new_file(beside, mesh.text);
     say("{} is the mesh of its body\n", beside.string());
   }
   say("{0} begins as '{1}'; next: meniscus check {0}\n", file, request.like);
 }
 
 void add_sweep_options(CLI::App& command, SweepRequest& request) {
-  command.add_option("SCENE", request.scene, "scene file (TOML)")->required();
+  command.add_option("SCENE", request.scene, "scene file (TOML)")->required()->check(not_empty());
   command
       .add_option("--set", request.set,
                   "run with each of the values; several --set: with all combinations")
@@ -174,7 +180,8 @@ void add_sweep_options(CLI::App& command, SweepRequest& request) {
   command
       .add_option("--output", request.output,
                   "directory of sweep.csv and of the runs; results/SCENE-sweep by default")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   command.add_option("--threads", request.threads, "number of threads; all cores by default")
       ->check(integer_between(1, 4096));
   command.add_flag("--overwrite", request.overwrite,
@@ -235,6 +242,7 @@ int dispatch(int argc, char** argv) {
       "time).\n"
       "A second signal ends at once.";
   app.footer(exit_codes);
+  app.set_version_flag("--version", version_text, "as the command version");
   RunRequest request;
   request.command_line = portable_command_line(argc, argv);
   std::string file;
@@ -250,7 +258,8 @@ int dispatch(int argc, char** argv) {
   CLI::App* info_command =
       app.add_subcommand("info", "print what is in a result file or checkpoint");
   info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")
-      ->required();
+      ->required()
+      ->check(not_empty());
   // Its options, help included, are those of meniscus-study.
   CLI::App* study_command =
       app.add_subcommand("study", "error, observed order, time and memory of a family of methods");
@@ -288,11 +297,7 @@ int dispatch(int argc, char** argv) {
       throw InputError("several ranks can only run a scene: mpirun ... meniscus run SCENE");
     if (new_command->parsed()) write_new_scene(new_request);
   } catch (const CLI::ParseError& e) {
-    std::ostream nowhere(nullptr);
-    const bool speaks = launch().rank == 0;
-    return app.exit(e, speaks ? std::cout : nowhere, speaks ? std::cerr : nowhere) == 0
-               ? exit_ok
-               : exit_usage;
+    return answered(app, e);
   }
   if (run_command->parsed() || check_command->parsed() || sweep_command->parsed())
     begin_with_settings(argv);
@@ -303,7 +308,7 @@ int dispatch(int argc, char** argv) {
   if (report_command->parsed()) hand_over_to_python("report", argv);
   if (keys_command->parsed()) print_reference(keys_request);
   if (info_command->parsed()) print_text(describe_file(file));
-  if (version_command->parsed()) print_version();
+  if (version_command->parsed()) say("{}\n", version_text());
   if (help_command->parsed()) print_help(topic, app);
   if (sweep_command->parsed()) return sweep(sweep_request);
   if (completion_command->parsed()) print_text(bash_completion(texts_of(app)));

@@ -1,15 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the command lines of the programs have in common.
 #pragma once
+#include "meniscus/app/commands.hpp"
+#include "meniscus/app/print.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <charconv>
 #include <climits>
 #include <cstdint>
+#include <sstream>
 #include <string>
 
 namespace meniscus {
+
+/// What parsing ended with: help on stdout, or a complaint. Returns the exit code.
+inline int answered(const CLI::App& app, const CLI::ParseError& end) {
+  std::ostringstream out, complaint;
+  const bool well = app.exit(end, out, complaint) == 0;
+  print_text(out.str());
+  std::string text = complaint.str();
+  while (text.ends_with('\n')) text.pop_back();
+  if (!text.empty()) print_complaint(text);
+  return well ? exit_ok : exit_usage;
+}
+
+/// A value that is not empty: "" is what a shell makes of a variable that is not set.
+inline CLI::Validator not_empty() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return text.empty() ? std::string("is empty; allowed is a name or value, or no such option")
+                            : std::string();
+      },
+      "");
+}
 
 /// An integer of a range, refused by a sentence.
 inline CLI::Validator integer_between(std::int64_t low, std::int64_t high) {

@@ -2,6 +2,7 @@
 // Names of columns and fields, and the check of those a scene asks for.
 #include "meniscus/app/outputs.hpp"
 
+#include "meniscus/core/error.hpp"
 #include "meniscus/core/names.hpp"
 #include "meniscus/solve/stepper.hpp"
 
@@ -31,6 +32,25 @@ void require_known(const Block& block, const char* key, const Names& given, cons
   for (const std::string& name : given)
     if (!contains(known, name))
       block.problem(key, fmt::format("'{}' is unknown; {}", name, allowed_names(name, known)));
+}
+
+/// Notes the numbers of an expectation with a unit of another dimension than that of its column.
+void require_unit_of_column(const Block& block, const std::string& name,
+                            const std::vector<HistoryColumn>& columns) {
+  const auto column = std::find_if(columns.begin(), columns.end(),
+                                   [&](const HistoryColumn& c) { return c.name == name; });
+  if (column == columns.end()) return;
+  for (const char* key : {"value", "within", "level"}) {
+    const auto dimension = block.own_dimension(key);
+    if (!dimension) continue;
+    try {
+      block.units().quantity("1 " + column->unit, *dimension);
+    } catch (const InputError&) {
+      block.problem(
+          key, fmt::format("is in {}; the column '{}' is in {}", block.units().symbol(*dimension),
+                           name, column->unit == "1" ? "plain numbers" : column->unit));
+    }
+  }
 }
 
 }  // namespace
@@ -84,7 +104,8 @@ template <int D>
 void require_known_outputs(const SceneInput& input, const Scene<D>& scene) {
   Names measures, columns;
   for (const MeasureSource& m : scene.measures) measures.push_back(m.name);
-  for (const HistoryColumn& column : history_columns(scene)) columns.push_back(column.name);
+  const std::vector<HistoryColumn> all_columns = history_columns(scene);
+  for (const HistoryColumn& column : all_columns) columns.push_back(column.name);
   for (const std::string& measure : measures)
     if (!contains(columns, measure)) columns.push_back(measure);
 
@@ -99,6 +120,7 @@ void require_known_outputs(const SceneInput& input, const Scene<D>& scene) {
     for (const auto& [name, e] : scene.expectations) {
       const auto block = expect->table(name);
       require_known(*block, block->has("of") ? "of" : "", {e.of}, columns);
+      require_unit_of_column(*block, e.of, all_columns);
     }
   input.check();
 }

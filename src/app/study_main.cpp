@@ -24,14 +24,15 @@ int dispatch(int argc, char** argv) {
       ->type_size(1)
       ->allow_extra_args(false);
   app.add_option("--output", request.output, "directory for study.csv and study.json")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   app.add_option("--threads", request.threads, "number of threads; all cores by default")
       ->check(integer_between(1, 4096));
   app.add_flag("--short", request.brief, "the short form of the tests: few levels, seconds");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? exit_ok : exit_usage;
+    return answered(app, e);
   }
   if (!list) {
     begin_with_settings(argv);

@@ -172,6 +172,12 @@ Real Block::real(std::string_view key, Dimension dimension, Range range,
                            [&](const Value& value) { return number.real(value); });
 }
 
+std::optional<Dimension> Block::own_dimension(std::string_view key) const {
+  const Entry* entry = node_->ask(key);
+  return entry == nullptr ? std::nullopt
+                          : input_values::own_dimension(entry->value, node_->document->constants);
+}
+
 std::int64_t Block::integer(std::string_view key, Range range,
                             std::optional<std::int64_t> fallback) const {
   return node_->read<std::int64_t>(

@@ -94,6 +94,22 @@ std::int64_t integer(const Value& value, const Range& range, const Constants& co
   throw InputError(range.refusal(static_cast<Real>(found)));
 }
 
+std::optional<Dimension> own_dimension(const Value& value, const Constants& constants) {
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (text == nullptr) return std::nullopt;
+  try {
+    if (constants.in(*text)) {
+      if (constants.broken_in(*text)) return std::nullopt;
+      return constants.dimension_of(constants.functions.expanded(*text));
+    }
+    const Unit unit = read_quantity(*text).unit;
+    if (unit.dimension != dimension::none) return unit.dimension;
+    return unit.angle == 0 ? std::nullopt : std::optional(dimension::degrees);
+  } catch (const InputError&) {
+    return std::nullopt;  // as no number it is refused by whoever reads it
+  }
+}
+
 Real harmless(const Range& range) {
   for (const Real candidate : {1.0, 0.0, range.low, range.high, range.low / 2 + range.high / 2})
     if (range.contains(candidate)) return candidate;

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ T exactly(const scene_tree::Value& value, const std::string& allowed) {
 std::int64_t integer(const scene_tree::Value& value, const Range& range, const Constants&);
 /// "an integer, > 0".
 std::string allowed_integer(const Range& range);
+
+/// The dimension of a text with a unit or of a formula of constants; nothing for other values.
+std::optional<Dimension> own_dimension(const scene_tree::Value& value, const Constants&);
 
 /// Some number of the range, to go on with after a problem.
 Real harmless(const Range& range);

@@ -52,29 +52,47 @@ constexpr std::string_view moduli = "isotropic solids have youngs_modulus and po
 constexpr std::string_view isotropic =
     "neo_hookean, st_venant_kirchhoff and mooney_rivlin have them";
 
-/// What other programs call something, and where it is here.
-constexpr std::pair<std::string_view, std::string_view> foreign_words[] = {
-    {"gravity", "a weight is a table [[body_force]] with its acceleration"},
-    {"dt", "the step is [time] step, chosen by itself if absent"},
-    {"timestep", "the step is [time] step, chosen by itself if absent"},
-    {"time_step", "the step is [time] step, chosen by itself if absent"},
-    {"sphere", "a sphere is a 'ball'"},
-    {"circle", "a circle is a 'disk'"},
-    {"cube", "a cube is a 'box'"},
-    {"square", "a square is a 'rectangle'"},
+constexpr std::string_view step = "the step is [time] step, chosen by itself if absent",
+                           weight = "a weight is a table [[body_force]] with its acceleration";
+
+/// A word of other programs, where its thing is here, and the table or key that is called otherwise
+/// here.
+struct ForeignWord {
+  std::string_view word, home, own = {};
+};
+constexpr ForeignWord foreign_words[] = {
+    {"gravity", weight, "body_force"},
+    {"weight", weight, "body_force"},
+    {"dt", step, "step"},
+    {"timestep", step, "step"},
+    {"time_step", step, "step"},
+    {"sphere", "a sphere is a 'ball'", "ball"},
+    {"circle", "a circle is a 'disk'", "disk"},
+    {"cube", "a cube is a 'box'", "box"},
+    {"square", "a square is a 'rectangle'", "rectangle"},
     {"youngs_modulus", isotropic},
     {"poissons_ratio", isotropic},
-    {"young_modulus", moduli},
-    {"poisson_ratio", moduli},
+    {"young_modulus", moduli, "youngs_modulus"},
+    {"poisson_ratio", moduli, "poissons_ratio"},
 };
 
+const ForeignWord* find_foreign(std::string_view word) {
+  const auto* found = std::find_if(std::begin(foreign_words), std::end(foreign_words),
+                                   [&](const ForeignWord& f) { return f.word == word; });
+  return found == std::end(foreign_words) ? nullptr : found;
+}
+
 std::string hint(std::string_view given, const std::vector<std::string>& known) {
-  for (const auto& [word, home] : foreign_words)
-    if (word == given) return fmt::format("; {}", home);
-  return did_you_mean(given, known);
+  const ForeignWord* foreign = find_foreign(given);
+  return foreign == nullptr ? did_you_mean(given, known) : fmt::format("; {}", foreign->home);
 }
 
 }  // namespace
+
+std::string_view own_word(std::string_view foreign) {
+  const ForeignWord* found = find_foreign(foreign);
+  return found == nullptr ? std::string_view() : found->own;
+}
 
 std::string allowed_names(std::string_view given, const std::vector<std::string>& known) {
   if (known.empty()) return "none is allowed";

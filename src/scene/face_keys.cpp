@@ -11,8 +11,6 @@ namespace meniscus {
 template <int D>
 void FaceKeys::check(const Block& block, const BodyPlans<D>& bodies) const {
   const BodyPlan<D>* planned = require_body(block, bodies, body);
-  if (face.empty() && !where)
-    block.problem("face", "names no face; give face or where, or where = 1 for the whole surface");
   if (where && where->depends_on_time())
     block.problem("where", "depends on t; allowed are x, y, z");
   if (!planned || face.empty()) return;

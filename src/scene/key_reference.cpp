@@ -56,6 +56,8 @@ std::vector<KeyTable> found(const std::string& given) {
   std::copy_if(all.begin(), all.end(), std::back_inserter(tables),
                [&](const KeyTable& table) { return is_called(table, wanted); });
   if (tables.empty()) tables = reduced(all, [&](const KeyText& key) { return key.key == wanted; });
+  if (const std::string_view own = own_word(small); tables.empty() && !own.empty())
+    return found(std::string(own));
   if (tables.empty() && !wanted.empty())
     tables = reduced(all, [&](const KeyText& k) {
       return mentions(k.key, small) || mentions(k.meaning, small) || mentions(k.range, small);

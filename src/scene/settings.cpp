@@ -168,6 +168,36 @@ Rows<SolidSettings> SolidSettings::rows() {
                    0.0)};
 }
 
+namespace {
+
+/// A number in the unit of a column of the history. It may be a text with a unit: that it is the
+/// dimension of the column is known when the scene is built.
+Real in_unit_of_column(const Block& block, const std::string& key, Range range,
+                       std::optional<Real> fallback) {
+  return block.real(key, block.own_dimension(key).value_or(dimension::none), range, fallback);
+}
+
+Row<ExpectSettings> column_row(const std::string& key, std::optional<Real> ExpectSettings::*member,
+                               Range range, const std::string& meaning) {
+  auto row = optional_row(key, member, dimension::none, range, "none",
+                          meaning + ", in the unit of the column or a text with a unit");
+  row.read = [=](ExpectSettings& e, const Block& block) {
+    if (block.has(key)) e.*member = in_unit_of_column(block, key, range, std::nullopt);
+  };
+  return row;
+}
+
+Row<ExpectSettings> expected_row() {
+  auto row = real_row("value", &ExpectSettings::value, dimension::none, range::any,
+                      "expected number, in the unit of the column or a text with a unit", 0.0);
+  row.read = [](ExpectSettings& e, const Block& block) {
+    e.value = in_unit_of_column(block, "value", range::any, 0.0);
+  };
+  return row;
+}
+
+}  // namespace
+
 Rows<ExpectSettings> ExpectSettings::rows() {
   using S = ExpectSettings;
   return {
@@ -183,12 +213,9 @@ Rows<ExpectSettings> ExpectSettings::rows() {
                "begin of the span, for the others", 0.0),
       optional_row("to", &S::to, dimension::time, range::positive, "time.end",
                    "end of the span, for the others"),
-      optional_row("level", &S::level, dimension::none, range::any, "none",
-                   "for reduce = \"falls\", in the unit of the column"),
-      real_row("value", &S::value, dimension::none, range::any,
-               "expected number, in the unit of the column", 0.0),
-      optional_row("within", &S::within, dimension::none, range::non_negative, "none",
-                   "largest difference, in the unit of the column"),
+      column_row("level", &S::level, range::any, "for reduce = \"falls\""),
+      expected_row(),
+      column_row("within", &S::within, range::non_negative, "largest difference"),
       optional_row("within_relative", &S::within_relative, dimension::none, range::positive, "none",
                    "largest difference relative to value; the larger of the two counts"),
   };

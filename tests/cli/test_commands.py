@@ -158,6 +158,7 @@ class Sweep(ProgramTest):
     def test_refusals(self):
         scene = self.scene(SHEET)
         for setting, word in (("time.end", "expected KEY=VALUE,VALUE"), ("time.end=1,,2", "a value is missing"),
+                              ("title==1+1,x", "begins with '='"), ("title=@x", "begins with '@'"),
                               ("time.end=1,1", "named twice"), ("time.end=1_2,1 2", "differ in")):
             self.refused(["sweep", scene, "--set", setting, "--output", "x"], 3, word)
         self.refused(["sweep", scene, "--set", "time.end=1", "--set", "time.end=2"], 3, "named twice")
@@ -178,7 +179,9 @@ class Pictures(ProgramTest):
         self.call("report", "out")
         self.assertIn("<h2>History</h2>", (self.directory / "out/report.html").read_text())
         self.assertIn("usage: meniscus plot", self.call("plot", "--help").stdout)
-        self.refused(["plot", "nowhere"], 1, "meniscus plot: ", "nowhere")
+        self.refused(["plot", "nowhere"], 5, "meniscus plot: ", "nowhere")
+        self.call("sweep", "scene.toml", "--set", "time.end=0.001,0.002", "--output", "s")
+        self.refused(["plot", "s"], 5, "s is a sweep; name one of its runs: end=0.001, end=0.002")
         self.refused(["report", "out", "--nonsense"], 2, "usage: meniscus report", "--nonsense")
 
 

@@ -4,8 +4,10 @@
 exit code of its kind. Usage: test_errors.py PROGRAM"""
 import json
 import math
+import os
 import re
 import resource
+import shutil
 
 import h5py
 import numpy as np
@@ -32,6 +34,18 @@ class Usage(ProgramTest):
         file = self.scene(BLOCK)
         self.refused(["run", file, "--restart", "out", "--frame", "-1"], 2, "--frame", "'-1'", "an integer >= 0")
         self.refused(["run", file, "--threads", "9999"], 2, "--threads", "<= 4096")
+
+    def test_empty_values(self):
+        """What a shell makes of a variable that is not set does not mean something else."""
+        file = self.scene(BLOCK)
+        self.call("run", file, "--output", "out", "--until", "0.01")
+        before = (self.directory / "out/history.csv").read_bytes()
+        for option in ("--restart", "--output", "--until"):
+            self.refused(["run", file, "--output", "out", "--overwrite", option, ""][:8], 2, option, "is empty")
+        for arguments in (["run", ""], ["check", ""], ["info", ""], ["sweep", ""],
+                          ["sweep", file, "--set", "time.end=1", "--output", ""]):
+            self.refused(arguments, 2, "is empty")
+        self.assertEqual((self.directory / "out/history.csv").read_bytes(), before)
 
     def test_check_until(self):
         whole = self.call("check", self.scene(BLOCK)).stdout
@@ -225,6 +239,34 @@ class Scenes(ProgramTest):
         self.assert_refused(SHEET + '[[profile]]\nbody = "sheet"\nr = [1]\nz = [0]\n',
                             "scene.toml:16:1: profile", "[[profile]] is for bodies in 3 dimensions")
 
+    def test_long_formulas_are_not_repeated(self):
+        """The beginning and the end of what was found, the place and the reason."""
+        long = "1 + " * 25000
+        for value, reason in ((f'"{long}"', "it is longer than 20000 characters"), (f'"{long[:5000]}"', "ends too early"),
+                              (f'"{long[:5000]}q"', "unknown name 'q'"), (f'"{"q" * 200000}"', "(200000 characters)")):
+            file = self.scene(self.change(BLOCK, ("mu = 1e5", f"mu = {value}")))
+            done = self.refused(["check", file], 3, "scene.toml:", "body[0].material.mu", reason, "characters) ...")
+            self.assertLess(len(done.stderr), 4000)
+        done = self.call("check", self.scene(BLOCK), "--set", "time.end=" + long, code=3)
+        self.assertLess(len(done.stderr), 4000)
+
+    def test_texts_do_not_command_the_terminal(self):
+        """C1 controls, and characters that turn the direction of writing, of any text that is printed."""
+        evil, seen = "\x9b2J\u202egnp.\u2066\u200f", "?2J?gnp.??"
+        title = self.scene(f"title = 'A{evil}'\n" + BLOCK)
+        self.assertIn(f"A{seen}", self.call("check", title).stdout)
+        for text in (BLOCK.replace('"block"', f'"{evil}"'), BLOCK.replace("mu =", f'"{evil}" ='),
+                     BLOCK.replace("[[body_force]]", f"[[body_force]]\nname{evil} = 1")):
+            done = self.call("check", self.scene(text, "evil"), code=3)
+            for c in "\x9b\u202e\u2066\u200f":
+                self.assertNotIn(c, done.stderr)
+        for arguments in (["run", evil], ["chek" + evil], ["check", title, "--set", f"time.end={evil}"],
+                          ["run", title, "--threads", evil], ["keys", evil], ["info", evil]):
+            done = self.call(*arguments, code=None)
+            self.assertIn(done.returncode, (2, 3, 5))
+            self.assertIn("?2J?gnp", done.stderr)
+        self.assertIn("µm", self.call("help", "units").stdout + "µm")
+
     def test_counted_falls_need_a_level(self):
         expect = "[expect]\nkinetic_energy = {{ reduce = \"{}\", value = 1, within = 0{} }}\n"
         self.assert_refused(DROP + expect.format("falls", ""), "level", "is missing")
@@ -258,6 +300,22 @@ class Scenes(ProgramTest):
         """
         report = self.assert_refused(text, *(f"expect.{name}" for name in "abcdefg"))
         self.assertEqual(len(report.splitlines()), 7, report)
+
+    def test_names_of_expectations(self):
+        """They are words of tables: with others a column of sweep.csv could be lost or forged."""
+        for name in ("a b", "a\\nb 1 1 1 met", "a,b", "", "=1+1", "a\\u202eb"):
+            self.assert_refused(BLOCK + f'[expect."{name}"]\nof = "step"\nvalue = 1\nwithin = 1\n', "scene.toml:",
+                                "expect.", "cannot be a name; allowed are letters, digits, _, - and .")
+
+    def test_units_of_expectations(self):
+        expect = '[expect]\n"block.extent_x" = {{ value = {}, within = {} }}\n'
+        self.call("check", self.scene(BLOCK + expect.format('"1000 mm"', '"0.5 mm"')))
+        self.call("check", self.scene(BLOCK + '[constants]\nsize = "1 m"\n' + expect.format('"size"', '"size/10"')))
+        for value, within, key in (('"1 s"', "1", "value"), ("1", '"1 mPa"', "within"), ('"1 deg"', "1", "value")):
+            self.assert_refused(BLOCK + expect.format(value, within), f'expect."block.extent_x".{key}: is in ',
+                                "the column 'block.extent_x' is in m")
+        self.assert_refused(BLOCK + '[expect]\nstep = { value = "1 m", within = 1 }\n', "is in plain numbers")
+        self.assert_refused(BLOCK + expect.format('"1 parsec"', "1"), "unknown unit 'parsec'")
 
     def test_bodies(self):
         self.assert_refused(self.change(DROP, ("dimension = 3", "dimension = 2")), "'ellipsoid'", "disk")
@@ -412,6 +470,45 @@ class Files(ProgramTest):
         self.refused(["run", self.file, "--restart", "out/run.h5"], 5, "frame")
         self.refused(["run", self.file, "--restart", self.file, "--frame", "1"], 5, self.file)
         self.call("run", self.file, "--restart", "out", "--frame", "1")
+
+    def test_what_is_no_file(self):
+        """Devices and pipes, which would never end; names and links that the system refuses."""
+        os.mkfifo(self.directory / "pipe")
+        os.symlink("loop", self.directory / "loop")
+        (self.directory / "mixed").mkdir()
+        os.mkfifo(self.directory / "mixed/checkpoint-a.h5")
+        os.symlink("/dev/zero", self.directory / "mixed/checkpoint-b.h5")
+        long = "x" * 300
+        for path in ("/dev/zero", "pipe", "mixed", "loop", "loop/x", long, f"{long}/x", f"{self.file}/x"):
+            for command in (["run", self.file, "--restart", path], ["info", path]):
+                done = self.refused(command, 5, path)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for output in ("loop", "loop/x", long, f"{self.file}/x"):
+            self.refused(["run", self.file, "--output", output], 5, output)
+            self.refused(["run", self.file, "--output", output, "--restart", "out"], 5, output)
+            self.refused(["sweep", self.file, "--set", "time.end=0.01", "--output", output], 5, output)
+        self.refused(["new", long, "--like", "lame_cube"], 5, long)
+        (self.directory / "mixed/sweep.csv").symlink_to("/dev/zero")
+        shutil.copy(self.directory / self.file, self.directory / "mixed/scene.toml")
+        self.refused(["sweep", self.file, "--set", "time.end=0.01", "--output", "mixed"], 5, "sweep.csv")
+
+    def test_nothing_is_written_through_links(self):
+        """Somebody else may have put them into the folder that is continued."""
+        precious = self.directory / "precious"
+        precious.write_text("precious")
+        for name in ("run.log", "history.csv", "run.h5", "run.vtkhdf"):
+            kept = (self.directory / "out" / name).read_bytes()
+            (self.directory / "out" / name).unlink()
+            (self.directory / "out" / name).symlink_to(precious)
+            self.refused(["run", self.file, "--restart", "out"], 5, name, "is a link")
+            self.assertEqual(precious.read_text(), "precious")
+            (self.directory / "out" / name).unlink()
+            (self.directory / "out" / name).write_bytes(kept)
+        (self.directory / "new").mkdir()
+        (self.directory / "new/run.log").symlink_to(precious)
+        self.refused(["run", self.file, "--output", "new"], 5, "run.log", "is a link")
+        self.assertEqual(precious.read_text(), "precious")
+        self.call("run", self.file, "--restart", "out")
 
     def test_other_columns_or_fields(self):
         """Refused before rows or frames are lost."""

@@ -217,6 +217,37 @@ class Results(ProgramTest):
                       "output.frames_every=0.003", "--set", "output.checkpoint_minutes=1e-6")
         self.assertEqual(state_of(a), state_of(b))
 
+    def test_until_a_multiple_of_the_step(self):
+        """25 steps of 0.1 ms are 2.4999999999999996 ms: they end there, not at 2.6 ms."""
+        self.assertLess(sum(25 * [1e-4]), 0.0025)
+        text = SHEET.replace("end = 0.1", "end = 0.003\nstep = 1e-4")
+        self.call("run", self.scene(text), "--output", "out", "--until", "0.0025")
+        self.assertIn("step      25\n", self.call("info", "out/checkpoint-a.h5").stdout)
+        whole = self.call("run", self.scene(text), "--output", "whole")
+        self.assertEqual(state_of(self.call("run", self.scene(text), "--restart", "out")), state_of(whole))
+
+    def test_a_load_without_face_is_on_the_whole_surface(self):
+        """As `meniscus keys` says."""
+        loads = ("", '[[traction]]\nbody = "sheet"\npressure = 100\n', '[[spring]]\nbody = "sheet"\nstiffness = 100\n')
+        states = [state_of(self.call("run", self.scene(SHEET.replace("[[body]]", "[[body]]\ninitial_velocity = [0, '0.1*y']")
+                                                       + load + more), "--output", "out", "--overwrite"))
+                  for load in loads for more in ("", "where = 1\n" if load else "")]
+        self.assertEqual(states[::2], states[1::2])
+        self.assertEqual(len(set(states)), 3)
+
+    def test_expectations_with_units(self):
+        """The same as in the unit of the column, also where that is not SI."""
+        expect = '[expect]\nheight = {{ of = "drop.extent_y", at = 0.0, value = {}, within = {} }}\n'
+        text = DROP.replace('end = "60 ps"', 'end = "3 ps"')
+        for value, within, code in (('"14.03 nm"', '"10 pm"', 0), (14.03e-9, 1e-11, 0), ('"0.01403 um"', '"10 pm"', 0),
+                                    ('"14.05 nm"', '"10 pm"', 7)):
+            self.call("run", self.scene(text + expect.format(value, within)), "--output", "out", "--overwrite",
+                      code=code)
+        units = '[units]\nsystem = "nm-ps-ag"\n[constants]\nheight = "140.3 angstrom"\n'
+        text = self.scene(text + expect.format('"height"', '"10 pm"') + units)
+        done = self.call("run", text, "--output", "out", "--overwrite")
+        self.assertRegex(done.stdout, r"height +14.026\d+ +14.03 +0.01 +met")
+
 
 class Nodal(ProgramTest):
     """Integration at the particles alone has modes without energy, which the area at Gauss points
@@ -510,6 +541,9 @@ class Reports(ProgramTest):
         text = self.call("keys", "youngs_modulus").stdout
         self.assertEqual(re.findall(r"^  (\w+)", text, re.M), 3 * ["key", "youngs_modulus"])
         self.assertIn("  cutoff ", self.call("keys", "CUT-OFF").stdout)
+        self.assertEqual([line.split(":")[0] for line in headings("gravity")], ["[[body_force]]"])
+        self.assertEqual({line.split(" (")[0] for line in headings("cube")}, {'[[body]] shape = "box"'})
+        self.assertEqual(headings("timestep"), headings("step"))
         self.refused(["keys", "gama"], 3, "'gama' is no table and no key", "did you mean 'gamma'?")
         self.refused(["keys", "[]"], 3, "'[]' is no table")
         self.refused(["keys", "time", "--json"], 2, "--json")
@@ -544,6 +578,7 @@ class Reports(ProgramTest):
             self.assertEqual(found, [what] if what else [], new)
 
     def test_version(self):
+        self.assertEqual(self.call("--version").stdout, self.call("version").stdout)
         self.assertRegex(self.call("version").stdout, r"^meniscus \d+\.\d+\.\d+\ngit \S+.*\ncompiler ")
 
     def test_help(self):

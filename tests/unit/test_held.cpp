@@ -199,7 +199,6 @@ TEST(Held, WhatCannotBeHeldIsRefused) {
   expect(held("left"), "body 'block' has no face 'left'; allowed are x_min, x_max, y_min, y_max");
   expect(held("x_min", "where = \"x > 0\"\n"), "no facet of the surface of body 'block' is chosen");
   expect(held("x_min", "components = [\"z\"]\n"), "'z' is no component; allowed are x, y, normal");
-  expect("[[held]]\nbody = \"block\"\n", "names no face");
 }
 
 }  // namespace

@@ -62,6 +62,9 @@ TEST(Units, QuantitiesInSiAreTheNearestDoubles) {
   EXPECT_EQ(si.quantity("100 dyn", force), 1e-3);
   EXPECT_EQ(si.quantity("72.8 dyn/cm", tension), 0.0728);
   EXPECT_EQ(si.quantity("72.8 erg/cm^2", tension), 0.0728);
+  EXPECT_EQ(si.quantity("1 atm", pressure), 101325);
+  EXPECT_DOUBLE_EQ(si.quantity("760 mmHg", pressure), 760 * 133.322387415);
+  EXPECT_DOUBLE_EQ(si.quantity("1 psi", pressure), 0.45359237 * 9.80665 / (0.0254 * 0.0254));
   EXPECT_EQ(si.quantity("0.89 cP", viscosity), 0.89e-3);
   EXPECT_EQ(si.quantity("10 P", viscosity), 1);
   EXPECT_EQ(si.quantity("5 mbar", pressure), 500);

@@ -54,6 +54,9 @@ class Block {
   const UnitSystem& units() const;
 
   Real real(std::string_view key, Dimension, Range, std::optional<Real> fallback) const;
+  /// The dimension of a number that is given with a unit, as a text or by constants; nothing for a
+  /// plain number or what is no number. For keys whose dimension only the scene can tell.
+  std::optional<Dimension> own_dimension(std::string_view key) const;
   std::int64_t integer(std::string_view key, Range, std::optional<std::int64_t> fallback) const;
   bool flag(std::string_view key, std::optional<bool> fallback) const;
   std::string text(std::string_view key, std::optional<std::string> fallback) const;

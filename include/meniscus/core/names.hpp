@@ -18,4 +18,8 @@ std::string did_you_mean(std::string_view given, const std::vector<std::string>&
 /// where to find what another program calls so ("gravity", "dt", "sphere", "youngs_modulus").
 std::string allowed_names(std::string_view given, const std::vector<std::string>& known);
 
+/// The table or key of a scene for a word of other programs: "body_force" for "gravity"; empty if
+/// it is none of these.
+std::string_view own_word(std::string_view foreign);
+
 }  // namespace meniscus
