@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Result files and checkpoints made to do harm: each is refused by a sentence or read as what it
 is, without a signal, in little memory and time. Usage: hostile_files.py RESULT_WRITER RESULT_READER
-[sanitized | N]  (the address sanitizer reserves more address space than any limit allows; N: as many
-more files with two or three things done to each, chosen by a seed)"""
+[sanitized | N [SEED]]  (the address sanitizer reserves more address space than any limit allows; N: as
+many more files with two or three things done to each, chosen by a seed)"""
 import random
 import resource
 import shutil
@@ -226,9 +226,9 @@ class Files:
         self.count += 1
 
 
-def combinations(files, count):
+def combinations(files, count, seed=3):
     """Several changes to one file: nothing is expected of them but an answer."""
-    chosen = random.Random(3)
+    chosen = random.Random(seed)
     kinds = {"steps/0/state": STATE | SIGNED, "steps/0": HOLDER, "meta": META | PROGRAM, "/": INFO}
     for k in range(count):
         changes = []
@@ -279,8 +279,8 @@ def main():
             path = Path(name) / "garbage.h5"
             path.write_bytes(content)
             files.read(f"garbage {number}", path, "info", "checkpoint", "frame")
-        for count in more:
-            combinations(files, count)
+        if more:
+            combinations(files, *more)
         print(f"{files.count} files")
 
 

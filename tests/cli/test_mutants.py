@@ -5,7 +5,8 @@ time, and which of them are in order is known: data/accepted_mutants.txt has bee
 Usage: test_mutants.py PROGRAM            400 of the mutants, chosen by a seed
        test_mutants.py PROGRAM --all      every one
        test_mutants.py PROGRAM --pairs N  N scenes with two lines changed, chosen by a seed
-       test_mutants.py PROGRAM --update   every one; rewrites the list, to be read as a difference"""
+       test_mutants.py PROGRAM --update   every one; rewrites the list, to be read as a difference
+With --seed S at the end the choice is another one."""
 import random
 import re
 import resource
@@ -183,9 +184,9 @@ def all_mutants():
                     yield base, i, name, "\n".join(lines[:i] + [new] + lines[i + 1:])
 
 
-def pair_mutants(count):
+def pair_mutants(count, seed):
     """(base, lines, mutations, scene) with two changes each."""
-    chosen = random.Random(SEED)
+    chosen = random.Random(seed)
     for _ in range(count):
         base = chosen.choice(list(BASES))
         lines = BASES[base].split("\n")
@@ -231,9 +232,9 @@ def is_known(known, base, lines, names):
     return all(name in known.get((base, i), ()) for i, name in zip(lines, names))
 
 
-def check_pairs(program, count):
+def check_pairs(program, count, seed):
     """What is in order with both changes is so with each: no mistake hides another."""
-    known, mutants, wrong, in_order = listed(), list(pair_mutants(count)), [], 0
+    known, mutants, wrong, in_order = listed(), list(pair_mutants(count, seed)), [], 0
     with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(2) as pool:
         verdicts = pool.map(lambda m: verdict(program, Path(name), m[0], m[1][3]), enumerate(mutants))
         for (base, lines, names, _), found in zip(mutants, verdicts):
@@ -254,12 +255,16 @@ def write_list(accepted):
 
 
 def main():
+    seed = SEED
+    if sys.argv[-2] == "--seed":
+        seed = int(sys.argv[-1])
+        del sys.argv[-2:]
     program, mode = Path(sys.argv[1]).resolve(), (sys.argv[2:] or [""])[0]
     if mode == "--pairs":
-        check_pairs(program, int(sys.argv[3]))
+        check_pairs(program, int(sys.argv[3]), seed)
     mutants = list(all_mutants())
     if not mode:
-        mutants = random.Random(SEED).sample(mutants, COUNT)
+        mutants = random.Random(seed).sample(mutants, COUNT)
     with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(2) as pool:
         directory = Path(name)
         for base, scene in BASES.items():
