@@ -216,6 +216,8 @@ class Results(ProgramTest):
         b = self.call("run", self.scene(with_output(BLOCK, ALL)), "--output", "b", "--set",
                       "output.frames_every=0.003", "--set", "output.checkpoint_minutes=1e-6")
         self.assertEqual(state_of(a), state_of(b))
+        c = self.call("run", self.scene(BLOCK), "--output", "c", "--set", "output.history_every=0.05")
+        self.assertEqual(state_of(a), state_of(c))
 
     def test_until_a_multiple_of_the_step(self):
         """25 steps of 0.1 ms are 2.4999999999999996 ms: they end there, not at 2.6 ms."""
