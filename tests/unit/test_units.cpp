@@ -188,7 +188,7 @@ TEST(Units, MessagesAboutQuantities) {
   const std::string list =
       "allowed are m, s, g, N, dyn, Pa, bar, P, J, eV, W, Hz, L (prefixes z a f p n u m c k M G "
       "T), "
-      "erg, kT, min, h, angstrom, rad, deg";
+      "atm, psi, mmHg, erg, kT, min, h, angstrom, rad, deg";
   using namespace dimension;
   EXPECT_EQ(message(si, "2.2 GPa", tension),
             "'2.2 GPa' is a pressure (kg/(m s^2)), expected a tension (kg/s^2)");
