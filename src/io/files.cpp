@@ -7,7 +7,6 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -93,14 +92,8 @@ void refuse_unless_regular(const std::filesystem::path& path) {
 }
 
 std::string read_file(const std::filesystem::path& path) {
-  constexpr std::size_t most = std::size_t{1} << 32;
-  std::string content;
-  read_pieces(path, [&](std::string_view piece) {
-    if (content.size() > most)
-      throw FileError(fmt::format("'{}' is larger than 4 GB", path.string()));
-    content += piece;
-  });
-  return content;
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 32;
+  return content_of_regular_file(path.string(), most);
 }
 
 void read_pieces(const std::filesystem::path& path,

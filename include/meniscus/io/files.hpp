@@ -44,7 +44,8 @@ void refuse_unless_regular(const std::filesystem::path& path);
 
 /// The content of a regular file of 4 GB at most.
 std::string read_file(const std::filesystem::path& path);
-/// Calls take(piece) for the bytes of a regular file, in order.
+/// Calls take(piece) for the bytes of a regular file, in order. A pipe or a device, which would
+/// never end, is refused.
 void read_pieces(const std::filesystem::path& path,
                  const std::function<void(std::string_view)>& take);
 /// Writes a file that is not there yet; never through a link.
