@@ -153,7 +153,7 @@ class Run:
     def time_unit(self):
         return self.units["time"]
 
-    @property
+    @functools.cached_property
     def fields(self):
         """Names of the fields of all frames."""
         frame = self.frames[0]
