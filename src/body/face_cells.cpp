@@ -46,27 +46,15 @@ class Chooser {
 /// Rows of means from rows of points, entries by ascending particle.
 template <int D>
 void take_means(const PointRows<D>& points, FaceCells<D>& cells) {
-  const bool gradients = !points.gradient.empty();
   PointRows<D>& mean = cells.mean;
-  struct Entry {
-    std::array<Real, D + 1> row{};
-    Vec<D> directed = Vec<D>::Zero();
-  };
   for (Index k = 0; k < cells.size(); ++k) {
-    std::map<Index, Entry> sum;
+    std::map<Index, Real> sum;
     for (Offset q = at(cells.begin, k); q < at(cells.begin, k + 1); ++q)
-      for (Offset e = at(points.start, q); e < at(points.start, q + 1); ++e) {
-        auto& [row, directed] = sum[at(points.particle, e)];
-        row[0] += at(cells.share, q) * at(points.value, e);
-        for (int K = 0; gradients && K < D; ++K)
-          at(row, 1 + K) += at(cells.share, q) * at(points.gradient, e * D + K);
-        directed += at(cells.share, q) * at(points.value, e) * at(cells.N, q);
-      }
-    for (const auto& [particle, entry] : sum) {
+      for (Offset e = at(points.start, q); e < at(points.start, q + 1); ++e)
+        sum[at(points.particle, e)] += at(cells.share, q) * at(points.value, e);
+    for (const auto& [particle, value] : sum) {
       mean.particle.push_back(particle);
-      mean.value.push_back(entry.row[0]);
-      for (int K = 0; gradients && K < D; ++K) mean.gradient.push_back(at(entry.row, 1 + K));
-      if (gradients) cells.directed.push_back(entry.directed);
+      mean.value.push_back(value);
     }
     mean.start.push_back(static_cast<Offset>(mean.particle.size()));
   }
@@ -80,7 +68,7 @@ Real FaceCells<D>::total_area() const {
 }
 
 template <int D>
-FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice, bool with_gradients) {
+FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice) {
   const Grid<D>& grid = body.geometry.grid;
   const Chooser<D> chosen(body, choice);
   FaceCells<D> cells;
@@ -91,6 +79,7 @@ FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice, bool with
     for (const auto& part : q.body_facets) {
       const Facet<D>& facet = facet_at(grid, part.cell, part.side);
       if (!chosen(facet, q, part)) continue;
+      cells.parts.push_back({static_cast<Index>(&facet - grid.facets.data()), node});
       for (std::size_t p = part.begin; p < part.end; ++p) points[facet.patch].push_back(p);
     }
     for (const auto& [patch, own] : points) {
@@ -117,9 +106,7 @@ FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice, bool with
   }
   if (cells.cell.empty())
     throw InputError(fmt::format("no facet of the surface of body '{}' is chosen", body.name));
-  take_means(build_point_rows<D>(body.particles, cells.X,
-                                 {.value = true, .gradient = with_gradients}, body.name),
-             cells);
+  take_means(build_point_rows<D>(body.particles, cells.X, {.value = true}, body.name), cells);
   return cells;
 }
 
@@ -142,9 +129,9 @@ std::vector<std::pair<std::string, Index>> face_names(const Geometry<D>& geometr
   return names;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                              \
-  template Real FaceCells<D>::total_area() const;                            \
-  template FaceCells<D> face_cells(const Body<D>&, const FaceChoice&, bool); \
+#define MENISCUS_INSTANTIATE(D)                                        \
+  template Real FaceCells<D>::total_area() const;                      \
+  template FaceCells<D> face_cells(const Body<D>&, const FaceChoice&); \
   template std::vector<std::pair<std::string, Index>> face_names(const Geometry<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

@@ -79,10 +79,12 @@ MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
   MassReport report;
   std::vector<Real> floor(n), excess(n, 0.0), margin(n), near(n, 0.0);
   body.mass.resize(n);
+  body.mass_integral.resize(n);
   Real sum = 0, added = 0;
   for (Index A = 0; A < body.size(); ++A) {
     const Real row_sum = at(density, A) * at(shape_integral, A);
     at(floor, A) = least_mass_share * at(density, A) * body.cells.volume(A);
+    at(body.mass_integral, A) = row_sum;
     at(body.mass, A) = std::max(row_sum, at(floor, A));
     at(excess, A) = at(body.mass, A) - row_sum;
     at(margin, A) = at(body.mass, A) - at(floor, A);

@@ -8,48 +8,9 @@
 
 #include <algorithm>
 
+#include "patch_sums.hpp"
+
 namespace meniscus {
-namespace {
-
-// T is Lanes or Dual<Lanes>.
-template <class T>
-T dot(const std::array<T, 2>& a, const std::array<T, 2>& b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-template <class T>
-T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-template <class T>
-std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-template <class T>
-using Tangent2 = std::array<std::array<T, 2>, 1>;
-template <class T>
-using Tangents3 = std::array<std::array<T, 3>, 2>;
-
-/// m, outward for outward facets.
-template <class T>
-std::array<T, 2> area_normal(const Tangent2<T>& t) {
-  return {t[0][1], -t[0][0]};
-}
-template <class T>
-std::array<T, 3> area_normal(const Tangents3<T>& t) {
-  return cross(t[0], t[1]);
-}
-/// c_k of b . dm = sum_k c_k . dt_k.
-template <class T>
-Tangent2<T> through_tangents(const Tangent2<T>&, const std::array<T, 2>& b) {
-  return {{{-b[1], b[0]}}};
-}
-template <class T>
-Tangents3<T> through_tangents(const Tangents3<T>& t, const std::array<T, 3>& b) {
-  return {cross(t[1], b), cross(b, t[0])};
-}
-
-}  // namespace
 
 template <int D>
 SurfacePatches<D>::SurfacePatches(const Body<D>& body)
@@ -138,52 +99,6 @@ typename SurfacePatches<D>::template Corners<Dual<Lanes>> SurfacePatches<D>::cor
 }
 
 template <int D>
-template <class T>
-T SurfacePatches<D>::group_size(Size size, const Corners<T>& place, T* gradient) const {
-  const T zero(0.0);
-  if (gradient) std::fill_n(gradient, nodes * D, zero);
-
-  T total = zero;
-  for (const PatchFunctions<D>& f : gauss_) {
-    Vector<T> p;
-    std::array<Vector<T>, D - 1> t;
-    p.fill(zero);
-    for (Vector<T>& tangent : t) tangent.fill(zero);
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < D; ++i) {
-        at(p, i) += at(f.L, a) * at(at(place, a), i);
-        for (int k = 0; k < D - 1; ++k) at(at(t, k), i) += at(at(f.dL, k), a) * at(at(place, a), i);
-      }
-    // The size is sum s; ds = by_place . dx + by_normal . dm.
-    const Vector<T> m = area_normal(t);
-    Vector<T> by_place, by_normal;
-    if (size == Size::area) {
-      const T length = sqrt(dot(m, m));
-      total += f.weight * length;
-      for (int i = 0; i < D; ++i) {
-        at(by_place, i) = zero;
-        at(by_normal, i) = f.weight * at(m, i) / length;
-      }
-    } else {
-      total += (f.weight / D) * dot(p, m);
-      for (int i = 0; i < D; ++i) {
-        at(by_place, i) = (f.weight / D) * at(m, i);
-        at(by_normal, i) = (f.weight / D) * at(p, i);
-      }
-    }
-    if (!gradient) continue;
-    const auto c = through_tangents(t, by_normal);
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < D; ++i) {
-        T& g = gradient[a * D + i];
-        g += at(f.L, a) * at(by_place, i);
-        for (int k = 0; k < D - 1; ++k) g += at(at(f.dL, k), a) * at(at(c, k), i);
-      }
-  }
-  return total;
-}
-
-template <int D>
 Real SurfacePatches<D>::sum_of_patches(Index group, const Lanes& size) const {
   Real sum = 0;
   for (int lane = 0; lane < 4 && group * 4 + lane < patches_; ++lane) sum += size[lane];
@@ -217,11 +132,17 @@ Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
 }
 
 template <int D>
-Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
+bool SurfacePatches<D>::move_points(const NodalVector* u) {
   const Division& division = windows_.division();
-  if (!division.has_some()) return 0;
+  if (!division.has_some()) return false;
   parallel_for(division.own_rows(point_count()), [&](Index q) { at(x_, q) = place_of(q, u); });
   if (!division.is_whole()) division.complete_rows(point_count(), x_.data(), sizeof(NodalVector));
+  return true;
+}
+
+template <int D>
+Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
+  if (!move_points(u)) return 0;
   return parallel_sum(group_count(), 0.0, [&](Index g) {
     return sum_of_patches(g,
                           group_size(size, corners(g, x_),
@@ -252,16 +173,23 @@ void SurfacePatches<D>::add_gradient_change(Size size, const NodalVector* u, con
 }
 
 template <int D>
+NodalVector SurfacePatches<D>::gradient_of_point(Index point,
+                                                 const AlignedVector<Lanes>& gradient) const {
+  Lanes sum = Lanes::zero();
+  for (Index s = at(share_begin_, point); s < at(share_begin_, point + 1); ++s) {
+    const Share& share = at(share_, s);
+    for (int i = 0; i < D; ++i)
+      sum.set(i, sum[i] + gradient[share.entry + static_cast<std::size_t>(i)][share.lane]);
+  }
+  return sum;
+}
+
+template <int D>
 void SurfacePatches<D>::add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
                                          std::span<NodalVector> force) {
   windows_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index q = begin; q < end; ++q) {
-      Lanes sum = Lanes::zero();
-      for (Index s = at(share_begin_, q); s < at(share_begin_, q + 1); ++s) {
-        const Share& share = at(share_, s);
-        for (int i = 0; i < D; ++i)
-          sum.set(i, sum[i] + gradient[share.entry + static_cast<std::size_t>(i)][share.lane]);
-      }
+      const Lanes sum = gradient_of_point(q, gradient);
       if (meniscus::sum(sum * sum) != 0) scatter_value(rows_, q, factor * sum, f);
     }
   });
@@ -271,7 +199,8 @@ template <int D>
 std::size_t SurfacePatches<D>::bytes() const {
   return rows_.bytes() + windows_.bytes() + node_.size() * sizeof(node_.front()) +
          X_.size() * sizeof(Vec<D>) + share_begin_.size() * sizeof(Index) +
-         share_.size() * sizeof(Share) + (x_.size() + gradient_.size()) * sizeof(Lanes);
+         share_.size() * sizeof(Share) +
+         (x_.size() + gradient_.size() + volume_gradient_.size()) * sizeof(Lanes);
 }
 
 template class SurfacePatches<2>;

@@ -4,6 +4,8 @@
 
 #include "meniscus/scene/assembly.hpp"
 
+#include <algorithm>
+
 namespace meniscus::body_force_load {
 namespace {
 
@@ -25,7 +27,15 @@ struct BodyForce final : Load<D> {
     require_body(block, bodies, body);
   }
   void build(Assembly<D>& assembly) const override {
-    assembly.add(body_force(assembly.body(body), acceleration), body);
+    const Body<D>& on = assembly.body(body);
+    const bool one_for_all = std::none_of(acceleration.begin(), acceleration.end(),
+                                          [](const Expression& a) { return a.depends_on_place(); });
+    const bool drop =
+        !assembly.viscosity(body).empty() && assembly.tension_form(body) == "balanced";
+    if (drop && one_for_all && on.uniform_density)
+      assembly.add(weight_on_patches(on, acceleration), body);
+    else
+      assembly.add(body_force(on, acceleration), body);
   }
 };
 

@@ -54,14 +54,14 @@ struct Traction final : Load<D> {
   void prepare(BodyPlans<D>& bodies) const override { face.prepare(bodies); }
   void build(Assembly<D>& assembly) const override {
     const Body<D>& body = assembly.body(face.body);
-    FaceCells<D> cells = face.cells(this->place, body, pressure.has_value());
+    FaceCells<D> cells = face.cells(this->place, body);
     assembly.note(fmt::format(
         "traction '{}': on {:.4g} {} of body '{}'", label(), cells.total_area(),
         assembly.units().symbol(D == 3 ? dimension::area : dimension::length), body.name));
     assembly.keep_reference(face.body, "its [[traction]] knows the faces of its shape only");
-    assembly.add(
-        traction(body, label(), std::move(cells), {force, pressure.value_or(Expression(0)), ramp}),
-        label());
+    assembly.add(pressure ? face_pressure(body, label(), std::move(cells), *pressure, ramp)
+                          : traction(body, label(), std::move(cells), force, ramp),
+                 label());
   }
 };
 

@@ -2,6 +2,7 @@
 // Loads per mass from formulas.
 #include "meniscus/physics/body_force.hpp"
 
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/divided.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ template <int D>
 class BodyForce final : public ForceTerm {
  public:
   BodyForce(const Body<D>& body, std::vector<Expression> acceleration)
-      : body_(body), acceleration_(std::move(acceleration)), load_(body.mass.size()) {
+      : body_(body), acceleration_(std::move(acceleration)), load_(body.mass_integral.size()) {
     for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
   }
 
@@ -23,7 +24,13 @@ class BodyForce final : public ForceTerm {
   Report add_force(const Motion& motion, Forces force) override {
     evaluate(motion.time);
     for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += at(load_, A);
-    return {};
+    Report report;
+    const Resultant all = body_.division.sum(body_.size(), Resultant(), [&](Index A) {
+      const Eigen::Vector3d f = spatial(at(load_, A)), X = spatial<D>(at(body_.particles.X(), A));
+      return Resultant(f, cross(X + spatial(at(motion.u, body_.first + A)), f));
+    });
+    report.outside = {all.force, all.moment};
+    return report;
   }
   void add_tangent(const Motion&, const Motion&, Forces) override {}  // the same everywhere
   bool tell_reads(StepReads& reads) override {
@@ -55,7 +62,7 @@ class BodyForce final : public ForceTerm {
       const Eigen::Vector3d X = spatial<D>(body_.origin(A));
       at(load_, A) = Lanes::zero();
       for (int i = 0; i < D; ++i)
-        at(load_, A).set(i, at(body_.mass, A) * at(acceleration_, i)(X, time));
+        at(load_, A).set(i, at(body_.mass_integral, A) * at(acceleration_, i)(X, time));
     }
     evaluated_at_ = time;
   }

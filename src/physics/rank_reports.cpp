@@ -29,8 +29,8 @@ void RankReports::complete(std::span<Report> reports) {
   for (const Report& report : reports) {
     if (!report.known_by) continue;
     items_.add(*report.known_by);
-    numbers_.push_back({report.heat, report.external_power, report.external_work, report.demand,
-                        words_of(report)});
+    numbers_.push_back({report.heat, report.external_power, report.external_work, report.outside,
+                        report.demand, words_of(report)});
   }
   if (numbers_.empty()) return;
   items_.complete(numbers_.data(), sizeof numbers_[0]);
@@ -41,7 +41,8 @@ void RankReports::complete(std::span<Report> reports) {
     const int rank = *report.known_by;
     if (numbers.words == Words::of_error) throw SolveError(ranks().of_rank(rank, report.error));
     const std::optional<Failure> mine = std::move(report.failure);
-    report = {numbers.heat, numbers.external_power, numbers.external_work, numbers.demand};
+    report = {numbers.heat, numbers.external_power, numbers.external_work, numbers.outside,
+              numbers.demand};
     if (numbers.words == Words::of_failure) report.failure = failure_of(rank, mine);
   }
 }

@@ -3,6 +3,7 @@
 #include "meniscus/physics/spring.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
+#include "meniscus/core/dense.hpp"
 
 #include <algorithm>
 
@@ -17,6 +18,9 @@ class Spring final : public ForceTerm {
     for (int i = 0; i < D; ++i) components_.set(i, springs_.components[i]);
     target_.resize(springs_.displacement.size());
     for (Index k = 0; k < size(); ++k) set_vector<D>(target_, k, at(springs_.displacement, k));
+    NodalVectors X(static_cast<std::size_t>(body.size()));
+    for (Index A = 0; A < body.size(); ++A) set_vector<D>(X, A, at(body.particles.X(), A));
+    for (Index k = 0; k < size(); ++k) X_.push_back(value_at(springs_.mean, k, X.data()));
     viscous_ =
         std::any_of(springs_.damping.begin(), springs_.damping.end(), [](Real c) { return c > 0; });
   }
@@ -37,6 +41,8 @@ class Spring final : public ForceTerm {
         report.heat += at(springs_.damping, k) * sum(v * v);
       }
       scatter(k, f, force);
+      const Lanes x = at(X_, k) + value_at(springs_.mean, k, motion.u.data() + body_.first);
+      report.outside += Resultant(spatial(f), cross(spatial(x), spatial(f)));
     }
     return report;
   }
@@ -114,7 +120,7 @@ class Spring final : public ForceTerm {
   const Body<D>& body_;
   std::string label_;
   Springs<D> springs_;
-  NodalVectors target_;
+  NodalVectors target_, X_;
   Lanes components_ = Lanes::zero();
   bool viscous_ = false;
 };

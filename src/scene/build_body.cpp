@@ -148,9 +148,10 @@ RowPrecision row_precision(const BodySettings& settings) {
 /// The body has the mass that it had before it was referred anew, to the last bit if it is that.
 template <int D>
 void keep_mass(Body<D>& body) {
-  const Real factor =
-      body.reference->mass / std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
-  for (Real& mass : body.mass) mass *= factor;
+  for (std::vector<Real>* masses : {&body.mass, &body.mass_integral}) {
+    const Real factor = body.reference->mass / std::accumulate(masses->begin(), masses->end(), 0.0);
+    for (Real& mass : *masses) mass *= factor;
+  }
 }
 
 }  // namespace

@@ -24,10 +24,9 @@ void FaceKeys::check(const Block& block, const BodyPlans<D>& bodies) const {
 }
 
 template <int D>
-FaceCells<D> FaceKeys::cells(const std::string& place, const Body<D>& on,
-                             bool with_gradients) const {
+FaceCells<D> FaceKeys::cells(const std::string& place, const Body<D>& on) const {
   try {
-    return face_cells(on, {face, where}, with_gradients);
+    return face_cells(on, {face, where});
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}; allowed is a formula that is not zero somewhere on it",
                                  place, error.what()));
@@ -36,7 +35,7 @@ FaceCells<D> FaceKeys::cells(const std::string& place, const Body<D>& on,
 
 #define MENISCUS_INSTANTIATE(D)                                           \
   template void FaceKeys::check(const Block&, const BodyPlans<D>&) const; \
-  template FaceCells<D> FaceKeys::cells(const std::string&, const Body<D>&, bool) const;
+  template FaceCells<D> FaceKeys::cells(const std::string&, const Body<D>&) const;
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -129,8 +129,16 @@ void Simulation<D>::begin() {
   if (stepper_->implicit())  // without motion
     std::fill(state_.v.begin(), state_.v.end(), Lanes::zero());
   if (!stepper_->chooses_step()) controller_->begin(state_);
-  audit_.begin(take_ledger(scene_.system, state_));
+  begin_audit();
   stepper_->begin(state_);
+}
+
+template <int D>
+void Simulation<D>::begin_audit() {
+  const Ledger ledger = take_ledger(scene_.system, state_);
+  state_.books.momentum = ledger.momentum;
+  state_.books.angular_momentum = ledger.angular_momentum;
+  audit_.begin(ledger);
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 // Constraints in central differences.
 #include "meniscus/solve/constraints.hpp"
 
+#include "meniscus/core/dense.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/parallel.hpp"
 
@@ -47,6 +48,8 @@ void Constraints::list_rows() {
       row_.push_back({first_place + row.place,
                       Lanes(row.direction[0], row.direction[1], row.direction[2], 0)});
     for (Index k = 0; k < one.rows.places(); ++k) {
+      const Eigen::Vector3d& X = at(one.rows.X, k);
+      X_.push_back(Lanes(X[0], X[1], X[2], 0));
       for (Offset e = at(one.rows.start, k); e < at(one.rows.start, k + 1); ++e) {
         particle_.push_back(at(one.rows.particle, e));
         weight_.push_back(at(one.rows.weight, e));
@@ -234,15 +237,32 @@ void Constraints::begin(State& state) {
   add_transposed(lambda, 1, state.force);
 }
 
+void Constraints::find_places(const State& state, Real back) const {
+  for_each_of(static_cast<Index>(start_.size()) - 1, [&](Index k) {
+    Lanes x = at(X_, k);
+    for (Offset e = at(start_, k); e < at(start_, k + 1); ++e) {
+      const Index A = at(particle_, e);
+      x += at(weight_, e) * (at(state.u, A) - back * at(state.v, A));
+    }
+    at(at_place_, k) = x;
+  });
+}
+
 /// An impulse p per row changes the kinetic energy by p . (C v before + C v after) / 2.
 void Constraints::book(State& state, const std::vector<Real>& impulse,
                        const std::vector<Real>& before, const std::vector<Real>& after) const {
   for (const auto& one : all_) {
     Real work = 0;
-    for (Index r = one->first; r < one->first + one->rows.size(); ++r)
+    Eigen::Vector3d all = Eigen::Vector3d::Zero(), turn = all;
+    for (Index r = one->first; r < one->first + one->rows.size(); ++r) {
       work += at(impulse, r) * (at(before, r) + at(after, r)) / 2;
+      const Eigen::Vector3d of_row = spatial(at(impulse, r) * at(row_, r).direction);
+      all += of_row;
+      turn += cross(spatial(at(at_place_, at(row_, r).place)), of_row);
+    }
     at(state.reactions.work, one->number) += work;
     state.books.external_work += work;
+    state.books.push({all, turn}, 1);
   }
 }
 
@@ -260,6 +280,7 @@ void Constraints::constrain(State& state, Real dt) {
   add_over_mass(a_, dt, state.v);
   add_over_mass(a_, dt * dt, state.u);
   for (std::size_t r = 0; r < a_.size(); ++r) a_[r] = dt * (state.reactions.force[r] / 2 + a_[r]);
+  find_places(state, dt);  // where the step began
   book(state, a_, before_, after_);
 }
 
@@ -275,6 +296,7 @@ void Constraints::react(State& state, Real dt) {
   solve(lambda);
   add_transposed(lambda, 1, state.force);
   for (std::size_t r = 0; r < a_.size(); ++r) a_[r] = dt / 2 * lambda[r];
+  find_places(state, 0);
   book(state, a_, before_, after_);
 }
 
@@ -299,6 +321,7 @@ void Constraints::restore_velocities(State& state) {
   for (std::size_t r = 0; r < a_.size(); ++r) a_[r] = rate_[r] - before_[r];
   solve(a_);
   add_over_mass(a_, 1, state.v);
+  find_places(state, 0);
   book(state, a_, before_, rate_);
 }
 

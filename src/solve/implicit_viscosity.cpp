@@ -141,8 +141,26 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
       at(state.force, A) -= at(Ce_, A);
     }
   });
+  add_missing_drag(state, report.outside);
   add_missing_rigid_motion(state);
   return report;
+}
+
+/// Friction and dampers, which act from outside, have changed with the velocity since the terms
+/// reported. Other viscous forces balance each other.
+template <int D>
+void ImplicitViscosity<D>::add_missing_drag(const State& state, Resultant& outside) const {
+  if (outside.force_size == 0) return;
+  for (const Body<D>& body : system_.bodies) {
+    const Resultant change =
+        sum_over_part(system_.halo, system_.size(), {body.first, body.first + body.size()},
+                      Resultant(), [&](Index A) {
+                        const Eigen::Vector3d f = -spatial(at(Ce_, A));
+                        return Resultant(f, cross(place(body, state, A), f));
+                      });
+    outside.force += change.force;
+    outside.moment += change.moment;
+  }
 }
 
 /// A step that is tried again has a diagonal of its own.

@@ -144,6 +144,7 @@ void Relaxation<D>::damp(State& state, Real dt) {
   const Real omega = change_since(last_u_, last_force_, state).omega;
   const Real factor = std::exp(-2 * damping_ratio * omega * dt);
   state.books.dissipated += (1 - factor * factor) * energy_of_motion(state);
+  state.books.scale_momenta(factor);
   system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(state.v, A) *= factor;
   });

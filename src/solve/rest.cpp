@@ -202,7 +202,8 @@ void stop_motion(const System<D>& system, State& state) {
     return 0.5 * at(system.mass, A) * sum(at(state.v, A) * at(state.v, A));
   });
   std::fill(state.v.begin(), state.v.end(), Lanes::zero());
-  state.books.begin({}, 0);
+  state.books.scale_momenta(0);
+  state.books.heat = state.books.external_power = state.books.load_power = 0;
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                        \

@@ -18,12 +18,27 @@ void Books::begin(const Report& report, Real power_of_loads) {
   heat = report.heat;
   external_power = report.external_power;
   load_power = power_of_loads;
+  outside = report.outside;
+}
+
+void Books::push(const Resultant& by, Real dt) {
+  momentum += dt * by.force;
+  angular_momentum += dt * by.moment;
+  impulses += dt * by.force_size;
+  angular_impulses += dt * by.moment_size;
+}
+
+void Books::scale_momenta(Real factor) {
+  momentum *= factor;
+  angular_momentum *= factor;
 }
 
 void Books::add(const Report& report, Real power_of_loads, Real dt, Real last_share) {
   dissipated += dt * (1 - last_share) * heat;
   external_work += report.external_work + dt / 2 * (external_power + load_power);
+  push(outside, dt / 2);
   begin(report, power_of_loads);
+  push(outside, dt / 2);
   dissipated += dt * last_share * heat;
   external_work += dt / 2 * (external_power + load_power);
 }
@@ -37,6 +52,18 @@ void Books::archive(const Archive& a, int space_dimension) {
   a("heat", heat, power);
   a("external_power", external_power, power);
   a("load_power", load_power, power);
+  const Dimension force = of_sum(dimension::force, space_dimension);
+  const Dimension moment = of_sum(dimension::energy, space_dimension);
+  const Dimension impulse = of_sum(dimension::momentum, space_dimension);
+  const Dimension turn = of_sum(dimension::angular_momentum, space_dimension);
+  a("outside_force", outside.force, force);
+  a("outside_moment", outside.moment, moment);
+  a("outside_force_size", outside.force_size, force);
+  a("outside_moment_size", outside.moment_size, moment);
+  a("momentum", momentum, impulse);
+  a("angular_momentum", angular_momentum, turn);
+  a("impulses", impulses, impulse);
+  a("angular_impulses", angular_impulses, turn);
 }
 
 void State::archive(const Archive& a, int space_dimension) {

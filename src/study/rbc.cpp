@@ -52,7 +52,7 @@ class Push final : public ForceTerm {
     if (time >= ramp_end) return Lanes::zero();
     const Real now = largest * std::pow(std::sin(std::numbers::pi * time / ramp_end), 2);
     const Real r = at(body_.particles.X(), A).head<2>().norm() / width;
-    return {0.0, 0.0, -at(body_.mass, A) * now * std::exp(-r * r / 2), 0.0};
+    return {0.0, 0.0, -at(body_.mass_integral, A) * now * std::exp(-r * r / 2), 0.0};
   }
   const Body<3>& body_;
 };

@@ -4,12 +4,14 @@
 #include "meniscus/body/surface_patches.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/measure/drop_measures.hpp"
+#include "meniscus/physics/body_force.hpp"
 #include "meniscus/physics/coefficient_damping.hpp"
 #include "meniscus/physics/surface_tension.hpp"
 #include "meniscus/scene/simulation.hpp"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -326,6 +328,82 @@ TEST(Simulation, StopsADropWhoseAreaIsImpossible) {
               std::string::npos)
         << e.what();
   }
+}
+
+/// Weight on patches: net force M g, net moment c x M g, gradient of M g . c.
+template <int D>
+void expect_weight_of_centroid(Geometry<D> geometry) {
+  const auto body = test::body_of<D>(std::move(geometry));
+  test::internal_force<D>(*body, "newtonian", fluid("linear"), enclosed);
+  Real mass = 0;
+  for (const Real m : body->mass_integral) mass += m;
+  const Vec<D> g =
+      D == 3 ? Vec<D>(Vec<D>::Constant(0.3) - Vec<D>::Unit(D - 1)) : Vec<D>(Vec<D>::Constant(-0.7));
+  std::vector<Expression> acceleration;
+  for (int i = 0; i < D; ++i) acceleration.emplace_back(g[i]);
+  const auto term = weight_on_patches(*body, acceleration);
+  const NodalVectors u = test::random_field<D>(body->size(), 0.03, 1),
+                     w = test::random_field<D>(body->size(), 0.3, 2), rest = test::zeros(u);
+  const NodalVectors force = test::force_of(*term, u);
+  Eigen::Vector3d net = Eigen::Vector3d::Zero(), moment = net, centre = net;
+  for (Index A = 0; A < body->size(); ++A) {
+    const Eigen::Vector3d f = spatial(at(force, A));
+    net += f;
+    moment += (spatial<D>(at(body->particles.X(), A)) + spatial(at(u, A))).cross(f);
+  }
+  const SurfacePatches<D> patches(*body);
+  for (int i = 0; i < D; ++i) centre[i] = patches.height(Vec<D>::Unit(i), u.data());
+  const Eigen::Vector3d weight = mass * spatial<D>(g);
+  EXPECT_LT((net - weight).norm(), 1e-13 * weight.norm());
+  EXPECT_LT((moment - centre.cross(weight)).norm(), 1e-13 * weight.norm());
+  const Report report = test::report_of(*term, u);
+  EXPECT_LT((report.outside.force - net).norm(), 1e-13 * weight.norm());
+  EXPECT_LT((report.outside.moment - moment).norm(), 1e-13 * weight.norm());
+
+  const auto potential = [&](Real h) {
+    const NodalVectors moved = test::sum_of(u, h, w);
+    return *term->potential({0, moved, rest});
+  };
+  constexpr Real h = 1e-3;
+  const Real slope =
+      (8 * (potential(h) - potential(-h)) - (potential(2 * h) - potential(-2 * h))) / (12 * h);
+  EXPECT_NEAR(slope, -test::dot(force, w), 1e-9);
+  EXPECT_NEAR(term->load_power({0, u, w}), test::dot(force, w), 1e-13);
+  NodalVectors tangent = rest;
+  term->add_tangent({0, u, rest}, {0, w, rest}, tangent);
+  const auto of = [&](Real s) { return test::force_of(*term, test::sum_of(u, s, w)); };
+  const NodalVectors near = test::sum_of(of(h), -1, of(-h)),
+                     far = test::sum_of(of(2 * h), -1, of(-2 * h));
+  NodalVectors change = rest;
+  for (std::size_t A = 0; A < change.size(); ++A) change[A] = (8 * near[A] - far[A]) / (12 * h);
+  EXPECT_LT(test::norm(test::sum_of(tangent, -1, change)), 1e-8 * test::norm(tangent));
+}
+TEST(WeightOnPatches, PullsAtTheCentroid) {
+  expect_weight_of_centroid<2>(test::disk(4, 2));
+  expect_weight_of_centroid<3>(test::ball(2, 1));
+  expect_weight_of_centroid<3>(cylinder<3>());
+}
+
+/// A body force does the work of the density times the displacement, as an independent quadrature
+/// has it, also at corners, where the masses of the step are raised.
+TEST(BodyForce, ActsOnTheIntegralsOfTheDensity) {
+  const auto body = test::body_of<3>(test::brick<3>({4, 4, 4}));
+  test::internal_force<3>(*body, "neo_hookean");
+  const auto term = body_force<3>(*body, {Expression(0), Expression(0), Expression(-1)});
+  const NodalVectors force = test::force_of(*term, NodalVectors(body->mass.size(), Lanes::zero()));
+  const auto points = cell_gauss_points(body->geometry.grid, 6);
+  const auto rows = build_point_rows<3>(body->particles, points.X, {.value = true}, "points");
+  std::vector<Real> integral(body->mass.size(), 0.0);
+  for (Index q = 0; q < rows.size(); ++q)
+    for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
+      at(integral, at(rows.particle, e)) += 1.25 * at(points.weight, q) * at(rows.value, e);
+  Real load = 0, step = 0;
+  for (Index A = 0; A < body->size(); ++A) {
+    load = std::max(load, std::abs(at(force, A)[2] + at(integral, A)));
+    step = std::max(step, std::abs(at(body->mass, A) - at(integral, A)));
+  }
+  EXPECT_LT(load, 0.01);
+  EXPECT_GT(step, 0.1);
 }
 
 }  // namespace

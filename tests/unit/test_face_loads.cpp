@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tractions, springs and viscosity of solids: states at rest to round-off, closed solutions.
+#include "meniscus/approx/row_sums.hpp"
+#include "meniscus/body/particle_values.hpp"
 #include "meniscus/core/error.hpp"
 #include "meniscus/scene/simulation.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -47,37 +50,119 @@ void expect_rest(const std::string& text) {
   EXPECT_LT(most, 1e-12);
 }
 
-/// A pressure that follows the surface all around balances the stress of the block that it has made
-/// smaller: P = mu (F - F^-T) + lambda (J - 1) cof F with F = s R, for any rotation R.
-TEST(Traction, PressureAllAroundBalancesACompressedBlock) {
-  constexpr Real s = 0.9, mu = 1, lambda = 1.5;
-  const Real in_plane = mu * (s - 1 / s) / s + lambda * (s * s - 1);
-  expect_rest<2>(
-      block(2,
-            "initial_displacement = [\"0.9*0.6*x - 0.9*0.8*y - x\", \"0.9*0.8*x + "
-            "0.9*0.6*y - y\"]\n") +
-      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_plane));
-  const Real in_space = mu * (s - 1 / s) / (s * s) + lambda * (s * s * s - 1);
-  expect_rest<3>(
-      block(3,
-            "initial_displacement = [\"0.9*0.6*x - 0.9*0.8*y - x\", \"0.9*0.8*x + "
-            "0.9*0.6*y - y\", \"-0.1*z\"]\n") +
-      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_space));
+/// Pressure that makes a body smaller by the factor s: P = mu (F - F^-T) + lambda (J - 1) cof F
+/// with F = s I.
+Real pressure_of_size(int D, Real s) {
+  constexpr Real mu = 1, lambda = 1.5;
+  return -(mu * (s - 1 / s) / std::pow(s, D - 1) + lambda * (std::pow(s, D) - 1));
 }
 
-/// The same of a disk and a ball, whose face cells are curved.
-TEST(Traction, PressureAllAroundBalancesACompressedBall) {
-  constexpr Real s = 0.9, mu = 1, lambda = 1.5;
-  const Real in_plane = mu * (s - 1 / s) / s + lambda * (s * s - 1);
-  expect_rest<2>(
-      block(2, "initial_displacement = [\"-0.1*x\", \"-0.1*y\"]\n", "end = 100",
-            "shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n") +
-      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_plane));
-  const Real in_space = mu * (s - 1 / s) / (s * s) + lambda * (s * s * s - 1);
-  expect_rest<3>(
-      block(3, "initial_displacement = [\"-0.1*x\", \"-0.1*y\", \"-0.1*z\"]\n", "end = 100",
-            "shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2\n") +
-      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\n", -in_space));
+/// Root mean square of the distances of the places of particles from s X, of a body that newton has
+/// brought to rest under that pressure on its whole surface.
+template <int D>
+Real error_of_size(const std::string& shape) {
+  constexpr Real s = 0.9;
+  Scene<D> scene = test::scene_of<D>(
+      block(D, "", "end = 1\nsolver = \"newton\"\nstep = 0.5", shape) +
+      fmt::format("[[traction]]\nbody = \"block\"\nwhere = 1\npressure = {:.17g}\nramp = [0, 1]\n",
+                  pressure_of_size(D, s)));
+  Simulation<D> simulation(scene);
+  simulation.begin();
+  while (!simulation.finished()) simulation.advance();
+  const Body<D>& body = scene.system.bodies.front();
+  const NodalVectors u = values_at_particles(body, simulation.state().u.data());
+  Real square = 0;
+  for (Index A = 0; A < body.size(); ++A) {
+    const Vec<D>& X = at(body.particles.X(), A);
+    square += (vector_at<D>(u, A) + (1 - s) * X).squaredNorm();
+  }
+  return std::sqrt(square / body.size());
+}
+
+/// A pressure all around makes bodies smaller without bending them.
+TEST(Traction, PressureAllAroundCompressesEvenly) {
+  EXPECT_LT(error_of_size<2>(""), 3e-4);
+  EXPECT_LT(error_of_size<2>("shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n"), 2e-4);
+  EXPECT_LT(error_of_size<2>("shape = \"disk\"\nradius = 1\ncore = 8\nrings = 4\n"), 5e-5);
+  EXPECT_LT(error_of_size<3>("shape = \"ball\"\nradius = 1\ncore = 4\nlayers = 2\n"), 8e-4);
+}
+
+/// Of a deformed body: no net force, no net moment, and the gradient of the enclosed volume.
+template <int D>
+void expect_even_pressure_balanced(const std::string& shape) {
+  Scene<D> scene = test::scene_of<D>(block(D, "", "end = 100", shape) +
+                                     "[[traction]]\nbody = \"block\"\nwhere = 1\npressure = 0.7\n");
+  ForceTerm& term = *scene.system.terms.back();
+  const Body<D>& body = scene.system.bodies.front();
+  const NodalVectors u = test::random_field<D>(body.size(), 0.02, 3),
+                     w = test::random_field<D>(body.size(), 1, 4), rest = test::zeros(u);
+  const NodalVectors force = test::force_of(term, u);
+  const auto balance = test::balance_of(body, u, force);
+  EXPECT_LT(balance.force, 1e-14);
+  EXPECT_LT(balance.torque, 1e-14);
+  EXPECT_EQ(test::report_of(term, u).outside.force_size, 0);
+  const auto potential = [&](Real h) {
+    const NodalVectors moved = test::sum_of(u, h, w);
+    return *term.potential({0, moved, rest});
+  };
+  // The volume is a polynomial of third degree.
+  constexpr Real h = 0.01;
+  const Real slope =
+      (8 * (potential(h) - potential(-h)) - (potential(2 * h) - potential(-2 * h))) / (12 * h);
+  EXPECT_NEAR(slope, -test::dot(force, w), 1e-11);
+  EXPECT_NEAR(term.load_power({0, u, w}), test::dot(force, w), 1e-13);
+}
+TEST(Traction, EvenPressureOnAClosedFaceIsTheGradientOfTheVolume) {
+  expect_even_pressure_balanced<2>("");
+  expect_even_pressure_balanced<3>("");
+  expect_even_pressure_balanced<2>("shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n");
+  expect_even_pressure_balanced<3>("shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2\n");
+}
+
+/// On an open face the net force of an even pressure is that of its edge: - p/2 oint x cross dx
+/// along the quadratic curves through the places of corners and middles of edges; 2D: of the ends.
+TEST(Traction, EvenPressureOnAnOpenFaceIsThatOfItsEdge) {
+  constexpr Real p = 0.7;
+  const std::string load = "[[traction]]\nbody = \"block\"\nface = \"x_max\"\npressure = 0.7\n";
+  {
+    Scene<2> scene = test::scene_of<2>(block(2, "") + load);
+    const Body<2>& body = scene.system.bodies.front();
+    const NodalVectors u = test::random_field<2>(body.size(), 0.02, 3);
+    const std::vector<Vec<2>> X{{0.5, -0.5}, {0.5, 0.5}};
+    const auto rows = build_point_rows<2>(body.particles, X, {.value = true}, "ends");
+    const Lanes chord =
+        Lanes(0, 1, 0, 0) + value_at(rows, 1, u.data()) - value_at(rows, 0, u.data());
+    const Report report = test::report_of(*scene.system.terms.back(), u);
+    EXPECT_NEAR(report.outside.force[0], -p * chord[1], 1e-14);
+    EXPECT_NEAR(report.outside.force[1], p * chord[0], 1e-14);
+  }
+  Scene<3> scene = test::scene_of<3>(block(3, "") + load);
+  const Body<3>& body = scene.system.bodies.front();
+  const NodalVectors u = test::random_field<3>(body.size(), 0.02, 3);
+  constexpr int n = 10;  // half edges of each side
+  std::vector<Vec<3>> X;
+  const Vec<3> corner[] = {{0.5, -0.5, -0.5}, {0.5, 0.5, -0.5}, {0.5, 0.5, 0.5}, {0.5, -0.5, 0.5}};
+  for (int side = 0; side < 4; ++side)
+    for (int k = 0; k < n; ++k)
+      X.push_back(corner[side] + (corner[(side + 1) % 4] - corner[side]) * k / n);
+  const auto rows = build_point_rows<3>(body.particles, X, {.value = true}, "edge");
+  std::vector<Vec<3>> x;
+  for (Index q = 0; q < rows.size(); ++q) {
+    const Lanes moved = value_at(rows, q, u.data());
+    x.push_back(at(X, q) + Vec<3>(moved[0], moved[1], moved[2]));
+  }
+  Vec<3> area = Vec<3>::Zero();
+  for (std::size_t k = 0; k < x.size(); k += 2) {  // over an edge: 4/3, -1/3, 4/3 of half products
+    const Vec<3>&a = x[k], &b = x[k + 1], &c = x[(k + 2) % x.size()];
+    area += 0.5 * (4.0 / 3 * a.cross(b) - 1.0 / 3 * a.cross(c) + 4.0 / 3 * b.cross(c));
+  }
+  const Report report = test::report_of(*scene.system.terms.back(), u);
+  EXPECT_LT((report.outside.force + p * area).norm(), 1e-14);
+  // What acts is what is reported.
+  const NodalVectors force = test::force_of(*scene.system.terms.back(), u);
+  Vec<3> net = Vec<3>::Zero();
+  for (const Lanes& f : force) net += Vec<3>(f[0], f[1], f[2]);
+  EXPECT_LT((net - report.outside.force).norm(), 1e-14);
 }
 
 /// Dead tractions of simple shear on all four sides.

@@ -32,7 +32,9 @@ struct Body {
   /// computed at their points, so that they balance a uniform stress to the last digits; otherwise
   /// at few.
   bool loaded_faces = true;
-  std::vector<Real> mass;
+  std::vector<Real> mass;           ///< of the particles in the time step (lump_mass())
+  std::vector<Real> mass_integral;  ///< INT rho N_A dV: what loads per mass act on; any sign
+  bool uniform_density = true;      ///< in the reference of the scene
   /// Values of the shape functions at the particles: places x(X_A) = sum_B N_B(X_A) d_B. Particle
   /// coefficients d_A are not places. The rows of this rank; those of others are empty.
   PointRows<D> at_particles;
@@ -138,7 +140,8 @@ struct MassReport {
 /// m_A = integral of density N_A, with the floor m_A >= 0.3 density V_A (tiny and negative row sums
 /// at corners are unstable at any step; performance note 3). What the floor adds is taken from
 /// other particles, neighbours first, so that mass, first and second moments of the body stay those
-/// of the row sums, which are those of its volume. `density` per particle.
+/// of the row sums, which are those of its volume. The row sums themselves become the mass
+/// integrals of the body. `density` per particle.
 template <int D>
 MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
                      const std::vector<Real>& shape_integral);

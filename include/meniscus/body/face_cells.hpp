@@ -30,8 +30,12 @@ struct FaceCells {
   std::vector<Offset> begin{0};  ///< points of k: [begin[k], begin[k + 1])
   std::vector<Vec<D>> X, N;      ///< [point] place, outward unit normal
   std::vector<Real> share;       ///< [point] of the area of its face cell; they sum to one
-  PointRows<D> mean;             ///< [k] means of N_A and, if asked for, of their gradients
-  std::vector<Vec<D>> directed;  ///< [entry of mean] means of N_A N, with the gradients
+  PointRows<D> mean;             ///< [k] means of N_A
+  /// A quarter (2D: half) of a facet that is chosen: the one at a node of the grid.
+  struct Part {
+    Index facet, node;
+  };
+  std::vector<Part> parts;
 
   Index size() const { return static_cast<Index>(cell.size()); }
   Real total_area() const;
@@ -39,7 +43,7 @@ struct FaceCells {
 
 /// Throws InputError if nothing is chosen, SolveError where shape functions cannot be determined.
 template <int D>
-FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice, bool with_gradients = false);
+FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice);
 
 /// Names of the faces of a body with the number of facets on each, in the order of their patches.
 template <int D>

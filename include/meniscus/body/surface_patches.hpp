@@ -19,6 +19,7 @@ namespace meniscus {
 /// points per direction give
 ///   area    A = sum w |m|
 ///   volume  V = 1/D sum w x . m        exact, hence without net force and torque
+///   height  h = z . centroid = sum w (z . x) (x . m) / ((D + 1) V)   along a direction z
 /// and the gradients of both with respect to the particles, by the chain rule through
 /// dm . b = dt_1 . (t_2 x b) + dt_2 . (b x t_1). In 2D: circumference and area, per unit depth.
 template <int D>
@@ -44,6 +45,21 @@ class SurfacePatches {
   /// force_A += change with `du` of factor d(size)/du_A at `u`. Nothing is remembered.
   void add_gradient_change(Size size, const NodalVector* u, const NodalVector* du,
                            const Dual<Real>& factor, std::span<NodalVector> force);
+
+  /// Height of the centroid of the enclosed volume along a direction.
+  Real height(const Vec<D>& along, const NodalVector* u) const;
+  /// Height of the centroid, whose gradient is remembered as by follow().
+  Real follow_height(const Vec<D>& along, const NodalVector* u);
+  /// force_A += factor times the change with `du` of the gradient of the height at `u`. Nothing is
+  /// remembered.
+  void add_height_gradient_change(const Vec<D>& along, const NodalVector* u, const NodalVector* du,
+                                  Real factor, std::span<NodalVector> force);
+  /// Change with `du` of what was followed last. All ranks call this; each reads `du` at its own
+  /// points.
+  Real followed_change(const NodalVector* du) const;
+  /// Sum of x cross g over the points, x their places and g what was followed last. All ranks call
+  /// this.
+  Eigen::Vector3d followed_moment() const;
 
   /// force_A += factor sum_a N_A(X_a) g_a, where g_a is the sum over the patches of a point of
   /// `gradient`, which is [group of four patches][a][i], a lane per patch. Points whose g_a is zero
@@ -99,6 +115,19 @@ class SurfacePatches {
   /// T is Lanes or Dual<Lanes>.
   template <class T>
   T group_size(Size size, const Corners<T>& place, T* gradient) const;
+  /// Sum over the Gauss points of four patches of a function of place and area normal m, and its
+  /// gradient as that of group_size(). integrand(weight, x, m, by_x, by_m) returns the share of a
+  /// point and sets the derivatives of that share.
+  template <class T, class F>
+  T group_sum(const Corners<T>& place, T* gradient, F&& integrand) const;
+  /// Integral of the height over the volume, from the first point.
+  template <class T>
+  T group_moment(const Vec<D>& along, const Corners<T>& place, T* gradient) const;
+  /// Moves the points of this rank to `u` and brings those of the others; false on a rank that has
+  /// no rows of the body.
+  bool move_points(const NodalVector* u);
+  /// Gradient [group][a][i] with respect to a point.
+  NodalVector gradient_of_point(Index point, const AlignedVector<Lanes>& gradient) const;
   /// Of the patches of a group: the last may have lanes without one.
   Real sum_of_patches(Index group, const Lanes& size) const;
 
@@ -114,6 +143,7 @@ class SurfacePatches {
   // Of what was followed last: places, and gradient [group][a][i] with a patch per lane.
   NodalVectors x_;
   AlignedVector<Lanes> gradient_;
+  AlignedVector<Lanes> volume_gradient_;  // work space of follow_height(); empty before its first
 };
 
 }  // namespace meniscus

@@ -10,8 +10,16 @@
 
 namespace meniscus {
 
-/// f_A = m_A g(X_A, t) with the lumped masses.
+/// f_A = g(X_A, t) INT rho N_A dV.
 template <int D>
 std::unique_ptr<ForceTerm> body_force(const Body<D>& body, std::vector<Expression> acceleration);
+
+/// Of a drop whose pressure and tension act on patches (`balanced`): the gradient of M g(t) . x_c,
+/// M the mass and x_c the centroid of the volume that the patches enclose, for g that does not
+/// depend on the place and a uniform density. Pressure, tension and weight then act on one surface,
+/// and a drop at rest is as exact as that.
+template <int D>
+std::unique_ptr<ForceTerm> weight_on_patches(const Body<D>& body,
+                                             std::vector<Expression> acceleration);
 
 }  // namespace meniscus

@@ -6,6 +6,7 @@
 #include "meniscus/core/archive.hpp"
 #include "meniscus/physics/chunk_reports.hpp"
 #include "meniscus/physics/constraint.hpp"
+#include "meniscus/physics/resultant.hpp"
 #include "meniscus/physics/unknown.hpp"
 
 #include <algorithm>
@@ -80,6 +81,9 @@ struct Report {
   Real external_power = 0;
   /// Work supplied since the last step that stands, of what may jump in time.
   Real external_work = 0;
+  /// Net force and moment of what acts from outside. A term whose forces are to balance each other
+  /// leaves it zero, so that the audit sees where they do not.
+  Resultant outside = {};
   StepDemand demand = {};
   std::optional<Failure> failure = {};
   /// What is left to be brought to all ranks and added by ForceTerm::add_chunks().
@@ -95,6 +99,7 @@ struct Report {
     heat += other.heat;
     external_power += other.external_power;
     external_work += other.external_work;
+    outside += other.outside;
     demand += other.demand;
     if (!failure) failure = std::move(other.failure);
     return *this;

@@ -132,11 +132,15 @@ class MaterialOf final : public Material<D> {
                                                        const std::vector<Real>& shape_integral,
                                                        const Integration& integration) const {
     std::vector<Real> density, viscosity;
+    Real least = unbounded, most = 0;
     for (Index A = 0; A < body.size(); ++A) {
       const L law = law_.uniform() ? law_.base : law_at(body.origin(A), body.geometry);
       density.push_back(law.density / body.volume_ratio(A));
+      least = std::min(least, law.density);
+      most = std::max(most, law.density);
       if constexpr (FluidLaw<L>) viscosity.push_back(law.viscosity);
     }
+    body.uniform_density = least == most;
     const MassReport mass = lump_mass(body, density, shape_integral);
     std::optional<std::string> note;
     if constexpr (NotingLaw<L>) note = laws.front().note(mean_spacing(body.geometry.grid));

@@ -20,6 +20,7 @@ class RankReports {
   enum class Words : std::uint8_t { none, of_failure, of_error };
   struct Numbers {
     Real heat, external_power, external_work;
+    Resultant outside;
     StepDemand demand;
     Words words;
   };

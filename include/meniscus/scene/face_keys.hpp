@@ -22,8 +22,7 @@ struct FaceKeys {
   }
   /// `place` of the table, to begin messages with. Throws as face_cells().
   template <int D>
-  FaceCells<D> cells(const std::string& place, const Body<D>& body,
-                     bool with_gradients = false) const;
+  FaceCells<D> cells(const std::string& place, const Body<D>& body) const;
   /// "beam-x_min"; "beam" if the face has no name.
   std::string label() const { return face.empty() ? body : body + "-" + face; }
 };

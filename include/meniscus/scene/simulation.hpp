@@ -69,6 +69,8 @@ class Simulation {
 
  private:
   void archive(const Archive& a);
+  /// Energies and momenta are counted from those of the state of now.
+  void begin_audit();
   /// Makes the stepper and its step control. Throws InputError as the stepper does.
   void make_stepper(bool implicit_viscosity);
   void share_steps();

@@ -16,6 +16,11 @@ struct Ledger {
   Real remapped = 0;  ///< that came by new references of bodies
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< about the origin; 2D: z only
+  /// Momenta less those of the books: their change since the start that no impulse from outside
+  /// explains.
+  Eigen::Vector3d momentum_excess = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_momentum_excess = Eigen::Vector3d::Zero();
+  Real impulses = 0, angular_impulses = 0;  ///< sums of the sizes of impulses from outside
 
   /// What does not change in an exact solution: kinetic + stored + dissipated - external work -
   /// remapped.
@@ -30,11 +35,9 @@ Ledger take_ledger(const System<D>& system, const State& state);
 struct Audit {
   Real initial_balance = 0;
   std::map<std::string, Real> initial_stored;
-  Eigen::Vector3d initial_momentum = Eigen::Vector3d::Zero();
-  Eigen::Vector3d initial_angular_momentum = Eigen::Vector3d::Zero();
-  Real energy_scale = 0;            ///< largest energy that was exchanged so far
-  Real momentum_scale = 0;          ///< largest sqrt(2 M E_kin) so far
-  Real angular_momentum_scale = 0;  ///< the same times the radius of gyration
+  Real energy_scale = 0;    ///< largest energy that was exchanged so far
+  Real momentum_scale = 0;  ///< largest sqrt(2 M E_kin) so far, or impulses if they are more
+  Real angular_momentum_scale = 0;  ///< likewise, with sqrt(2 M E_kin) times the radius of gyration
 
   void begin(const Ledger& ledger);
   /// `dimension`: 2 or 3.
@@ -45,7 +48,8 @@ struct Audit {
 
   /// Change of the balance relative to the energy exchanged so far; 0 before anything was.
   Real balance_error(const Ledger& ledger) const;
-  /// Change of the momentum relative to its scale. Meaningful without external forces.
+  /// Size of the change of the momentum that no impulse from outside explains, relative to the
+  /// scale.
   Real momentum_error(const Ledger& ledger) const;
   Real angular_momentum_error(const Ledger& ledger) const;
 };

@@ -84,8 +84,11 @@ class Constraints {
   void gather(std::span<const NodalVector> w, std::vector<Real>& Cw) const;
   template <bool over_mass>
   void scatter(const std::vector<Real>& lambda, Real factor, std::span<NodalVector> w) const;
+  /// Of impulses at the places x in at_place_: work, momentum and angular momentum.
   void book(State& state, const std::vector<Real>& impulse, const std::vector<Real>& before,
             const std::vector<Real>& after) const;
+  /// Fills at_place_ with the mean places of u - back v.
+  void find_places(const State& state, Real back) const;
   /// g' and g'' at a time: by differences over h, forward ones at the beginning.
   void rates(Real time, Real h, bool begins);
 
@@ -98,6 +101,7 @@ class Constraints {
   std::vector<Offset> start_{0};  // of the places of all
   std::vector<Index> particle_;
   std::vector<Real> weight_;
+  NodalVectors X_;  // [place] mean reference place
   // By particle: its places and weights.
   std::vector<Index> touched_;
   std::vector<Offset> touched_start_{0};

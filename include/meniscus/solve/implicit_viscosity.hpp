@@ -43,6 +43,7 @@ class ImplicitViscosity {
   Real precondition(Real dt);
   /// q = - C p; returns p . (M p - dt/2 q).
   Real apply(const State& state, Real dt);
+  void add_missing_drag(const State& state, Resultant& outside) const;
   void add_missing_rigid_motion(State& state) const;
   /// That takes the residual of a body away.
   struct RigidVelocity {

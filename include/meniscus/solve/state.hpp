@@ -9,19 +9,33 @@ namespace meniscus {
 /// Throws FileError if what an archive has read is out of its range: the file was changed.
 void require_saved(bool in_range, const Archive& a, std::string_view name);
 
-/// Heat and work so far, and the powers of now that go on into the next step.
+/// Heat, work and impulses so far, and the powers and forces of now that go on into the next step.
+///
+/// A step is kick, drift, kick, so that its impulses are dt/2 f at its beginning and at its end,
+/// and its angular impulses dt/2 x cross f with the places x there: exact, whatever the step.
 struct Books {
   Real dissipated = 0;                      ///< heat so far
   Real external_work = 0;                   ///< work of the outside world so far
   Real remapped = 0;                        ///< energy that came by new references so far
   Real heat = 0;                            ///< power turned into heat
   Real external_power = 0, load_power = 0;  ///< of Report and ForceTerm
+  Resultant outside;                        ///< of Report
+
+  /// Sum of m v and of m x cross v, as they were at the beginning, with all impulses from outside
+  /// since then.
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();
+  Real impulses = 0, angular_impulses = 0;  ///< sums of the sizes of these impulses
 
   /// The powers at the beginning of a run.
   void begin(const Report& report, Real load_power);
   /// A step of dt ended with these powers; `last_share` of its heat came at the power of now, the
   /// rest at that of before.
   void add(const Report& report, Real load_power, Real dt, Real last_share = 0.5);
+  /// The outside acted with this force and moment for a time of dt.
+  void push(const Resultant& by, Real dt);
+  /// All velocities were multiplied by a factor, as by damping.
+  void scale_momenta(Real factor);
   void archive(const Archive& a, int dimension);
 };
 

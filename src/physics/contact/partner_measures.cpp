@@ -27,28 +27,6 @@ Eigen::Vector3d vector_of(const Lanes* field, int lane) {
   return spatial<D>(x);
 }
 
-/// Torque about the origin, -sum (x cross T + V cross S): turning the body turns x and V. In the
-/// plane its third component.
-template <int D>
-Eigen::Vector3d net_torque(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
-  for (std::size_t g = 0; g < layers.size(); ++g)
-    torque += sum_of_visited(pair, layers, g, Eigen::Vector3d(Eigen::Vector3d::Zero()),
-                             [&, &layer = layers[g]](Index c) {
-                               Eigen::Vector3d of_cluster = Eigen::Vector3d::Zero();
-                               for (int lane = 0; lane < Lanes::width; ++lane) {
-                                 of_cluster -= cross(vector_of<D>(layer.places.x_of(c), lane),
-                                                     vector_of<D>(&at(layer.T, c * D), lane));
-                                 if (pair.form == ContactForm::energy)
-                                   of_cluster -=
-                                       cross(vector_of<D>(layer.places.weight_of(c), lane),
-                                             vector_of<D>(&at(layer.S, c * D), lane));
-                               }
-                               return of_cluster;
-                             });
-  return torque;
-}
-
 template <int D>
 Real wetted_area(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
                  const Motion& motion) {
@@ -81,15 +59,25 @@ Real energy_of(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
 }
 
 template <int D>
-Vec<D> net_force(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
-  Vec<D> force = Vec<D>::Zero();
-  for (std::size_t g = 0; g < layers.size(); ++g)
-    force -= sum_of_visited(pair, layers, g, Vec<D>(Vec<D>::Zero()), [&](Index c) {
-      Vec<D> T;
-      for (int i = 0; i < D; ++i) T[i] = sum(at(layers[g].T, c * D + i));
-      return T;
+Resultant resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+  for (std::size_t g = 0; g < layers.size(); ++g) {
+    const Resultant of_grade = sum_of_visited(pair, layers, g, Resultant(), [&](Index c) {
+      Resultant of_cluster;
+      for (int i = 0; i < D; ++i) of_cluster.force[i] = sum(at(layers[g].T, c * D + i));
+      for (int lane = 0; lane < Lanes::width; ++lane) {
+        of_cluster.moment += cross(vector_of<D>(layers[g].places.x_of(c), lane),
+                                   vector_of<D>(&at(layers[g].T, c * D), lane));
+        if (pair.form == ContactForm::energy)
+          of_cluster.moment += cross(vector_of<D>(layers[g].places.weight_of(c), lane),
+                                     vector_of<D>(&at(layers[g].S, c * D), lane));
+      }
+      return of_cluster;
     });
-  return force;
+    force -= of_grade.force;
+    moment -= of_grade.moment;
+  }
+  return {force, moment};
 }
 
 template <int D>
@@ -119,19 +107,19 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
   for (int i = 0; i < D; ++i)
     all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the body",
                    looked_at([i, &pair](const PartnerLayers<D>& layers) {
-                     return net_force(pair, layers)[i];
+                     return resultant(pair, layers).force[i];
                    })});
   for (int i = D == 3 ? 0 : 2; i < 3; ++i)
     all.push_back({std::string("torque_") + "xyz"[i], dimension::energy,
                    "torque on the body about the origin",
                    looked_at([i, &pair](const PartnerLayers<D>& layers) {
-                     return net_torque(pair, layers)[i];
+                     return resultant(pair, layers).moment[i];
                    })});
   if (wets) {
     for (int i = 0; i < D; ++i)
       all.push_back({std::string("reaction_") + "xyz"[i], dimension::force, "force on the partner",
                      looked_at([i, &pair](const PartnerLayers<D>& layers) {
-                       return -net_force(pair, layers)[i];
+                       return -resultant(pair, layers).force[i];
                      })});
     all.push_back(
         {"wetted_area", D == 3 ? dimension::area : dimension::length,
@@ -158,7 +146,7 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
   template PartnerLayers<D> layers_at(const BodyAndPartner<D>&, const WallEffects<D>&,             \
                                       const Motion&);                                              \
   template Real energy_of(const BodyAndPartner<D>&, const PartnerLayers<D>&);                      \
-  template Vec<D> net_force(const BodyAndPartner<D>&, const PartnerLayers<D>&);                    \
+  template Resultant resultant(const BodyAndPartner<D>&, const PartnerLayers<D>&);                 \
   template Real gap_at(const BodyAndPartner<D>&, const Motion&);                                   \
   template std::vector<MeasureSource> measures_of(const BodyAndPartner<D>&, const WallEffects<D>&, \
                                                   bool);

@@ -16,9 +16,10 @@ PartnerLayers<D> layers_at(const BodyAndPartner<D>& pair, const WallEffects<D>& 
 template <int D>
 Real energy_of(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers);
 
-/// On the body.
+/// Of the forces on the body. Its moment is -sum (x cross T + V cross S): turning the body turns x
+/// and V.
 template <int D>
-Vec<D> net_force(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers);
+Resultant resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers);
 
 /// Least distance of all points of the finest grade.
 template <int D>

@@ -76,9 +76,9 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     const Vec<D> way = pair_.shift(after) - pair_.shift(before);
     if (way.isZero(0)) return ForceTerm::work_between(before, after);
     const auto force_at = [&](const Motion& motion) {
-      return net_force(pair_, layers_at(pair_, effects_, motion));
+      return resultant(pair_, layers_at(pair_, effects_, motion)).force;
     };
-    return 0.5 * (force_at(before) + force_at(after)).dot(way);
+    return 0.5 * (force_at(before) + force_at(after)).dot(spatial<D>(way));
   }
   Real steady_after() const override { return steady_after_; }
 
@@ -87,7 +87,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     if (pair_.ranks.is_absent()) return;
     effects_.commit(motion.time, sums_);
     if (pair_.partner.motion.moves())
-      work_.commit(spatial<D>(pair_.shift(motion)), spatial<D>(net_force(pair_, layers_)));
+      work_.commit(spatial<D>(pair_.shift(motion)), resultant_.force);
   }
   void archive(const Archive& a) override {
     effects_.archive(a);
@@ -191,6 +191,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   // Of a force.
   PartnerLayers<D> layers_;
   WallSums sums_;
+  Resultant resultant_;
   bool touches_ = false;  // some point is within the range
   PartnerWork work_;
   ReachList<D> list_;
@@ -202,12 +203,13 @@ class RigidContact final : public ForceTerm, public ContactVisits {
 template <int D>
 Report RigidContact<D>::report(const Motion& motion, const NearestPoint& nearest) {
   Report report;
+  report.outside = resultant_ = resultant(pair_, layers_);
   Vec<D> velocity = Vec<D>::Zero();
   if (pair_.partner.motion.moves()) {
     velocity = pair_.velocity(motion);
     const Eigen::Vector3d shift = spatial<D>(pair_.shift(motion));
     work_.begin(shift);
-    report.external_work = work_.since_step(shift, spatial<D>(net_force(pair_, layers_)));
+    report.external_work = work_.since_step(shift, resultant_.force);
   }
   report.external_work += effects_.work(sums_);
   report.heat = sums_.heat;
