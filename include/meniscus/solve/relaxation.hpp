@@ -19,8 +19,8 @@ namespace meniscus {
 /// at least) of the slowest mode that moves: they are at rest when both measures below are small at
 /// the end of two in a row. Neither momentum nor angular momentum comes into bodies that have none,
 /// so that they do not drift. A body that drifts all the same is judged by its shape, and a fluid
-/// by the change of its axes in the time of its clock, by its power and by the forces that would set
-/// it in motion (FluidRest): nothing brings its particles back.
+/// by the change of its axes in the time of its clock, by its power and by the forces that would
+/// set it in motion (FluidRest): nothing brings its particles back.
 template <int D>
 class Relaxation final : public Stepper<D> {
  public:
