@@ -5,10 +5,8 @@
 #include "meniscus/body/surface_points.hpp"
 #include "meniscus/core/box.hpp"
 #include "meniscus/core/error.hpp"
-#include "meniscus/core/regular_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <cmath>
 #include <cstring>
@@ -339,33 +337,6 @@ TEST(MeshFiles, OneThatIsMissingIsTheOnlyProblem) {
     EXPECT_NE(said.find("scene:3:8: body.file: cannot read 'nowhere.msh'"), said.npos) << said;
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 0) << said;
   }
-}
-
-/// A FIFO without a writer would block for ever, /dev/zero has no end.
-TEST(MeshFiles, WhatIsNoRegularFileIsRefused) {
-  const std::filesystem::path folder =
-      std::filesystem::path(test::written("real.msh", square_22)).parent_path();
-  ASSERT_EQ(mkfifo((folder / "fifo.msh").c_str(), 0600), 0);
-  std::filesystem::create_symlink("/dev/zero", folder / "zero.vtu");
-  std::filesystem::create_directory(folder / "folder.msh");
-  std::filesystem::create_symlink("real.msh", folder / "link.msh");
-  const auto problem = [&](const char* name) {
-    try {
-      text_of_mesh_file((folder / name).string());
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
-  };
-  for (const auto& [name, kind] : {std::pair("fifo.msh", "it is a FIFO; expected is a file"),
-                                   {"zero.vtu", "it is a device; expected is a file"},
-                                   {"folder.msh", "it is a directory; expected is a file"}})
-    EXPECT_NE(problem(name).find(fmt::format("{}': {}", name, kind)), std::string::npos)
-        << problem(name);
-  EXPECT_EQ(problem("link.msh"), "none");
-  EXPECT_EQ(content_of_regular_file((folder / "real.msh").string(), square_22.size()), square_22);
-  EXPECT_THROW(content_of_regular_file((folder / "real.msh").string(), square_22.size() - 1),
-               FileError);
 }
 
 /// Files cut off or changed anywhere are refused or read, and nothing else.
