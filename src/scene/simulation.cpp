@@ -326,6 +326,10 @@ void Simulation<D>::archive(const Archive& a) {
     stepper_->archive(stepper, state_);
   if (a.is_reading()) audit_.begin(take_ledger(scene_.system, state_));  // its kinds of energy
   audit_.archive(a.in("audit"), D);
+  // They begin as these and change by impulses from outside only.
+  a.in("audit")("initial_momentum", state_.books.momentum, of_sum(dimension::momentum, D));
+  a.in("audit")("initial_angular_momentum", state_.books.angular_momentum,
+                of_sum(dimension::angular_momentum, D));
   archive_terms(a);
   archive_references(a.in("references"));
 }

@@ -52,18 +52,22 @@ void Books::archive(const Archive& a, int space_dimension) {
   a("heat", heat, power);
   a("external_power", external_power, power);
   a("load_power", load_power, power);
+  // Where nothing acts from outside nothing is kept of it.
+  const bool acts = impulses + angular_impulses + outside.force_size + outside.moment_size > 0;
+  if (a.is_reading()) {
+    outside = {};
+    impulses = angular_impulses = 0;
+  }
+  if (!(a.is_reading() ? a.has("outside") : acts)) return;
+  const Archive part = a.in("outside");
   const Dimension force = of_sum(dimension::force, space_dimension);
   const Dimension moment = of_sum(dimension::energy, space_dimension);
-  const Dimension impulse = of_sum(dimension::momentum, space_dimension);
-  const Dimension turn = of_sum(dimension::angular_momentum, space_dimension);
-  a("outside_force", outside.force, force);
-  a("outside_moment", outside.moment, moment);
-  a("outside_force_size", outside.force_size, force);
-  a("outside_moment_size", outside.moment_size, moment);
-  a("momentum", momentum, impulse);
-  a("angular_momentum", angular_momentum, turn);
-  a("impulses", impulses, impulse);
-  a("angular_impulses", angular_impulses, turn);
+  part("force", outside.force, force);
+  part("moment", outside.moment, moment);
+  part("force_size", outside.force_size, force);
+  part("moment_size", outside.moment_size, moment);
+  part("impulses", impulses, of_sum(dimension::momentum, space_dimension));
+  part("angular_impulses", angular_impulses, of_sum(dimension::angular_momentum, space_dimension));
 }
 
 void State::archive(const Archive& a, int space_dimension) {

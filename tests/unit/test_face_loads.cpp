@@ -165,6 +165,23 @@ TEST(Traction, EvenPressureOnAnOpenFaceIsThatOfItsEdge) {
   EXPECT_LT((net - report.outside.force).norm(), 1e-14);
 }
 
+/// A column without Poisson's ratio sinks by rho g H^2/(2 E) under its weight, and the load does
+/// the work rho^2 g^2 A H^3/(3 E) on the way. Its corners have masses that are raised.
+TEST(BodyForce, AColumnSinksUnderItsWeight) {
+  Scene<2> scene = test::scene_of<2>(
+      "dimension = 2\n[time]\nsolver = \"newton\"\nend = 1\nstep = 1\n[[body]]\nname = "
+      "\"column\"\nshape = \"rectangle\"\nsize = [0.5, 1]\nspacing = 0.1\nmaterial = { type = "
+      "\"st_venant_kirchhoff\", density = 1, mu = 5000, lambda = 0 }\n[[held]]\nbody = "
+      "\"column\"\nface = \"y_min\"\n[[body_force]]\nbody = \"column\"\nacceleration = [0, -1]\n");
+  Simulation<2> simulation(scene);
+  simulation.begin();
+  while (!simulation.finished()) simulation.advance();
+  const State& state = simulation.state();
+  const Real sag = 1 - measured(scene, state, "column.extent_y");
+  EXPECT_NEAR(sag, 5e-5, 1e-3 * 5e-5);
+  EXPECT_NEAR(state.books.external_work, 0.5 / 3e4, 1e-3 * 0.5 / 3e4);
+}
+
 /// Dead tractions of simple shear on all four sides.
 TEST(Traction, DeadForcesBalanceAUniformStress) {
   // F = [1.2 0.3; 0 1], J = 1.2, cof F = [1 0; -0.3 1.2]
