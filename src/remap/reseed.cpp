@@ -84,6 +84,7 @@ class MovingNodes {
     at(held_, node) = 1;
     at(edge_, node) = 1;
   }
+  bool is_on_edge(Index node) const { return at(edge_, node) != 0; }
   const Foot<D>& foot(Index node) const { return at(foot_, node); }
 
   /// Nodes that are not held move to the middle of their facets, which count by area and, eight
@@ -299,6 +300,9 @@ std::vector<Vec<D>> fitted_patches(const Grid<D>& grid, const PresentSurface<D>&
       }
     }
     points = solved<D>(mass, right);
+    for (const auto& [key, number] : numbered.number)
+      if (key.size() == 1 && nodes.is_on_edge(key.front()))
+        at(points, number) = at(nodes.x(), key.front());
   }
   return points;
 }
