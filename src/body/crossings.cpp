@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace meniscus {
 
@@ -18,6 +17,7 @@ struct CrossingSearch<D>::Plane {
   Vec<D> normal;  // of length one
   Real size;      // length; of a triangle, the leg of the half square of its area
 
+  Plane() = default;
   explicit Plane(const std::array<Vec<D>, D>& corners) : corner(corners) {
     if constexpr (D == 3) {
       normal = cross(Vec<3>(corner[1] - corner[0]), Vec<3>(corner[2] - corner[0]));
@@ -50,6 +50,7 @@ template <int D>
 struct CrossingSearch<D>::Places {
   const std::vector<Vec<D>>& x;
   std::vector<Box<D>> simplex, node;  // boxes
+  std::vector<Plane> plane;           // [simplex]
 
   std::array<Vec<D>, D> corners(const Simplex& of) const {
     std::array<Vec<D>, D> corner;
@@ -59,15 +60,13 @@ struct CrossingSearch<D>::Places {
 };
 
 template <int D>
-CrossingSearch<D>::CrossingSearch(std::vector<Simplex> simplices, std::vector<Index> group,
+CrossingSearch<D>::CrossingSearch(std::vector<Simplex> simplices, const std::vector<Index>& group,
                                   const std::vector<Vec<D>>& X)
-    : simplices_(std::move(simplices)), group_(std::move(group)), order_(simplices_.size()) {
-  std::iota(order_.begin(), order_.end(), 0);
-  std::vector<Vec<D>> centre;
-  for (const Simplex& simplex : simplices_) {
-    Vec<D> sum = Vec<D>::Zero();
-    for (const Index corner : simplex) sum += at(X, corner) / D;
-    centre.push_back(sum);
+    : simplices_(std::move(simplices)) {
+  std::vector<Item> items;
+  for (std::size_t k = 0; k < simplices_.size(); ++k) {
+    items.push_back({simplices_[k], group[k], Vec<D>::Zero()});
+    for (const Index corner : simplices_[k]) items.back().centre += at(X, corner) / D;
   }
   if constexpr (D == 2) {
     beside_.assign(X.size(), {-1, -1});
@@ -76,46 +75,48 @@ CrossingSearch<D>::CrossingSearch(std::vector<Simplex> simplices, std::vector<In
       at(beside_, segment[1])[0] = segment[0];
     }
   }
-  if (!order_.empty()) divide(0, static_cast<Index>(order_.size()), centre);
+  if (!items.empty()) divide(items, 0, static_cast<Index>(items.size()));
+  for (std::size_t k = 0; k < items.size(); ++k) simplices_[k] = items[k].simplex;
 }
 
 /// Surfaces are kept apart, since they may move apart; a surface is halved along its longest side.
 template <int D>
-void CrossingSearch<D>::divide(Index begin, Index end, const std::vector<Vec<D>>& centre) {
+void CrossingSearch<D>::divide(std::vector<Item>& items, Index begin, Index end) {
   constexpr Index few = 4;
   const auto number = static_cast<Index>(nodes_.size());
   nodes_.push_back({begin, end});
-  const auto first = order_.begin() + begin, last = order_.begin() + end;
-  const auto group_of = [this](Index simplex) { return at(group_, simplex); };
+  const auto first = items.begin() + begin, last = items.begin() + end;
   auto middle = first;
-  if (group_of(*first) != group_of(*(last - 1))) {
-    middle = std::find_if(first, last,
-                          [&](Index simplex) { return group_of(simplex) != group_of(*first); });
+  if (first->group != (last - 1)->group) {
+    middle = std::find_if(first, last, [&](const Item& i) { return i.group != first->group; });
   } else if (end - begin > few) {
     Box<D> box;
-    for (auto i = first; i != last; ++i) box.include(at(centre, *i));
+    for (auto i = first; i != last; ++i) box.include(i->centre);
     Eigen::Index longest = 0;
     box.extent().maxCoeff(&longest);
     middle = first + (end - begin) / 2;
-    std::nth_element(first, middle, last, [&](Index a, Index b) {
-      const Real x = at(centre, a)[longest], y = at(centre, b)[longest];
-      return x < y || (x == y && a < b);
+    std::nth_element(first, middle, last, [&](const Item& a, const Item& b) {
+      const Real x = a.centre[longest], y = b.centre[longest];
+      return x < y || (x == y && a.simplex < b.simplex);
     });
   } else {
     leaves_.push_back(number);
     return;
   }
-  const auto cut = static_cast<Index>(middle - order_.begin());
-  divide(begin, cut, centre);
+  const auto cut = static_cast<Index>(middle - items.begin());
+  divide(items, begin, cut);
   at(nodes_, number).right = static_cast<Index>(nodes_.size());
-  divide(cut, end, centre);
+  divide(items, cut, end);
 }
 
 template <int D>
 std::optional<Crossing<D>> CrossingSearch<D>::deepest(const std::vector<Vec<D>>& x) const {
-  Places places{x, std::vector<Box<D>>(simplices_.size()), std::vector<Box<D>>(nodes_.size())};
+  Places places{x, std::vector<Box<D>>(simplices_.size()), std::vector<Box<D>>(nodes_.size()),
+                std::vector<Plane>(simplices_.size())};
   parallel_for(static_cast<Index>(simplices_.size()), [&](Index k) {
-    at(places.simplex, k) = box_around<D>(places.corners(at(simplices_, k)));
+    const auto corners = places.corners(at(simplices_, k));
+    at(places.simplex, k) = box_around<D>(corners);
+    at(places.plane, k) = Plane(corners);
   });
   for (auto n = static_cast<Index>(nodes_.size()) - 1; n >= 0; --n) {
     const Node& node = at(nodes_, n);
@@ -124,7 +125,7 @@ std::optional<Crossing<D>> CrossingSearch<D>::deepest(const std::vector<Vec<D>>&
       box.include(at(places.node, n + 1));
       box.include(at(places.node, node.right));
     } else {
-      for (Index k = node.begin; k < node.end; ++k) box.include(at(places.simplex, at(order_, k)));
+      for (Index k = node.begin; k < node.end; ++k) box.include(at(places.simplex, k));
     }
   }
   std::vector<Crossing<D>> found(leaves_.size());
@@ -141,8 +142,9 @@ std::optional<Crossing<D>> CrossingSearch<D>::deepest(const std::vector<Vec<D>>&
 /// `deepest`. In 2D, a place on the line of `second` but for a little is as far from it as the next
 /// place along the curve on that side: curves may cross near their corners.
 template <int D>
-void CrossingSearch<D>::pierce(Index first, Index second, const Plane& plane, const Places& places,
+void CrossingSearch<D>::pierce(Index first, Index second, const Places& places,
                                Crossing<D>& deepest) const {
+  const Plane& plane = at(places.plane, second);
   const Simplex &corners = at(simplices_, first), &other = at(simplices_, second);
   const auto is_common = [&](Index place) {
     return std::find(other.begin(), other.end(), place) != other.end();
@@ -175,36 +177,36 @@ template <int D>
 void CrossingSearch<D>::find_in(const Node& leaf, const Places& places,
                                 Crossing<D>& deepest) const {
   const Box<D>& near = at(places.node, static_cast<Index>(&leaf - nodes_.data()));
-  std::vector<Index> candidates, open{0};
+  thread_local std::vector<Index> candidates, open;
+  candidates.clear();
+  open.assign(1, 0);
   while (!open.empty()) {
     const Index n = open.back();
     open.pop_back();
     const Node& node = at(nodes_, n);
     if (node.end <= leaf.begin || !near.meets(at(places.node, n))) continue;
     if (node.right < 0) {
-      for (Index k = node.begin; k < node.end; ++k)
-        if (near.meets(at(places.simplex, at(order_, k)))) candidates.push_back(k);
+      for (Index k = node.begin; k < node.end; ++k) candidates.push_back(k);
     } else {
       open.push_back(node.right);
       open.push_back(n + 1);
     }
   }
-  for (Index k = leaf.begin; k < leaf.end; ++k) {
-    const Index first = at(order_, k);
-    const Plane plane(places.corners(at(simplices_, first)));
-    for (const Index l : candidates) {
-      const Index second = at(order_, l);
-      if (l <= k || !at(places.simplex, first).meets(at(places.simplex, second))) continue;
-      const Plane other(places.corners(at(simplices_, second)));
-      pierce(first, second, other, places, deepest);
-      pierce(second, first, plane, places, deepest);
+  for (Index first = leaf.begin; first < leaf.end; ++first)
+    for (const Index second : candidates) {
+      if (second <= first || !at(places.simplex, first).meets(at(places.simplex, second))) continue;
+      int common = 0;
+      for (const Index a : at(simplices_, first))
+        for (const Index b : at(simplices_, second)) common += a == b;
+      if (common >= D - 1) continue;  // every edge of one meets the other
+      pierce(first, second, places, deepest);
+      pierce(second, first, places, deepest);
     }
-  }
 }
 
 template <int D>
 std::size_t CrossingSearch<D>::bytes() const {
-  return simplices_.size() * (sizeof(Simplex) + 2 * sizeof(Index)) + nodes_.size() * sizeof(Node) +
+  return simplices_.size() * sizeof(Simplex) + nodes_.size() * sizeof(Node) +
          (leaves_.size() + 2 * beside_.size()) * sizeof(Index);
 }
 

@@ -99,7 +99,7 @@ SurfaceCheck<D>::SurfaceCheck(std::vector<const Body<D>*> bodies,
   face_begin_.push_back(static_cast<Index>(group.size()));
   for (std::size_t f = 0; f + 1 < face_begin_.size(); ++f)
     volume_.push_back(enclosed_volume<D>(simplices, face_begin_[f], face_begin_[f + 1], X));
-  search_.emplace(std::move(simplices), std::move(group), X);
+  search_.emplace(std::move(simplices), group, X);
 }
 
 template <int D>

@@ -151,6 +151,7 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
   ++state_.epoch;
   last_step_ = before.last_step_;
   possible_at_ = before.possible_at_;
+  surfaces_seen_ = before.surfaces_seen_;
   start(scene_.system, state_);
   state_.books.remapped += take_ledger(scene_.system, state_).balance() -
                            take_ledger(before.scene_.system, before.state_).balance();
@@ -253,18 +254,32 @@ void Simulation<D>::or_give_up(const Work& work) {
 
 template <int D>
 void Simulation<D>::refuse_impossible_states() {
-  for (const StateCheck& check : scene_.checks)
-    if (const auto found = check(state_.motion())) {
-      StepFailure failure = scene_.system.located(*found, state_.motion());
-      if (possible_at_)
-        failure.cause += fmt::format("; this was not so at t = {:.9g}", *possible_at_);
-      failure.step = state_.step;
-      failure.time = state_.time;
-      failure.dt = last_step_;
-      throw StepError(failure);
-    }
+  for (const StateCheck& check : scene_.checks) refuse(check);
   refuse_impossible_surfaces();
+  if (!surfaces_due()) return;
+  refuse(scene_.surfaces);
+  surfaces_seen_ = state_.step;
   possible_at_ = state_.time;
+}
+
+/// Looks at all surfaces are so far apart that they take less than a hundredth of the steps.
+template <int D>
+bool Simulation<D>::surfaces_due() const {
+  constexpr std::int64_t between = 50;
+  return surfaces_seen_ < 0 || finished() || stepper_->implicit() ||
+         state_.step >= surfaces_seen_ + between;
+}
+
+template <int D>
+void Simulation<D>::refuse(const StateCheck& check) const {
+  const auto found = check(state_.motion());
+  if (!found) return;
+  StepFailure failure = scene_.system.located(*found, state_.motion());
+  if (possible_at_) failure.cause += fmt::format("; this was not so at t = {:.9g}", *possible_at_);
+  failure.step = state_.step;
+  failure.time = state_.time;
+  failure.dt = last_step_;
+  throw StepError(failure);
 }
 
 /// A surface smaller than that of the ball (2D: disk) of the same volume cannot be: its quadrature

@@ -111,7 +111,7 @@ void watch_surfaces(Scene<D>& scene, bool begins) {
     if (failure) throw InputError(scene.system.located(*failure, motion).text());
     note_missing_contacts(scene);
   }
-  scene.checks.push_back([surfaces](const Motion& motion) { return surfaces->find(motion); });
+  scene.surfaces = [surfaces](const Motion& motion) { return surfaces->find(motion); };
 }
 
 template void watch_surfaces(Scene<2>&, bool);

@@ -202,7 +202,7 @@ TABLE = [
      contact(["small", "large"], "points = 2", sigma0=0.001), 3, "unfelt"),
     ("through a surface", head(0.4) + disk("left", (-1.2, 0), 1, (1.5, 0), core=6) +
      disk("right", (1.2, 0.3), 1, (-1.5, 0), core=6) + contact(["left", "right"], "points = 2", sigma0=0.05), 4,
-     "their [[contact]] does not hold them"),
+     "particle"),
     ("thrown at a wall", head(0.6) + disk("ball", (0, 1.5), 1, (0, -3)) +
      contact(["ball"], epsilon=30, partner=PLATE.format(0, "")), 0, ""),
     ("behind a wall", head(1) + TARGET + contact(["large"], partner=PLATE.format(0, "")), 3, "surfaces overlap"),

@@ -13,7 +13,8 @@ namespace meniscus {
 /// Two simplices that go through each other.
 template <int D>
 struct Crossing {
-  Index first = -1, second = -1;  ///< numbers of the simplices; an edge of `first` pierces `second`
+  /// Numbers of CrossingSearch::simplices(): an edge of the first pierces the second.
+  Index first = -1, second = -1;
   Vec<D> place = Vec<D>::Zero();  ///< where the edge pierces
   /// The least of the distances of the ends of the edge from the plane of `second`, and of `place`
   /// from its rim: so far they overlap.
@@ -31,7 +32,7 @@ class CrossingSearch {
 
   /// `simplices` [number][corner] are numbers of places, `group` [number] of the surface that a
   /// simplex belongs to, ascending; `X` are the places by which the tree is made.
-  CrossingSearch(std::vector<Simplex> simplices, std::vector<Index> group,
+  CrossingSearch(std::vector<Simplex> simplices, const std::vector<Index>& group,
                  const std::vector<Vec<D>>& X);
 
   /// Flat simplices deviate from the curved surface that they stand for by h/(8R) of their size h,
@@ -44,25 +45,29 @@ class CrossingSearch {
   /// that touch do not cross. Places that are not finite cross nothing.
   std::optional<Crossing<D>> deepest(const std::vector<Vec<D>>& x) const;
 
+  /// In an order of the tree; groups stay together and in their order.
   const std::vector<Simplex>& simplices() const { return simplices_; }
   std::size_t bytes() const;
 
  private:
-  /// The simplices order_[begin] ... order_[end - 1]; the left child is the next node.
+  /// The simplices `begin` to `end` - 1; the left child is the next node.
   struct Node {
     Index begin, end;
     Index right = -1;  // child; -1: a leaf
   };
-  struct Places;
-  void divide(Index begin, Index end, const std::vector<Vec<D>>& centre);
+  struct Item {
+    Simplex simplex;
+    Index group;
+    Vec<D> centre;
+  };
   struct Plane;
+  struct Places;
 
-  void pierce(Index first, Index second, const Plane& plane, const Places& places,
-              Crossing<D>& deepest) const;
+  void divide(std::vector<Item>& items, Index begin, Index end);
+  void pierce(Index first, Index second, const Places& places, Crossing<D>& deepest) const;
   void find_in(const Node& leaf, const Places& places, Crossing<D>& deepest) const;
 
   std::vector<Simplex> simplices_;
-  std::vector<Index> group_, order_;
   std::vector<Node> nodes_;
   std::vector<Index> leaves_;                 // numbers of nodes
   std::vector<std::array<Index, 2>> beside_;  // [place] 2D: the places before and after it

@@ -97,6 +97,7 @@ struct Scene : RunSettings {
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
   std::vector<ContactBetween> contacts;
+  StateCheck surfaces;  ///< of all bodies: takes up to half a step, and is looked at more seldom
 
   /// How a sum over bodies is written.
   std::string symbol_of_sum(Dimension d) const { return units.symbol(of_sum(d, D)); }

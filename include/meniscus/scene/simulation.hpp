@@ -82,6 +82,8 @@ class Simulation {
   void step(Real dt);
   void step_or_halve(Real dt);
   void refuse_impossible_states();
+  void refuse(const StateCheck& check) const;
+  bool surfaces_due() const;
   void refuse_impossible_surfaces() const;
   [[noreturn]] void give_up(StepFailure failure);
   /// Failures of `work` get their step and time; of one that is interrupted nothing is left.
@@ -100,6 +102,7 @@ class Simulation {
   Audit audit_;
   Real last_step_ = 0;
   std::optional<Real> possible_at_;  // time of the last state that passed all checks
+  std::int64_t surfaces_seen_ = -1;  // step of the last look at all surfaces; -1: none
 };
 
 }  // namespace meniscus
