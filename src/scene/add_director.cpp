@@ -4,6 +4,7 @@
 
 #include "meniscus/physics/director.hpp"
 #include "meniscus/physics/frank_energy.hpp"
+#include "meniscus/remap/nodal_values.hpp"
 
 #include <fmt/core.h>
 
@@ -20,8 +21,12 @@ void add_director(const Body<D>& body, NematicBody<D> nematic, Scene<D>& scene,
     at(capacity, body.first + A) = nematic.numbers.rotational_viscosity * at(nematic.volume, A);
   const std::size_t number =
       system.add_field({"director", D, dimension::none, Evolution::carried, 1}, capacity);
-  NodalVectors& x = system.fields[number].x;
-  for (Index A = 0; A < body.size(); ++A) set_vector<D>(x, body.first + A, at(nematic.director, A));
+  // The scene gives values of the director at the particles. Coefficients equal to them would make
+  // a director that is smoother than the formula.
+  NodalVectors values(static_cast<std::size_t>(body.size()), Lanes::zero());
+  for (Index A = 0; A < body.size(); ++A) set_vector<D>(values, A, at(nematic.director, A));
+  const NodalVectors coefficients = coefficients_of(body, values, values);
+  std::copy(coefficients.begin(), coefficients.end(), system.fields[number].x.begin() + body.first);
 
   auto director = std::make_unique<Director<D>>(body, number, nematic);
   for (FieldSource& field : director->fields()) assembly.field(body.name, std::move(field));

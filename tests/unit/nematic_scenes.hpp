@@ -141,8 +141,8 @@ NodalVectors coefficients_of(const Body<D>& body, const NodalVectors& values) {
 /// velocity at the surface and of the twist of the director at half the radius, from t = 0.1 on;
 /// where there should be no velocity at all, it is in parts of the twist. The greatest error of the
 /// twist is also given in parts of its greatest value, as it falls to a seventieth in a ball. The
-/// values of the twist at the start are those of the series; with its coefficients instead, as a
-/// scene's formula is read, the velocity of the ball is 4.5 % off at t = 0.1 (cells note 6).
+/// values of the twist at the start are those of the series, as those of a scene's formulas are;
+/// with its coefficients instead, the velocity of the ball is 4.5 % off at t = 0.1 (cells note 6).
 struct Torsion {
   Real velocity = 0, twist = 0, twist_of_greatest = 0, angular_momentum = 0, balance = 0;
 };
