@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape of a body from the places of its surface particles, and the error against an exact
-// solution.
+// Shape of a body from its surface, and the error against an exact solution.
 #include "meniscus/measure/shape_measures.hpp"
 
 #include "meniscus/approx/row_sums.hpp"
@@ -13,38 +12,29 @@
 #include <cmath>
 #include <memory>
 
+#include "surface_extents.hpp"
+
 namespace meniscus {
 namespace {
 
-/// Places x(X_B) of the surface particles at the motion asked for last.
+/// Extents of the surface, and modes of the places x(X_B) of its particles.
 template <int D>
-class SurfacePlaces {
+class SurfaceShape {
  public:
-  explicit SurfacePlaces(const Body<D>& body)
-      : body_(body), particles_(boundary_nodes(body.geometry.grid)) {
+  explicit SurfaceShape(const Body<D>& body)
+      : body_(body), extents_(body), particles_(boundary_nodes(body.geometry.grid)) {
     Box<D> box;
     for (const Index A : particles_) box.include(at(body.particles.X(), A));
     box.extent().maxCoeff(&axis_);
   }
 
-  std::vector<Vec<D>> places(const Motion& motion) const {
-    const NodalVector* u = motion.u.data() + body_.first;
-    const NodalVectors displacement = values_at_particles(body_, u, particles_);
-    std::vector<Vec<D>> x;
-    for (std::size_t k = 0; k < particles_.size(); ++k) {
-      x.push_back(at(body_.particles.X(), particles_[k]));
-      for (int i = 0; i < D; ++i) x[k][i] += displacement[k][i];
-    }
-    return x;
-  }
-
-  Vec<D> extents(const Motion& motion) const { return box_around<D>(places(motion)).extent(); }
+  Vec<D> extents(const Motion& motion) { return extents_.box(motion).extent(); }
 
   /// Least-squares fit r = r0 + r2 P2 + r4 P4 of the distance from the centre (2D: cos 2 phi,
   /// cos 4 phi) about the long reference axis: (r0, r2, r4).
-  Eigen::Vector3d legendre_fit(const Motion& motion) const {
+  Eigen::Vector3d legendre_fit(const Motion& motion) {
     const std::vector<Vec<D>> x = places(motion);
-    const Vec<D> centre = box_around<D>(x).centre();
+    const Vec<D> centre = extents_.box(motion).centre();
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Vec<D>& p : x) {
@@ -59,7 +49,19 @@ class SurfacePlaces {
   }
 
  private:
+  std::vector<Vec<D>> places(const Motion& motion) const {
+    const NodalVector* u = motion.u.data() + body_.first;
+    const NodalVectors displacement = values_at_particles(body_, u, particles_);
+    std::vector<Vec<D>> x;
+    for (std::size_t k = 0; k < particles_.size(); ++k) {
+      x.push_back(at(body_.particles.X(), particles_[k]));
+      for (int i = 0; i < D; ++i) x[k][i] += displacement[k][i];
+    }
+    return x;
+  }
+
   const Body<D>& body_;
+  SurfaceExtents<D> extents_;
   std::vector<Index> particles_;
   Eigen::Index axis_ = 0;
 };
@@ -68,7 +70,7 @@ class SurfacePlaces {
 
 template <int D>
 std::vector<MeasureSource> shape_measures(const Body<D>& body, const UnitSystem&) {
-  const auto surface = std::make_shared<const SurfacePlaces<D>>(body);
+  const auto surface = std::make_shared<SurfaceShape<D>>(body);
   std::vector<MeasureSource> measures;
   for (int i = 0; i < D; ++i)
     measures.push_back({std::string("extent_") + "xyz"[i], dimension::length,
