@@ -8,6 +8,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace meniscus {
@@ -67,6 +69,27 @@ std::vector<Real> volume_changes(const Scene<D>& scene, std::size_t body, const 
       return J;
     }
   throw InputError("body '" + scene.system.bodies[body].name + "' has no field J");
+}
+
+/// A remap is an interpolation: one that changes the energy by more than this share of what was
+/// exchanged so far has changed the motion.
+constexpr Real bearable_change = 0.01;
+
+/// Warns of a remap that changes the energy of a run.
+template <int D>
+std::optional<std::string> doubt_of_remap(const Simulation<D>& after, const Ledger& before,
+                                          Real exchanged) {
+  const Real changed = after.state().books.remapped - before.remapped;
+  if (!(exchanged > 0) || std::abs(changed) <= bearable_change * exchanged) return std::nullopt;
+  const Scene<D>& scene = after.scene();
+  const Real kinetic = take_ledger(scene.system, after.state()).kinetic;
+  return fmt::format(
+      "changes the energy by {:.3g} {}, which is {:.3g} % of the {:.3g} exchanged so far (kinetic "
+      "energy {:.3g} before, {:.3g} after): what follows is another motion; remap earlier (a lower "
+      "condition of [[remap]]), use finer particles, or keep the particles with nodes = "
+      "\"particles\"",
+      changed, scene.symbol_of_sum(dimension::energy), 100 * std::abs(changed) / exchanged,
+      exchanged, before.kinetic, kinetic);
 }
 
 }  // namespace
@@ -156,17 +179,21 @@ typename Epochs<D>::Remapped Epochs<D>::advance() {
     const State& state = simulation_->state();
     const std::size_t b = number_of(scene_->system, planned.body);
     const std::string what = fmt::format("t = {:.6g}: body '{}'", now, planned.body);
-    const Real booked = state.books.remapped;
+    const Ledger ledger = take_ledger(scene_->system, state);
+    Audit audit = simulation_->audit();
+    audit.follow(scene_->system, state, ledger);
     const auto refuse = [&](const std::exception& cause) {
       result.warnings.push_back(fmt::format("{} keeps its reference: {}", what, cause.what()));
     };
     try {
       new_epoch({{planned.body, seeds(planned, b)}});
       result.new_epoch = true;
-      result.notes.push_back(
-          fmt::format("{} is referred anew, epoch {}: the energy changes by {:.3g} {}", what,
-                      simulation_->state().epoch, simulation_->state().books.remapped - booked,
-                      scene_->symbol_of_sum(dimension::energy)));
+      result.notes.push_back(fmt::format(
+          "{} is referred anew, epoch {}: the energy changes by {:.3g} {}", what,
+          simulation_->state().epoch, simulation_->state().books.remapped - ledger.remapped,
+          scene_->symbol_of_sum(dimension::energy)));
+      if (const auto doubt = doubt_of_remap(*simulation_, ledger, audit.energy_scale))
+        result.warnings.push_back(fmt::format("{}: the remap {}", what, *doubt));
     } catch (const InputError& cause) {
       refuse(cause);
     } catch (const SolveError& cause) {

@@ -381,6 +381,38 @@ TEST(Remap, ABodyFarFromTheOriginIsReferredAnew) {
   EXPECT_EQ(epochs.simulation().state().epoch, 1);
 }
 
+/// A remap in the middle of a motion that is large or small for its particles: what it changes of
+/// the energy, in parts of what was exchanged until then, and the warnings of the run.
+struct Remapping {
+  Real share;
+  std::vector<std::string> warnings;
+};
+Remapping remapping(int n, const std::string& displacement, const std::string& nodes) {
+  Epochs<2> epochs =
+      begun<2>(drop<2>(n, displacement, "'0.05*x', '-0.05*y'",
+                       "[[remap]]\nbody = \"drop\"\nat = [0.1]\nnodes = \"" + nodes + "\"\n"));
+  for (;;) {
+    const auto remapped = epochs.advance();
+    const Real changed = epochs.simulation().state().books.remapped;
+    if (!remapped.notes.empty()) {
+      epochs.simulation().audit_now();
+      return {std::abs(changed) / epochs.simulation().audit().energy_scale, remapped.warnings};
+    }
+  }
+}
+
+TEST(Remap, WarnsWhereItChangesTheEnergy) {
+  const Remapping coarse = remapping(4, "'0.5*x', '-0.33*y'", "particles"),
+                  fine = remapping(8, "'0.1*x', '-0.09*y'", "even");
+  EXPECT_GT(coarse.share, 0.05);
+  ASSERT_EQ(coarse.warnings.size(), 1u);
+  for (const char* word : {"body 'drop': the remap changes the energy by", " % of the ",
+                           "exchanged so far (kinetic energy ", "condition of [[remap]]"})
+    EXPECT_NE(coarse.warnings.front().find(word), std::string::npos) << coarse.warnings.front();
+  EXPECT_LT(fine.share, 0.008);
+  EXPECT_TRUE(fine.warnings.empty());
+}
+
 TEST(Remap, IsOnlyForDropsOfFluid) {
   for (const auto& [change, words] : std::vector<std::pair<std::string, std::string>>{
            {"shape = \"ball\"\nradius = 1\ncore = 4\nmaterial = { type = \"neo_hookean\", density "
