@@ -42,6 +42,9 @@ template <class T>
 
 struct LiquidCrystalElastomer {
   static constexpr std::string_view type_name = "liquid_crystal_elastomer";
+  static constexpr std::string_view meaning =
+      "W = mu/2 (tr(l0 F^T l^-1 F) - 3) - mu ln J + K/2 (J - 1)^2, l0 = I + (s - 1) h0 h0 and l = "
+      "I + (s - 1) h h of the step length s; with the stress -zeta h h of an activity";
   static constexpr bool viscous = false;
   enum class Follows { normal, convected };
   enum class VolumeEnergy { quadratic, logarithmic };
@@ -65,6 +68,9 @@ struct LiquidCrystalElastomer {
 
   /// Of a wave along the director or across it; up to (s - 1) mu more between them.
   Real p_wave_modulus() const { return bulk_modulus + 2 * mu; }
+
+  /// Of the isotropic part, mu and K + 2/3 mu.
+  Real bulk_over_shear() const { return bulk_modulus / mu + 2.0 / 3.0; }
 
   Real steady_after() const {
     return std::max(step_length_end > 0 ? step_length_ramp.end : 0,

@@ -12,6 +12,10 @@ namespace {
 
 struct MooneyRivlin {
   static constexpr std::string_view type_name = "mooney_rivlin";
+  static constexpr std::string_view meaning =
+      "W = c1 (I1 - 3 I3^(1/3)) + c2 (I2 - 3 I3^(2/3)) + lambda/2 (ln I3)^2, I3 = J^2; not the "
+      "form "
+      "with I1 J^(-2/3)";
   static constexpr bool viscous = false;
   static constexpr OfModuli of_moduli[] = {{"c1", "{E}/(4*(1 + {nu})) - {c2}"},
                                            {"lambda", "{E}/(12*(1 - 2*{nu}))"}};

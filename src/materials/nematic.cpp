@@ -124,14 +124,17 @@ std::unique_ptr<Material<D>> make(const Block& block) {
 std::vector<KeyText> nematic_keys() {
   std::vector<KeyText> keys = laws().at(fluid_law).keys();
   for (KeyText& key : key_texts(NematicKeys::rows())) keys.push_back(std::move(key));
-  keys.push_back({director_key, "numbers or formulas", "1", "", "along the last axis",
-                  "director h at the start, one number or formula of the reference position per "
-                  "dimension; of length 1, but 0 in the core of a defect"});
+  keys.push_back(
+      {director_key, "numbers or formulas", "1", "", "along the last axis",
+       "director h at the start at each particle, one number or formula of the reference "
+       "position per dimension; of length 1, but 0 in the core of a defect"});
   return keys;
 }
 
 const bool registered = register_entry(LawEntry{
-    "nematic", true, nematic_keys,
+    "nematic", true,
+    "a newtonian liquid with a director h; K/2 |grad h|^2 + K/(4 eps^2) (|h|^2 - 1)^2 per volume",
+    nematic_keys,
     "density = 1.25\nbulk_modulus = 2.5\nviscosity = 0.5\nfrank_constant = 0.2\n"
     "core_length = 0.6\nrotational_viscosity = 0.5\n",
     [] { return laws().at(fluid_law).typical(); },

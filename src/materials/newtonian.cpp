@@ -17,6 +17,9 @@ constexpr std::array<const char*, 3> equation_names{"linear", "log", "tait"};
 
 struct Newtonian {
   static constexpr std::string_view type_name = "newtonian";
+  static constexpr std::string_view meaning =
+      "a viscous liquid; U(J) = kappa/2 (J - 1)^2 (linear), kappa (J ln J - J + 1) (log), or that "
+      "of Tait, and the Cauchy stress 2 mu d + (bulk_viscosity - 2/3 mu) tr(d) I";
   static constexpr bool viscous = true;
   Real density, bulk_modulus, exponent, viscosity, bulk_viscosity;
   EquationOfState equation_of_state = EquationOfState::log;

@@ -12,6 +12,8 @@ namespace {
 
 struct StVenantKirchhoff : LameSolid {
   static constexpr std::string_view type_name = "st_venant_kirchhoff";
+  static constexpr std::string_view meaning =
+      "W = lambda/2 tr^2 E + mu E:E, E = (F^T F - I)/2; for small strains, unstable in compression";
   static Rows<StVenantKirchhoff> rows() { return rows_of<StVenantKirchhoff>(); }
 
   /// W = lambda/2 tr^2 E + mu E:E.

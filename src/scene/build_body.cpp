@@ -108,6 +108,32 @@ void report_masses(const std::string& name, const MassReport& mass, Assembly<D>&
                     name, mass.added));
 }
 
+/// Coarse nearly incompressible solids are too stiff (locking): every nodal cell keeps its volume,
+/// which leaves too few ways to deform. Numbers are those of two cells across a beam and of three
+/// across a closed wall.
+template <int D>
+void warn_of_locking(const Body<D>& body, const typename Material<D>::Built& built,
+                     const BodySettings& settings, Assembly<D>& assembly) {
+  constexpr Real locks_from = 10;
+  if (built.bulk_over_shear < locks_from) return;
+  const std::string hollow =
+      is_hollow(body.geometry) ? ", and the pressure of a sealed cavity up to 70 % too high" : "";
+  const std::string remedy =
+      built.cell_average ? "compare with a run of more cells across the thinnest part"
+      : settings.integration == "q_scni"
+          ? "set volumetric = \"cell_average\" and compare with a run of more cells across the "
+            "thinnest part"
+          : "use integration = \"q_scni\" with volumetric = \"cell_average\" and compare with a "
+            "run "
+            "of more cells across the thinnest part";
+  assembly.warn(fmt::format(
+      "body '{}': bulk / shear modulus is {:.3g}: from {:g} on coarse solids are too stiff "
+      "(locking), by up to {} % where a beam has two cells across, by multiples where a closed "
+      "wall has "
+      "three{}; {}",
+      body.name, built.bulk_over_shear, locks_from, built.cell_average ? 5 : 25, hollow, remedy));
+}
+
 template <int D>
 void report(const Body<D>& body, const typename Material<D>::Built& built,
             const BodySettings& settings, Assembly<D>& assembly) {
@@ -134,6 +160,7 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
   report_masses(name, built.mass, assembly);
   if (built.warning) assembly.warn(fmt::format("body '{}': {}", name, *built.warning));
   if (built.note) assembly.note(fmt::format("body '{}': {}", name, *built.note));
+  warn_of_locking(body, built, settings, assembly);
   if (settings.integration == "nodal")
     assembly.warn(
         fmt::format("body '{}': integration = \"nodal\" has modes without energy and is unstable; "

@@ -278,8 +278,8 @@ std::vector<KeyTable> key_tables() {
   add_shapes(tables, shapes<3>(), "3D");
   add_shapes(tables, shapes<2>(), "2D");
   for (const auto& [name, law] : laws())
-    tables.push_back({"[body.material] type = \"" + name + "\"", law.keys(),
-                      "[body.material]\ntype = \"" + name + "\"\n" + law.example});
+    tables.push_back({fmt::format("[body.material] type = \"{}\": {}", name, law.meaning),
+                      law.keys(), "[body.material]\ntype = \"" + name + "\"\n" + law.example});
   tables.push_back({"[body.material] of any solid", key_texts(SolidSettings::rows())});
   for (const auto& [name, load] : loads<3>()) add(tables, load.keys());
   for (const auto& [name, load] : loads<2>())

@@ -63,12 +63,14 @@ struct WithoutViscosity : L {
 };
 
 /// A material law. `density` is the mass per reference volume; p_wave_modulus() is rho c^2 of a
-/// plane compression wave at the reference state; rows() are its numbers in the scene.
+/// plane compression wave at the reference state; rows() are its numbers in the scene, and
+/// `meaning` its energy W in the words of `meniscus keys`.
 template <class L>
 concept Law = std::is_trivially_copyable_v<L> && ElasticIn<L, Real> && ElasticIn<L, Lanes> &&
               ElasticIn<L, Complex> &&(ViscousLaw<L> || !L::viscous) &&
               requires(const L law) {
   { L::type_name } -> std::convertible_to<std::string_view>;
+  { L::meaning } -> std::convertible_to<std::string_view>;
   { law.density } -> std::convertible_to<Real>;
   { L::rows() } -> std::same_as<Rows<L>>;
   { law.p_wave_modulus() } -> std::same_as<Real>;

@@ -48,6 +48,7 @@ struct LawEntry {
   static constexpr const char* kind = "material law";
   std::string_view name;
   bool viscous;
+  std::string_view meaning;  ///< its energy W per reference volume, in words and formula
   std::vector<KeyText> (*keys)();
   std::string example;                            ///< keys and typical numbers, lines of a scene
   std::unique_ptr<AnyLaw> (*typical)();           ///< with the typical numbers of its rows
@@ -158,8 +159,9 @@ std::vector<KeyText> key_texts_of() {
 
 template <Law L>
 LawEntry make_entry() {
-  LawEntry entry{L::type_name, L::viscous, key_texts_of<L>,        typical_text<L>(),
-                 nullptr,      nullptr,    read_with_supply<2, L>, read_with_supply<3, L>};
+  LawEntry entry{L::type_name,          L::viscous, L::meaning, key_texts_of<L>,
+                 typical_text<L>(),     nullptr,    nullptr,    read_with_supply<2, L>,
+                 read_with_supply<3, L>};
   entry.typical = []() -> std::unique_ptr<AnyLaw> {
     return std::make_unique<AnyLawOf<L>>(typical_law<L>());
   };

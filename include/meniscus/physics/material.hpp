@@ -45,6 +45,7 @@ class Material {
     std::optional<std::string> warning;  ///< for the log, of what is doubtful
     std::vector<Real> viscosity;  ///< shear viscosity of a fluid, per particle; empty: a solid
     Real bulk_modulus;            ///< the least of the body
+    Real bulk_over_shear = 0;     ///< the largest of a solid; 0: not known
     std::unique_ptr<NematicBody<D>> nematic = {};  ///< null: no director
   };
   /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
@@ -120,6 +121,12 @@ class MaterialOf final : public Material<D> {
            });
   }
 
+  static Real largest_bulk_over_shear(const std::vector<L>& laws) {
+    Real largest = 0;
+    for (const L& law : laws) largest = std::max(largest, bulk_over_shear(law).value_or(0));
+    return largest;
+  }
+
   static Real least_bulk_modulus(const std::vector<L>& laws) {
     Real least = unbounded;
     for (const L& law : laws) least = std::min(least, meniscus::bulk_modulus(law));
@@ -154,7 +161,8 @@ class MaterialOf final : public Material<D> {
             std::move(note),
             std::move(warning),
             std::move(viscosity),
-            least_bulk_modulus(laws)};
+            least_bulk_modulus(laws),
+            largest_bulk_over_shear(laws)};
   }
 
   /// A nodal cell has one law: the director of its centre.
