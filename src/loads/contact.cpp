@@ -2,6 +2,7 @@
 // Adhesive contact of two bodies, or of a body with a rigid partner.
 #include "meniscus/core/error.hpp"
 #include "meniscus/core/optional_rows.hpp"
+#include "meniscus/core/text.hpp"
 #include "meniscus/measure/ridge_measures.hpp"
 #include "meniscus/measure/wetting_measures.hpp"
 #include "meniscus/physics/contact_numbers.hpp"
@@ -176,6 +177,8 @@ struct Contact final : Load<D>, Keys {
   void measure_soft_wetting(Assembly<D>& assembly) const;
   bool soft_wetting(const Assembly<D>& assembly) const;
   std::string folding(const Assembly<D>& assembly) const;
+  std::string overlap(const Assembly<D>& assembly) const;
+  BeginningContact<D> beginning(const ForceTerm& term, const Assembly<D>& assembly) const;
 
   mutable std::optional<PlaneContact> flat_;
 };
@@ -280,8 +283,27 @@ ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
   choice.up = up;
   if (const std::string why = soft_wetting(assembly) ? folding(assembly) : ""; !why.empty())
     choice.fold = ": " + why;
+  choice.overlap = overlap(assembly);
   choice.wets = assembly.surface_energy(bodies[0]).has_value();
   return choice;
+}
+
+/// Which keys decide what the contact holds, for a run in which surfaces come through it.
+template <int D>
+std::string Contact<D>::overlap(const Assembly<D>& assembly) const {
+  std::vector<std::string> lengths, strengths;
+  for (const KeyText& key : interactions<D>().at(interaction).keys()) {
+    if (key.key == "range" || key.key == "offset" || key.key == "sigma0")
+      lengths.push_back(key.key);
+    if (key.key == "adhesion" || key.key == "epsilon") strengths.push_back(key.key);
+  }
+  return fmt::format(
+      ": what presses harder than {:.3g} {} comes through this contact; a shorter {} or more {} "
+      "hold more, slower or softer bodies press less, and more points than {} per facet or finer "
+      "cells see a corner earlier",
+      model->greatest_pressure(partner.has_value(), surfaces(assembly)),
+      assembly.units().symbol(dimension::pressure), joined(lengths, ", "), joined(strengths, ", "),
+      points_chosen(assembly));
 }
 
 template <int D>
@@ -383,11 +405,7 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   assembly.note(
       fmt::format("contact '{}': {:.1f} MB", name, 1e-6 * static_cast<Real>(term.bytes())));
   report_points(assembly);
-  advise<D>(
-      {name, bodies,
-       partner ? partner_motion().velocity(0, 1e-6 * assembly.end_time()) : Vec<D>(Vec<D>::Zero()),
-       flat.adhesion, model->greatest_pressure(partner.has_value(), surfaces(assembly))},
-      assembly);
+  if (assembly.initial()) advise(beginning(term, assembly), assembly);
   if (const auto doubt = model->doubt(surfaces(assembly)))
     assembly.warn(fmt::format("contact '{}': {}", name, *doubt));
   if (form == "dissertation")
@@ -402,6 +420,21 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
         name));
 }
 
+template <int D>
+BeginningContact<D> Contact<D>::beginning(const ForceTerm& term,
+                                          const Assembly<D>& assembly) const {
+  BeginningContact<D> beginning{name, bodies, flat(assembly),
+                                model->greatest_pressure(partner.has_value(), surfaces(assembly))};
+  const Motion motion = assembly.initial()->motion();
+  for (const MeasureSource& measure : term.measures())
+    if (measure.name == "gap") beginning.gap = measure.compute(motion);
+  if (partner) {
+    beginning.partner = partner->shape;
+    beginning.partner_motion = partner_motion();
+  }
+  return beginning;
+}
+
 /// What a drop does on a wall.
 template <int D>
 void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
@@ -413,6 +446,9 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
                     return shape->foot(x - moved.displacement(t)).distance;
                   },
                   flat(assembly).peak_gap}});
+  if (partner->shape->flat() && assembly.initial() && assembly.is_dynamic())
+    advise_on_spreading(name, bodies[0], flat(assembly).adhesion,
+                        assembly.measure_named(name + ".wetted_area"), assembly);
   if (!partner->shape->round()) return;
   for (MeasureSource& source : cap_measures<D>(
            assembly.body(bodies[0]),

@@ -143,6 +143,23 @@ Real Assembly<D>::find_shear_modulus(const std::string& name) const {
   return 2 * (energy - strain_energy(0)) / (small * small * volume);
 }
 
+/// The power of the loads on a uniform velocity along an axis is their force along it.
+template <int D>
+Vec<D> Assembly<D>::acceleration(const std::string& name) const {
+  const Body<D>& moved = body(name);
+  const State& begin = scene_.initial;
+  Real mass = 0;
+  for (const Real m : moved.mass) mass += m;
+  Vec<D> force = Vec<D>::Zero();
+  for (int i = 0; i < D; ++i) {
+    NodalVectors v(begin.v.size(), Lanes::zero());
+    for (NodalVector& own : moved.part(std::span(v))) own.set(i, 1);
+    for (const auto& term : scene_.system.terms)
+      force[i] += term->load_power({begin.time, begin.u, v, begin.fields});
+  }
+  return force / mass;
+}
+
 template <int D>
 std::optional<Real> Assembly<D>::surface_energy(const std::string& body) const {
   const auto found = surface_energy_->find(body);

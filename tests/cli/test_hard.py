@@ -207,7 +207,8 @@ TABLE = [
      contact(["ball"], epsilon=30, partner=PLATE.format(0, "")), 0, ""),
     ("behind a wall", head(1) + TARGET + contact(["large"], partner=PLATE.format(0, "")), 3, "surfaces overlap"),
     ("wall that goes on", head(2) + disk("ball", (0, 1.3)) +
-     contact(["ball"], partner=PLATE.format(0, ', displacement = [0, "20*t"]')), 4, "surfaces overlap"),
+     contact(["ball"], partner=PLATE.format(0, ', displacement = [0, "20*t"]')), 4,
+     "comes through this contact; a shorter sigma0 or more epsilon hold more"),
     ("run over a pin", head(0.4) + THROWN +
      contact(["small"], epsilon=1e-3, sigma0=0.01, partner='type = "ball", centre = [-0.9, 0.15], radius = 0.01'), 4,
      "rigid partner"),

@@ -419,6 +419,74 @@ class Reports(ProgramTest):
             self.assertEqual([word for word in ("impact", "W/(mu R)") if any(word in w for w in warnings)],
                              list(warned), warnings)
 
+    WALL = ('[[contact]]\nname = "wall"\nbodies = ["block"]\nadhesion = 500\nrange = 0.2\noffset = 0.1\n'
+            '[contact.partner]\ntype = "half_space"\npoint = [0, 0, -0.9]\nnormal = [0, 0, 1]\n')
+
+    def test_speed_of_an_impact(self):
+        """It counts what gravity adds over the gap, and the partner at its fastest, along the way to each other."""
+        fall = 0.4 - 0.1  # to the gap at which the surface rests
+        for change, speed in ((('["20*sin(40*t)*(1 + z)", "5*y*cos(11*t)", 0]', '[3, 0, -200]'), (2 * 200 * fall)**0.5),
+                              (("normal = [0, 0, 1]\n", 'normal = [0, 0, 1]\ndisplacement = [0, "t", "5*t^2"]\n'), 4)):
+            text = BLOCK + self.WALL
+            self.assertEqual(text.count(change[0]), 1)
+            said = self.call("check", self.scene(text.replace(*change))).stdout
+            found = re.search(r"contact 'wall': 'block' is met, by its loads or the motion of the partner, at (\S+) m/s", said)
+            self.assertIsNotNone(found, said)
+            self.assertAlmostEqual(float(found[1]) / speed, 1, delta=0.006)
+        self.assertNotIn("presses", self.call("check", self.scene(BLOCK + self.WALL)).stdout)
+
+    def test_tabor_number(self):
+        """(R W^2/(E*^2 g^3))^(1/3) of a Lennard-Jones contact, by the half spaces' peak traction 1.026 W/g."""
+        law = self.WALL.replace("adhesion = 500\nrange = 0.2\noffset = 0.1", "adhesion = 500\nsigma0 = 0.4")
+        said = self.call("check", self.scene(BLOCK + law)).stdout
+        gap = float(re.search(r"equilibrium gap (\S+) m", said)[1])
+        nu, R = 0.25, (3 / (4 * np.pi))**(1 / 3)
+        modulus = 2e5 * (1 + nu) / (1 - nu**2)
+        found = float(re.search(r"contact 'wall': Tabor number (\S+) ", said)[1])
+        self.assertAlmostEqual(found / (R * 500**2 / modulus**2 / gap**3)**(1 / 3), 1, delta=0.02)
+
+    def test_drop_that_spreads_with_waves(self):
+        """Only where the viscosity is low, the way far, and the motion of interest."""
+        drop = """
+        dimension = 2
+        [time]
+        end = 1
+        [[body]]
+        name = "drop"
+        shape = "disk"
+        radius = 1
+        core = 6
+        rings = 3
+        material = { type = "newtonian", density = 1, bulk_modulus = 200, viscosity = 0.02 }
+        [[surface_tension]]
+        body = "drop"
+        gamma = 1
+        [[contact]]
+        name = "wall"
+        bodies = ["drop"]
+        contact_angle = 60
+        offset = 0.1
+        range = 0.2
+        partner = { type = "half_space", point = [0, -1.1], normal = [0, 1] }
+        """
+        words = "the Ohnesorge number of 'drop' is 0.02 and it has far to spread"
+        said = self.call("check", self.scene(drop)).stdout
+        self.assertIn(words, said)
+        self.assertIn("take 5 times the viscosity", said)
+        for change in (("viscosity = 0.02", "viscosity = 0.2"), ("contact_angle = 60", "contact_angle = 170"),
+                       ("end = 1", 'end = 1\nsolver = "relax"')):
+            self.assertNotIn("has far to spread", self.call("check", self.scene(drop.replace(*change))).stdout)
+
+    def test_solids_that_lock(self):
+        """One warning per body, from K/mu = 10 on, with what helps."""
+        for ratio, words in ((9.9, ()), (10.1, ("(locking), by up to 25 %", 'set volumetric = "cell_average"')),
+                             (2000, ("(locking), by up to 5 %", "more cells across"))):
+            text = BLOCK.replace("lambda = 1e5", f"lambda = {1e5 * (ratio - 2 / 3)}")
+            warnings = re.findall("^warning: body 'block': bulk / shear modulus .*", self.call("check", self.scene(text)).stdout, re.M)
+            self.assertEqual(len(warnings), 1 if words else 0)
+            for word in words:
+                self.assertIn(word, warnings[0])
+
     def test_units_in_si(self):
         text = self.call("check", self.scene('units.system = "nm-ps-ag"\n' + DROP)).stdout
         self.assertIn("units: 1 ag/(nm ps^2) = 1e+12 Pa, 1 ag/(nm ps) = 1 Pa s, 1 ag/ps^2 = 1000 N/m, "
@@ -537,7 +605,8 @@ class Reports(ProgramTest):
         contact = headings("contact")
         self.assertEqual(contact[0].split(":")[0], "[[contact]]")
         self.assertIn('[[contact]] interaction = "smooth_young"', {line.split(":")[0] for line in contact})
-        self.assertEqual(headings("neo_hookean"), ['[body.material] type = "neo_hookean"'])
+        law, = headings("neo_hookean")
+        self.assertTrue(law.startswith('[body.material] type = "neo_hookean": W = mu/2 (I1 - 3 - 2 ln J)'), law)
         self.assertEqual({re.match('(.*?"ball")', line)[1] for line in headings("ball")},
                          {'[[body]] shape = "ball"', '[contact.partner] type = "ball"'})
         text = self.call("keys", "youngs_modulus").stdout

@@ -38,8 +38,9 @@ struct ContactChoice {
   /// Of a law of the gap between two bodies: from the second to the first, if the second is ground
   /// on which the first rests; empty: both are treated alike.
   std::vector<Real> up = {};
-  std::string fold = {};  ///< what it means if the ground folds over, for messages
-  bool wets = false;      ///< the body has a surface tension: measures of wetting are of interest
+  std::string fold = {};     ///< what it means if the ground folds over, for messages
+  std::string overlap = {};  ///< why surfaces may come through it during a run, for messages
+  bool wets = false;  ///< the body has a surface tension: measures of wetting are of interest
 };
 
 /// Points of the surface of a body, the first (0) or second (1) of a contact, with `beta` per area.

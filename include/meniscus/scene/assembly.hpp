@@ -82,6 +82,8 @@ class Assembly {
   /// Stiffness of a body against a small simple shear, x over y, at its reference state, in the
   /// mean over it; 0 of a fluid.
   Real shear_modulus(const std::string& body) const;
+  /// The acceleration of a body as a whole by the loads that were added so far, at the start.
+  Vec<D> acceleration(const std::string& body) const;
   /// For the log: what was decided, and what is doubtful.
   void note(std::string sentence) { scene_.notes.push_back(std::move(sentence)); }
   void warn(std::string sentence) { scene_.warnings.push_back(std::move(sentence)); }

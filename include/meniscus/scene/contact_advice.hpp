@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the numbers of a contact mean beside those of its bodies.
 #pragma once
+#include "meniscus/physics/interaction.hpp"
+#include "meniscus/physics/partner_registry.hpp"
+#include "meniscus/physics/rigid_motion.hpp"
 #include "meniscus/scene/assembly.hpp"
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,15 +17,26 @@ namespace meniscus {
 template <int D>
 struct BeginningContact {
   std::string name;
-  std::vector<std::string> bodies;   ///< two, or one that touches a rigid partner
-  Vec<D> partner_velocity;           ///< of the rigid one
-  Real adhesion, greatest_pressure;  ///< of flat surfaces
+  std::vector<std::string> bodies;  ///< two, or one that touches a rigid partner
+  PlaneContact flat;                ///< the interaction of flat surfaces
+  Real greatest_pressure;           ///< that flat surfaces hold
+  Real gap = 0;                     ///< least distance at the start
+  std::shared_ptr<const PartnerShape<D>> partner = {};  ///< null: between two bodies
+  RigidMotion<D> partner_motion = {};
 };
 
-/// Notes the pressure rho c v of an impact at the speed of the start beside the largest that the
-/// contact holds, and the elastocapillary number W/(mu R) of its solids; warns where it is
-/// overcome.
+/// Notes the pressure rho c v of an impact beside the largest that the contact holds, the
+/// elastocapillary number W/(mu R) of its solids, and the Tabor number where both sides are solid.
+/// Warns where the contact is overcome. The speed v of the impact is that of the start, of the
+/// fastest motion of the partner until the end, and what body forces add over the gap.
 template <int D>
 void advise(const BeginningContact<D>& contact, Assembly<D>& assembly);
+
+/// Warns if a drop of low viscosity has to spread far on a flat wall to which it adheres.
+/// `wetted_area` is a measure of the contact.
+template <int D>
+void advise_on_spreading(const std::string& contact, const std::string& drop, Real adhesion,
+                         const std::function<Real(const Motion&)>& wetted_area,
+                         Assembly<D>& assembly);
 
 }  // namespace meniscus

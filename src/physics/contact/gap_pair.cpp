@@ -35,6 +35,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
       : name_(choice.name),
         law_(std::move(interaction), choice.up),
         fold_(choice.fold),
+        overlap_(choice.overlap),
         wets_(choice.wets),
         first_(first, second, law_.range(), choice, 0),
         second_(second, first, law_.range(), choice, 1),
@@ -164,7 +165,8 @@ class GapPair final : public ForceTerm, public ContactVisits {
   std::string name_;
   GapLaw<D> law_;
   AdhesionWork work_;
-  std::string fold_;  // what it means if the ground, which is the second, folds
+  std::string fold_;     // what it means if the ground, which is the second, folds
+  std::string overlap_;  // why the surfaces may come through
   bool wets_;
   GapSide<D> first_, second_;
   std::vector<Index> ground_;            // facets of the second that face up in the reference
@@ -206,9 +208,9 @@ Report GapPair<D>::report(const Motion& motion) const {
     const GapSide<D>& side = on_first ? first_ : second_;
     report.failure = Failure{
         side.points.particle_at(on_first ? now_first_.nearest : now_second_.nearest),
-        fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g}, least is {:.4g}",
+        fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g}, least is {:.4g}{}",
                     first_.points.body().name, second_.points.body().name, gap,
-                    law_.interaction().least_gap()),
+                    law_.interaction().least_gap(), motion.time > 0 ? overlap_ : ""),
         true};
   }
   const Real speed = closing_speed<D>(first_.points, now_first_.near, &second_.points,

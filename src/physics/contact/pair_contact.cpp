@@ -31,6 +31,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
   PairContact(const ContactBody<D>& first, const ContactBody<D>& second, const ContactLaw& law,
               const ContactChoice& choice)
       : name_(choice.name),
+        overlap_(choice.overlap),
         law_(law),
         sums_(pair_sums<D>(law, choice.form)),
         interaction_(law, first.beta * second.beta),
@@ -173,11 +174,12 @@ class PairContact final : public ForceTerm, public ContactVisits {
 
   Report report(const Motion& motion);
   Real closing_speed_of(std::size_t grade, Real within, const Motion& motion);
-  Failure describe_overlap(const NearestCluster& nearest) const;
+  Failure describe_overlap(const NearestCluster& nearest, Real time) const;
   Real spacing() const { return std::max(visits_.first(0).spacing(), visits_.second(0).spacing()); }
   Vec<D> force_on_first(const Motion& motion) const;
 
   std::string name_;
+  std::string overlap_;  // why the surfaces may come through
   ContactLaw law_;
   std::unique_ptr<PairSums<D>> sums_;
   LennardJones interaction_;
@@ -221,7 +223,8 @@ Report PairContact<D>::report(const Motion& motion) {
     report.demand = approach_demand(any, law_.reach());
     return report;
   }
-  if (nearest.distance < interaction_.least_gap()) report.failure = describe_overlap(nearest);
+  if (nearest.distance < interaction_.least_gap())
+    report.failure = describe_overlap(nearest, motion.time);
   const Real within = std::min(close_by(nearest.distance), law_.reach());
   Real speed = 0;
   for (std::size_t g = 0; g < visits_.grades(); ++g)
@@ -233,15 +236,15 @@ Report PairContact<D>::report(const Motion& motion) {
 }
 
 template <int D>
-Failure PairContact<D>::describe_overlap(const NearestCluster& nearest) const {
+Failure PairContact<D>::describe_overlap(const NearestCluster& nearest, Real time) const {
   const ContactPoints<D>& points = visits_.first(nearest.grade);
   const Index cluster =
       visits_.now().of_first(nearest.grade).clusters[static_cast<std::size_t>(nearest.cluster)];
   return {points.particle_at(cluster * Lanes::width),
           fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g} = {:.3g} sigma0, "
-                      "least is {:.2g} sigma0",
+                      "least is {:.2g} sigma0{}",
                       points.body().name, visits_.second(0).body().name, nearest.distance,
-                      nearest.distance / law_.sigma0, law_.guard),
+                      nearest.distance / law_.sigma0, law_.guard, time > 0 ? overlap_ : ""),
           true};
 }
 

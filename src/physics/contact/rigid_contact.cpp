@@ -36,6 +36,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   RigidContact(const ContactBody<D>& body, MovingPartner<D> partner,
                std::shared_ptr<const Interaction> interaction, const ContactChoice& choice)
       : name_(choice.name),
+        overlap_(choice.overlap),
         wets_(choice.wets),
         pair_(body, std::move(partner), std::move(interaction), choice),
         effects_(*pair_.interaction, pair_.partner, choice.friction),
@@ -179,11 +180,12 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     return {list_.times(), pair_.interaction->ends() && touches_};
   }
   Report report(const Motion& motion, const NearestPoint& nearest);
-  Failure describe_overlap(const NearestPoint& nearest) const;
+  Failure describe_overlap(const NearestPoint& nearest, Real time) const;
   Real closing_speed_of(std::size_t grade, Real within, const Vec<D>& velocity,
                         const Motion& motion);
 
   std::string name_;
+  std::string overlap_;  // why the surfaces may come through
   bool wets_;
   BodyAndPartner<D> pair_;
   WallEffects<D> effects_;
@@ -221,7 +223,7 @@ Report RigidContact<D>::report(const Motion& motion, const NearestPoint& nearest
     report.demand = approach_demand(any, interaction.range());
     return report;
   }
-  if (gap < interaction.least_gap()) report.failure = describe_overlap(nearest);
+  if (gap < interaction.least_gap()) report.failure = describe_overlap(nearest, motion.time);
   const Real within = std::min(close_by(gap), interaction.range());
   Real speed = 0;
   for (std::size_t g = 0; g < layers_.size(); ++g)
@@ -234,12 +236,12 @@ Report RigidContact<D>::report(const Motion& motion, const NearestPoint& nearest
 }
 
 template <int D>
-Failure RigidContact<D>::describe_overlap(const NearestPoint& nearest) const {
+Failure RigidContact<D>::describe_overlap(const NearestPoint& nearest, Real time) const {
   return {pair_.points[nearest.grade].particle_at(nearest.point),
           fmt::format("surfaces overlap: the gap between '{}' and the rigid partner of contact "
-                      "'{}' is {:.4g}, least is {:.4g}",
+                      "'{}' is {:.4g}, least is {:.4g}{}",
                       pair_.finest().body().name, name_, nearest.distance,
-                      pair_.interaction->least_gap()),
+                      pair_.interaction->least_gap(), time > 0 ? overlap_ : ""),
           true};
 }
 
