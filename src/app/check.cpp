@@ -17,10 +17,10 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace meniscus {
 namespace {
@@ -154,16 +154,18 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
   std::optional<ExpectedEffort> effort;
   if (relaxes) effort = effort_to_rest(scene, simulation.state(), dt / 0.9);
   // In some of these steps the stable step is looked for, which later steps hardly ever do.
-  std::array<double, 10> seconds{};
+  constexpr std::size_t trial_steps = 10;
+  std::vector<double> seconds;
   set_up(input, [&] {
-    for (double& of_step : seconds) {
+    while (seconds.size() < trial_steps && !simulation.finished()) {
       const auto begin = std::chrono::steady_clock::now();
       simulation.advance();
-      of_step = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      seconds.push_back(
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
   });
-  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-  const double per_step = seconds[seconds.size() / 2];
+  std::sort(seconds.begin(), seconds.end());
+  const double per_step = seconds.empty() ? 0 : seconds[seconds.size() / 2];
   Real steps = std::ceil(std::min(scene.time.end, stop) / dt);
   bool rests = false;
   if (effort) {
@@ -172,11 +174,12 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     rests = effort->relaxation_steps < steps;
     if (rests) steps = std::round(effort->relaxation_steps);
   }
-  say("{}{:.0f} steps{}, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
+  say("{}{} steps{}, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
       "forces\n",
-      relaxes && !effort ? "at most " : "", steps, rests ? " to rest" : "", steps * per_step,
-      omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
-      1e-6 * static_cast<Real>(scene.system.bytes()));
+      relaxes && !effort ? "at most " : "",
+      steps < 1e9 ? fmt::format("{:.0f}", steps) : fmt::format("{:.3g}", steps),
+      rests ? " to rest" : "", steps * per_step, omp_get_max_threads(),
+      1e9 * per_step / scene.system.size(), 1e-6 * static_cast<Real>(scene.system.bytes()));
   say_what_shortens_steps(scene);
   if (!scene.time.step) say_softer_drops(scene, request, stable_at_start);
   for (const auto& warning : scene.warnings) say("warning: {}\n", warning);

@@ -279,7 +279,9 @@ void ParticleSet<D>::refuse(Real quality, const Vec<D>& x, const std::string& bo
       : lie_in_two_planes<D>(neighbours)
           ? (D == 3 ? "two layers of cells or more: the particles around lie in two planes at most"
                     : "two rows of cells or more: the particles around lie on two lines at most")
-          : "a larger support or a less distorted cloud";
+          : "a larger support_factor of [[body]], or more even cells (core and layers of round "
+            "shapes, "
+            "cells of boxes, a mesh with fewer slivers, less jitter)";
   throw SolveError(fmt::format(
       "body '{}': the shape functions are not determined at point ({}): {} neighbours, quality of "
       "the moment matrix {:.2g}, at least {:.0e} is needed; use {}",

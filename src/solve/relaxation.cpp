@@ -336,19 +336,30 @@ std::vector<Residual> Relaxation<D>::residuals(const State& state) const {
 
 namespace {
 
+/// `what` changes until a time that is not before the end.
+[[noreturn]] void refuse_change(const StepperChoice& choice, const std::string& what, Real until) {
+  const std::string how_long =
+      std::isfinite(until) ? fmt::format("until t = {:.6g}, not before the end {:.6g} of the scene",
+                                         until, choice.end)
+                           : std::string("as long as the scene lasts");
+  const std::string remedy =
+      std::isfinite(until)
+          ? "end its ramp earlier, or raise time.end"
+          : "write its formulas without t, and give its table a ramp if it is to come slowly (a "
+            "partner stops by a displacement such as \"-0.1*min(t, 1)\")";
+  throw InputError(fmt::format(
+      "{}: {} changes {}; there is no rest that \"relax\" could reach; {}, or use solver = "
+      "\"dynamics\"",
+      choice.place, what, how_long, remedy));
+}
+
 template <int D>
 std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
   for (const auto& term : system.terms)
     if (term->steady_after() >= choice.end)
-      throw InputError(fmt::format(
-          "{}: {} changes until t = {:.6g}, not before the end {:.6g} of the scene; there "
-          "is no rest that \"relax\" could reach",
-          choice.place, term->name(), term->steady_after(), choice.end));
-  if (system.steady_after() >= choice.end)
-    throw InputError(fmt::format(
-        "{}: held faces move until t = {:.6g}, not before the end {:.6g} of the scene; \"relax\" "
-        "needs motions that end: a displacement without t, with a ramp",
-        choice.place, system.steady_after(), choice.end));
+      refuse_change(choice, term->name(), term->steady_after());
+  if (system.constraints && system.constraints->steady_after() >= choice.end)
+    refuse_change(choice, "a displacement of [[held]]", system.constraints->steady_after());
   auto relaxation = std::make_unique<Relaxation<D>>(
       system, typename Relaxation<D>::Tolerances{choice.force_tolerance, choice.shape_tolerance},
       choice.fluid);

@@ -15,6 +15,19 @@ namespace {
 // Steps to the first new estimate, when nothing is known yet of how fast the limit changes, and the
 // fewest between later ones: an estimate of a limit that changes costs about as much as ten steps.
 constexpr Real shortest_interval = 5;
+// Part of the first stable step below which a run that chooses its steps warns, once.
+constexpr Real much_shorter = 0.01;
+
+/// What has become of the stable step of the beginning; `viscous`: viscosity limits steps.
+std::string describe_shorter_step(std::string_view what, Real first, const StableStep& now,
+                                  bool viscous) {
+  std::string text =
+      fmt::format("the stable time step has {} from {:.3g} to {:.3g}", what, first, now.dt);
+  if (now.of_fields < 1.001 * now.dt) return text + " by a field that the bodies carry";
+  if (viscous && now.viscosity > now.stiffness)
+    text += ", by viscosity: viscosity = \"implicit\" in [time] takes that limit away";
+  return text;
+}
 
 }  // namespace
 
@@ -63,10 +76,10 @@ void StepController<D>::reconsider(State& state) {
              slowest = tolerated / (stable_.steady ? 2 : 1.5);
   interval_ *= tolerated / std::max(slowest, std::abs(std::log(stable_.dt / before)));
   plan_next_check(state);
-  if (stable_.dt < 1e-6 * first_limit_)
-    throw estimator_.failure(fmt::format("the stable time step has collapsed from {:.3g} to {:.3g}",
-                                         first_limit_, stable_.dt),
-                             state);
+  const auto describe = [&](std::string_view what) {
+    return describe_shorter_step(what, first_limit_, stable_, !choice_.implicit_viscosity);
+  };
+  if (stable_.dt < 1e-6 * first_limit_) throw estimator_.failure(describe("collapsed"), state);
   if (choice_.fixed) {
     if (!warned_ && step_ > 0.98 * stable_.dt) {
       warning_ = fmt::format("step {}: time.step = {:.4g} has reached the stable step {:.4g}",
@@ -74,6 +87,11 @@ void StepController<D>::reconsider(State& state) {
       warned_ = true;
     }
     return;
+  }
+  if (!warned_ && stable_.dt < much_shorter * first_limit_) {
+    warning_ = fmt::format("t = {:.6g}: {}", state.time,
+                           estimator_.failure(describe("fallen"), state).what());
+    warned_ = true;
   }
   // Small changes are left alone: every change of step disturbs the energy balance a little.
   const Real wanted = std::min(choice_.safety * stable_.dt, state.demand.longest);

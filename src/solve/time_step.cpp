@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stiffest_term.hpp"
+
 namespace meniscus {
 namespace {
 
@@ -377,6 +379,8 @@ StepError StableStepEstimator<D>::failure(std::string cause, const State& state)
   const Stiffest all = system_.sum_over_particles(Stiffest{-1, 0}, [&](Index A) {
     return Stiffest{sum(at(mode_, A) * at(mode_, A)), A};
   });
+  if (const Real size = largest(mode_); size > 0 && std::isfinite(size))
+    cause += describe_stiffest_term(system_, state, mode_, smallest_trial * spacing_ / size);
   return StepError(system_.located({all.particle, std::move(cause)}, state.motion()));
 }
 

@@ -557,7 +557,47 @@ class Failures(ProgramTest):
     def test_collapse_of_the_step(self):
         """Shorter steps follow the block until nothing resolves what is left of it: at once."""
         self.assert_fails(PUSHED.replace("-60*x", "-80*x"), "the stable time step has collapsed from",
+                          " % of the stiffness is that of the internal force of 'block': ", "finer cells",
                           "body 'block', particle ", "reference position", "now (", "dt = ", "step ", "t = ")
+
+    GRIPPED = SHEET[:SHEET.index("[output]")] + """
+    [[body]]
+    name = "sheet"
+    shape = "rectangle"
+    size = [1, 1]
+    cells = [4, 4]
+    material = { type = "neo_hookean", density = 1, mu = 1, lambda = 2 }
+    [[held]]
+    body = "sheet"
+    face = "x_min"
+    [[held]]
+    body = "sheet"
+    face = "x_max"
+    displacement = [0.01, 0]
+    ramp = RAMP
+    """
+
+    def test_ramps(self):
+        """What is wrong with one is said once; one after the end of the scene moves nothing."""
+        for ramp, lines, *words in (("[1, 0.5]", 1, "held[1].ramp: the ramp ends before it begins"),
+                                    ("[-2, -1]", 2, "held[1].ramp[0]: -2 s is out of range", "ramp[1]: -1 s"),
+                                    ("[-0.5, 0.5]", 1, "held[1].ramp[0]: -0.5 s is out of range; allowed is >= 0")):
+            report = self.assert_refused(self.GRIPPED.replace("RAMP", ramp), *words)
+            self.assertEqual(len(report.splitlines()), lines, report)
+        self.assertIn("the scene is in order", self.call("check", self.scene(self.GRIPPED.replace("RAMP", "[2, 3]"))).stdout)
+
+    def test_loads_that_never_rest(self):
+        """What the solver relax cannot come to an end with is named, with the key that helps."""
+        text = BLOCK.replace("[time]", '[time]\nsolver = "relax"')
+        grip = '[[held]]\nbody = "block"\nface = "z_min"\ndisplacement = [0, 0, DISPLACEMENT]\n'
+        steady = text[:text.index("[[body_force]]")]
+        for scene, *words in ((text, "body force on 'block' changes as long as the scene lasts", "without t"),
+                              (steady + grip.replace("DISPLACEMENT", '"0.1*sin(t)"'),
+                               "a displacement of [[held]] changes as long as the scene lasts", "ramp"),
+                              (steady + grip.replace("DISPLACEMENT", "0.1") + "ramp = [0, 3]\n",
+                               "a displacement of [[held]] changes until t = 3, not before the end 0.4",
+                               "end its ramp earlier, or raise time.end")):
+            self.refused(["check", self.scene(scene)], 3, "scene.toml:4:10: time.solver", 'solver = "dynamics"', *words)
 
     def test_unstable_initial_state(self):
         text = BLOCK.replace("[[body]]", '[[body]]\ninitial_displacement = ["-2*x", 0, 0]')

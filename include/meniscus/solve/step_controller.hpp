@@ -42,7 +42,8 @@ class StepController {
   const StableStep& stable() const { return stable_; }
   /// The step that stability and terms allow.
   Real allowed() const { return step_; }
-  /// Said once when a fixed step has come close to the stable one, or above it.
+  /// Returns once: that a fixed step has come close to the stable one, or that the stable step has
+  /// fallen to a hundredth of the first.
   std::optional<std::string> take_warning() { return std::exchange(warning_, std::nullopt); }
 
   /// A run goes on as before, or, if step or safety were chosen differently then, by the new
