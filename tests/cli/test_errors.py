@@ -582,7 +582,7 @@ class Failures(ProgramTest):
         for ramp, lines, *words in (("[1, 0.5]", 1, "held[1].ramp: the ramp ends before it begins"),
                                     ("[-2, -1]", 2, "held[1].ramp[0]: -2 s is out of range", "ramp[1]: -1 s"),
                                     ("[-0.5, 0.5]", 1, "held[1].ramp[0]: -0.5 s is out of range; allowed is >= 0")):
-            report = self.assert_refused(self.GRIPPED.replace("RAMP", ramp), *words)
+            report = self.refused(["check", self.scene(self.GRIPPED.replace("RAMP", ramp))], 3, *words).stderr
             self.assertEqual(len(report.splitlines()), lines, report)
         self.assertIn("the scene is in order", self.call("check", self.scene(self.GRIPPED.replace("RAMP", "[2, 3]"))).stdout)
 
