@@ -234,7 +234,6 @@ void Contact<D>::build(Assembly<D>& assembly) const {
     assembly.keep_reference(bodies[1], "the adhesion of its [[contact]] is a formula of it");
   assembly.add(std::move(term), name);
   assembly.contact({name, bodies, flat(assembly).adhesion});
-  for (const std::string& body : bodies) assembly.touches(body);
   if (partner) {
     assembly.draw({name, partner->shape, partner_motion()});
     measure_wetting(assembly);

@@ -65,20 +65,25 @@ void Assembly<D>::withhold_caps() {
            std::any_of(scene_.expectations.begin(), scene_.expectations.end(),
                        [&](const auto& expectation) { return expectation.second.of == name; });
   };
-  for (const auto& [body, caps] : caps_) {
-    if (contacts_[body] < 2) continue;
+  for (const auto& of_body : caps_) {
+    const std::string& body = of_body.first;
+    const auto contacts = std::count_if(
+        scene_.contacts.begin(), scene_.contacts.end(), [&](const ContactBetween& contact) {
+          return std::count(contact.bodies.begin(), contact.bodies.end(), body) > 0;
+        });
+    if (contacts < 2) continue;
     const std::string why = fmt::format(
         "body '{}' has {} contacts, and the free surface of a drop between walls is no part of a "
         "sphere",
-        body, contacts_[body]);
+        body, contacts);
     std::string all;
-    for (const auto& [name, place] : caps) {
-      if (is_asked_for(name))
+    for (const CapMeasure& cap : of_body.second) {
+      if (is_asked_for(cap.name))
         throw InputError(fmt::format(
-            "{}: '{}' is not measured: {}; leave it out of output.measures and of [expect]", place,
-            name, why));
-      all += (all.empty() ? "" : ", ") + name;
-      std::erase_if(scene_.measures, [&](const MeasureSource& m) { return m.name == name; });
+            "{}: '{}' is not measured: {}; leave it out of output.measures and of [expect]",
+            cap.place, cap.name, why));
+      all += (all.empty() ? "" : ", ") + cap.name;
+      std::erase_if(scene_.measures, [&](const MeasureSource& m) { return m.name == cap.name; });
     }
     note(fmt::format("not measured: {}: {}", all, why));
   }

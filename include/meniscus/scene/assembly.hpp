@@ -39,11 +39,9 @@ class Assembly {
   /// in the scene.
   void measure_of_cap(const std::string& body, const std::string& prefix, MeasureSource source,
                       const std::string& place);
-  /// Counts a contact of a body.
-  void touches(const std::string& body) { ++contacts_[body]; }
-  /// Takes back the measures of caps whose bodies have more than one contact, once all are counted:
-  /// the free surface between two walls is no part of a sphere. Throws InputError if the scene asks
-  /// for one of them.
+  /// Takes back the measures of caps whose bodies have more than one contact, once all contacts are
+  /// built: the free surface between two walls is no part of a sphere. Throws InputError if the
+  /// scene asks for one of them.
   void withhold_caps();
   /// Adds a line of points, for a file of its own.
   void line(ProbedLine line) { scene_.lines.push_back(std::move(line)); }
@@ -127,7 +125,6 @@ class Assembly {
   std::map<std::string, std::string> tension_form_;
   mutable std::map<std::string, Real> shear_modulus_;
   mutable NodalVectors rest_, sheared_;
-  std::map<std::string, int> contacts_;  // of a body
   struct CapMeasure {
     std::string name, place;
   };
