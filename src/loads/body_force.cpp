@@ -35,7 +35,8 @@ struct BodyForce final : Load<D> {
     if (drop && one_for_all && on.uniform_density)
       assembly.add(weight_on_patches(on, acceleration), body);
     else
-      assembly.add(body_force(on, acceleration), body);
+      assembly.add(body_force(on, assembly.is_dynamic() ? on.mass : on.mass_integral, acceleration),
+                   body);
   }
 };
 

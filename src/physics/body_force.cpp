@@ -14,8 +14,9 @@ namespace {
 template <int D>
 class BodyForce final : public ForceTerm {
  public:
-  BodyForce(const Body<D>& body, std::vector<Expression> acceleration)
-      : body_(body), acceleration_(std::move(acceleration)), load_(body.mass_integral.size()) {
+  BodyForce(const Body<D>& body, const std::vector<Real>& mass,
+            std::vector<Expression> acceleration)
+      : body_(body), mass_(mass), acceleration_(std::move(acceleration)), load_(mass.size()) {
     for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
   }
 
@@ -61,13 +62,13 @@ class BodyForce final : public ForceTerm {
     for (Index A = 0; A < body_.size(); ++A) {
       const Eigen::Vector3d X = spatial<D>(body_.origin(A));
       at(load_, A) = Lanes::zero();
-      for (int i = 0; i < D; ++i)
-        at(load_, A).set(i, at(body_.mass_integral, A) * at(acceleration_, i)(X, time));
+      for (int i = 0; i < D; ++i) at(load_, A).set(i, at(mass_, A) * at(acceleration_, i)(X, time));
     }
     evaluated_at_ = time;
   }
 
   const Body<D>& body_;
+  const std::vector<Real>& mass_;
   std::vector<Expression> acceleration_;
   NodalVectors load_;
   bool steady_ = true;
@@ -78,10 +79,13 @@ class BodyForce final : public ForceTerm {
 }  // namespace
 
 template <int D>
-std::unique_ptr<ForceTerm> body_force(const Body<D>& body, std::vector<Expression> acceleration) {
-  return std::make_unique<BodyForce<D>>(body, std::move(acceleration));
+std::unique_ptr<ForceTerm> body_force(const Body<D>& body, const std::vector<Real>& mass,
+                                      std::vector<Expression> acceleration) {
+  return std::make_unique<BodyForce<D>>(body, mass, std::move(acceleration));
 }
-template std::unique_ptr<ForceTerm> body_force(const Body<2>&, std::vector<Expression>);
-template std::unique_ptr<ForceTerm> body_force(const Body<3>&, std::vector<Expression>);
+template std::unique_ptr<ForceTerm> body_force(const Body<2>&, const std::vector<Real>&,
+                                               std::vector<Expression>);
+template std::unique_ptr<ForceTerm> body_force(const Body<3>&, const std::vector<Real>&,
+                                               std::vector<Expression>);
 
 }  // namespace meniscus

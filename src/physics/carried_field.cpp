@@ -64,13 +64,13 @@ Real CarriedField::arrive(std::span<const NodalVector> u, Real dt, std::span<Nod
 int CarriedField::stages(Real dt) const {
   constexpr Real safety = 0.8, most = 10'000;
   const Real steps = dt / (safety * limit_);
-  const Real needed = std::max(2.0, std::ceil((std::sqrt(9 + 16 * steps) - 1) / 2));
+  const Real needed = std::ceil((std::sqrt(9 + 16 * steps) - 1) / 2);
   if (!(needed <= most))
     throw SolveError(fmt::format(
         "the {} would relax in {:.3g} stages per step, and the most are {:.0f}; expected is {}, or "
         "a shorter time.step",
         name_, needed, most, slower_));
-  return static_cast<int>(needed);
+  return std::max(2, static_cast<int>(needed));
 }
 
 /// RKL2: Y_1 = x + m_1 dt R_0, Y_j = m Y_j-1 + n Y_j-2 + (1 - m - n) x + k dt R_j-1 + g dt R_0.

@@ -680,7 +680,7 @@ class Failures(ProgramTest):
         text = "dimension = 2\ntime.end = 0.4\n[output]\n"
         text += disk.format("left", [-1.2, 0], [1.5, 0]) + disk.format("right", [1.2, 0.3], [-1.5, 0])
         text += '[[contact]]\nbodies = ["left", "right"]\nepsilon = 1\nsigma0 = 0.05\nbeta = 1\npoints = 2\n'
-        self.assert_fails(text, "particle ", "is inside of body '", "contact 'left-right'")
+        self.assert_fails(text, "particle ", "the surface goes through body 'right'", "[[contact]] does not hold them")
 
 
 class Expectations(ProgramTest):

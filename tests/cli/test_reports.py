@@ -241,14 +241,14 @@ class Results(ProgramTest):
         """The same as in the unit of the column, also where that is not SI."""
         expect = '[expect]\nheight = {{ of = "drop.extent_y", at = 0.0, value = {}, within = {} }}\n'
         text = DROP.replace('end = "60 ps"', 'end = "3 ps"')
-        for value, within, code in (('"14.03 nm"', '"10 pm"', 0), (14.03e-9, 1e-11, 0), ('"0.01403 um"', '"10 pm"', 0),
-                                    ('"14.05 nm"', '"10 pm"', 7)):
+        for value, within, code in (('"15 nm"', '"10 pm"', 0), (15e-9, 1e-11, 0), ('"0.015 um"', '"10 pm"', 0),
+                                    ('"15.02 nm"', '"10 pm"', 7)):
             self.call("run", self.scene(text + expect.format(value, within)), "--output", "out", "--overwrite",
                       code=code)
-        units = '[units]\nsystem = "nm-ps-ag"\n[constants]\nheight = "140.3 angstrom"\n'
+        units = '[units]\nsystem = "nm-ps-ag"\n[constants]\nheight = "150 angstrom"\n'
         text = self.scene(text + expect.format('"height"', '"10 pm"') + units)
         done = self.call("run", text, "--output", "out", "--overwrite")
-        self.assertRegex(done.stdout, r"height +14.026\d+ +14.03 +0.01 +met")
+        self.assertRegex(done.stdout, r"height +15\S* +15 +0.01 +met")
 
 
 class Nodal(ProgramTest):

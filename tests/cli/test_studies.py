@@ -91,7 +91,7 @@ class Curvature(unittest.TestCase):
         self.assertEqual(set(sizes), {f"error_against_{x}" for x in ("h", "time")})
         self.assertGreater(min(sizes.values()), 10000)
         done = subprocess.run([*draw, "--field", "L3"], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("there is no error 'L3'", done.stderr)
 
 

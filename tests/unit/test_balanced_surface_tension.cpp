@@ -389,7 +389,8 @@ TEST(WeightOnPatches, PullsAtTheCentroid) {
 TEST(BodyForce, ActsOnTheIntegralsOfTheDensity) {
   const auto body = test::body_of<3>(test::brick<3>({4, 4, 4}));
   test::internal_force<3>(*body, "neo_hookean");
-  const auto term = body_force<3>(*body, {Expression(0), Expression(0), Expression(-1)});
+  const auto term =
+      body_force<3>(*body, body->mass_integral, {Expression(0), Expression(0), Expression(-1)});
   const NodalVectors force = test::force_of(*term, NodalVectors(body->mass.size(), Lanes::zero()));
   const auto points = cell_gauss_points(body->geometry.grid, 6);
   const auto rows = build_point_rows<3>(body->particles, points.X, {.value = true}, "points");

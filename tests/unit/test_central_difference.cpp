@@ -18,7 +18,7 @@ void expect_free_fall() {
   OneBody<D> one(D == 3 ? test::brick<D>({2, 2, 3}) : test::brick<D>({4, 3}), "neo_hookean");
   std::vector<Expression> g{Expression(0.3), Expression(-9.81)};
   if (D == 3) g.emplace_back(1.5);
-  one.system.terms.push_back(body_force<D>(one.body(), g));
+  one.system.terms.push_back(body_force<D>(one.body(), one.body().mass, g));
   Vec<D> v0 = Vec<D>::Constant(0.7), a = Vec<D>::Constant(1.5);
   a[0] = 0.3;
   a[1] = -9.81;
@@ -48,7 +48,8 @@ TEST(CentralDifference, FreeFallIsExact) {
 
 TEST(CentralDifference, ForcesOfTimeActAtTheirTime) {
   OneBody<2> one(test::brick<2>({3, 3}), "neo_hookean");
-  one.system.terms.push_back(body_force<2>(one.body(), {Expression("cos(t)"), Expression("6*t")}));
+  one.system.terms.push_back(
+      body_force<2>(one.body(), one.body().mass, {Expression("cos(t)"), Expression("6*t")}));
   start(one.system, one.state);
   const Real dt = 1e-3;
   for (int n = 0; n < 1000; ++n) advance(one.system, one.state, dt);

@@ -158,7 +158,9 @@ TEST(Functions, WrongFunctionsAreRefusedWhereTheyStand) {
 }
 
 TEST(Functions, FormulasMayNotGrowWithoutBound) {
-  std::string lines = "f0 = 'x + x'\n";
+  std::string lines = "f0 = 'x";
+  for (int k = 0; k < 500; ++k) lines += " + x";
+  lines += "'\n";
   for (int k = 1; k < 40; ++k)
     lines += "f" + std::to_string(k) + " = 'f" + std::to_string(k - 1) + "*f" +
              std::to_string(k - 1) + "'\n";

@@ -155,8 +155,8 @@ TEST(Input, MessagesAboutFormulas) {
   EXPECT_EQ(
       report("p = '2 Pa*x'", read),
       "s.toml:1:5: p: neither a quantity (unknown unit 'x'; allowed are m, s, g, N, "
-      "dyn, Pa, bar, P, J, eV, W, Hz, L (prefixes z a f p n u m c k M G T), erg, kT, min, h, "
-      "angstrom, rad, deg) nor a "
+      "dyn, Pa, bar, P, J, eV, W, Hz, L (prefixes z a f p n u m c k M G T), atm, psi, mmHg, "
+      "erg, kT, min, h, angstrom, rad, deg) nor a "
       "formula (formula '2 Pa*x': unknown name 'Pa' at character 3; allowed are x, y, z, t, "
       "pi, e and functions such as sqrt); allowed is a number in Pa or a text with a unit or a "
       "formula of x, y, z, t, > 0");

@@ -319,6 +319,16 @@ struct DirectorErrors {
 DirectorErrors director_errors(int n, const std::string& displacement, Real shift) {
   Epochs<2> epochs = begun<2>(nematic(n, displacement));
   const Body<2>& old = epochs.scene().system.bodies.front();
+  // The formulas of the scene as coefficients, which are smoother than those that have its values.
+  std::vector<Real> formulas;
+  for (const Vec<2>& X : old.particles.X()) {
+    formulas.push_back(0.9 + 0.2 * X[1]);
+    formulas.push_back(0.4 * std::sin(2 * X[0]));
+  }
+  Snapshot smooth = epochs.simulation().snapshot();
+  EXPECT_EQ(smooth.reals("fields/director/value").size(), formulas.size());
+  smooth.add_reals("fields/director/value", formulas);
+  epochs.restore(smooth);
   const State before = epochs.simulation().state();
   const auto stored = [](const Ledger& ledger) {
     return ledger.stored.at("director") + ledger.stored.at("anchoring");

@@ -150,7 +150,7 @@ TEST(Tangent, OfCurvatureIsThatOfItsForces) {
 TEST(Tangent, OfALoadThatDoesNotDependOnTheMotionIsZero) {
   const auto body = test::body_of<2>(test::potato<2>());
   body->mass.assign(static_cast<std::size_t>(body->size()), 1.0);
-  const auto term = body_force<2>(*body, {Expression("x*t"), Expression("1")});
+  const auto term = body_force<2>(*body, body->mass, {Expression("x*t"), Expression("1")});
   const Fields at = random_fields<2>(body->size(), 0.02, 0.5, 7);
   EXPECT_EQ(test::norm(tangent_of(*term, at, at)), 0);
 }

@@ -72,7 +72,7 @@ void expect_all_terms_same() {
   expect_same_bits<D>(*body, [&] { return curvature_surface_tension<D>(*body, 1, 3); });
   expect_same_bits<D>(*body, [&] { return triangle_surface_tension<D>(*body, 1); });
   expect_same_bits<D>(*body, [&] {
-    return body_force<D>(*body, std::vector<Expression>(D, Expression("x + y*y")));
+    return body_force<D>(*body, body->mass, std::vector<Expression>(D, Expression("x + y*y")));
   });
 }
 

@@ -10,9 +10,13 @@
 
 namespace meniscus {
 
-/// f_A = g(X_A, t) INT rho N_A dV.
+/// f_A = m_A g(X_A, t). In motion the masses are Body::mass, those of the time step: weight and
+/// inertia then cancel, and a body falls without strain. At rest there is no inertia to cancel, and
+/// Body::mass_integral, INT rho N_A dV, does the work of the weight exactly. `mass` [particle] must
+/// outlive the term.
 template <int D>
-std::unique_ptr<ForceTerm> body_force(const Body<D>& body, std::vector<Expression> acceleration);
+std::unique_ptr<ForceTerm> body_force(const Body<D>& body, const std::vector<Real>& mass,
+                                      std::vector<Expression> acceleration);
 
 /// Of a drop whose pressure and tension act on patches (`balanced`): the gradient of M g(t) . x_c,
 /// M the mass and x_c the centroid of the volume that the patches enclose, for g that does not

@@ -29,6 +29,7 @@ Real over_plane(const ContactLaw& law, Real gap, F&& f) {
   for (const Real end : ends)
     while (begin < end) {
       const Real half = std::min(end - begin, std::hypot(begin, gap)) / 2;
+      if (!(half > 0)) return std::numeric_limits<Real>::quiet_NaN();  // the gap is too small
       for (int q = 0; q < 20; ++q) {
         const Real rho = begin + half * (1 + at(rule.x, q));
         const Real area = half * at(rule.w, q) * (line ? 2 : 2 * pi * rho);
@@ -54,7 +55,8 @@ Real bisect(Real a, Real b, F&& f) {
 template <class F>
 Real minimum(Real a, Real b, F&& f) {
   constexpr Real golden = 1 / std::numbers::phi_v<Real>;
-  while (b - a > 1e-9 * b) {
+  constexpr int most = 100;  // steps: the digits of a number are used up by then
+  for (int step = 0; step < most && b - a > 1e-9 * b; ++step) {
     const Real left = b - golden * (b - a), right = a + golden * (b - a);
     f(left) < f(right) ? b = right : a = left;
   }

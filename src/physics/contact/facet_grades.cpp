@@ -28,8 +28,9 @@ Real distance_for(const Interaction& interaction, Real bearable, F&& error) {
   // Beyond the largest traction the error falls with the distance. A law without a finite traction
   // has no such distance: then `far` becomes infinite and no grade is used.
   Real near = flat.peak_gap, far = near;
-  while (std::isfinite(far) && !enough(far)) far *= 2;
-  while (far - near > 1e-6 * far) {
+  while (far > 0 && std::isfinite(far) && !enough(far)) far *= 2;
+  constexpr int most = 100;  // halvings: the digits of a number are used up by then
+  for (int step = 0; step < most && far - near > 1e-6 * far; ++step) {
     const Real middle = (near + far) / 2;
     (enough(middle) ? far : near) = middle;
   }
