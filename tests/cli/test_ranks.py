@@ -118,7 +118,7 @@ points = 2
 BAR = LONG_BLOCK[:LONG_BLOCK.index("[[body_force]]")]
 MEETING_BARS = BAR.replace("end = 0.06", "end = 0.12") + BAR[BAR.index("[[body]]"):].replace(
     '"block"', '"other"').replace(
-        "[body.material]", "centre = [4.4, 0, 0]\ninitial_velocity = [-6, 0, 0]\n[body.material]") + contact("block", "other", 2e6)
+        "[body.material]", "centre = [4.4, 0, 0]\ninitial_velocity = [-5, 0, 0]\n[body.material]") + contact("block", "other", 2e6)
 # [name] bodies of which every rank needs most, but not all
 MOST = {
     "two drops": TWO_DROPS,

@@ -205,7 +205,9 @@ class MeshChecks {
                     b = side.nodes[D == 2 ? 1 - i : at(std::array<std::size_t, 4>{1, 3, 0, 2}, i)];
         if (a != b) edges[std::ilogb((X(a) - X(b)).norm())].push_back({a, b, side.cell});
       }
-    for (auto& [length, alike] : edges) {
+    for (const auto& of_length : edges) {
+      const int length = of_length.first;
+      const std::vector<SurfaceEdge>& alike = of_length.second;
       std::vector<Vec<D>> middles;
       for (const SurfaceEdge& edge : alike) middles.push_back(0.5 * (X(edge.a) + X(edge.b)));
       const NeighborSearch<D> search(middles);
