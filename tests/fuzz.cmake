@@ -7,13 +7,14 @@ endif()
 set(MENISCUS_FUZZ_SECONDS 25 CACHE STRING "Seconds of each fuzz test")
 
 set(src ${PROJECT_SOURCE_DIR}/src)
-file(GLOB fuzzed CONFIGURE_DEPENDS ${src}/core/*.cpp ${src}/io/hdf5*.cpp)
+file(GLOB fuzzed CONFIGURE_DEPENDS ${src}/numbers/*.cpp ${src}/parallel/*.cpp ${src}/input/*.cpp
+  ${src}/state/*.cpp ${src}/io/hdf5*.cpp)
 foreach(name checkpoint files info meta provenance run_directory)
   list(APPEND fuzzed ${src}/io/${name}.cpp)
 endforeach()
 add_library(meniscus_fuzzed OBJECT ${fuzzed})
 target_include_directories(meniscus_fuzzed PUBLIC ${PROJECT_SOURCE_DIR}/include
-  ${CMAKE_CURRENT_SOURCE_DIR} PRIVATE ${PROJECT_BINARY_DIR}/generated)
+  ${src} ${CMAKE_CURRENT_SOURCE_DIR} PRIVATE ${PROJECT_BINARY_DIR}/generated)
 target_compile_definitions(meniscus_fuzzed PRIVATE MENISCUS_BUILD_FLAGS="fuzzer")
 target_compile_options(meniscus_fuzzed PUBLIC -fsanitize=fuzzer-no-link)
 target_link_libraries(meniscus_fuzzed PUBLIC meniscus_options Eigen3::Eigen fmt::fmt hdf5::hdf5

@@ -2,8 +2,8 @@
 """Checks who includes whom and which calls are made, reports each violation as file:line, and fails if
 there is one.
 
-- A file includes headers of its own layer and of the layers in MAY_INCLUDE only.
-- Leaves such as src/materials have sources without headers, one per thing, of the layer in LEAVES.
+- A file includes headers of its own layer and of the layers in LAYERS only.
+- The folders of LEAVES have sources without headers, one per thing.
 - Each library of CONFINED is included in one source file, or in the files of its pattern, only.
 - Functions of std::filesystem are called with a std::error_code named `error` or `ignored`: the others
   throw what no exit code belongs to.
@@ -17,40 +17,42 @@ import pathlib
 import re
 import sys
 
-MAY_INCLUDE = {
-    "core": [],
-    "approx": ["core"],
-    "body": ["core", "approx"],
-    "physics": ["core", "approx", "body"],
-    "solve": ["core", "approx", "body", "physics"],
-    "measure": ["core", "approx", "body", "physics"],
-    "remap": ["core", "approx", "body", "physics", "solve"],
-    "io": ["core"],
-    "scene": ["core", "approx", "body", "physics", "solve", "measure", "remap", "io"],
-    "run": ["core", "approx", "body", "physics", "solve", "measure", "remap", "io", "scene"],
-    "study": ["core", "approx", "body", "physics", "solve", "measure", "remap", "scene"],
-    "app": ["core", "approx", "body", "physics", "solve", "measure", "remap", "io", "scene", "study"],
+# From the bottom to the top: a layer includes its own headers and those of the layers named.
+LAYERS = {
+    "numbers": "",
+    "parallel": "numbers",
+    "input": "numbers parallel",
+    "state": "numbers parallel input",
+    "kernel": "numbers parallel input state",
+    "body": "numbers parallel input state kernel",
+    "physics": "numbers parallel input state kernel body",
+    "solve": "numbers parallel input state kernel body physics",
+    "measure": "numbers parallel input state kernel body physics",
+    "remap": "numbers parallel input state kernel body physics solve",
+    "io": "numbers parallel input state",
+    "scene": "numbers parallel input state kernel body physics solve measure remap",
+    "features": "numbers parallel input state kernel body physics solve measure remap scene",
+    "run": "numbers parallel input state kernel body physics solve measure remap scene io",
+    "study": "numbers parallel input state kernel body physics solve measure remap scene run",
+    "app": "numbers parallel input state kernel body physics solve measure remap scene run io study",
 }
-LEAVES = {
-    "mpi": "core",
-    "materials": "physics",
-    "surfaces": "physics",
-    "interactions": "physics",
-    "partners": "physics",
-    "loads": "scene",
-}
+MAY_INCLUDE = {layer: others.split() for layer, others in LAYERS.items()}
+# A header without a layer, which all files may include.
+COMMON = [pathlib.Path("include/meniscus/error.hpp")]
+# Folders of sources without headers: each source registers what it defines.
+LEAVES = ["src/parallel/mpi", "src/physics/laws", "src/features"]
 
 # Library: (beginning of its headers' names, files that may see it; None: any one source).
 CONFINED = {
     "toml++": (r"toml\+\+/|toml\.hpp", None),
-    "muParser": (r"muParser", "src/core/expression*"),
+    "muParser": (r"muParser", "src/input/expression*"),
     "nanoflann": (r"nanoflann", None),
     "CLI11": (r"CLI/", "src/app/*main*"),
     "spdlog": (r"spdlog/", None),
     "OpenSSL": (r"openssl/", None),
     "HDF5": (r"hdf5|H5", "src/io/hdf5*"),
-    "MPI": (r"mpi\.h", "src/mpi/*"),
-    "PETSc": (r"petsc", "src/mpi/*"),
+    "MPI": (r"mpi\.h", "src/parallel/mpi/*"),
+    "PETSc": (r"petsc", "src/parallel/mpi/*"),
 }
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -58,11 +60,10 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def layer_of(path):
-    """Layer of a file in include/meniscus/<layer>/ or src/<layer>/, or of one that is a layer by
-    itself (run.hpp, run.cpp); None if it is in none.
+    """Layer of a file in include/meniscus/<layer>/ or src/<layer>/, or of a header that is a layer by
+    itself (run.hpp); None if it is in none.
     """
     layer = pathlib.PurePath(path.parts[1 if path.parts[0] == "src" else 2]).stem
-    layer = LEAVES.get(layer, layer)
     return layer if layer in MAY_INCLUDE else None
 
 
@@ -77,7 +78,7 @@ def resolve(path, delimiter, name):
     """The project file an include line means; None for a header of a library."""
     if not name.startswith("meniscus/") and delimiter == "<":
         return None
-    folders = [pathlib.Path("include"), path.parent]
+    folders = [pathlib.Path("include"), pathlib.Path("src"), path.parent]
     if path.parts[0] == "tests":
         folders.append(pathlib.Path("tests"))
     files = [pathlib.Path(os.path.normpath(folder / name)) for folder in folders]
@@ -95,11 +96,12 @@ def check_file(path, graph, users, report):
     product = path.parts[0] != "tests"
     if product:
         layer = layer_of(path)
-        if layer is None:
-            report(path, 1, f"is in none of the layers {', '.join(MAY_INCLUDE)}")
+        if layer is None and path not in COMMON:
+            report(path, 1, f"is in none of the layers {', '.join(LAYERS)}")
             return
-        if path.parts[0] == "src" and path.parts[1] in LEAVES and path.suffix != ".cpp":
-            report(path, 1, f"src/{path.parts[1]} has sources only, no header")
+        for leaf in LEAVES:
+            if path.is_relative_to(leaf) and path.suffix != ".cpp":
+                report(path, 1, f"{leaf} has sources only, no header")
     for line, delimiter, name in includes(path):
         target = resolve(path, delimiter, name)
         if target is None:

@@ -22,7 +22,7 @@ struct Field {
   std::vector<double> values;  ///< [particle][component]
 };
 
-/// Errors are the exceptions of meniscus/core/error.hpp: InputError (the scene), SolveError (the
+/// Errors are the exceptions of meniscus/error.hpp: InputError (the scene), SolveError (the
 /// calculation cannot go on), FileError. Names that do not exist are InputErrors that list those
 /// that do.
 class Run {

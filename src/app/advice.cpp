@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the numbers of a scene mean, and what would save steps: printed by `meniscus check`.
-#include "meniscus/app/advice.hpp"
+#include "app/advice.hpp"
 
-#include "meniscus/app/print.hpp"
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "app/print.hpp"
+#include "input/text.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/box.hpp"
+#include "run/simulation.hpp"
 
 #include <fmt/core.h>
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dry run of a scene: everything short of running it.
-#include "meniscus/app/advice.hpp"
-#include "meniscus/app/commands.hpp"
-#include "meniscus/app/mesh_report.hpp"
-#include "meniscus/app/outputs.hpp"
-#include "meniscus/app/print.hpp"
-#include "meniscus/app/set_up.hpp"
-#include "meniscus/body/face_cells.hpp"
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/elastic_inertia.hpp"
-#include "meniscus/solve/expected_effort.hpp"
+#include "app/advice.hpp"
+#include "app/commands.hpp"
+#include "app/mesh_report.hpp"
+#include "app/outputs.hpp"
+#include "app/print.hpp"
+#include "app/set_up.hpp"
+#include "body/surface/face_cells.hpp"
+#include "numbers/box.hpp"
+#include "numbers/dense.hpp"
+#include "run/simulation.hpp"
+#include "solve/expected_effort.hpp"
+#include "solve/step/elastic_inertia.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Calling programs: signals are handed on, the output of this one is read through a pipe.
-#include "meniscus/app/child.hpp"
+#include "app/child.hpp"
 
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <spawn.h>

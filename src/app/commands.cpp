@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Requests of the command line: what their words mean.
-#include "meniscus/app/commands.hpp"
+#include "app/commands.hpp"
 
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

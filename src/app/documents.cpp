@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The guide and the scenes of inputs/, as the program prints them.
-#include "meniscus/app/documents.hpp"
+#include "app/documents.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
+#include "input/names.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exit codes of what is thrown.
-#include "meniscus/app/commands.hpp"
-#include "meniscus/app/print.hpp"
-#include "meniscus/core/error.hpp"
+#include "app/commands.hpp"
+#include "app/print.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that are programs of their own: studies, and the pictures of Python.
-#include "meniscus/app/hand_over.hpp"
+#include "app/hand_over.hpp"
 
-#include "meniscus/app/documents.hpp"
-#include "meniscus/core/error.hpp"
+#include "app/documents.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>

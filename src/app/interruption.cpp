@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Signal handlers that only set a flag.
-#include "meniscus/app/interruption.hpp"
+#include "app/interruption.hpp"
 
-#include "meniscus/core/ranks.hpp"
+#include "parallel/ranks.hpp"
 
 #include <atomic>
 #include <csignal>

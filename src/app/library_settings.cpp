@@ -3,7 +3,7 @@
 // zeros one by one, are up to a third of the set-up. Threads that sleep at once make the steps of a
 // small body a quarter longer; those that wait for milliseconds, as by default, make two runs that
 // share the cores several times as slow.
-#include "meniscus/app/library_settings.hpp"
+#include "app/library_settings.hpp"
 
 #include <unistd.h>
 

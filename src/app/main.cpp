@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line.
-#include "meniscus/app/commands.hpp"
-#include "meniscus/app/documents.hpp"
-#include "meniscus/app/hand_over.hpp"
-#include "meniscus/app/interruption.hpp"
-#include "meniscus/app/library_settings.hpp"
-#include "meniscus/app/manual.hpp"
-#include "meniscus/app/print.hpp"
-#include "meniscus/app/rank_process.hpp"
-#include "meniscus/app/sweep.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
-#include "meniscus/core/ranks.hpp"
-#include "meniscus/io/files.hpp"
-#include "meniscus/io/info.hpp"
-#include "meniscus/io/provenance.hpp"
-#include "meniscus/scene/key_reference.hpp"
+#include "app/commands.hpp"
+#include "app/documents.hpp"
+#include "app/hand_over.hpp"
+#include "app/interruption.hpp"
+#include "app/library_settings.hpp"
+#include "app/main_options.hpp"
+#include "app/manual.hpp"
+#include "app/print.hpp"
+#include "app/rank_process.hpp"
+#include "app/sweep.hpp"
+#include "input/names.hpp"
+#include "io/files.hpp"
+#include "io/info.hpp"
+#include "io/provenance.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/ranks.hpp"
+#include "scene/key_reference.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -25,8 +26,6 @@
 #include <iostream>
 #include <optional>
 #include <sstream>
-
-#include "main_options.hpp"
 
 namespace {
 

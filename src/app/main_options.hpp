@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the command lines of the programs have in common.
 #pragma once
-#include "meniscus/app/commands.hpp"
-#include "meniscus/app/print.hpp"
+#include "app/commands.hpp"
+#include "app/print.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Completion of the shell and the manual page, from the options of the command line.
-#include "meniscus/app/manual.hpp"
+#include "app/manual.hpp"
 
-#include "meniscus/app/documents.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/scene/key_reference.hpp"
+#include "app/documents.hpp"
+#include "input/text.hpp"
+#include "scene/key_reference.hpp"
 
 #include <fmt/core.h>
 

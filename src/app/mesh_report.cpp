@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers that tell whether a mesh makes a good body.
-#include "meniscus/app/mesh_report.hpp"
+#include "app/mesh_report.hpp"
 
-#include "meniscus/app/print.hpp"
-#include "meniscus/body/simplex.hpp"
-#include "meniscus/body/surface_points.hpp"
+#include "app/print.hpp"
+#include "body/grid/simplex.hpp"
+#include "body/surface/surface_points.hpp"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene to begin with: one of the gallery, its tables and keys explained by the reference.
-#include "meniscus/app/documents.hpp"
-#include "meniscus/scene/key_reference.hpp"
+#include "app/documents.hpp"
+#include "scene/key_reference.hpp"
 
 #include <fmt/core.h>
 

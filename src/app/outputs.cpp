@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Names of columns and fields, and the check of those a scene asks for.
-#include "meniscus/app/outputs.hpp"
+#include "app/outputs.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
+#include "input/names.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/solve/stepper.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames of rigid partners: surfaces that are moved as a whole.
-#include "meniscus/app/partner_frames.hpp"
+#include "app/partner_frames.hpp"
 
 #include <deque>
 

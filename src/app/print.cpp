@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Standard streams that may be closed or full.
-#include "meniscus/app/print.hpp"
+#include "app/print.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/ranks.hpp"
-#include "meniscus/core/text.hpp"
+#include "input/text.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/ranks.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

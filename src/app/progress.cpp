@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Progress on one line of a terminal, or in lines of a file.
-#include "meniscus/app/progress.hpp"
+#include "app/progress.hpp"
 
-#include "meniscus/app/print.hpp"
-#include "meniscus/core/ranks.hpp"
+#include "app/print.hpp"
+#include "parallel/ranks.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>

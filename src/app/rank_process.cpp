@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Becoming one of the ranks of a run, and watching over one.
-#include "meniscus/app/rank_process.hpp"
+#include "app/rank_process.hpp"
 
-#include "meniscus/app/child.hpp"
-#include "meniscus/app/hand_over.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/ranks.hpp"
+#include "app/child.hpp"
+#include "app/hand_over.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/ranks.hpp"
 
 #include <fmt/core.h>
 #include <sys/wait.h>

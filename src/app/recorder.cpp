@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows, frames and checkpoints of a run.
-#include "meniscus/app/recorder.hpp"
+#include "app/recorder.hpp"
 
-#include "meniscus/app/outputs.hpp"
-#include "meniscus/body/particle_values.hpp"
-#include "meniscus/body/simplex.hpp"
-#include "meniscus/core/ranks.hpp"
+#include "app/outputs.hpp"
+#include "body/grid/simplex.hpp"
+#include "body/particle_values.hpp"
+#include "parallel/ranks.hpp"
 
 #include <fmt/core.h>
 

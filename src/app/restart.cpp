@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reading a restart and comparing its scene with that of the run.
-#include "meniscus/app/restart.hpp"
+#include "app/restart.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/input.hpp"
-#include "meniscus/core/ranks.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/io/files.hpp"
+#include "input/input.hpp"
+#include "input/text.hpp"
+#include "io/files.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/ranks.hpp"
 
 #include <fmt/core.h>
 

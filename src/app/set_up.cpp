@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places in the scene for messages of bodies and contacts.
-#include "meniscus/app/set_up.hpp"
+#include "app/set_up.hpp"
 
 #include <fmt/core.h>
 

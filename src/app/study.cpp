@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Running a study: its table as it grows, its checks, and its files.
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
 
-#include "meniscus/app/commands.hpp"
-#include "meniscus/app/print.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/io/files.hpp"
-#include "meniscus/io/provenance.hpp"
+#include "app/commands.hpp"
+#include "app/print.hpp"
+#include "input/text.hpp"
+#include "io/files.hpp"
+#include "io/provenance.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line of the studies, a program of its own: `meniscus study` hands over to it.
-#include "meniscus/app/commands.hpp"
-#include "meniscus/app/library_settings.hpp"
-#include "meniscus/app/print.hpp"
-#include "meniscus/io/provenance.hpp"
-
-#include "main_options.hpp"
+#include "app/commands.hpp"
+#include "app/library_settings.hpp"
+#include "app/main_options.hpp"
+#include "app/print.hpp"
+#include "io/provenance.hpp"
 
 namespace {
 

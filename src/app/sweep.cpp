@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene run with all combinations of values of some keys.
-#include "meniscus/app/sweep.hpp"
+#include "app/sweep.hpp"
 
-#include "meniscus/app/child.hpp"
-#include "meniscus/app/commands.hpp"
-#include "meniscus/app/print.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/io/files.hpp"
+#include "app/child.hpp"
+#include "app/commands.hpp"
+#include "app/print.hpp"
+#include "input/text.hpp"
+#include "io/files.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // sweep.csv: what the runs of a sweep ended with.
-#include "meniscus/app/sweep.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
+#include "app/sweep.hpp"
+#include "input/text.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Run-time warnings: doubtful states of a run.
-#include "meniscus/app/warnings.hpp"
+#include "app/warnings.hpp"
 
 #include <fmt/core.h>
 

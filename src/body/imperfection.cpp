@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shape imperfections: random smooth displacements.
-#include "meniscus/body/imperfection.hpp"
+#include "body/imperfection.hpp"
 
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/random.hpp"
+#include "numbers/box.hpp"
+#include "numbers/dense.hpp"
+#include "numbers/random.hpp"
 
 #include <cmath>
 #include <numbers>

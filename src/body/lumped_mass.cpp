@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lumped masses: row sums with a floor, and what the floor adds taken from other particles.
-#include "meniscus/approx/monomials.hpp"
-#include "meniscus/body/body.hpp"
-#include "meniscus/core/dense.hpp"
+#include "body/body.hpp"
+#include "kernel/monomials.hpp"
+#include "numbers/dense.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values at particles: each rank computes its own rows, then all values are gathered.
-#include "meniscus/body/particle_values.hpp"
+#include "body/particle_values.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/divided.hpp"
+#include "kernel/row_sums.hpp"
+#include "parallel/divided.hpp"
 
 #include <algorithm>
 #include <numeric>

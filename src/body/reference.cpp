@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // References of bodies, and what is kept of them.
-#include "meniscus/body/reference.hpp"
+#include "body/reference.hpp"
 
-#include "meniscus/body/nodal_cells.hpp"
-#include "meniscus/body/quadratic_surface.hpp"
-#include "meniscus/body/recovered_surface.hpp"
+#include "body/grid/nodal_cells.hpp"
+#include "body/surface/quadratic_surface.hpp"
+#include "body/surface/recovered_surface.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Supports of hollow bodies from the distances of particles to the other side of the cavity.
-#include "meniscus/body/wall_supports.hpp"
+#include "body/wall_supports.hpp"
 
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "body/surface/surface_points.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <limits>

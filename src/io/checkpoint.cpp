@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writing checkpoints in turn, and finding the newest valid one.
-#include "meniscus/io/checkpoint.hpp"
+#include "io/checkpoint.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/io/files.hpp"
+#include "io/files.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/meta.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 
@@ -11,9 +13,6 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
-
-#include "hdf5_file.hpp"
-#include "meta.hpp"
 
 namespace meniscus {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small text files through the C library, whose errors carry a reason.
-#include "meniscus/io/files.hpp"
+#include "io/files.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/regular_file.hpp"
+#include "input/regular_file.hpp"
+#include "meniscus/error.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Layout that all frames of a result file share.
 #pragma once
+#include "io/hdf5_file.hpp"
+
 #include <string>
 #include <vector>
-
-#include "hdf5_file.hpp"
 
 namespace meniscus {
 

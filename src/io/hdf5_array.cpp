@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arrays of an HDF5 group, series that grow by one row per frame, and views over frames.
-#include "meniscus/core/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/hdf5_types.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <hdf5.h>
 
 #include <algorithm>
-
-#include "hdf5_file.hpp"
-#include "hdf5_types.hpp"
 
 namespace meniscus::hdf5 {
 namespace {

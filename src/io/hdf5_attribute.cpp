@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Attributes of HDF5 groups and arrays.
-#include "meniscus/core/error.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/hdf5_types.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <hdf5.h>
 
 #include <algorithm>
-
-#include "hdf5_file.hpp"
-#include "hdf5_types.hpp"
 
 namespace meniscus::hdf5 {
 namespace {

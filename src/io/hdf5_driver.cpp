@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The HDF5 file driver with ordered changes (virtual file layer of HDF5 1.10 to 1.14).
-#include "hdf5_driver.hpp"
+#include "io/hdf5_driver.hpp"
 
 #include <fcntl.h>
 #include <hdf5.h>
 #if H5_VERSION_GE(1, 14, 0)
 #include <H5FDdevelop.h>
 #endif
+#include "io/hdf5_file.hpp"
+#include "io/hdf5_flush_order.hpp"
+
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,9 +22,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "hdf5_file.hpp"
-#include "hdf5_flush_order.hpp"
 
 namespace meniscus::hdf5 {
 namespace {

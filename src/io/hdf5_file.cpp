@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // HDF5 files, groups and their closing.
-#include "hdf5_file.hpp"
+#include "io/hdf5_file.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/io/files.hpp"
+#include "io/files.hpp"
+#include "io/hdf5_driver.hpp"
+#include "io/hdf5_types.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <hdf5.h>
 
 #include <algorithm>
-
-#include "hdf5_driver.hpp"
-#include "hdf5_types.hpp"
 
 namespace meniscus::hdf5 {
 namespace {

@@ -3,7 +3,7 @@
 // array from all frames. No HDF5 header is seen outside hdf5_file.cpp, hdf5_array.cpp,
 // hdf5_attribute.cpp, hdf5_driver.cpp.
 #pragma once
-#include "meniscus/core/types.hpp"
+#include "numbers/types.hpp"
 
 #include <cstdint>
 #include <filesystem>

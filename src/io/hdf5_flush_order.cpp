@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The order of writes: what is referred to before what refers to it, trees of groups by a copy.
-#include "hdf5_flush_order.hpp"
+#include "io/hdf5_flush_order.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // HDF5 number types and text attributes, shared by the HDF5 files.
 #pragma once
+#include "io/hdf5_file.hpp"
+
 #include <hdf5.h>
 
 #include <string>
 #include <type_traits>
-
-#include "hdf5_file.hpp"
 
 namespace meniscus::hdf5 {
 

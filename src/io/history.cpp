@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writing, continuing and reading history.csv.
-#include "meniscus/io/history.hpp"
+#include "io/history.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/io/files.hpp"
+#include "input/text.hpp"
+#include "io/files.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Summaries of result files and checkpoints.
-#include "meniscus/io/info.hpp"
+#include "io/info.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/io/files.hpp"
-#include "meniscus/io/run_directory.hpp"
+#include "input/text.hpp"
+#include "io/files.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/meta.hpp"
+#include "io/run_directory.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
-
-#include "hdf5_file.hpp"
-#include "meta.hpp"
 
 namespace meniscus {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Provenance and snapshots as HDF5 groups.
-#include "meta.hpp"
+#include "io/meta.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/sha256.hpp"
+#include "input/sha256.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

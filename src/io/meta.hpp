@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Provenance and snapshots as HDF5 groups; used by result files and checkpoints.
 #pragma once
-#include "meniscus/core/snapshot.hpp"
-#include "meniscus/io/provenance.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/provenance.hpp"
+#include "state/snapshot.hpp"
 
 #include <string>
-
-#include "hdf5_file.hpp"
 
 namespace meniscus {
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Provenance of a result, collected.
-#include "meniscus/io/provenance.hpp"
+#include "io/provenance.hpp"
+
+#include "io/hdf5_file.hpp"
+#include "meniscus_version.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -11,9 +14,6 @@
 #include <ctime>
 #include <filesystem>
 #include <string_view>
-
-#include "hdf5_file.hpp"
-#include "meniscus_version.hpp"
 
 namespace meniscus {
 namespace {

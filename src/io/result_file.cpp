@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writing and continuing a result file.
-#include "meniscus/io/result_file.hpp"
+#include "io/result_file.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/io/files.hpp"
+#include "input/text.hpp"
+#include "io/files.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/meta.hpp"
+#include "io/result_series.hpp"
+#include "io/vtkhdf.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 
@@ -13,11 +17,6 @@
 #include <limits>
 #include <stdexcept>
 #include <utility>
-
-#include "hdf5_file.hpp"
-#include "meta.hpp"
-#include "result_series.hpp"
-#include "vtkhdf.hpp"
 
 namespace meniscus {
 namespace {

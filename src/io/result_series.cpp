@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Order in a series of result files.
-#include "result_series.hpp"
+#include "io/result_series.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/io/files.hpp"
+#include "io/files.hpp"
+#include "io/vtkhdf.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
-
-#include "vtkhdf.hpp"
 
 namespace meniscus {
 namespace {

@@ -2,13 +2,12 @@
 // The files NAME.h5, NAME.1.h5, ... of a run whose bodies were referred anew, one per epoch, and
 // NAME.vtkhdf.series, which names them to ParaView as one.
 #pragma once
-#include "meniscus/io/run_directory.hpp"
+#include "io/run_directory.hpp"
+#include "io/xdmf.hpp"
 
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "xdmf.hpp"
 
 namespace meniscus {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Making, locking and clearing the directory of a run.
-#include "meniscus/io/run_directory.hpp"
+#include "io/run_directory.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/io/files.hpp"
+#include "io/files.hpp"
+#include "meniscus/error.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>

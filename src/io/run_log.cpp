@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The log of a run by spdlog; no other file sees spdlog.
-#include "meniscus/io/run_log.hpp"
+#include "io/run_log.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
+#include "input/text.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <spdlog/logger.h>

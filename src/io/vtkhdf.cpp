@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The VTKHDF view of a result file.
-#include "vtkhdf.hpp"
+#include "io/vtkhdf.hpp"
 
-#include "meniscus/io/files.hpp"
-#include "meniscus/io/run_directory.hpp"
+#include "io/files.hpp"
+#include "io/run_directory.hpp"
 
 #include <algorithm>
 

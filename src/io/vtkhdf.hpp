@@ -4,13 +4,12 @@
 // themselves; only small index arrays are written.
 // Source: VTK File Formats, "VTKHDF File Format" 2.x, sections UnstructuredGrid and Temporal Data.
 #pragma once
-#include "meniscus/core/types.hpp"
+#include "io/frame_layout.hpp"
+#include "numbers/types.hpp"
 
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "frame_layout.hpp"
 
 namespace meniscus::vtkhdf {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The XDMF description of a result file.
-#include "xdmf.hpp"
+#include "io/xdmf.hpp"
 
-#include "meniscus/io/files.hpp"
+#include "io/files.hpp"
+#include "io/vtkhdf.hpp"
 
 #include <fmt/core.h>
-
-#include "vtkhdf.hpp"
 
 namespace meniscus {
 namespace {

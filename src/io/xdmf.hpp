@@ -3,13 +3,12 @@
 // VisIt. Each frame has its own arrays (the Xdmf3 reader shows nothing where parts of arrays are
 // named).
 #pragma once
-#include "meniscus/core/types.hpp"
+#include "io/frame_layout.hpp"
+#include "numbers/types.hpp"
 
 #include <filesystem>
 #include <string>
 #include <utility>
-
-#include "frame_layout.hpp"
 
 namespace meniscus {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shape measures of red blood cells.
-#include "meniscus/measure/cell_measures.hpp"
+#include "measure/cell_measures.hpp"
 
-#include "meniscus/body/wall_supports.hpp"
+#include "body/wall_supports.hpp"
+#include "measure/meridian_shape.hpp"
 #include "meniscus/measure/measure_registry.hpp"
-#include "meniscus/measure/meridian_shape.hpp"
-#include "meniscus/physics/closed_surface.hpp"
+#include "physics/surface/closed_surface.hpp"
 
 #include <cmath>
 #include <memory>

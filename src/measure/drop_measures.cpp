@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Velocities at particles and shape of drops.
-#include "meniscus/measure/drop_measures.hpp"
+#include "measure/drop_measures.hpp"
 
-#include "meniscus/body/particle_values.hpp"
-#include "meniscus/physics/closed_surface.hpp"
+#include "body/particle_values.hpp"
+#include "physics/surface/closed_surface.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Position, velocity, rotation and length of a body as a whole.
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/parallel.hpp"
 #include "meniscus/measure/measure_registry.hpp"
+#include "numbers/dense.hpp"
+#include "parallel/parallel.hpp"
 
 #include <array>
 #include <cmath>

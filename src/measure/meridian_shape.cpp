@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meridians of a body of revolution after its deformation.
-#include "meniscus/measure/meridian_shape.hpp"
+#include "measure/meridian_shape.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "kernel/row_sums.hpp"
+#include "numbers/dense.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

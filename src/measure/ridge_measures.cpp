@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Height of the ridge at a contact line, and the angles in which three surfaces meet there.
-#include "meniscus/measure/ridge_measures.hpp"
+#include "measure/ridge_measures.hpp"
 
-#include "meniscus/core/dense.hpp"
-#include "meniscus/physics/closed_surface.hpp"
+#include "numbers/dense.hpp"
+#include "physics/surface/closed_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

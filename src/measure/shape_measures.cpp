@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shape of a body from its surface, and the error against an exact solution.
-#include "meniscus/measure/shape_measures.hpp"
+#include "measure/shape_measures.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/body/particle_values.hpp"
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/dense.hpp"
+#include "body/particle_values.hpp"
+#include "kernel/row_sums.hpp"
+#include "measure/surface_extents.hpp"
 #include "meniscus/measure/measure_registry.hpp"
+#include "numbers/box.hpp"
+#include "numbers/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-
-#include "surface_extents.hpp"
 
 namespace meniscus {
 namespace {

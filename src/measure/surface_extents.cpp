@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Extents of quadratic patches.
-#include "surface_extents.hpp"
+#include "measure/surface_extents.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/ranks.hpp"
+#include "body/surface/surface_points.hpp"
+#include "kernel/row_sums.hpp"
+#include "parallel/ranks.hpp"
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 // The box around the present surface of a body, whose extents do not depend on where the particles
 // of the body happen to be.
 #pragma once
-#include "meniscus/body/body.hpp"
-#include "meniscus/body/quadratic_patches.hpp"
-#include "meniscus/core/box.hpp"
+#include "body/body.hpp"
+#include "body/surface/quadratic_patches.hpp"
+#include "numbers/box.hpp"
 
 #include <optional>
 

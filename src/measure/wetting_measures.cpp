@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Wetted area of a drop on a wall, and its fit by a spherical cap.
-#include "meniscus/measure/wetting_measures.hpp"
+#include "measure/wetting_measures.hpp"
 
-#include "meniscus/core/dense.hpp"
-#include "meniscus/physics/closed_surface.hpp"
+#include "numbers/dense.hpp"
+#include "physics/surface/closed_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

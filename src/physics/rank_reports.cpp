@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of reports in one exchange; words, which are rare, after them.
-#include "meniscus/physics/rank_reports.hpp"
+#include "physics/rank_reports.hpp"
 
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus {
 namespace {

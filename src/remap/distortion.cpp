@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Condition of F at the particles of a body.
-#include "meniscus/remap/distortion.hpp"
+#include "remap/distortion.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "kernel/row_sums.hpp"
+#include "numbers/dense.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

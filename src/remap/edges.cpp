@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodes at which the normal of the surface jumps.
-#include "edges.hpp"
+#include "remap/edges.hpp"
 
-#include "meniscus/core/dense.hpp"
+#include "numbers/dense.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges of a present surface, as that of the flat face of a drop that began as a half disk.
 #pragma once
-#include "meniscus/remap/present_surface.hpp"
+#include "remap/present_surface.hpp"
 
 #include <vector>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values and coefficients of fields, and the inverse of a motion.
-#include "meniscus/remap/nodal_values.hpp"
+#include "remap/nodal_values.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/body/particle_values.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "body/particle_values.hpp"
+#include "kernel/row_sums.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/dense.hpp"
+#include "parallel/parallel.hpp"
 
 #include <fmt/core.h>
 

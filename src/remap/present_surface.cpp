@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nearest points of patches.
-#include "meniscus/remap/present_surface.hpp"
+#include "remap/present_surface.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
+#include "kernel/row_sums.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/dense.hpp"
 
 #include <algorithm>
 #include <cmath>

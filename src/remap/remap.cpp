@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // New references, and velocities and fields carried to them.
-#include "meniscus/remap/remap.hpp"
+#include "remap/remap.hpp"
 
-#include "meniscus/body/particle_values.hpp"
-#include "meniscus/body/quadratic_surface.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/remap/nodal_values.hpp"
-#include "meniscus/remap/present_surface.hpp"
+#include "body/particle_values.hpp"
+#include "body/surface/quadratic_surface.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/dense.hpp"
+#include "remap/nodal_values.hpp"
+#include "remap/present_surface.hpp"
 
 #include <fmt/core.h>
 

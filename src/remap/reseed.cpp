@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodes along the present surface, and inside it.
-#include "meniscus/remap/reseed.hpp"
+#include "remap/reseed.hpp"
 
-#include "meniscus/body/gauss.hpp"
-#include "meniscus/body/quadratic_surface.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/remap/present_surface.hpp"
-#include "meniscus/solve/sparse_factors.hpp"
+#include "body/grid/gauss.hpp"
+#include "body/surface/quadratic_surface.hpp"
+#include "numbers/dense.hpp"
+#include "remap/edges.hpp"
+#include "remap/present_surface.hpp"
+#include "solve/linear/sparse_factors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <set>
-
-#include "edges.hpp"
 
 namespace meniscus {
 namespace {

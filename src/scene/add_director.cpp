@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The director of a nematic body becomes a field of the scene.
-#include "add_director.hpp"
+#include "scene/add_director.hpp"
 
-#include "meniscus/physics/director.hpp"
-#include "meniscus/physics/frank_energy.hpp"
-#include "meniscus/remap/nodal_values.hpp"
+#include "physics/director/director.hpp"
+#include "physics/director/frank_energy.hpp"
+#include "remap/nodal_values.hpp"
 
 #include <fmt/core.h>
 

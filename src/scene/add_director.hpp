@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The director of a nematic body becomes a field of the scene.
 #pragma once
-#include "meniscus/physics/nematic.hpp"
 #include "meniscus/scene/assembly.hpp"
+#include "physics/director/nematic.hpp"
 
 namespace meniscus {
 

@@ -2,7 +2,7 @@
 // Assembly: what loads add to a scene.
 #include "meniscus/scene/assembly.hpp"
 
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Building a body of a scene.
-#include "build_body.hpp"
+#include "scene/build_body.hpp"
 
-#include "meniscus/body/ordering.hpp"
-#include "meniscus/body/straightened_facets.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/body/wall_supports.hpp"
+#include "body/grid/ordering.hpp"
+#include "body/grid/straightened_facets.hpp"
+#include "body/surface/surface_points.hpp"
+#include "body/wall_supports.hpp"
 #include "meniscus/measure/measure_registry.hpp"
-#include "meniscus/physics/material.hpp"
-#include "meniscus/physics/solid_viscosity.hpp"
+#include "physics/internal/material.hpp"
+#include "physics/internal/solid_viscosity.hpp"
 
 #include <fmt/core.h>
 

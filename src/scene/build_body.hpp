@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a planned body to particles, internal force and measures.
 #pragma once
-#include "meniscus/physics/nematic.hpp"
 #include "meniscus/scene/assembly.hpp"
+#include "physics/director/nematic.hpp"
 
 namespace meniscus {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Impact pressure, elastocapillary and Tabor numbers of a contact, and waves of drops that spread.
-#include "meniscus/scene/contact_advice.hpp"
+#include "scene/contact_advice.hpp"
 
-#include "meniscus/physics/contact_numbers.hpp"
+#include "physics/contact/contact_numbers.hpp"
 
 #include <fmt/core.h>
 

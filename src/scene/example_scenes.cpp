@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small scenes around examples.
-#include "meniscus/scene/example_scenes.hpp"
+#include "scene/example_scenes.hpp"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Expectations: numbers taken from the history of a run and compared.
-#include "meniscus/scene/expectations.hpp"
+#include "scene/expectations.hpp"
 
 #include <fmt/core.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Faces that loads name.
-#include "meniscus/scene/face_keys.hpp"
+#include "scene/face_keys.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
+#include "input/names.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The reference of all keys of a scene: to read, and for documents.
-#include "meniscus/scene/key_reference.hpp"
+#include "scene/key_reference.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
-#include "meniscus/core/units.hpp"
+#include "input/names.hpp"
+#include "input/units.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

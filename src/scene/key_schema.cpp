@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A JSON Schema of scenes, made of the reference of keys.
-#include "meniscus/core/text.hpp"
-#include "meniscus/scene/key_reference.hpp"
+#include "input/text.hpp"
+#include "scene/key_reference.hpp"
 
 #include <fmt/core.h>
 

@@ -2,9 +2,9 @@
 // The reference of all measures: those that small scenes with everything registered have.
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/physics/partner_registry.hpp"
-#include "meniscus/scene/example_scenes.hpp"
-#include "meniscus/scene/key_reference.hpp"
-#include "meniscus/scene/scene.hpp"
+#include "scene/example_scenes.hpp"
+#include "scene/key_reference.hpp"
+#include "scene/scene.hpp"
 
 #include <fmt/core.h>
 

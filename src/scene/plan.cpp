@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reading a scene whole, with every check that needs no particles.
-#include "meniscus/scene/plan.hpp"
+#include "scene/plan.hpp"
 
-#include "meniscus/body/cell_count.hpp"
+#include "body/cell_count.hpp"
+#include "input/names.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
-#include "meniscus/core/ranks.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/physics/law_registry.hpp"
+#include "parallel/ranks.hpp"
 
 #include <fmt/core.h>
 

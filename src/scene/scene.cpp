@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Building what a scene says.
-#include "meniscus/scene/scene.hpp"
+#include "scene/scene.hpp"
 
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
+#include "scene/add_director.hpp"
+#include "scene/build_body.hpp"
+#include "scene/watch_surfaces.hpp"
 
 #include <fmt/core.h>
 
 #include <stdexcept>
-
-#include "add_director.hpp"
-#include "build_body.hpp"
-#include "watch_surfaces.hpp"
 
 namespace meniscus {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The keys of a scene: names, units, ranges, defaults and meanings.
-#include "meniscus/scene/settings.hpp"
+#include "scene/settings.hpp"
 
-#include "meniscus/approx/window.hpp"
+#include "input/optional_rows.hpp"
+#include "kernel/window.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/optional_rows.hpp"
 #include "meniscus/physics/law_registry.hpp"
-#include "meniscus/scene/key_reference.hpp"
 #include "meniscus/scene/load.hpp"
 #include "meniscus/solve/stepper.hpp"
+#include "scene/key_reference.hpp"
 
 #include <cmath>
 #include <iterator>

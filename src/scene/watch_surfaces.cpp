@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks of surfaces, and pairs of bodies without contact.
-#include "watch_surfaces.hpp"
+#include "scene/watch_surfaces.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/text.hpp"
-#include "meniscus/physics/containment.hpp"
-#include "meniscus/physics/surface_check.hpp"
+#include "input/text.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/points/containment.hpp"
+#include "physics/surface/surface_check.hpp"
 
 #include <fmt/core.h>
 

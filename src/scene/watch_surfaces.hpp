@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces of a scene that must not go through themselves or each other.
 #pragma once
-#include "meniscus/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace meniscus {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums of energy and momentum over the particles.
-#include "meniscus/solve/audit.hpp"
+#include "solve/audit.hpp"
 
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "numbers/dense.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

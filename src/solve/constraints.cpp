@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Constraints in central differences.
-#include "meniscus/solve/constraints.hpp"
+#include "solve/constraints.hpp"
 
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/dense.hpp"
+#include "parallel/parallel.hpp"
 
 #include <fmt/core.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An estimate from counts.
-#include "meniscus/solve/expected_effort.hpp"
+#include "solve/expected_effort.hpp"
 
-#include "meniscus/core/nodal_algebra.hpp"
-#include "meniscus/core/parallel.hpp"
-#include "meniscus/solve/free_motions.hpp"
-#include "meniscus/solve/held_preconditioner.hpp"
-#include "meniscus/solve/rest.hpp"
+#include "parallel/nodal_algebra.hpp"
+#include "parallel/parallel.hpp"
+#include "solve/free_motions.hpp"
+#include "solve/linear/held_preconditioner.hpp"
+#include "solve/step/rest.hpp"
 
 #include <chrono>
 #include <cmath>

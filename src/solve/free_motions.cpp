@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Search for rigid motions without a force.
-#include "meniscus/solve/free_motions.hpp"
+#include "solve/free_motions.hpp"
 
-#include "meniscus/core/nodal_algebra.hpp"
+#include "parallel/nodal_algebra.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The smallest distance between two particles of a body, by the tree of their search.
-#include "meniscus/solve/least_spacing.hpp"
+#include "solve/least_spacing.hpp"
 
-#include "meniscus/core/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The books of energy, and what is kept of a state.
-#include "meniscus/solve/state.hpp"
+#include "solve/state.hpp"
 
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The share of each term in the stiffness of a mode.
-#include "stiffest_term.hpp"
+#include "solve/stiffest_term.hpp"
 
-#include "meniscus/core/nodal_algebra.hpp"
+#include "parallel/nodal_algebra.hpp"
 
 #include <fmt/core.h>
 

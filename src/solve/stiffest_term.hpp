@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which force makes the stable step as short as it is, for messages.
 #pragma once
-#include "meniscus/solve/system.hpp"
+#include "solve/system.hpp"
 
 #include <span>
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sum of all force terms and the check that it makes sense.
-#include "meniscus/solve/system.hpp"
+#include "solve/system.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/nodal_algebra.hpp"
+#include "kernel/row_sums.hpp"
+#include "parallel/nodal_algebra.hpp"
 
 #include <fmt/core.h>
 

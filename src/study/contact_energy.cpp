@@ -2,11 +2,11 @@
 // Energy of a spinning elastic disk that bounces on an adhesive plate, over the time step and the
 // fineness of the contact points (CGCM note 2). The energy form is of second order in the step and
 // independent of the points; the form of the dissertation has a plateau.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/scene.hpp"
-#include "meniscus/solve/audit.hpp"
-#include "meniscus/solve/central_difference.hpp"
-#include "meniscus/study/study.hpp"
+#include "meniscus/error.hpp"
+#include "scene/scene.hpp"
+#include "solve/audit.hpp"
+#include "solve/step/central_difference.hpp"
+#include "study/study.hpp"
 
 #include <fmt/core.h>
 

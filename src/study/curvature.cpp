@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curvature of exact surfaces, from the deformation of a ball or a disk (RKPM note 3.1): bases,
 // supports, kernels, places, updates of the reference, and means to raise the order.
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
+#include "study/support/bodies.hpp"
+#include "study/support/curvature_list.hpp"
+#include "study/support/height_function.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "support/bodies.hpp"
-#include "support/curvature_list.hpp"
-#include "support/height_function.hpp"
 
 namespace meniscus::curvature_study {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Roots of the dispersion relation by continuation from the limits of small and large viscosity.
-#include "meniscus/study/drop_dispersion.hpp"
+#include "study/drop_dispersion.hpp"
 
 #include <fmt/core.h>
 

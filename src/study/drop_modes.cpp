@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decay rate and frequency of small oscillations of a viscous drop against the exact dispersion
 // relation.
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
+#include "study/support/drop_mode_case.hpp"
 
 #include <fmt/core.h>
 
 #include <string>
 #include <vector>
-
-#include "support/drop_mode_case.hpp"
 
 namespace meniscus::drop_modes_study {
 namespace {

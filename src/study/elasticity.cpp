@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Convergence in elastostatics: a free body under the loads of a smooth displacement (RKPM
 // note 5.4), lambda = mu.
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
+#include "study/support/elastic_case.hpp"
+#include "study/support/elastic_fields.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "support/elastic_case.hpp"
-#include "support/elastic_fields.hpp"
 
 namespace meniscus::elasticity_study {
 namespace {

@@ -3,8 +3,8 @@
 // sqrt(rho R^3 / gamma). Large amplitudes have no closed solution. The reference is the limit of
 // one method under refinement; other integration rules, surface forms and clouds have to converge
 // to it, too. The values of RKPM note 8 are shown beside it.
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/study/study.hpp"
+#include "run/simulation.hpp"
+#include "study/study.hpp"
 
 #include <fmt/core.h>
 

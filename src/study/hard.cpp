@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases: each has to stay stable, or to stop and name the cause.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/scene.hpp"
-#include "meniscus/solve/audit.hpp"
-#include "meniscus/solve/central_difference.hpp"
-#include "meniscus/solve/time_step.hpp"
+#include "meniscus/error.hpp"
+#include "scene/scene.hpp"
+#include "solve/audit.hpp"
+#include "solve/step/central_difference.hpp"
+#include "solve/step/time_step.hpp"
+#include "study/support/hard_cases.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "support/hard_cases.hpp"
 
 namespace meniscus::hard_study {
 namespace {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of contact: fast first contact, a tip smaller than sigma0, strong compression,
 // overlap, and the friction between flat surfaces with matching points (CGCM notes 7, 8 and 10).
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/contact_numbers.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/dense.hpp"
+#include "physics/contact/contact_numbers.hpp"
+#include "run/simulation.hpp"
+#include "study/support/hard_cases.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "support/hard_cases.hpp"
 
 namespace meniscus::study {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of drops: far from round, of small viscosity, with edges, spinning, attracting each
 // other, and at rest for long.
+#include "study/support/hard_cases.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "support/hard_cases.hpp"
 
 namespace meniscus::study {
 namespace {

@@ -2,11 +2,11 @@
 // Hard cases of equilibria by Newton's method: an arch that snaps through, a nearly incompressible
 // block compressed to half its height, an end rotated by half a turn, a surface that jumps into
 // contact, and thin drops that relax to a circle.
+#include "study/support/hard_cases.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "support/hard_cases.hpp"
 
 namespace meniscus::hard_equilibria_study {
 namespace {

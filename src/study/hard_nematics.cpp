@@ -2,9 +2,9 @@
 // Hard cases of nematics: defect cores below the particle spacing, directors that tumble, directors
 // that relax far faster than the liquid moves, strong anchoring at the surface, and defects that
 // leave.
-#include <fmt/core.h>
+#include "study/support/hard_cases.hpp"
 
-#include "support/hard_cases.hpp"
+#include <fmt/core.h>
 
 namespace meniscus::hard_nematics_study {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of solids for every law: nearly incompressible, released from large stretches, twists
 // and shears, jittered clouds, walls of cells, networks that change their shape, fast impacts.
+#include "study/support/hard_cases.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
-
-#include "support/hard_cases.hpp"
 
 namespace meniscus::hard_solids_study {
 namespace {

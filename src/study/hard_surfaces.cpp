@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases of surface laws: skins far stiffer than the body, skins with moduli that are not
 // positive, skins that alone hold a liquid, tensions that drive flows for long or become negative.
-#include <fmt/core.h>
+#include "study/support/hard_cases.hpp"
 
-#include "support/hard_cases.hpp"
+#include <fmt/core.h>
 
 namespace meniscus::hard_surfaces_study {
 namespace {

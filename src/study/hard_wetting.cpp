@@ -2,9 +2,9 @@
 // Hard cases of drops on walls: contact angles near 0 and 180 degrees, a heavy drop with little
 // adhesion, complete wetting, ranges and supports that hardly resolve the line, impact, lift-off,
 // two drops that meet, a tip pulled out of a film, and ground too soft for its adhesion.
-#include <fmt/core.h>
+#include "study/support/hard_cases.hpp"
 
-#include "support/hard_cases.hpp"
+#include <fmt/core.h>
 
 namespace meniscus::study {
 namespace {

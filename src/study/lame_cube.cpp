@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // State error against time to solution: the free cube in its Lame mode, an exact solution of linear
 // elastodynamics (performance note 3).
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
+#include "study/support/lame_cube_case.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-
-#include "support/lame_cube_case.hpp"
 
 namespace meniscus::lame_cube_study {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Volumetric locking: elastostatics with a divergence-free displacement, lambda/mu from 1 to 1e4
 // (RKPM note 5.4).
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
+#include "study/support/elastic_case.hpp"
+#include "study/support/elastic_fields.hpp"
 
 #include <fmt/core.h>
-
-#include "support/elastic_case.hpp"
-#include "support/elastic_fields.hpp"
 
 namespace meniscus::locking_study {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Patch tests of elasticity: a free body under the loads of a linear and of a quadratic
 // displacement must find that displacement (RKPM note 5.4).
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
+#include "study/support/elastic_case.hpp"
+#include "study/support/elastic_fields.hpp"
 
 #include <fmt/core.h>
-
-#include "support/elastic_case.hpp"
-#include "support/elastic_fields.hpp"
 
 namespace meniscus::patch_study {
 namespace {

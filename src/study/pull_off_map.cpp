@@ -5,8 +5,8 @@
 // (Bradley) and soft balls (Johnson, Kendall, Roberts). Also measured: the waves of the force while
 // the edge of the contact passes over facets, and the work of the cycle against the energy that
 // jumps release.
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/study/study.hpp"
+#include "run/simulation.hpp"
+#include "study/study.hpp"
 
 #include <fmt/core.h>
 

@@ -2,8 +2,8 @@
 // A red blood cell by deflation to 0.7 of its cavity: error against axisymmetric finite elements
 // (red blood cell note 4) over the time to equilibrium, and what becomes of shells that are
 // thinner, thicker, nearly incompressible, not perfect, or pushed on the way.
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/study/study.hpp"
+#include "run/simulation.hpp"
+#include "study/study.hpp"
 
 #include <fmt/core.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cost against size: setting up and stepping the free cube of lame_cube, per particle, with one
 // thread and with two, and with two runs at the same time (performance note 6).
-#include "meniscus/core/memory.hpp"
-#include "meniscus/core/parallel.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/study/study.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/parallel.hpp"
+#include "run/simulation.hpp"
+#include "study/study.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>

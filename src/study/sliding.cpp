@@ -3,17 +3,16 @@
 // stiff discs with known force: pairs and time of one force with its tangent, by surface points and
 // by volume points at equal accuracy. For soft discs: the work of each form on the way to the
 // middle.
-#include "meniscus/body/gauss.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/study/study.hpp"
+#include "body/grid/gauss.hpp"
+#include "run/simulation.hpp"
+#include "study/study.hpp"
+#include "study/support/contact_costs.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "support/contact_costs.hpp"
 
 namespace meniscus::sliding_study {
 namespace {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Modes of the free elastic cube: number of zero-energy modes, lowest frequency, stiffness against
 // saw-tooth modes, and highest frequency (RKPM note 5.4).
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
+#include "study/support/cube_modes.hpp"
+#include "study/support/cube_spectrum.hpp"
+#include "study/support/elastic_case.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "support/cube_modes.hpp"
-#include "support/cube_spectrum.hpp"
-#include "support/elastic_case.hpp"
 
 namespace meniscus::spectrum_study {
 namespace {

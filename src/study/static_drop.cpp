@@ -2,13 +2,12 @@
 // A drop at rest: spurious motion and shape. It starts as a ball (2D: disk) in its Laplace
 // pressure, or as an ellipsoid (ellipse) 1.5 : 1 that relaxes first and whose particles keep that
 // deformation (static-drop note 3).
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
+#include "study/support/static_drop_case.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "support/static_drop_case.hpp"
 
 namespace meniscus::static_drop_study {
 namespace {

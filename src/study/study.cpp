@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bookkeeping of a study.
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
 
 #include <fmt/core.h>
 

@@ -2,21 +2,20 @@
 // Width of supports: errors of solids, drops and curvature against pairs and time. Supports are f
 // times the distance to the 20th neighbour, or f times the mean diagonal of the cells around a
 // particle. In a lattice both are 1.73 spacings, but at the boundary the first one grows.
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
+#include "study/support/bodies.hpp"
+#include "study/support/cube_modes.hpp"
+#include "study/support/cube_spectrum.hpp"
+#include "study/support/curvature_list.hpp"
+#include "study/support/drop_mode_case.hpp"
+#include "study/support/elastic_case.hpp"
+#include "study/support/elastic_fields.hpp"
+#include "study/support/lame_cube_case.hpp"
+#include "study/support/static_drop_case.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "support/bodies.hpp"
-#include "support/cube_modes.hpp"
-#include "support/cube_spectrum.hpp"
-#include "support/curvature_list.hpp"
-#include "support/drop_mode_case.hpp"
-#include "support/elastic_case.hpp"
-#include "support/elastic_fields.hpp"
-#include "support/lame_cube_case.hpp"
-#include "support/static_drop_case.hpp"
 
 namespace meniscus::support_study {
 namespace {

@@ -2,12 +2,11 @@
 // Forms of surface tension against exact forces (RKPM note 4): nodal forces and power on the
 // twisted ellipsoid, net force and torque on a surface without symmetry, and the Young-Laplace
 // jump.
-#include "meniscus/physics/surface_tension.hpp"
-#include "meniscus/study/study.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "study/study.hpp"
+#include "study/support/force_cases.hpp"
 
 #include <fmt/core.h>
-
-#include "support/force_cases.hpp"
 
 namespace meniscus::surface_force_study {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A drop that spreads on a wall: base radius and contact angle against an axisymmetric
 // finite-element calculation with the same law, and its residual motion at rest (wetting note).
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/study/study.hpp"
+#include "run/simulation.hpp"
+#include "study/study.hpp"
 
 #include <fmt/core.h>
 

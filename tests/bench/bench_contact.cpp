@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time of the pair functions and of the forms of contact per pair, and of rigid partners per point.
-#include "meniscus/physics/contact_list.hpp"
-#include "meniscus/physics/contact_points.hpp"
-#include "meniscus/physics/contact_visits.hpp"
-#include "meniscus/physics/rigid_partner.hpp"
-#include "meniscus/scene/scene.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "measure.hpp"
+#include "physics/contact/pair/contact_list.hpp"
+#include "physics/contact/pair/contact_visits.hpp"
+#include "physics/contact/points/contact_points.hpp"
+#include "physics/contact/rigid/rigid_partner.hpp"
+#include "scene/scene.hpp"
+#include "solve/step/central_difference.hpp"
 
 #include <fmt/core.h>
 
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "measure.hpp"
 
 namespace meniscus::bench {
 namespace {

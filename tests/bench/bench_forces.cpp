@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time of the force terms, of a whole step, and of the set-up, on the ball of 4341 particles.
-#include "meniscus/scene/scene.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "measure.hpp"
+#include "scene/scene.hpp"
+#include "solve/step/central_difference.hpp"
 
 #include <fmt/core.h>
 
 #include <memory>
-
-#include "measure.hpp"
 
 namespace meniscus::bench {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time of one evaluation at four stress points, memory to memory, including one virtual call.
+#include "measure.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <array>
 #include <cmath>
 #include <memory>
-
-#include "measure.hpp"
 
 namespace meniscus::bench {
 namespace {

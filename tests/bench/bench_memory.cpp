@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bandwidth of loops that only read memory: the bound for steps of large bodies.
-#include "meniscus/core/aligned.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "measure.hpp"
+#include "parallel/aligned.hpp"
+#include "parallel/parallel.hpp"
 
 #include <fmt/core.h>
-
-#include "measure.hpp"
 
 namespace meniscus::bench {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Time per evaluation point of quadratic shape functions in three dimensions, neighbour search
 // included, on one thread. Limit: 12 us with all second derivatives at about 85 neighbours.
-#include "meniscus/approx/point_rows.hpp"
-#include "meniscus/body/ordering.hpp"
+#include "body/grid/ordering.hpp"
+#include "kernel/point_rows.hpp"
+#include "measure.hpp"
 #include "meniscus/body/shapes.hpp"
 
 #include <memory>
-
-#include "measure.hpp"
 
 namespace meniscus::bench {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the measurements and prints a table per group.
-#include <fmt/core.h>
-
 #include "measure.hpp"
+
+#include <fmt/core.h>
 
 namespace meniscus::bench {
 namespace {

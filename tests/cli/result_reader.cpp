@@ -3,9 +3,9 @@
 //   result_reader FILE
 // Prints a line for each reader: its name, and "read" or the reason for refusal. A refusal has to
 // be a FileError.
-#include "meniscus/core/error.hpp"
-#include "meniscus/io/checkpoint.hpp"
-#include "meniscus/io/info.hpp"
+#include "io/checkpoint.hpp"
+#include "io/info.hpp"
+#include "meniscus/error.hpp"
 
 #include <cstdio>
 #include <exception>

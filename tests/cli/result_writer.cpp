@@ -3,9 +3,9 @@
 //   result_writer DIR FRAMES float32|float64 COMPRESSION [LAST]
 // With LAST, continues an existing run after the frame LAST, without history and checkpoints. A
 // line "frame k" on stdout means that frame k is on disk.
-#include "meniscus/io/checkpoint.hpp"
-#include "meniscus/io/history.hpp"
-#include "meniscus/io/result_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/history.hpp"
+#include "io/result_file.hpp"
 
 #include <cstdio>
 #include <cstdlib>

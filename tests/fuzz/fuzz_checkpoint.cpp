@@ -2,10 +2,10 @@
 // libFuzzer target of the readers of checkpoints and result files. The bytes are a recipe for an
 // HDF5 file: names, types, extents and values. Every such file is read correctly or refused with a
 // FileError.
-#include "meniscus/core/error.hpp"
-#include "meniscus/io/checkpoint.hpp"
-#include "meniscus/io/files.hpp"
-#include "meniscus/io/info.hpp"
+#include "io/checkpoint.hpp"
+#include "io/files.hpp"
+#include "io/info.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // libFuzzer target of the scene reader: any text is read or refused, the complete input can be read
 // again, and every problem has a place.
-#include <cstdlib>
-
 #include "unit/input_scene.hpp"
+
+#include <cstdlib>
 
 using namespace meniscus;
 

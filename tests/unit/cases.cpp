@@ -7,11 +7,10 @@
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/physics/surface_registry.hpp"
 #include "meniscus/solve/stepper.hpp"
-
-#include <fmt/core.h>
-
 #include "mesh_support.hpp"
 #include "support.hpp"
+
+#include <fmt/core.h>
 
 namespace meniscus::test {
 

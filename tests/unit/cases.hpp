@@ -2,8 +2,8 @@
 // Cases: small scenes with everything registered, for tests that run over all of it. They consist
 // of the examples that registered items give for `meniscus keys`.
 #pragma once
-#include "meniscus/scene/example_scenes.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "run/simulation.hpp"
+#include "scene/example_scenes.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reference values of the interaction of bodies (tests/data/cgcm.json).
 #pragma once
-#include "meniscus/physics/contact_law.hpp"
+#include "physics/contact/contact_law.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

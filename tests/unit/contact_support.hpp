@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pairs of small bodies a gap apart, for tests of contact.
 #pragma once
-#include "meniscus/physics/contact.hpp"
-
+#include "physics/contact/contact.hpp"
 #include "support.hpp"
 
 namespace meniscus::test {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Demonstration: a stepper in one file, without a change elsewhere. The symplectic Euler method;
 // the tests of everything registered find it.
+#include "cases.hpp"
 #include "meniscus/solve/stepper.hpp"
 
 #include <gtest/gtest.h>
-
-#include "cases.hpp"
 
 namespace meniscus::demo_stepper {
 namespace {

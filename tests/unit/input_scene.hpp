@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A struct with a row of every kind, a scene that uses it, and its reader, for tests of the input.
 #pragma once
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/input.hpp"
+#include "input/input.hpp"
+#include "meniscus/error.hpp"
 
 #include <string>
 #include <string_view>

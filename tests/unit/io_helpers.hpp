@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Helpers for tests of files: a directory per test, a state, exceptions with their message.
 #pragma once
-#include "meniscus/core/snapshot.hpp"
+#include "state/snapshot.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

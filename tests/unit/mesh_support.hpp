@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mesh files for tests: grids unchanged, or cut into tetrahedra (2D: triangles).
 #pragma once
+#include "geometry_of_lines.hpp"
 #include "meniscus/body/shapes.hpp"
 
 #include <fmt/core.h>
@@ -11,8 +12,6 @@
 #include <fstream>
 #include <string>
 #include <vector>
-
-#include "geometry_of_lines.hpp"
 
 namespace meniscus::test {
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nematic drops with exact solutions, in units R = rho = gamma = 1.
 #pragma once
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/physics/director.hpp"
-#include "meniscus/solve/time_step.hpp"
+#include "kernel/row_sums.hpp"
+#include "physics/director/director.hpp"
+#include "solve/step/time_step.hpp"
+#include "surface_scenes.hpp"
 
 #include <numbers>
-
-#include "surface_scenes.hpp"
 
 namespace meniscus::test {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A system of one body at rest, for tests of the time loop.
 #pragma once
-#include "meniscus/solve/audit.hpp"
-#include "meniscus/solve/time_step.hpp"
-
+#include "solve/audit.hpp"
+#include "solve/step/time_step.hpp"
 #include "support.hpp"
 
 namespace meniscus::test {

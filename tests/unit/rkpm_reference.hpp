@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reference values of shape functions (tests/data/rkpm.json).
 #pragma once
-#include "meniscus/approx/window.hpp"
+#include "kernel/window.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests a single rank of several, without the others.
 #pragma once
-#include "meniscus/core/ranks.hpp"
+#include "parallel/ranks.hpp"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grids with straight cells, whose exact values are known.
 #pragma once
-#include "meniscus/body/grid.hpp"
+#include "body/grid/grid.hpp"
 
 namespace meniscus::test {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small bodies, materials and fields for tests of the operators and force terms.
 #pragma once
-#include "meniscus/body/body.hpp"
-#include "meniscus/body/ordering.hpp"
+#include "body/body.hpp"
+#include "body/grid/ordering.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/aligned.hpp"
 #include "meniscus/physics/law_registry.hpp"
+#include "parallel/aligned.hpp"
 
 #include <map>
 #include <memory>

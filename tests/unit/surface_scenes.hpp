@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes of bodies with surface laws and known solutions, in units R = rho = gamma = 1.
 #pragma once
-#include "meniscus/scene/simulation.hpp"
+#include "cases.hpp"
+#include "cells_reference.hpp"
+#include "run/simulation.hpp"
+#include "support.hpp"
 
 #include <fmt/core.h>
 
 #include <string>
-
-#include "cases.hpp"
-#include "cells_reference.hpp"
-#include "support.hpp"
 
 namespace meniscus::test {
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // No step of a run allocates memory after a warm-up. Every operator new of this program is counted.
-#include "meniscus/scene/simulation.hpp"
+#include "cases.hpp"
+#include "run/simulation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cstdlib>
 #include <new>
-
-#include "cases.hpp"
 
 namespace {
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Archives return the values written to them, for every object that keeps values. A run continued
 // in the middle has the same bits.
-#include "meniscus/core/archive.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/error.hpp"
+#include "one_body.hpp"
+#include "run/simulation.hpp"
+#include "solve/step/central_difference.hpp"
+#include "state/archive.hpp"
+#include "unit/io_helpers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
-
-#include "one_body.hpp"
-#include "unit/io_helpers.hpp"
 
 namespace meniscus::test_archive {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The energy and momentum balances and their errors, against sums by hand.
-#include "meniscus/physics/surface_tension.hpp"
-#include "meniscus/solve/audit.hpp"
+#include "one_body.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "solve/audit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-
-#include "one_body.hpp"
 
 namespace meniscus::test_audit {
 namespace {

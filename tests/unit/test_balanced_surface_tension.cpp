@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface and pressure of one closed surface: patches, the fluid about its enclosed volume, damping
 // of coefficients, and measures of drops.
-#include "meniscus/body/surface_patches.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/measure/drop_measures.hpp"
-#include "meniscus/physics/body_force.hpp"
-#include "meniscus/physics/coefficient_damping.hpp"
-#include "meniscus/physics/surface_tension.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "body/surface/surface_patches.hpp"
+#include "measure/drop_measures.hpp"
+#include "meniscus/error.hpp"
+#include "physics/internal/coefficient_damping.hpp"
+#include "physics/loads/body_force.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "run/simulation.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-
-#include "support.hpp"
 
 namespace meniscus::test_balanced_surface_tension {
 namespace {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Enclosed volumes, exact gradients of fillings, balance of forces, and touching faces.
-#include "meniscus/body/surface_patches.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/cavity.hpp"
+#include "body/surface/surface_patches.hpp"
+#include "meniscus/error.hpp"
+#include "physics/loads/cavity.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include "support.hpp"
 
 namespace meniscus::test_cavity {
 namespace {

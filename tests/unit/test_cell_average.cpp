@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The selective form of q_scni: its energy, states in which it changes nothing, and its default.
 // Tests for all rules are in test_internal_force.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/cell_average.hpp"
-#include "meniscus/scene/scene.hpp"
+#include "meniscus/error.hpp"
+#include "physics/internal/cell_average.hpp"
+#include "scene/scene.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
-
-#include "support.hpp"
 
 namespace meniscus::test_cell_average {
 namespace {

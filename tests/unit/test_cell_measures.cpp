@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shape measures of cells on known shapes.
-#include "meniscus/measure/cell_measures.hpp"
-#include "meniscus/measure/meridian_shape.hpp"
+#include "measure/cell_measures.hpp"
+#include "measure/meridian_shape.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-
-#include "support.hpp"
 
 namespace meniscus::test_cell_measures {
 namespace {

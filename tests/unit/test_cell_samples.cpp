@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples of nodal cells. With their corrections they integrate as exact rules do. They need no
 // corrections where the cells around are equal and complete. They are few.
-#include "meniscus/approx/monomials.hpp"
-#include "meniscus/body/nodal_cells.hpp"
+#include "body/grid/nodal_cells.hpp"
+#include "kernel/monomials.hpp"
 #include "meniscus/body/shapes.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <limits>
 #include <map>
-
-#include "support.hpp"
 
 namespace meniscus::test_cell_samples {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The time step: free fall, order of accuracy, energy, and the state after a failed step.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/body_force.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/error.hpp"
+#include "one_body.hpp"
+#include "physics/loads/body_force.hpp"
+#include "solve/step/central_difference.hpp"
 
 #include <gtest/gtest.h>
-
-#include "one_body.hpp"
 
 namespace meniscus::test_central_difference {
 namespace {

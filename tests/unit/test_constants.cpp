@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Named numbers of a scene: places where they are allowed, dimensions of formulas with them,
 // messages.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/input.hpp"
+#include "input/input.hpp"
+#include "input_scene.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <ctime>
-
-#include "input_scene.hpp"
 
 namespace meniscus::test_constants {
 namespace {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of deformable bodies with each other and with rigid partners: gradients of energies,
 // momenta, overlaps, and limits of the time step.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/contact_visits.hpp"
+#include "contact_support.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/pair/contact_visits.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
-
-#include "contact_support.hpp"
 
 namespace meniscus::test_contact {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact between ellipsoids and spheres against the reference values of the CGCM note: total
 // force, energy, and the work of all linear motions, which differs between the forms.
+#include "contact_reference.hpp"
+#include "contact_support.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-
-#include "contact_reference.hpp"
-#include "contact_support.hpp"
 
 namespace meniscus::test_contact_exact {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pair functions against reference values and identities, and the form used in loops against the
 // full one.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/simd.hpp"
-
 #include "contact_reference.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/simd.hpp"
 
 namespace meniscus::test_contact_law {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The list of clusters against a search over all pairs, on moving clouds.
-#include "meniscus/physics/contact_list.hpp"
+#include "physics/contact/pair/contact_list.hpp"
+#include "some_ranks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
-
-#include "some_ranks.hpp"
 
 namespace meniscus::test_contact_list {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two half spaces: derived numbers of an interaction, closed and with a cut-off.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/contact_numbers.hpp"
-#include "meniscus/physics/facet_grades.hpp"
+#include "contact_reference.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/contact_numbers.hpp"
+#include "physics/contact/points/facet_grades.hpp"
 
 #include <cmath>
-
-#include "contact_reference.hpp"
 
 namespace meniscus::test_contact_numbers {
 namespace {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points per facet. With the estimated number of points balls slide on each other, with fewer they
 // do not. Far from a rigid partner fewer points give the same forces.
-#include "meniscus/physics/contact_forms.hpp"
-#include "meniscus/physics/contact_numbers.hpp"
-#include "meniscus/physics/contact_resolution.hpp"
-#include "meniscus/physics/facet_grades.hpp"
+#include "contact_support.hpp"
+#include "physics/contact/contact_numbers.hpp"
+#include "physics/contact/pair/contact_forms.hpp"
+#include "physics/contact/points/contact_resolution.hpp"
+#include "physics/contact/points/facet_grades.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
-
-#include "contact_support.hpp"
 
 namespace meniscus {
 namespace {

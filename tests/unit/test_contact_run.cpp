@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact in runs of scenes: conservation, threads, restart, rejected steps, refused starts.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
+#include "solve/step/central_difference.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies inside each other: found at the start and in runs, but not where they only touch.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/containment.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "contact_support.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/points/containment.hpp"
+#include "run/simulation.hpp"
 
 #include <gtest/gtest.h>
-
-#include "contact_support.hpp"
 
 namespace meniscus {
 namespace {

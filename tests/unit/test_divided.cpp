@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rows of a rank, and their equality with the rows of one process.
-#include "meniscus/body/body.hpp"
-#include "meniscus/core/divided.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/shared_items.hpp"
-#include "meniscus/physics/rank_reports.hpp"
+#include "body/body.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/divided.hpp"
+#include "parallel/shared_items.hpp"
+#include "physics/rank_reports.hpp"
+#include "some_ranks.hpp"
+#include "straight_grid.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
-
-#include "some_ranks.hpp"
-#include "straight_grid.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_divided {
 namespace {

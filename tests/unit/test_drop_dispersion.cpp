@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meniscus/study/drop_dispersion.hpp"
+#include "study/drop_dispersion.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inertia of thin bodies in relaxation: symmetric and positive, with long steps, leading to
 // known states.
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/elastic_inertia.hpp"
-#include "meniscus/solve/relaxation.hpp"
+#include "run/simulation.hpp"
+#include "solve/step/elastic_inertia.hpp"
+#include "solve/step/relaxation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Young's modulus and Poisson's ratio of every isotropic law, measured in a tension test.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/elastic_moduli.hpp"
+#include "input_scene.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/physics/law_registry.hpp"
+#include "physics/internal/elastic_moduli.hpp"
+#include "surface_scenes.hpp"
 
 #include <gtest/gtest.h>
-
-#include "input_scene.hpp"
-#include "surface_scenes.hpp"
 
 namespace meniscus::test_elastic_moduli {
 namespace {

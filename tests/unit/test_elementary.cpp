@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // log1p, expm1 and their remainders against long double arithmetic, for all scalars of the laws.
-#include "meniscus/core/elementary.hpp"
+#include "numbers/elementary.hpp"
 
 #include <gtest/gtest.h>
 

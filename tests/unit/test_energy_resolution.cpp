@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The step resolves the exchange of energy after a sudden release; smooth motion keeps its stable
 // step.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/energy_resolution.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
+#include "solve/step/energy_resolution.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers from a history, compared with the expectations of a scene.
-#include "meniscus/scene/expectations.hpp"
+#include "scene/expectations.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Formulas: values, syntax, sharing between threads, and the words of the messages.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/expression.hpp"
+#include "input/expression.hpp"
+#include "meniscus/error.hpp"
 
 #include <gtest/gtest.h>
 

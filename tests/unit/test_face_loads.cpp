@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tractions, springs and viscosity of solids: states at rest to round-off, closed solutions.
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/body/particle_values.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "body/particle_values.hpp"
+#include "cases.hpp"
+#include "kernel/row_sums.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
+#include "support.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -11,9 +13,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-
-#include "cases.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_face_loads {
 namespace {

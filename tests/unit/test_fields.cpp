@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Unknown fields beside the displacement: exact solutions, order, stable step, energy, and the same
 // bits for any number of threads and through a restart.
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "one_body.hpp"
+#include "run/simulation.hpp"
+#include "solve/step/central_difference.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
 #include <cmath>
-
-#include "one_body.hpp"
 
 namespace meniscus::test_fields {
 namespace {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fluids that flow to equilibrium by implicit Euler and Newton's method: the resistance of a step,
 // exact circles, spheres and rates, energy balance, restarts, refused scenes.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/implicit_euler.hpp"
+#include "cases.hpp"
+#include "io_helpers.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
+#include "solve/newton/implicit_euler.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -11,10 +14,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-
-#include "cases.hpp"
-#include "io_helpers.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_flow_to_rest {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Forces predicted from the forces of earlier steps.
-#include "meniscus/solve/force_prediction.hpp"
+#include "solve/step/force_prediction.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "support.hpp"
 
 namespace meniscus::test_force_prediction {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Forces of rows are added up chunk by chunk: the same bits for any number of threads, no remainder
 // of failed rows, and in spatial order chunks touch few particles of other chunks.
-#include "meniscus/approx/force_windows.hpp"
-#include "meniscus/body/ordering.hpp"
+#include "body/grid/ordering.hpp"
+#include "parallel/force_windows.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

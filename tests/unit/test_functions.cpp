@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Named formulas of a scene: what calls of them are, and messages.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/input.hpp"
+#include "input/input.hpp"
+#include "input_scene.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "input_scene.hpp"
 
 namespace meniscus::test_functions {
 namespace {

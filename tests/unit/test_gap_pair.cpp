@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A law of the gap between two deformable bodies: nearest points, energy of flat surfaces,
 // gradient, momenta, range.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/contact_facets.hpp"
+#include "contact_support.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/points/contact_facets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-
-#include "contact_support.hpp"
 
 namespace meniscus::test_gap_pair {
 namespace {

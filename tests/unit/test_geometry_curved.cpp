@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curved boundary cells: enclosed volume and its order, rims, conformity, straight bodies, jitter.
-#include "meniscus/body/nodal_cells.hpp"
-#include "meniscus/body/ordering.hpp"
+#include "body/grid/nodal_cells.hpp"
+#include "body/grid/ordering.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
+#include "straight_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-
-#include "straight_grid.hpp"
 
 namespace meniscus::test_geometry_curved {
 namespace {

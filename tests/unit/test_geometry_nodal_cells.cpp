@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodal cells: reference values, discrete identities, and points shared bit for bit.
-#include "meniscus/body/nodal_cells.hpp"
+#include "body/grid/nodal_cells.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

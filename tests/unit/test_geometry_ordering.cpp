@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Spatial order and renumbering.
-#include "meniscus/body/ordering.hpp"
+#include "body/grid/ordering.hpp"
+#include "body/surface/surface_points.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/parallel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grids of the shapes: counts, volumes, boundaries, checks, jitter.
+#include "body/grid/simplex.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/body/simplex.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
+#include "straight_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-
-#include "straight_grid.hpp"
 
 namespace meniscus::test_geometry_shapes {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shells: exact volumes, areas, normals and curvatures of both surfaces, and the walls between
 // them.
-#include "meniscus/body/imperfection.hpp"
-#include "meniscus/body/nodal_cells.hpp"
+#include "body/grid/nodal_cells.hpp"
+#include "body/imperfection.hpp"
+#include "body/surface/surface_points.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <gtest/gtest.h>
 

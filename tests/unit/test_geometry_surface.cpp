@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smooth maps and quadrature points of the exact surface.
+#include "body/surface/surface_points.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/body/surface_points.hpp"
+#include "straight_grid.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
-
-#include "straight_grid.hpp"
 
 namespace meniscus::test_geometry_surface {
 namespace {

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Held faces: patch tests, closed-form stresses, exact motion, stable step, work, and what is
 // refused.
-#include "meniscus/core/error.hpp"
+#include "cases.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/physics/law_registry.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "run/simulation.hpp"
+#include "solve/step/central_difference.hpp"
+#include "support.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "cases.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_held {
 namespace {

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Equilibria of held and loaded bodies by Newton's method against exact solutions: patch tests,
 // thick walls under pressure at large strains.
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/central_difference.hpp"
-#include "meniscus/solve/quasi_statics.hpp"
+#include "cases.hpp"
+#include "run/simulation.hpp"
+#include "solve/newton/quasi_statics.hpp"
+#include "solve/step/central_difference.hpp"
+#include "support.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "cases.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_held_equilibria {
 namespace {

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Implicit viscosity: order, conservation, and steps beyond the viscous limit.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/central_difference.hpp"
-#include "meniscus/solve/implicit_viscosity.hpp"
+#include "cases.hpp"
+#include "io_helpers.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
+#include "solve/step/central_difference.hpp"
+#include "solve/step/implicit_viscosity.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
-
-#include "cases.hpp"
-#include "io_helpers.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_implicit_viscosity {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Keys of tables: values, ranges, and the exact words of every message.
+#include "unit/input_scene.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
-
-#include "unit/input_scene.hpp"
 
 namespace meniscus::test_input {
 namespace {

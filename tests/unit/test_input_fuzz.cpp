@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Damaged scenes, quantities, formulas and paths are read or refused, without a crash.
+#include "unit/input_scene.hpp"
+
 #include <gtest/gtest.h>
 
 #include <random>
-
-#include "unit/input_scene.hpp"
 
 namespace meniscus::test_input_fuzz {
 namespace {

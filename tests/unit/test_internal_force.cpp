@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The internal force with every law and rule: gradient of the energy, balance, dissipation,
 // failure.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/internal_force.hpp"
+#include "meniscus/error.hpp"
+#include "physics/internal/internal_force.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,6 @@
 #include <cstring>
 #include <functional>
 #include <limits>
-
-#include "support.hpp"
 
 namespace meniscus::test_internal_force {
 namespace {

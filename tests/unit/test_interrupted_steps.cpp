@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Long steps that are interrupted: they end soon and leave the state unchanged.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "cases.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
 
 #include <gtest/gtest.h>
-
-#include "cases.hpp"
 
 namespace meniscus::test_interrupted_steps {
 namespace {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Snapshots, checkpoints, damaged files, SHA-256, command lines.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/sha256.hpp"
-#include "meniscus/io/checkpoint.hpp"
-#include "meniscus/io/info.hpp"
+#include "input/sha256.hpp"
+#include "io/checkpoint.hpp"
+#include "io/info.hpp"
+#include "meniscus/error.hpp"
+#include "unit/io_helpers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <limits>
-
-#include "unit/io_helpers.hpp"
 
 namespace meniscus::test_io_checkpoint {
 namespace {

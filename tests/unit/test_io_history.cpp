@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // History and log.
-#include "meniscus/core/error.hpp"
-#include "meniscus/io/history.hpp"
-#include "meniscus/io/run_log.hpp"
+#include "io/history.hpp"
+#include "io/run_log.hpp"
+#include "meniscus/error.hpp"
+#include "unit/io_helpers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
-
-#include "unit/io_helpers.hpp"
 
 namespace meniscus::test_io_history {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Result files: refusal, bad numbers, continuation, states of frames, full disks.
-#include "meniscus/core/error.hpp"
-#include "meniscus/io/checkpoint.hpp"
-#include "meniscus/io/info.hpp"
-#include "meniscus/io/result_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/info.hpp"
+#include "io/result_file.hpp"
+#include "meniscus/error.hpp"
+#include "unit/io_helpers.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -11,8 +12,6 @@
 #include <csignal>
 #include <fstream>
 #include <limits>
-
-#include "unit/io_helpers.hpp"
 
 namespace meniscus::test_io_results {
 namespace {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Liquid crystal elastomer: reference values, the meaning of its parameters, and bodies made of it.
-#include "meniscus/core/error.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/error.hpp"
+#include "one_body.hpp"
+#include "solve/step/central_difference.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <Eigen/Dense>
 #include <fstream>
-
-#include "one_body.hpp"
 
 namespace meniscus::test_liquid_crystal_elastomer {
 namespace {

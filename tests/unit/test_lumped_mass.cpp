@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lumped masses keep mass, first and second moments of the body if some masses are raised to the
 // floor.
-#include <gtest/gtest.h>
-
 #include "support.hpp"
+
+#include <gtest/gtest.h>
 
 namespace meniscus::test_lumped_mass {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every registered material law passes the same tests. The laws of the program also reproduce the
 // reference values of tests/data/constitutive.json.
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
 #include <gtest/gtest.h>

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies of mesh files: nodal cells, surfaces, patch tests and an exact motion, for every kind of
 // cell.
-#include "meniscus/body/face_cells.hpp"
-#include "meniscus/body/simplex.hpp"
-#include "meniscus/body/surface_patches.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "body/grid/simplex.hpp"
+#include "body/surface/face_cells.hpp"
+#include "body/surface/surface_patches.hpp"
+#include "body/surface/surface_points.hpp"
+#include "meniscus/error.hpp"
+#include "mesh_support.hpp"
+#include "numbers/box.hpp"
+#include "numbers/dense.hpp"
+#include "run/simulation.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -16,9 +18,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-
-#include "mesh_support.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_mesh_bodies {
 namespace {

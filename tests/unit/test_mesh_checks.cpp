@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes whose cells do not fill a body once are refused; facets that would fold a cell stay
 // straight.
-#include "meniscus/body/straightened_facets.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/grid/straightened_facets.hpp"
+#include "body/surface/surface_points.hpp"
+#include "meniscus/error.hpp"
+#include "mesh_support.hpp"
+#include "numbers/box.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "mesh_support.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_mesh_checks {
 namespace {

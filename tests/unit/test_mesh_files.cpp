@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mesh files: both formats, orders, orientation, units, and what is refused.
-#include "meniscus/body/face_cells.hpp"
-#include "meniscus/body/mesh_file.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/mesh/mesh_file.hpp"
+#include "body/surface/face_cells.hpp"
+#include "body/surface/surface_points.hpp"
+#include "meniscus/error.hpp"
+#include "mesh_support.hpp"
+#include "numbers/box.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +15,6 @@
 #include <numbers>
 #include <random>
 #include <set>
-
-#include "mesh_support.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_mesh_files {
 namespace {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Momentum and angular momentum against the impulses from outside: exact whatever acts, and what is
 // not accounted for is seen.
-#include "meniscus/scene/epochs.hpp"
+#include "cases.hpp"
+#include "run/epochs.hpp"
+#include "support.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include "cases.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_momentum_books {
 namespace {

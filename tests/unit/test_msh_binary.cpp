@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary files of Gmsh, partitioned ones, and nodes with parameters.
-#include "meniscus/body/face_cells.hpp"
-#include "meniscus/body/mesh_file.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/mesh/mesh_file.hpp"
+#include "body/surface/face_cells.hpp"
+#include "meniscus/error.hpp"
+#include "mesh_support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <random>
-
-#include "mesh_support.hpp"
 
 namespace meniscus::test_msh_binary {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The search tree against brute force.
-#include "meniscus/approx/neighbor_search.hpp"
+#include "kernel/neighbor_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nematics: exact gradients, reaction and torque, transport, exact flows and shapes, and the books
 // of a step.
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/solve/central_difference.hpp"
+#include "meniscus/error.hpp"
+#include "nematic_scenes.hpp"
+#include "numbers/dense.hpp"
+#include "solve/step/central_difference.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "nematic_scenes.hpp"
 
 namespace meniscus::test_nematic {
 namespace {

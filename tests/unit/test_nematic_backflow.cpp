@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plane modes of a uniform director and the flow that it drives, with the reaction of the flow.
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "cases.hpp"
+#include "cells_reference.hpp"
+#include "kernel/row_sums.hpp"
+#include "numbers/dense.hpp"
+#include "run/simulation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +13,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-
-#include "cases.hpp"
-#include "cells_reference.hpp"
 
 namespace meniscus::test_nematic_backflow {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chunks of rows cover each row once, in a number that depends on the size alone, not on the
 // threads; items in buckets keep their order.
-#include "meniscus/core/buckets.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "numbers/buckets.hpp"
+#include "parallel/parallel.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

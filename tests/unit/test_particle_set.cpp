@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Supports of particles and the deficiency monitor.
-#include "meniscus/approx/near_candidates.hpp"
-#include "meniscus/approx/particle_set.hpp"
-#include "meniscus/core/error.hpp"
+#include "kernel/near_candidates.hpp"
+#include "kernel/particle_set.hpp"
+#include "meniscus/error.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
-
-#include "support.hpp"
 
 namespace meniscus::test_particle_set {
 namespace {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies mapped by formulas, rotated and moved; derivatives of formulas.
-#include "meniscus/body/placement.hpp"
+#include "body/shapes/placement.hpp"
+#include "body/surface/surface_points.hpp"
+#include "geometry_of_lines.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/jet.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/box.hpp"
+#include "numbers/dense.hpp"
+#include "numbers/jet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,6 @@
 #include <numbers>
 #include <string>
 #include <vector>
-
-#include "geometry_of_lines.hpp"
 
 namespace meniscus::test_placement {
 namespace {

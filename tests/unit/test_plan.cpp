@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A plan is read once; any number of scenes can be built from it.
+#include "cases.hpp"
+
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
-
-#include "cases.hpp"
 
 namespace meniscus::test_plan {
 namespace {

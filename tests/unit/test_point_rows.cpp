@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows of shape functions reproduce polynomials, and store only the requested derivatives.
-#include "meniscus/approx/point_rows.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/surface_tension.hpp"
+#include "body/surface/surface_points.hpp"
+#include "kernel/point_rows.hpp"
+#include "meniscus/error.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
-
-#include "support.hpp"
 
 namespace meniscus::test_point_rows {
 namespace {

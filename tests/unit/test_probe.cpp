@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Probes: values of known fields, and messages for wrong probes.
-#include "meniscus/core/error.hpp"
+#include "cases.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/run.hpp"
-#include "meniscus/scene/scene.hpp"
+#include "scene/scene.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include "cases.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_probe {
 namespace {

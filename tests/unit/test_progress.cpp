@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Messages about the progress of a run, with a simulated clock.
-#include "meniscus/app/progress.hpp"
+#include "app/progress.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
-
-#include "support.hpp"
 
 namespace meniscus::test_progress {
 namespace {

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Quasi-statics: the preconditioner, equilibria that are known, books, jumps, what is refused.
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/nodal_algebra.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/central_difference.hpp"
-#include "meniscus/solve/quasi_statics.hpp"
+#include "cases.hpp"
+#include "kernel/row_sums.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/dense.hpp"
+#include "one_body.hpp"
+#include "parallel/nodal_algebra.hpp"
+#include "run/simulation.hpp"
+#include "solve/newton/quasi_statics.hpp"
+#include "solve/step/central_difference.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <list>
-
-#include "cases.hpp"
-#include "one_body.hpp"
 
 namespace meniscus::test_quasi_statics {
 namespace {

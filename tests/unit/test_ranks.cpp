@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What fails on one rank fails on all.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/ranks.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/ranks.hpp"
+#include "some_ranks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <deque>
 #include <new>
-
-#include "some_ranks.hpp"
 
 namespace meniscus::test_ranks {
 namespace {

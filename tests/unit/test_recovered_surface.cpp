@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces recovered from facets against the exact surfaces of the same grids.
-#include "meniscus/body/recovered_surface.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/surface/recovered_surface.hpp"
+#include "body/surface/surface_points.hpp"
+#include "meniscus/error.hpp"
+#include "support.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -11,8 +12,6 @@
 #include <map>
 #include <numeric>
 #include <utility>
-
-#include "support.hpp"
 
 namespace meniscus::test_recovered_surface {
 namespace {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties of everything that is registered: its forces are as claimed; a run with it has the
 // same bits for any number of threads and through a restart; a scene without it does not build it.
+#include "cases.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/measure/measure_registry.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/physics/surface_registry.hpp"
-#include "meniscus/scene/key_reference.hpp"
+#include "scene/key_reference.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -14,9 +16,6 @@
 #include <algorithm>
 #include <cstring>
 #include <sstream>
-
-#include "cases.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_registered {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Names of a registry: sorted, unique, with suggestions for misspelt ones.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/registry.hpp"
+#include "input/registry.hpp"
+#include "meniscus/error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files without an end are not opened.
-#include "meniscus/body/mesh_file.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/regular_file.hpp"
+#include "body/mesh/mesh_file.hpp"
+#include "input/regular_file.hpp"
+#include "meniscus/error.hpp"
+#include "mesh_support.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <filesystem>
-
-#include "mesh_support.hpp"
 
 namespace meniscus::test_regular_file {
 namespace {

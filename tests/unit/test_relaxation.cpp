@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Relaxation finds known equilibria, stops there by itself, keeps the balance of energy, and
 // continues from a snapshot with the same bits.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/solve/central_difference.hpp"
-#include "meniscus/solve/relaxation.hpp"
+#include "meniscus/error.hpp"
+#include "one_body.hpp"
+#include "run/simulation.hpp"
+#include "solve/step/central_difference.hpp"
+#include "solve/step/relaxation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "one_body.hpp"
 
 namespace meniscus::test_relaxation {
 namespace {

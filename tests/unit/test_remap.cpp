@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies that are referred anew: what stays to the last bit, to round-off, or with which order.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/nodal_algebra.hpp"
-#include "meniscus/remap/nodal_values.hpp"
-#include "meniscus/remap/present_surface.hpp"
-#include "meniscus/scene/epochs.hpp"
+#include "cases.hpp"
+#include "meniscus/error.hpp"
+#include "nematic_scenes.hpp"
+#include "parallel/nodal_algebra.hpp"
+#include "remap/nodal_values.hpp"
+#include "remap/present_surface.hpp"
+#include "run/epochs.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -12,9 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "cases.hpp"
-#include "nematic_scenes.hpp"
 
 namespace meniscus {
 namespace {

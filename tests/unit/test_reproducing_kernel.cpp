@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shape functions at single points: reference values, and lanes that do not influence each other.
-#include "meniscus/approx/reproducing_kernel.hpp"
+#include "kernel/reproducing_kernel.hpp"
+#include "rkpm_reference.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
-
-#include "rkpm_reference.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_reproducing_kernel {
 namespace {

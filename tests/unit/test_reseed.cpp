@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Even places for nodes in a deformed body: patches, volume, the contact line, energy, distortion.
-#include "meniscus/body/quadratic_surface.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/remap/distortion.hpp"
-#include "meniscus/scene/epochs.hpp"
+#include "body/surface/quadratic_surface.hpp"
+#include "body/surface/surface_points.hpp"
+#include "remap/distortion.hpp"
+#include "run/epochs.hpp"
+#include "support.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -13,8 +14,6 @@
 #include <numbers>
 #include <numeric>
 #include <random>
-
-#include "support.hpp"
 
 namespace meniscus::test_reseed {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties of every rigid partner: identities, continuation through the surface, motion.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/rigid_motion.hpp"
-#include "meniscus/physics/rigid_partner.hpp"
+#include "contact_reference.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/rigid/rigid_motion.hpp"
+#include "physics/contact/rigid/rigid_partner.hpp"
 
 #include <functional>
 #include <random>
-
-#include "contact_reference.hpp"
 
 namespace meniscus::test_rigid_partners {
 namespace {

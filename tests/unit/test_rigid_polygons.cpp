@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Segments, polygons and frames against reference values, quadrature and limits.
-#include "meniscus/body/gauss.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/rigid_partner.hpp"
-#include "meniscus/physics/segment_field.hpp"
-
+#include "body/grid/gauss.hpp"
 #include "contact_reference.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/rigid/rigid_partner.hpp"
+#include "physics/contact/rigid/segment_field.hpp"
 
 namespace meniscus::test_rigid_polygons {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rigid half spaces, balls, cylinders and cavities against reference values and their limits.
-#include "meniscus/body/gauss.hpp"
-#include "meniscus/physics/rigid_partner.hpp"
-#include "meniscus/physics/round_field.hpp"
+#include "body/grid/gauss.hpp"
+#include "contact_reference.hpp"
+#include "physics/contact/rigid/rigid_partner.hpp"
+#include "physics/contact/rigid/round_field.hpp"
 
 #include <type_traits>
-
-#include "contact_reference.hpp"
 
 namespace meniscus::test_rigid_round {
 namespace {

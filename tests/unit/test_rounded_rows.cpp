@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows of the cell rule in single precision: allowed changes by rounding, and sums that stay exact.
-#include "meniscus/core/dense.hpp"
+#include "numbers/dense.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
-
-#include "support.hpp"
 
 namespace meniscus::test_rounded_rows {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program as a library: names, units, errors, and the same numbers as a simulation in its own
 // dimension.
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/run.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "run/simulation.hpp"
 
 #include <gtest/gtest.h>
 

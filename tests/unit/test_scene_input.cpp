@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole scenes: files, syntax errors, overrides, the complete input, the reference of keys.
-#include "meniscus/core/key_table.hpp"
+#include "input/key_table.hpp"
+#include "unit/input_scene.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -9,8 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-
-#include "unit/input_scene.hpp"
 
 namespace meniscus::test_scene_input {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shells, cavities and profiles in scenes.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/scene.hpp"
+#include "meniscus/error.hpp"
+#include "scene/scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact points shared by several contacts of a body, or divided between ranks.
-#include "meniscus/core/shared_parts.hpp"
-#include "meniscus/physics/contact_demand.hpp"
-#include "meniscus/physics/contact_points.hpp"
+#include "body/shared_parts.hpp"
+#include "contact_support.hpp"
+#include "physics/contact/pair/contact_demand.hpp"
+#include "physics/contact/points/contact_points.hpp"
+#include "some_ranks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
-
-#include "contact_support.hpp"
-#include "some_ranks.hpp"
 
 namespace meniscus::test_shared_contact_points {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Operations on four lanes that some processors have as instructions, and plain C++ elsewhere.
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/simd.hpp"
+#include "numbers/dense.hpp"
+#include "numbers/simd.hpp"
 
 #include <gtest/gtest.h>
 

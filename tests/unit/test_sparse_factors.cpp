@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sparse factors, and the order of grid nodes that keeps them small.
-#include "meniscus/solve/nested_dissection.hpp"
-#include "meniscus/solve/sparse_factors.hpp"
+#include "solve/linear/nested_dissection.hpp"
+#include "solve/linear/sparse_factors.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Information about a failed step, as data and as a sentence.
-#include "meniscus/scene/simulation.hpp"
+#include "run/simulation.hpp"
 
 #include <gtest/gtest.h>
 

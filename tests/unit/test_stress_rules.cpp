@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Integration rules of the internal force: reference values, reproduction, transposition, patch
 // test.
-#include "meniscus/approx/stress_rules.hpp"
+#include "body/grid/stress_rules.hpp"
+#include "rkpm_reference.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <map>
 #include <random>
-
-#include "rkpm_reference.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_stress_rules {
 namespace {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces that go through themselves or each other are found, with the place known by hand; those
 // that touch, enclose each other or bend are not.
-#include "meniscus/body/particle_values.hpp"
-#include "meniscus/physics/surface_check.hpp"
+#include "body/particle_values.hpp"
+#include "contact_support.hpp"
+#include "physics/surface/surface_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include "contact_support.hpp"
 
 namespace meniscus {
 namespace {

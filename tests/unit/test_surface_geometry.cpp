@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normal, area ratio and curvature against reference values and against identities.
-#include "meniscus/core/surface_geometry.hpp"
+#include "numbers/surface_geometry.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -2,15 +2,14 @@
 // Surface laws: forces are the gradient of the energy, viscous stress is objective. Bodies at rest
 // under elastic surfaces, flows driven by tensions, oscillation of a drop with a surface law,
 // refused scenes. Larger clouds are in tests/verify/verify_surface_laws.cpp.
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/physics/surface_registry.hpp"
+#include "surface_scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "surface_scenes.hpp"
 
 namespace meniscus::test_surface_laws {
 namespace {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The four forms of surface tension: gradients of their areas, balance, exact curvature.
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/surface_tension.hpp"
+#include "body/surface/surface_points.hpp"
+#include "meniscus/error.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "rkpm_reference.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
-
-#include "rkpm_reference.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_surface_tension {
 namespace {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tangents of the terms against differences of their forces; linear, and symmetric for terms with
 // an energy.
-#include "meniscus/physics/body_force.hpp"
-#include "meniscus/physics/cavity.hpp"
-#include "meniscus/physics/surface_tension.hpp"
+#include "contact_support.hpp"
+#include "physics/loads/body_force.hpp"
+#include "physics/loads/cavity.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-
-#include "contact_support.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_tangent {
 namespace {

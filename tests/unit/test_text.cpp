@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Texts as terminals and people can read them.
-#include "meniscus/core/text.hpp"
+#include "input/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The same bits for any number of threads: each force term, and a small run.
-#include "meniscus/physics/body_force.hpp"
-#include "meniscus/physics/coefficient_damping.hpp"
-#include "meniscus/physics/surface_tension.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "physics/internal/coefficient_damping.hpp"
+#include "physics/loads/body_force.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "run/simulation.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
 #include <cstring>
-
-#include "support.hpp"
 
 namespace meniscus::test_threads {
 namespace {

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stable step against dense eigenvalues, and against what central differences really do.
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/coefficient_damping.hpp"
-#include "meniscus/physics/surface_tension.hpp"
-#include "meniscus/solve/central_difference.hpp"
-#include "meniscus/solve/least_spacing.hpp"
-#include "meniscus/solve/step_controller.hpp"
-#include "meniscus/solve/time_step.hpp"
+#include "meniscus/error.hpp"
+#include "one_body.hpp"
+#include "physics/internal/coefficient_damping.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "solve/least_spacing.hpp"
+#include "solve/step/central_difference.hpp"
+#include "solve/step/step_controller.hpp"
+#include "solve/step/time_step.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <limits>
-
-#include "one_body.hpp"
 
 namespace meniscus::test_time_step {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Units: exact decimals, dimension checks, systems other than SI, and the words of the messages.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
-#include "meniscus/core/units.hpp"
+#include "input/names.hpp"
+#include "input/units.hpp"
+#include "meniscus/error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of VTK: as its own writer makes them, appended bytes, compression, and what is refused.
-#include "meniscus/body/mesh_file.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/mesh/mesh_file.hpp"
+#include "files_of_vtk.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -11,8 +12,6 @@
 #include <cstdint>
 #include <cstring>
 #include <random>
-
-#include "files_of_vtk.hpp"
 
 namespace meniscus::test_vtu_files {
 namespace {

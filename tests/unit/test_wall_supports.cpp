@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kernels of shells stay inside the wall; the stiffness if they do not.
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/body/wall_supports.hpp"
-#include "meniscus/physics/cavity.hpp"
-#include "meniscus/solve/central_difference.hpp"
-#include "meniscus/solve/relaxation.hpp"
-#include "meniscus/solve/step_controller.hpp"
+#include "body/surface/surface_points.hpp"
+#include "body/wall_supports.hpp"
+#include "physics/loads/cavity.hpp"
+#include "solve/step/central_difference.hpp"
+#include "solve/step/relaxation.hpp"
+#include "solve/step/step_controller.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "support.hpp"
 
 namespace meniscus::test_wall_supports {
 namespace {

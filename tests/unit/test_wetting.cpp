@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Young's law as an interaction, and the cap with the shape of a drop on a wall.
-#include "meniscus/core/error.hpp"
-#include "meniscus/measure/wetting_measures.hpp"
-#include "meniscus/physics/contact_numbers.hpp"
+#include "input_scene.hpp"
+#include "io_helpers.hpp"
+#include "measure/wetting_measures.hpp"
+#include "meniscus/error.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
+#include "physics/contact/contact_numbers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "input_scene.hpp"
-#include "io_helpers.hpp"
 
 namespace meniscus::test_wetting {
 namespace {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Wetting in motion: energies and forces of varying adhesion, cycles, friction, reactions.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "cases.hpp"
+#include "io_helpers.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
+#include "support.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +12,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include "cases.hpp"
-#include "io_helpers.hpp"
-#include "support.hpp"
 
 namespace meniscus::test_wetting_laws {
 namespace {

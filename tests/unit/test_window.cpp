@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Window functions: reference values, and derivatives that belong to the function.
-#include "meniscus/approx/window.hpp"
-
-#include <gtest/gtest.h>
-
+#include "kernel/window.hpp"
 #include "rkpm_reference.hpp"
 #include "support.hpp"
+
+#include <gtest/gtest.h>
 
 namespace meniscus::test_window {
 namespace {

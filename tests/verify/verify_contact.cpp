@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Total force between two balls in all forms of contact: convergence to the exact values with finer
 // points (CGCM notes 3.2 and 7).
+#include "../unit/contact_reference.hpp"
+#include "../unit/contact_support.hpp"
+
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-
-#include "../unit/contact_reference.hpp"
-#include "../unit/contact_support.hpp"
 
 namespace meniscus::verify_contact {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Orders of convergence of whole runs, which scenes cannot test; the full form uses larger sizes.
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
+#include "verify_form.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "verify_form.hpp"
 
 namespace meniscus::verify_dynamics {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nematic drops against exact solutions, at the resolution of a scene; the short form tests some
 // cases.
+#include "unit/nematic_scenes.hpp"
+#include "verify_form.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "unit/nematic_scenes.hpp"
-#include "verify_form.hpp"
 
 namespace meniscus::verify_nematic {
 namespace {

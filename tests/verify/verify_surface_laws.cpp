@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces with elasticity and viscosity at the resolution of a scene, and their orders of
 // convergence; the short form tests some cases.
+#include "unit/surface_scenes.hpp"
+#include "verify_form.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "unit/surface_scenes.hpp"
-#include "verify_form.hpp"
 
 namespace meniscus::verify_surface_laws {
 namespace {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Drops on walls: the outline of a drop at rest under its weight against the profile of Bashforth
 // and Adams, the initial growth of the wetted area, and the ridge on soft ground.
-#include "meniscus/body/surface_patches.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "../unit/support.hpp"
+#include "body/surface/surface_patches.hpp"
+#include "run/simulation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "../unit/support.hpp"
 
 namespace meniscus::verify_wetting {
 namespace {

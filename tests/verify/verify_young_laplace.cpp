@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Young-Laplace: a twisted ellipsoid as reference, deformed to the unit sphere. The best fit of the
 // pressure that balances surface tension is 2 gamma/R (RKPM note 4).
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/physics/surface_tension.hpp"
+#include "body/surface/surface_points.hpp"
+#include "physics/surface/surface_tension.hpp"
+#include "unit/support.hpp"
 
 #include <gtest/gtest.h>
-
-#include "unit/support.hpp"
 
 namespace meniscus::verify_young_laplace {
 namespace {

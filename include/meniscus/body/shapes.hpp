@@ -2,9 +2,9 @@
 // The shapes that a scene can name. To add one, write one file in src/body/shapes with a struct
 // like those below and the line `const bool registered = register_shape<D, MyShape>();`.
 #pragma once
-#include "meniscus/body/geometry.hpp"
-#include "meniscus/core/key_table.hpp"
-#include "meniscus/core/registry.hpp"
+#include "body/shapes/geometry.hpp"
+#include "input/key_table.hpp"
+#include "input/registry.hpp"
 
 #include <optional>
 #include <string_view>

@@ -5,8 +5,8 @@
 //
 //   const bool registered = register_measures("name", my_measures<2>, my_measures<3>);
 #pragma once
-#include "meniscus/body/body.hpp"
-#include "meniscus/core/registry.hpp"
+#include "body/body.hpp"
+#include "input/registry.hpp"
 #include "meniscus/physics/force_term.hpp"
 
 #include <string_view>

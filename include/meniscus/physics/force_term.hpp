@@ -2,12 +2,12 @@
 // The one interface of all physical effects. A scene's system is a list of terms; an effect that
 // the scene does not name is not in the list and costs nothing.
 #pragma once
-#include "meniscus/approx/step_reads.hpp"
-#include "meniscus/core/archive.hpp"
-#include "meniscus/physics/chunk_reports.hpp"
-#include "meniscus/physics/constraint.hpp"
-#include "meniscus/physics/resultant.hpp"
-#include "meniscus/physics/unknown.hpp"
+#include "parallel/chunk_reports.hpp"
+#include "parallel/step_reads.hpp"
+#include "physics/constraint.hpp"
+#include "physics/resultant.hpp"
+#include "physics/unknown.hpp"
+#include "state/archive.hpp"
 
 #include <algorithm>
 #include <functional>

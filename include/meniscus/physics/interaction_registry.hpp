@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The registry of the interactions of [[contact]].
 //
-// A law of the gap is a struct derived from Interaction in a file of its own in src/interactions,
-// with rows(), an example and, if needed, check(block) and fitted(surfaces). The file ends with
+// A law of the gap is a struct derived from Interaction in a file of its own in
+// src/physics/laws/interactions, with rows(), an example and, if needed, check(block) and
+// fitted(surfaces). The file ends with
 //
 //   const bool registered = register_interaction<MyLaw>("my_law", "what it is");
 //
 // The law then acts between two bodies, and between a body and rigid partners of any shape.
 // Interactions that need more than the gap implement ContactModel.
 #pragma once
-#include "meniscus/physics/contact.hpp"
 #include "meniscus/physics/partner_registry.hpp"
+#include "physics/contact/contact.hpp"
 
 namespace meniscus {
 

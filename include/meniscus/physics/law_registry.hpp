@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The registry of material laws.
 #pragma once
-#include "meniscus/core/key_table.hpp"
-#include "meniscus/core/registry.hpp"
-#include "meniscus/physics/elastic_moduli.hpp"
-#include "meniscus/physics/law.hpp"
-#include "meniscus/physics/material.hpp"
+#include "input/key_table.hpp"
+#include "input/registry.hpp"
+#include "physics/internal/elastic_moduli.hpp"
+#include "physics/internal/law.hpp"
+#include "physics/internal/material.hpp"
 
 #include <fmt/core.h>
 
@@ -179,7 +179,7 @@ LawEntry make_entry() {
   return entry;
 }
 
-/// Enters the law: the last line of every file in src/materials.
+/// Enters the law: the last line of every file in src/physics/laws/materials.
 template <Law L>
 bool register_law() {
   return register_entry(make_entry<L>());

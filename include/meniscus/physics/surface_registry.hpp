@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The registry of surface laws.
 #pragma once
-#include "meniscus/core/key_table.hpp"
-#include "meniscus/core/registry.hpp"
-#include "meniscus/physics/carried_field.hpp"
-#include "meniscus/physics/surface_force.hpp"
-#include "meniscus/physics/surface_viscosity.hpp"
+#include "input/key_table.hpp"
+#include "input/registry.hpp"
+#include "physics/director/carried_field.hpp"
+#include "physics/surface/surface_force.hpp"
+#include "physics/surface/surface_viscosity.hpp"
 
 #include <memory>
 #include <optional>
@@ -111,7 +111,7 @@ bool register_surface_law_as(std::string_view meaning) {
                                         }});
 }
 
-/// Registers the law: the last line of every file in src/surfaces.
+/// Registers the law: the last line of every file in src/physics/laws/surfaces.
 template <SurfaceLaw L>
 bool register_surface_law(std::string_view meaning) {
   return register_surface_law_as<L, SurfaceMaterialOf<L>>(meaning);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Assembly: the scene while it is built, to which loads add what they are made of.
 #pragma once
-#include "meniscus/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 #include <map>
 #include <memory>

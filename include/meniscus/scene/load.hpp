@@ -2,15 +2,15 @@
 // Loads: what acts on the bodies of a scene or is measured of them, one kind of table [[name]]
 // each.
 //
-// A load lives in its own file in src/loads, in an anonymous namespace: a struct MyLoad<D> with the
-// members that rows() reads, check(), build(), and an example. The file ends with
+// A load lives in its own file in src/features, in an anonymous namespace: a struct MyLoad<D> with
+// the members that rows() reads, check(), build(), and an example. The file ends with
 //   const bool registered = register_load<MyLoad>("my_load", Stage::volume, "what it is");
 // Nothing else speaks of it by name.
 #pragma once
-#include "meniscus/body/geometry.hpp"
-#include "meniscus/core/key_table.hpp"
-#include "meniscus/core/registry.hpp"
-#include "meniscus/scene/settings.hpp"
+#include "body/shapes/geometry.hpp"
+#include "input/key_table.hpp"
+#include "input/registry.hpp"
+#include "scene/settings.hpp"
 
 #include <memory>
 #include <optional>

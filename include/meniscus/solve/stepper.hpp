@@ -2,8 +2,8 @@
 // Steppers: the ways in which a state goes on from step to step. Each is one file that registers
 // itself under the name by which [time] solver chooses it.
 #pragma once
-#include "meniscus/core/registry.hpp"
-#include "meniscus/solve/system.hpp"
+#include "input/registry.hpp"
+#include "solve/system.hpp"
 
 #include <functional>
 #include <memory>

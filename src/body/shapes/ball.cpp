@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ball and ellipsoid.
-#include "meniscus/body/cell_count.hpp"
+#include "body/cell_count.hpp"
+#include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"
-
-#include "cubed.hpp"
 
 namespace meniscus {
 

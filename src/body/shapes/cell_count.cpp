@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory of a body from the number of its cells.
-#include "meniscus/body/cell_count.hpp"
+#include "body/cell_count.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/memory.hpp"
-#include "meniscus/core/ranks.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/memory.hpp"
+#include "parallel/ranks.hpp"
 
 #include <fmt/core.h>
 

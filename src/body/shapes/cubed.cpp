@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cubed disk and cubed sphere.
-#include "cubed.hpp"
+#include "body/shapes/cubed.hpp"
 
-#include "meniscus/body/cell_count.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/cell_count.hpp"
+#include "meniscus/error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // Grids of the unit disk and ball: a lattice core whose boundary cells continue in shells to the
 // surface. One construction for both, used by their shape files only.
 #pragma once
-#include "meniscus/body/grid.hpp"
-#include "meniscus/core/input.hpp"
+#include "body/grid/grid.hpp"
+#include "input/input.hpp"
 
 namespace meniscus {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Half sphere: the upper half of the cubed sphere, or the lower one.
-#include "meniscus/body/cell_count.hpp"
+#include "body/cell_count.hpp"
+#include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/error.hpp"
-
-#include "cubed.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus {
 

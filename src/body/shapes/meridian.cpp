@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meridians of rounded cylinders and spheroids.
-#include "meridian.hpp"
+#include "body/shapes/meridian.hpp"
 
-#include "meniscus/body/gauss.hpp"
+#include "body/grid/gauss.hpp"
 
 #include <algorithm>
 #include <cmath>

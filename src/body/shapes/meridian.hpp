@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meridians of closed surfaces of revolution about z that are symmetric in z, by arc length.
 #pragma once
-#include "meniscus/core/types.hpp"
+#include "numbers/types.hpp"
 
 #include <functional>
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Octant: an eighth of the ball between three planes, which rollers make planes of symmetry.
-#include "meniscus/body/cell_count.hpp"
+#include "body/cell_count.hpp"
+#include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/error.hpp"
-
-#include "cubed.hpp"
+#include "meniscus/error.hpp"
 
 namespace meniscus {
 namespace {

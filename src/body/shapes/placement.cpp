@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies mapped by formulas, turned and moved.
-#include "meniscus/body/placement.hpp"
+#include "body/shapes/placement.hpp"
 
-#include "meniscus/approx/neighbor_search.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/box.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/surface/surface_points.hpp"
+#include "kernel/neighbor_search.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/box.hpp"
+#include "numbers/dense.hpp"
 
 #include <fmt/core.h>
 

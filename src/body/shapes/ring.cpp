@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ring: the plane section of a thick-walled cylinder.
-#include "meniscus/body/cell_count.hpp"
+#include "body/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hollow bodies: shells of even thickness.
+#include "body/shapes/wall.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-
-#include "wall.hpp"
 
 namespace meniscus {
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map of the unit spherical shell onto a wall, and its body.
-#include "wall.hpp"
+#include "body/shapes/wall.hpp"
 
-#include "meniscus/body/cell_count.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/cell_count.hpp"
+#include "body/shapes/cubed.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "cubed.hpp"
 
 namespace meniscus {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Walls of even thickness inside a closed surface of revolution.
 #pragma once
-#include "meniscus/body/geometry.hpp"
-
-#include "meridian.hpp"
+#include "body/shapes/geometry.hpp"
+#include "body/shapes/meridian.hpp"
 
 namespace meniscus {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adhesion as a formula of place and time.
-#include "meniscus/physics/adhesion.hpp"
+#include "physics/contact/adhesion.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/physics/contact_numbers.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/contact_numbers.hpp"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Work supplied from outside by adhesion that changes with time.
 #pragma once
-#include "meniscus/core/archive.hpp"
-#include "meniscus/physics/adhesion.hpp"
+#include "physics/contact/adhesion.hpp"
+#include "state/archive.hpp"
 
 #include <optional>
 

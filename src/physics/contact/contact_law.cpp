@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Names of the kernels, and all pair functions at one distance.
-#include "meniscus/physics/contact_law.hpp"
+#include "physics/contact/contact_law.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/names.hpp"
+#include "input/names.hpp"
+#include "meniscus/error.hpp"
 
 #include <array>
 #include <string>

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two half spaces: in closed form without a cut-off, by quadrature over one surface with one.
-#include "meniscus/physics/contact_numbers.hpp"
+#include "physics/contact/contact_numbers.hpp"
 
-#include "meniscus/body/gauss.hpp"
-#include "meniscus/core/error.hpp"
+#include "body/grid/gauss.hpp"
+#include "meniscus/error.hpp"
+#include "physics/contact/rigid/plane_field.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>
-
-#include "plane_field.hpp"
 
 namespace meniscus {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reference bodies of surface studies.
-#include "bodies.hpp"
+#include "study/support/bodies.hpp"
 
-#include "meniscus/body/ordering.hpp"
+#include "body/grid/ordering.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reference bodies of surface studies.
 #pragma once
-#include "meniscus/body/geometry.hpp"
+#include "body/shapes/geometry.hpp"
 
 #include <string>
 #include <vector>

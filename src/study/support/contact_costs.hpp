@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The number of pairs of contact points of a form of contact.
 #pragma once
-#include "meniscus/physics/contact.hpp"
-#include "meniscus/physics/contact_list.hpp"
+#include "physics/contact/contact.hpp"
+#include "physics/contact/pair/contact_list.hpp"
 
 namespace meniscus::study {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vibrations of the free elastic unit cube by orthonormal polynomials, for which the mass matrix is
 // 1.
-#include "cube_modes.hpp"
+#include "study/support/cube_modes.hpp"
 
-#include "meniscus/body/gauss.hpp"
-
-#include "eigenvalues.hpp"
+#include "body/grid/gauss.hpp"
+#include "study/support/eigenvalues.hpp"
 
 namespace meniscus::study {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vibrations of the free elastic unit cube.
 #pragma once
-#include <vector>
+#include "study/support/elastic_case.hpp"
 
-#include "elastic_case.hpp"
+#include <vector>
 
 namespace meniscus::study {
 

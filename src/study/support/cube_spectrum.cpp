@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frequencies of the free elastic cube of particles.
-#include "cube_spectrum.hpp"
+#include "study/support/cube_spectrum.hpp"
 
-#include "meniscus/approx/point_rows.hpp"
+#include "kernel/point_rows.hpp"
+#include "study/support/eigenvalues.hpp"
 
 #include <cmath>
-
-#include "eigenvalues.hpp"
 
 namespace meniscus::study {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frequencies of the free elastic cube of particles.
 #pragma once
-#include "meniscus/study/study.hpp"
-
-#include "elastic_case.hpp"
+#include "study/study.hpp"
+#include "study/support/elastic_case.hpp"
 
 namespace meniscus::study {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The methods of the curvature study.
-#include "curvature_list.hpp"
+#include "study/support/curvature_list.hpp"
 
 namespace meniscus::study {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The methods that the curvature study compares, grouped by the panels of its plots.
 #pragma once
-#include <fmt/core.h>
+#include "study/support/curvature_methods.hpp"
 
-#include "curvature_methods.hpp"
+#include <fmt/core.h>
 
 namespace meniscus::study {
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Evaluation of curvature by the methods of the study, and its errors.
-#include "curvature_methods.hpp"
+#include "study/support/curvature_methods.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/parallel.hpp"
-#include "meniscus/core/surface_geometry.hpp"
+#include "kernel/row_sums.hpp"
+#include "numbers/surface_geometry.hpp"
+#include "parallel/parallel.hpp"
+#include "study/support/surface_fit.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "surface_fit.hpp"
 
 namespace meniscus::study {
 namespace {

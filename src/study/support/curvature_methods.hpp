@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curvature of a surface under an exact map, computed from the particles alone, and its errors.
 #pragma once
-#include "meniscus/approx/particle_set.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/study/study.hpp"
-
-#include "maps.hpp"
+#include "body/surface/surface_points.hpp"
+#include "kernel/particle_set.hpp"
+#include "study/study.hpp"
+#include "study/support/maps.hpp"
 
 namespace meniscus::study {
 

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small oscillations of a viscous drop.
-#include "drop_mode_case.hpp"
+#include "study/support/drop_mode_case.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/scene/simulation.hpp"
-#include "meniscus/study/drop_dispersion.hpp"
+#include "kernel/row_sums.hpp"
+#include "numbers/dense.hpp"
+#include "run/simulation.hpp"
+#include "study/drop_dispersion.hpp"
+#include "study/support/pairs.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "pairs.hpp"
 
 namespace meniscus::study {
 namespace {

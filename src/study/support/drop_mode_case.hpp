@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Small oscillations of a viscous drop against the exact dispersion relation.
 #pragma once
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
 
 namespace meniscus::study {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Eigenvalues of dense matrices by Eigen.
-#include "eigenvalues.hpp"
+#include "study/support/eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -2,7 +2,7 @@
 // Eigenvalues of dense matrices. They are in one source file, since Eigen's solvers take seconds to
 // compile.
 #pragma once
-#include "meniscus/core/types.hpp"
+#include "numbers/types.hpp"
 
 namespace meniscus::study {
 

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Linear elastostatics with the force terms of the program.
-#include "elastic_case.hpp"
+#include "study/support/elastic_case.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/body/ordering.hpp"
+#include "body/grid/ordering.hpp"
+#include "kernel/row_sums.hpp"
 #include "meniscus/body/shapes.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/random.hpp"
 #include "meniscus/physics/law_registry.hpp"
+#include "numbers/dense.hpp"
+#include "numbers/random.hpp"
+#include "study/support/force_cases.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <random>
-
-#include "force_cases.hpp"
 
 namespace meniscus::study {
 namespace {

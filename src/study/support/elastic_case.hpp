@@ -2,8 +2,8 @@
 // Linear elastostatics with the force terms of the program: a free body in equilibrium with an
 // exactly known displacement.
 #pragma once
-#include "meniscus/body/body.hpp"
-#include "meniscus/physics/material.hpp"
+#include "body/body.hpp"
+#include "physics/internal/material.hpp"
 
 #include <memory>
 #include <string>

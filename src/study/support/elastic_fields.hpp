@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Displacements with exact derivatives for studies of elasticity.
 #pragma once
-#include "meniscus/body/smooth_map.hpp"
+#include "body/shapes/smooth_map.hpp"
 
 #include <array>
 

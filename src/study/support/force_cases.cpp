@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies with exactly known forces of surface tension.
-#include "force_cases.hpp"
+#include "study/support/force_cases.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/body/surface_points.hpp"
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/surface_geometry.hpp"
-
-#include "bodies.hpp"
+#include "body/surface/surface_points.hpp"
+#include "kernel/row_sums.hpp"
+#include "numbers/dense.hpp"
+#include "numbers/surface_geometry.hpp"
+#include "study/support/bodies.hpp"
 
 namespace meniscus::study {
 namespace {

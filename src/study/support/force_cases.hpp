@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies with exactly known forces of surface tension.
 #pragma once
-#include "meniscus/body/body.hpp"
+#include "body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
+#include "study/support/maps.hpp"
 
 #include <memory>
-
-#include "maps.hpp"
 
 namespace meniscus::study {
 

@@ -2,15 +2,14 @@
 // A map given by formulas. Its derivatives are central differences of eighth order with step 0.02
 // (the body has radius 1). For formulas that vary over lengths of order one, the error is about
 // 1e-13 in F and 1e-11 in G, far below the errors studied.
-#include "meniscus/core/error.hpp"
-#include "meniscus/core/input.hpp"
-#include "meniscus/core/text.hpp"
+#include "input/input.hpp"
+#include "input/text.hpp"
+#include "meniscus/error.hpp"
+#include "study/support/maps.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
-
-#include "maps.hpp"
 
 namespace meniscus::study {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs of hard cases.
-#include "hard_cases.hpp"
+#include "study/support/hard_cases.hpp"
 
-#include "meniscus/core/error.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "meniscus/error.hpp"
+#include "run/simulation.hpp"
 
 #include <fmt/core.h>
 

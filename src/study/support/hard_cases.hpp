@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hard cases: runs scenes and checks their outcome.
 #pragma once
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
 
 #include <limits>
 #include <map>

@@ -2,7 +2,7 @@
 // Published curvature errors of height functions on Cartesian grids, for comparison: circles and
 // spheres at random places, test cases of the Basilisk solver (curvature*.ref).
 #pragma once
-#include "meniscus/core/types.hpp"
+#include "numbers/types.hpp"
 
 #include <array>
 #include <cmath>

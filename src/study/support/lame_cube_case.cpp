@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The free cube in its Lame mode.
-#include "lame_cube_case.hpp"
+#include "study/support/lame_cube_case.hpp"
 
-#include "meniscus/scene/simulation.hpp"
+#include "run/simulation.hpp"
+#include "study/support/pairs.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <ctime>
 #include <numbers>
-
-#include "pairs.hpp"
 
 namespace meniscus::study {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The free cube in its Lame mode, an exact solution of linear elastodynamics (performance note 3).
 #pragma once
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
 
 namespace meniscus::study {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The maps of the curvature studies, and the check that a map does not fold.
-#include "maps.hpp"
+#include "study/support/maps.hpp"
 
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/error.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/dense.hpp"
 
 #include <fmt/core.h>
 

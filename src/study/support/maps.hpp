@@ -2,7 +2,7 @@
 // Maps of the unit ball and disk onto exact surfaces, the solutions of curvature studies. None is
 // affine or quadratic, since a quadratic basis reproduces such maps.
 #pragma once
-#include "meniscus/body/smooth_map.hpp"
+#include "body/shapes/smooth_map.hpp"
 
 #include <functional>
 #include <span>

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A drop left alone.
-#include "static_drop_case.hpp"
+#include "study/support/static_drop_case.hpp"
 
-#include "meniscus/approx/row_sums.hpp"
-#include "meniscus/measure/drop_measures.hpp"
-#include "meniscus/scene/simulation.hpp"
+#include "kernel/row_sums.hpp"
+#include "measure/drop_measures.hpp"
+#include "run/simulation.hpp"
+#include "study/support/pairs.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "pairs.hpp"
 
 namespace meniscus::study {
 namespace {

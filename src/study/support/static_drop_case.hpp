@@ -3,7 +3,7 @@
 // (ellipse) 1.5 : 1 that relaxes first and whose particles keep that deformation (static-drop note
 // 3).
 #pragma once
-#include "meniscus/study/study.hpp"
+#include "study/study.hpp"
 
 namespace meniscus::study {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Weights of local quadratic fits along a surface.
-#include "surface_fit.hpp"
+#include "study/support/surface_fit.hpp"
 
-#include "meniscus/core/dense.hpp"
-#include "meniscus/core/parallel.hpp"
+#include "numbers/dense.hpp"
+#include "parallel/parallel.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

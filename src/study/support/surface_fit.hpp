@@ -2,7 +2,7 @@
 // Smoothing along a surface by moving least squares. Errors that change sign from point to point
 // cancel, and smooth fields keep their order.
 #pragma once
-#include "meniscus/approx/neighbor_search.hpp"
+#include "kernel/neighbor_search.hpp"
 
 #include <span>
 #include <vector>

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands of the program.
+#pragma once
+#include "input/units.hpp"
+#include "numbers/types.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_internal = 1,
+  exit_usage = 2,
+  exit_input = 3,
+  exit_numerical = 4,
+  exit_file = 5,
+  exit_expectation = 7,
+  exit_signal = 128  ///< + number of the signal, after a checkpoint; 14 (alarm) for --max-walltime
+};
+
+struct RunRequest {
+  std::string scene, output, restart, command_line;
+  std::vector<std::string> set;
+  std::optional<std::int64_t> frame;
+  std::string until;                   ///< a time such as "0.1 ns"; empty: the end
+  std::optional<double> max_walltime;  ///< seconds
+  int threads = 0;                     ///< 0: all cores
+  bool overwrite = false, quiet = false;
+};
+
+/// Runs a scene to its end; returns an exit code. Throws InputError, SolveError, FileError.
+int run(const RunRequest& request);
+
+/// Everything short of running: reads, builds, estimates step, memory and duration, and prints
+/// them.
+void check(const RunRequest& request);
+
+/// The time of --until in units of the scene; infinity if none was given. Throws InputError.
+Real time_to_stop(const RunRequest& request, const UnitSystem& units);
+
+struct StudyRequest {
+  std::string name, output, command_line;
+  std::vector<int> levels;  ///< empty: those of the study
+  std::vector<std::string> set;
+  int threads = 0;  ///< 0: all cores
+  bool brief = false;
+};
+
+/// Runs a study, prints its table and its checks, and writes study.csv and study.json to the output
+/// directory (none if empty); returns exit_expectation if a check is missed. Throws as run().
+int run_study(const StudyRequest& request);
+
+/// Prints the known studies.
+void list_studies();
+
+/// Calls the command. What it throws becomes a message on the standard error output and the exit
+/// code that goes with it.
+int exit_code_of(const std::function<int()>& command);
+
+}  // namespace meniscus

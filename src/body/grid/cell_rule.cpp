@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Building the rule of nodal cells with linear moments: their rows, from the integrals of shape
+// functions over cells and facets (RKPM note 5.6).
+#include "body/body.hpp"
+#include "body/grid/cell_integrals.hpp"
+#include "body/grid/rounded_rows.hpp"
+#include "body/sums_over_ranks.hpp"
+#include "meniscus/error.hpp"
+#include "numbers/dense.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+/// One row of the cell rule, before it is packed.
+template <int D>
+struct CellRow {
+  struct Entry {
+    Index particle;
+    Real integral = 0;
+    Flux<D> flux;
+  };
+  std::vector<Entry> entries;                  // by ascending particle
+  std::vector<Index> particle;                 // in the order in which they are packed
+  std::vector<std::array<Lanes, D>> gradient;  // likewise, [K]: (a_K, B_K.)
+  std::size_t exact = 0;                       // how many of them stay in double
+};
+
+/// Adds to a row what facets of cells before it in its block have of it. Particles that are new to
+/// the row come behind the others.
+template <int D>
+void add_lower_facets(const Body<D>& body, Index cell, std::span<const CellIntegrals<D>> block,
+                      Index first, CellRow<D>& row) {
+  thread_local std::vector<Index> slot;  // [particle] its entry; -1: none yet
+  thread_local std::vector<Index> lower;
+  slot.resize(std::max(slot.size(), body.particles.X().size()), -1);
+  for (std::size_t e = 0; e < row.entries.size(); ++e)
+    at(slot, row.entries[e].particle) = static_cast<Index>(e);
+  body.cells.lower_neighbors(cell, lower);
+  for (const Index neighbor : lower) {
+    if (neighbor < first) continue;
+    for (const SharedFlux<D>& facet : at(block, neighbor - first).shared) {
+      if (facet.neighbor != cell) continue;
+      const Lanes arm = Flux<D>::with_zero(facet.centre - body.cells.centroid(cell));
+      for (std::size_t k = 0; k < facet.particle.size(); ++k) {
+        Index& s = at(slot, facet.particle[k]);
+        if (s < 0) {
+          s = static_cast<Index>(row.entries.size());
+          row.entries.push_back({facet.particle[k], 0, {}});
+        }
+        at(row.entries, s).flux.add_moved(facet.flux[k], arm, -1);
+      }
+    }
+  }
+  for (const auto& e : row.entries) at(slot, e.particle) = -1;
+}
+
+/// Flux integrals of one nodal cell: a_K = (1/V) oint N n_K,
+/// B_KM = [oint N n_K (X - Xb)_Q - delta_KQ int N] (V S)^-1_QM. `block`: integrals of the cells
+/// from `first` on.
+template <int D>
+void assemble_row(const Body<D>& body, Index cell, std::span<const CellIntegrals<D>> block,
+                  Index first, CellRow<D>& row) {
+  const CellIntegrals<D>& own = at(block, cell - first);
+  row.entries.clear();
+  for (std::size_t k = 0; k < own.candidates.size(); ++k)
+    row.entries.push_back({own.candidates[k].particle, own.volume[k].value, own.flux[k]});
+  add_lower_facets(body, cell, block, first, row);
+  std::erase_if(row.entries, [](const auto& e) { return e.integral == 0 && e.flux.is_zero(); });
+  const auto by_particle = [](const auto& a, const auto& b) { return a.particle < b.particle; };
+  if (!std::is_sorted(row.entries.begin(), row.entries.end(), by_particle))
+    std::sort(row.entries.begin(), row.entries.end(), by_particle);
+
+  const Real V = body.cells.volume(cell);
+  const Mat<D> inverse_VS = inverse<D>(V * body.cells.covariance(cell));
+  std::array<Lanes, D> inverse_row;
+  for (int Q = 0; Q < D; ++Q) at(inverse_row, Q) = Flux<D>::with_zero(inverse_VS.row(Q));
+  const Lanes inverse_V = Lanes(1 / V, 0, 0, 0);
+  row.gradient.resize(row.entries.size());
+  for (std::size_t k = 0; k < row.entries.size(); ++k) {
+    const auto& [particle, integral, flux] = row.entries[k];
+    for (int K = 0; K < D; ++K) {
+      const Lanes& m = at(flux.moment, K);
+      Lanes g = m[0] * inverse_V - integral * at(inverse_row, K);
+      for (int Q = 0; Q < D; ++Q) g += m[1 + Q] * at(inverse_row, Q);
+      at(row.gradient[k], K) = g;
+    }
+  }
+}
+
+/// For more entries than the rows of these cells have, by the particles that reach boxes like some
+/// of the cells: what is not filled takes no memory, but growing would take twice as much for a
+/// moment.
+template <int D>
+void reserve_entries(const Body<D>& body, OwnItems cells, RowPrecision precision,
+                     CellRule<D>& rule) {
+  constexpr Index samples = 256;
+  const Index step = (cells.end - cells.begin + samples - 1) / samples;
+  std::vector<Candidate<D>> candidates;
+  std::size_t entries = 0;
+  for (Index cell = cells.begin + step / 2; cell < cells.end; cell += step) {
+    const Real half_diagonal = std::sqrt(3 * body.cells.covariance(cell).trace());
+    body.particles.candidates(body.cells.centroid(cell), half_diagonal, candidates);
+    entries += candidates.size() * static_cast<std::size_t>(step);
+  }
+  rule.particle.reserve(entries);
+  if (precision == RowPrecision::full)
+    rule.coefficient.reserve(entries * D);
+  else
+    rule.rounded.reserve(entries * D);
+}
+
+/// Vertices of the regular simplex with sum t = 0 and mean t t^T = I / D.
+template <int D>
+std::array<Vec<D>, D + 1> simplex() {
+  if constexpr (D == 3) {
+    const Real t = 1 / std::sqrt(3.0);
+    return {Vec<3>(t, t, t), Vec<3>(t, -t, -t), Vec<3>(-t, t, -t), Vec<3>(-t, -t, t)};
+  } else {
+    const Real s = std::sqrt(0.75);
+    return {Vec<2>(1, 0), Vec<2>(-0.5, s), Vec<2>(-0.5, -s)};
+  }
+}
+
+/// xi_q = sqrt(D) S^(1/2) t_q, a lane per q. In 2D the fourth lane, which has weight zero, repeats
+/// the third point: its stress is finite wherever that of the cell is.
+template <int D>
+std::array<Lanes, D> stress_points(const Mat<D>& S) {
+  const Mat<D> root = square_root<D>(S);
+  const auto t = simplex<D>();
+  std::array<Lanes, D> xi;
+  for (int q = 0; q < static_cast<int>(Lanes::width); ++q)
+    for (int M = 0; M < D; ++M)
+      at(xi, M).set(q, std::sqrt(Real(D)) * (root.row(M) * at(t, std::min(q, D))).value());
+  return xi;
+}
+
+/// Orders the entries of a row as they are packed and rounded.
+template <int D>
+void order_row(const Body<D>& body, Index cell, RowPrecision precision, CellRow<D>& row) {
+  row.particle.clear();
+  for (const auto& entry : row.entries) row.particle.push_back(entry.particle);
+  row.exact = precision == RowPrecision::full
+                  ? row.particle.size()
+                  : make_up_for_rounding<D>(body.particles.X(), body.cells.centroid(cell),
+                                            row.particle, row.gradient);
+}
+
+/// Appends rows to the rule.
+template <int D>
+void pack(std::span<const CellRow<D>> rows, CellRule<D>& rule) {
+  const std::size_t first = rule.start.size() - 1;
+  for (const CellRow<D>& row : rows) {
+    rule.start.push_back(rule.start.back() + static_cast<Offset>(row.particle.size()));
+    rule.double_start.push_back(rule.double_start.back() + static_cast<Offset>(row.exact));
+  }
+  rule.particle.resize(static_cast<std::size_t>(rule.start.back()));
+  grow(rule.coefficient, static_cast<std::size_t>(rule.double_start.back()) * D);
+  grow(rule.rounded, static_cast<std::size_t>(rule.start.back() - rule.double_start.back()) * D);
+  parallel_for(
+      static_cast<Index>(rows.size()),
+      [&](Index k) {
+        const CellRow<D>& row = rows[static_cast<std::size_t>(k)];
+        const Offset start = at(rule.start, first + static_cast<std::size_t>(k)),
+                     double_start = at(rule.double_start, first + static_cast<std::size_t>(k));
+        std::copy(row.particle.begin(), row.particle.end(), rule.particle.begin() + start);
+        Lanes* g = rule.coefficient.data() + double_start * D;
+        SingleLanes* r = rule.rounded.data() + (start - double_start) * D;
+        for (std::size_t e = 0; e < row.particle.size(); ++e)
+          for (const Lanes& x : row.gradient[e])
+            if (e < row.exact)
+              *g++ = x;
+            else
+              *r++ = SingleLanes::rounded(x);
+      },
+      8);
+}
+
+/// Has the system fill the pages of the next elements of an array, as far as they are reserved.
+template <class T>
+void take_pages_of_next(UnsetVector<T>& v, std::size_t count) {
+  take_pages(v.data() + v.size(), std::min(count, v.capacity() - v.size()) * sizeof(T));
+}
+
+/// Volumes and stress points of all cells: little beside their rows.
+template <int D>
+void list_points(const Body<D>& body, CellRule<D>& rule) {
+  rule.volume.resize(static_cast<std::size_t>(body.size()));
+  rule.point.resize(rule.volume.size() * D);
+  parallel_for(body.size(), [&](Index cell) {
+    at(rule.volume, cell) = body.cells.volume(cell);
+    const auto xi = stress_points<D>(body.cells.covariance(cell));
+    std::copy(xi.begin(), xi.end(), rule.point.begin() + cell * D);
+  });
+}
+
+/// Makes the rows of all other cells empty.
+template <int D>
+void end_rows(const Body<D>& body, CellRule<D>& rule) {
+  const std::size_t size = static_cast<std::size_t>(body.size()) + 1;
+  rule.start.resize(size, rule.start.back());
+  rule.double_start.resize(size, rule.double_start.back());
+}
+
+/// Appends rows to a rule that has none. What cells share within a block is computed once, and what
+/// they share with others twice, for whatever cells the rows are asked: so rows do not depend on
+/// that to the last bit.
+template <int D>
+void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, CellRule<D>& rule,
+                 SumsOverRanks& shape_integral) {
+  rule.start.resize(static_cast<std::size_t>(cells.begin) + 1, 0);
+  rule.double_start.resize(rule.start.size(), 0);
+  reserve_entries(body, cells, precision, rule);
+  // What rows are made of takes several times their memory; rows that are not packed yet, twice.
+  constexpr Index block = 512, packed_at_once = 64;
+  std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, body.size())));
+  std::vector<CellRow<D>> rows(static_cast<std::size_t>(packed_at_once));
+  // By the rows of the block before; of the first, its share of what is reserved.
+  const auto share = [&](std::size_t reserved) {
+    return reserved * static_cast<std::size_t>(block) /
+           static_cast<std::size_t>(std::max(block, cells.end - cells.begin));
+  };
+  std::array<std::size_t, 2> taken{share(rule.coefficient.capacity()),
+                                   share(rule.rounded.capacity())};
+  for (Index begin = cells.begin / block * block; begin < cells.end; begin += block) {
+    const Index first = std::max(begin, cells.begin), end = std::min(begin + block, cells.end);
+    const std::array<std::size_t, 2> filled{rule.coefficient.size(), rule.rounded.size()};
+    parallel_for((end - begin + most_in_group - 1) / most_in_group + 1,
+                 [&](Index item) {
+                   if (item == 0) {
+                     take_pages_of_next(rule.coefficient, taken[0]);
+                     take_pages_of_next(rule.rounded, taken[1]);
+                     return;
+                   }
+                   const Index from = begin + (item - 1) * most_in_group;
+                   integrate_cells<D>(body, {from, std::min(end, from + most_in_group)},
+                                      {begin, begin + block}, integrals);
+                 },
+                 1);
+    for (Index next = first; next < end; next += packed_at_once) {
+      const Index count = std::min(packed_at_once, end - next);
+      parallel_for(
+          count,
+          [&](Index k) {
+            assemble_row<D>(body, next + k, integrals, begin, at(rows, k));
+            order_row(body, next + k, precision, at(rows, k));
+          },
+          4);
+      for (Index k = 0; k < count; ++k)
+        for (const auto& entry : at(rows, k).entries)
+          shape_integral.add(entry.particle, entry.integral);
+      pack<D>(std::span(rows).first(static_cast<std::size_t>(count)), rule);
+    }
+    taken = {rule.coefficient.size() - filled[0], rule.rounded.size() - filled[1]};
+  }
+}
+
+}  // namespace
+
+template <int D>
+CellRows<D>::CellRows(const Body<D>& body, RowPrecision precision, OwnItems cells)
+    : shape_integral(body.size()) {
+  append_rows(body, cells, precision, rule, shape_integral);
+}
+
+template <int D>
+CellOperator<D> cell_rule_of(const Body<D>& body, CellRows<D> rows) {
+  CellOperator<D> op{std::move(rows.rule), rows.shape_integral.of_all()};
+  end_rows(body, op.rule);
+  list_points(body, op.rule);
+  return op;
+}
+
+template <int D>
+CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells) {
+  std::optional<CellRows<D>> rows;
+  on_each_rank([&] { rows.emplace(body, precision, cells); });
+  return cell_rule_of(body, std::move(*rows));
+}
+
+template <int D>
+CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision) {
+  return build_cell_rule(body, precision, body.division.own_rows(body.size()));
+}
+
+#define MENISCUS_INSTANTIATE(D)                                           \
+  template struct CellRows<D>;                                            \
+  template CellOperator<D> cell_rule_of(const Body<D>&, CellRows<D>);     \
+  template CellOperator<D> build_cell_rule(const Body<D>&, RowPrecision); \
+  template CellOperator<D> build_cell_rule(const Body<D>&, RowPrecision, OwnItems);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading the geometry of a body.
+#include "meniscus/body/shapes.hpp"
+
+#include "body/imperfection.hpp"
+#include "body/shapes/placement.hpp"
+#include "meniscus/error.hpp"
+
+namespace meniscus {
+
+namespace {
+
+/// A body used to look for further problems of a scene when the described one cannot be made.
+template <int D>
+Geometry<D> stand_in() {
+  Brick<D> brick;
+  brick.cells.assign(D, 2);
+  return brick.geometry();
+}
+
+}  // namespace
+
+template <int D>
+Geometry<D> read_geometry(const Block& block) {
+  const auto name = block.kind("shape", shapes<D>().names());
+  const Real jitter = block.real("jitter", dimension::none, {0, 0.5}, 0.0);
+  const auto seed = block.integer("jitter_seed", range::non_negative, 1);
+  const Real imperfection = block.real("imperfection", dimension::length, range::non_negative, 0.0);
+  const auto imperfection_seed = block.integer("imperfection_seed", range::non_negative, 1);
+  if (!name) return stand_in<D>();
+  try {
+    auto made = shapes<D>().at(*name).make(block);
+    if (!made) return read_placement(block, stand_in<D>());  // this marks its keys as known
+    Geometry<D> geometry = read_placement(block, *std::move(made));
+    if (!block.in_order()) return stand_in<D>();
+    if (imperfection > 0)
+      geometry = with_imperfection(std::move(geometry), imperfection,
+                                   static_cast<std::uint64_t>(imperfection_seed));
+    if (jitter > 0) jitter_interior(geometry.grid, jitter, static_cast<std::uint64_t>(seed));
+    return geometry;
+  } catch (const InputError& error) {
+    block.problem("shape", error.what());
+    return read_placement(block, stand_in<D>());
+  }
+}
+
+template Geometry<2> read_geometry(const Block&);
+template Geometry<3> read_geometry(const Block&);
+
+}  // namespace meniscus

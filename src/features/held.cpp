@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A face that is held or moved: places in the mean over each of its nodal cells are prescribed.
+#include "body/surface/face_means.hpp"
+#include "input/optional_rows.hpp"
+#include "input/ramp.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/scene/assembly.hpp"
+#include "numbers/dense.hpp"
+#include "physics/constraint.hpp"
+#include "scene/face_keys.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus::held_load {
+namespace {
+
+/// The prescribed displacement of reference places: turned about an axis, then moved; both by the
+/// fraction of a ramp.
+template <int D>
+struct Grip {
+  std::vector<Expression> displacement;  // empty: none
+  Expression angle;
+  Eigen::Vector3d axis, centre;
+  Ramp ramp;
+
+  bool turns() const { return !angle.constant() || angle({0, 0, 0}) != 0; }
+
+  /// R X - X about the centre, R by Rodrigues' formula.
+  Eigen::Vector3d turned(const Eigen::Vector3d& X, Real time) const {
+    const Real by = ramp.fraction(time) * angle({0, 0, 0}, time);
+    const Eigen::Vector3d arm = X - centre, across = cross(axis, arm);
+    const Real half = std::sin(by / 2);
+    return std::sin(by) * across + 2 * half * half * cross(axis, across);
+  }
+};
+
+/// Means over face cells of what a grip prescribes.
+template <int D>
+class HeldFace final : public Constraint {
+ public:
+  HeldFace(std::string called, std::string stands, ConstraintRows its_rows,
+           const FaceCells<D>& cells, Grip<D> grip, Real moment)
+      : Constraint(std::move(called), std::move(stands), std::move(its_rows)),
+        grip_(std::move(grip)),
+        displacement_(cells, grip_.displacement),
+        moment_(moment) {}
+
+  void targets(Real time, std::span<Real> g) override {
+    const std::vector<Real>& mean = displacement_.at(time);
+    const Real fraction = grip_.ramp.fraction(time);
+    const bool turns = grip_.turns();
+    for (std::size_t r = 0; r < rows.rows.size(); ++r) {
+      const auto& row = rows.rows[r];
+      Eigen::Vector3d u = Eigen::Vector3d::Zero();
+      if (!grip_.displacement.empty())
+        for (int i = 0; i < D; ++i) u[i] = fraction * at(mean, row.place * D + i);
+      // A rotation is affine: its mean is that of the mean place.
+      if (turns) u += grip_.turned(at(rows.X, row.place), time);
+      g[r] = row.direction.dot(u);
+    }
+  }
+  Real steady_after() const override {
+    return displacement_.change() || grip_.angle.depends_on_time()
+               ? std::numeric_limits<Real>::infinity()
+               : grip_.ramp.end;
+  }
+  Real moment() const override { return moment_; }
+
+ private:
+  Grip<D> grip_;
+  FaceMeans<D> displacement_;
+  Real moment_;
+};
+
+/// Sums over the rows of a constraint. `about`: the point that torques are about.
+struct ReactionSums {
+  const Constraint* of;
+  Eigen::Vector3d about;
+
+  Eigen::Vector3d force(const Motion& motion) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (Index r = 0; r < of->rows.size(); ++r) sum += row_force(motion, r);
+    return sum;
+  }
+  Eigen::Vector3d torque(const Motion& motion) const {
+    std::vector<Eigen::Vector3d> x = of->rows.X;
+    for (Index k = 0; k < of->rows.places(); ++k)
+      for (Offset e = at(of->rows.start, k); e < at(of->rows.start, k + 1); ++e) {
+        const Lanes u = at(of->rows.weight, e) * at(motion.u, at(of->rows.particle, e));
+        at(x, k) += Eigen::Vector3d(u[0], u[1], u[2]);
+      }
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (Index r = 0; r < of->rows.size(); ++r)
+      sum += cross(at(x, at(of->rows.rows, r).place) - about, row_force(motion, r));
+    return sum;
+  }
+  Real work(const Motion& motion) const {
+    return motion.reactions ? at(motion.reactions->work, of->number) : 0;
+  }
+
+ private:
+  Eigen::Vector3d row_force(const Motion& motion, Index r) const {
+    // Trial motions have none.
+    const Real lambda = motion.reactions ? at(motion.reactions->force, of->first + r) : 0;
+    return lambda * at(of->rows.rows, r).direction;
+  }
+};
+
+template <int D>
+struct Held final : Load<D> {
+  static constexpr std::string_view example =
+      D == 3 ? "body = \"drop\"\nwhere = \"z < -0.9\"\ndisplacement = [0, 0, \"0.01*sin(t)\"]\n"
+             : "body = \"drop\"\nwhere = \"y < -0.9\"\ndisplacement = [0, \"0.01*sin(t)\"]\n";
+  std::string name;
+  FaceKeys face;
+  std::vector<std::string> components;
+  std::vector<Expression> displacement;
+  std::vector<Real> axis, centre;
+  std::optional<Expression> angle;
+  Ramp ramp;
+
+  static Rows<Held> rows() {
+    Rows<Held> rows = face_rows<Held>(&Held::face);
+    rows.insert(
+        rows.begin(),
+        text_row("name", &Held::name,
+                 "by which messages and measures call it; empty: the body and the face", ""));
+    const std::vector<Row<Held>> own = {
+        texts_row("components", &Held::components,
+                  "which are prescribed: of x, y, z (2D: x, y), or normal alone; empty: all",
+                  std::vector<std::string>{}),
+        optional_expressions_row("displacement", &Held::displacement, D, dimension::length,
+                                 Variables::place_and_time,
+                                 "from the reference, a formula of reference position and time t "
+                                 "for each component"),
+        optional_expression_row("angle", &Held::angle, dimension::none, range::any, "0",
+                                "by which the face is turned about the axis, in radians, before "
+                                "it is displaced; a formula of t"),
+        reals_row("axis", &Held::axis, 3, dimension::none, range::any,
+                  "direction of the axis; in 2D it is across the plane",
+                  std::vector<Real>{0, 0, 1}),
+        reals_row("centre", &Held::centre, D, dimension::length, range::any,
+                  "a place of the axis; torques are about it", std::vector<Real>(D, 0)),
+        ramp_row("ramp", &Held::ramp, "displacement and angle from 0")};
+    rows.insert(rows.end(), own.begin(), own.end());
+    return rows;
+  }
+  std::string label() const { return name.empty() ? face.label() : name; }
+  std::optional<typename Load<D>::Identity> identity() const override {
+    return {{"name", label()}};
+  }
+
+  void check(const Block& block, const BodyPlans<D>& bodies) const override {
+    require_plain_name(block, name);
+    face.check(block, bodies);
+    const std::vector<std::string> known =
+        D == 3 ? std::vector<std::string>{"x", "y", "z"} : std::vector<std::string>{"x", "y"};
+    const bool normal = std::count(components.begin(), components.end(), "normal") > 0;
+    for (const std::string& c : components)
+      if (c != "normal" && std::count(known.begin(), known.end(), c) == 0)
+        block.problem("components", fmt::format("'{}' is no component; allowed are {}, normal", c,
+                                                joined(known, ", ")));
+      else if (std::count(components.begin(), components.end(), c) > 1)
+        block.problem("components", fmt::format("'{}' is given twice", c));
+    if (normal && components.size() > 1) block.problem("components", "normal goes alone");
+    if (angle && angle->depends_on_place())
+      block.problem("angle", "depends on the place; allowed is a formula of t");
+    if (D == 2 && (axis[0] != 0 || axis[1] != 0))
+      block.problem("axis", "is across the plane in 2D; allowed is [0, 0, 1]");
+    if (Eigen::Vector3d::Map(axis.data()).norm() == 0)
+      block.problem("axis", "has no direction; allowed is any but zero");
+  }
+
+  void prepare(BodyPlans<D>& bodies) const override { face.prepare(bodies); }
+  void build(Assembly<D>& assembly) const override {
+    const Body<D>& body = assembly.body(face.body);
+    const FaceCells<D> cells = face.cells(this->place, body);
+    constexpr Real short_time = 1e-4;
+    auto held = std::make_unique<HeldFace<D>>("held face '" + label() + "'", this->place,
+                                              rows_of(cells, body), cells, grip(),
+                                              short_time * assembly.end_time());
+    assembly.note(fmt::format("{}: {} nodal cells of body '{}', {:.4g} {}, {} multipliers",
+                              held->name, cells.size(), body.name, cells.total_area(),
+                              assembly.units().symbol(D == 3 ? dimension::area : dimension::length),
+                              held->rows.size()));
+    measure(assembly, *held);
+    assembly.keep_reference(face.body, "its [[held]] knows the faces of its shape only");
+    assembly.add(std::move(held));
+  }
+
+ private:
+  Grip<D> grip() const {
+    Grip<D> grip{displacement, angle.value_or(Expression(0)),
+                 Eigen::Vector3d::Map(axis.data()).normalized(),
+                 spatial<D>(Vec<D>::Map(centre.data())), ramp};
+    return grip;
+  }
+  ConstraintRows rows_of(const FaceCells<D>& cells, const Body<D>& body) const {
+    ConstraintRows rows;
+    rows.start = cells.mean.start;
+    rows.weight.assign(cells.mean.value.begin(), cells.mean.value.end());
+    for (const Index A : cells.mean.particle) rows.particle.push_back(body.first + A);
+    for (Index k = 0; k < cells.size(); ++k) {
+      rows.X.push_back(spatial<D>(at(cells.centre, k)));
+      if (!components.empty() && components.front() == "normal") {
+        rows.rows.push_back({k, spatial<D>(at(cells.normal, k)).normalized()});
+        continue;
+      }
+      for (int i = 0; i < D; ++i)
+        if (components.empty() ||
+            std::count(components.begin(), components.end(), std::string(1, "xyz"[i])) > 0)
+          rows.rows.push_back({k, Eigen::Vector3d::Unit(i)});
+    }
+    return rows;
+  }
+  void measure(Assembly<D>& assembly, const Constraint& held) const {
+    const ReactionSums sums{&held, spatial<D>(Vec<D>::Map(centre.data()))};
+    const Dimension force = of_sum(dimension::force, D), torque = of_sum(dimension::energy, D);
+    for (int i = 0; i < D; ++i)
+      assembly.measure(label(), {fmt::format("force_{}", "xyz"[i]), force,
+                                 "force by which the face is held, on the body",
+                                 [=](const Motion& motion) { return sums.force(motion)[i]; }});
+    for (int i = D == 3 ? 0 : 2; i < 3; ++i)
+      assembly.measure(label(), {fmt::format("torque_{}", "xyz"[i]), torque,
+                                 "torque of these forces about the centre",
+                                 [=](const Motion& motion) { return sums.torque(motion)[i]; }});
+    assembly.measure(label(), {"work", of_sum(dimension::energy, D), "work of these forces so far",
+                               [=](const Motion& motion) { return sums.work(motion); }});
+  }
+};
+
+const bool registered =
+    register_load<Held>("held", Stage::surface, "a face that is held, or moved");
+
+}  // namespace
+}  // namespace meniscus::held_load

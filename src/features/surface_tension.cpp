@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tension of the whole surface of a body.
+#include "physics/surface/surface_tension.hpp"
+
+#include "measure/drop_measures.hpp"
+#include "meniscus/scene/assembly.hpp"
+#include "physics/internal/coefficient_damping.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace meniscus::surface_tension_load {
+namespace {
+
+struct Keys {
+  std::string body, form;
+  Real gamma = 0;
+  int points = 3;
+  Real coefficient_damping = 0;  // in kinematic viscosity / spacing^2
+  static Rows<Keys> rows();
+};
+
+Rows<Keys> Keys::rows() {
+  return {
+      text_row("body", &Keys::body, "name of the body whose surface is under tension"),
+      real_row("gamma", &Keys::gamma, dimension::tension, range::positive, "surface tension"),
+      choice_row(
+          "form", &Keys::form, {"balanced", "weak", "curvature", "triangles"},
+          "gradient of the area of patches through places, with the volume that they enclose for "
+          "the pressure of a fluid; gradient of the area at Gauss points; curvature from second "
+          "derivatives (smooth surfaces only); flat triangles",
+          "balanced"),
+      integer_row("points", &Keys::points, {1, 8},
+                  "Gauss points per direction and surface facet, for weak and curvature", 3),
+      real_row("coefficient_damping", &Keys::coefficient_damping, dimension::none,
+               range::non_negative,
+               "damping of what of the velocity coefficients of a fluid does not move places, in "
+               "kinematic viscosity / spacing^2, for balanced; 0: none",
+               0.5),
+  };
+}
+
+template <int D>
+struct SurfaceTension final : Load<D>, Keys {
+  static constexpr std::string_view example = "body = \"drop\"\ngamma = 1\n";
+  std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }
+  std::string claim() const override { return "the surface of '" + body + "'"; }
+
+  void check(const Block& block, const BodyPlans<D>& bodies) const override {
+    const BodyPlan<D>* planned = require_body(block, bodies, body);
+    if (planned && form == "curvature" && !planned->geometry.surface->smooth())
+      block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
+                                        "undefined; allowed are balanced, weak, triangles",
+                                        body));
+  }
+
+  /// The pressure of a fluid works on the volume that a balanced surface encloses.
+  void prepare(BodyPlans<D>& bodies) const override {
+    for (BodyPlan<D>& planned : bodies) {
+      if (planned.settings.name != body) continue;
+      planned.enclosed |= form == "balanced";
+      planned.curvature |= form == "curvature";
+    }
+  }
+
+  void build(Assembly<D>& assembly) const override {
+    const Body<D>& on = assembly.body(body);
+    const std::vector<Real>& viscosity = assembly.viscosity(body);
+    assembly.add(term(on), body);
+    for (MeasureSource& source : drop_measures(on, viscosity, gamma))
+      assembly.measure(body, std::move(source));
+    if (form == "balanced" && this->coefficient_damping > 0 &&
+        std::any_of(viscosity.begin(), viscosity.end(), [](Real mu) { return mu > 0; }))
+      assembly.add(meniscus::coefficient_damping(on, viscosity, this->coefficient_damping), body);
+    require_stiffness(assembly);
+    assembly.set_surface_energy(body, gamma);
+    assembly.set_tension_form(body, form);
+    if (!viscosity.empty())
+      assembly.drop({&on, gamma, assembly.measure_named(body + ".area"),
+                     assembly.measure_named(body + ".volume"), form == "triangles"});
+  }
+
+ private:
+  /// A body under tension alone has the mean pressure (D - 1) gamma area / (D volume) (the virial
+  /// of its forces). What is much softer than that would collapse.
+  void require_stiffness(const Assembly<D>& assembly) const {
+    constexpr Real most = 2;
+    if (!assembly.initial()) return;
+    const Motion motion = assembly.initial()->motion();
+    const Real area = assembly.measure_named(body + ".area")(motion),
+               volume = assembly.measure_named(body + ".volume")(motion),
+               pressure = (D - 1) * gamma * area / (D * volume), K = assembly.bulk_modulus(body);
+    const auto text = [&](Real value, Dimension d) {
+      return fmt::format("{:.4g} {}", value, assembly.units().symbol(d));
+    };
+    if (pressure > most * K)
+      throw InputError(fmt::format(
+          "{}: gamma compresses '{}' by a pressure of {}, which is more than twice its bulk "
+          "modulus of {}; "
+          "expected is gamma below {}, or a stiffer body",
+          this->place, body, text(pressure, dimension::pressure), text(K, dimension::pressure),
+          text(gamma * most * K / pressure, dimension::tension)));
+  }
+
+  std::unique_ptr<ForceTerm> term(const Body<D>& on) const {
+    if (form == "balanced") return balanced_surface_tension(on, gamma);
+    if (form == "weak") return weak_surface_tension(on, gamma, points);
+    if (form == "curvature") return curvature_surface_tension(on, gamma, points);
+    return triangle_surface_tension(on, gamma);
+  }
+};
+
+const bool registered = register_load<SurfaceTension>("surface_tension", Stage::surface,
+                                                      "tension of the whole surface of a body");
+
+}  // namespace
+}  // namespace meniscus::surface_tension_load

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Formulas in scenes.
+#include "input/expression.hpp"
+
+#include "input/expression_jets.hpp"
+#include "input/names.hpp"
+#include "meniscus/error.hpp"
+
+#include <fmt/core.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace meniscus {
+
+/// muParser keeps its stack and the variables in memory shared by all copies: hence the lock.
+struct Expression::Parsed {
+  std::mutex lock;
+  std::array<Real, 4> variables{};  ///< x, y, z, t
+  mu::Parser parser;
+  std::string place;
+  NamedNumbers constants;
+  std::optional<ExpressionJets> jets;  ///< made at the first call of jet()
+};
+
+namespace {
+
+constexpr std::array<const char*, 4> variable_names{"x", "y", "z", "t"};
+constexpr std::size_t own_constants = 2;  ///< pi and e
+
+template <Real (*function)(Real)>
+Real call(Real a) {
+  return function(a);
+}
+template <Real (*function)(Real, Real)>
+Real call(Real a, Real b) {
+  return function(a, b);
+}
+Real sign(Real a) {
+  return a > 0 ? 1 : a < 0 ? -1 : 0;
+}
+Real least(const Real* values, int count) {
+  return *std::min_element(values, values + count);
+}
+Real greatest(const Real* values, int count) {
+  return *std::max_element(values, values + count);
+}
+
+/// Defines all functions here, so that the meaning of a scene does not depend on the muParser
+/// version.
+void define_language(mu::Parser& parser, std::array<Real, 4>& variables) {
+  parser.ClearFun();
+  parser.ClearConst();
+  parser.DefineFun("sin", call<std::sin>);
+  parser.DefineFun("cos", call<std::cos>);
+  parser.DefineFun("tan", call<std::tan>);
+  parser.DefineFun("asin", call<std::asin>);
+  parser.DefineFun("acos", call<std::acos>);
+  parser.DefineFun("atan", call<std::atan>);
+  parser.DefineFun("atan2", call<std::atan2>);
+  parser.DefineFun("sinh", call<std::sinh>);
+  parser.DefineFun("cosh", call<std::cosh>);
+  parser.DefineFun("tanh", call<std::tanh>);
+  parser.DefineFun("exp", call<std::exp>);
+  parser.DefineFun("log", call<std::log>);
+  parser.DefineFun("log10", call<std::log10>);
+  parser.DefineFun("sqrt", call<std::sqrt>);
+  parser.DefineFun("cbrt", call<std::cbrt>);
+  parser.DefineFun("abs", call<std::fabs>);
+  parser.DefineFun("sign", call<sign>);
+  parser.DefineFun("floor", call<std::floor>);
+  parser.DefineFun("ceil", call<std::ceil>);
+  parser.DefineFun("erf", call<std::erf>);
+  parser.DefineFun("pow", call<std::pow>);
+  parser.DefineFun("min", least);
+  parser.DefineFun("max", greatest);
+  parser.DefineConst("pi", std::numbers::pi);
+  parser.DefineConst("e", std::numbers::e);
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    parser.DefineVar(variable_names[i], &variables[i]);
+}
+
+std::vector<std::string> known_names(const mu::Parser& parser) {
+  std::vector<std::string> names(variable_names.begin(), variable_names.end());
+  for (const auto& constant : parser.GetConst()) names.push_back(constant.first);
+  for (const auto& function : parser.GetFunDef()) names.push_back(function.first);
+  return names;
+}
+
+/// Refuses formulas that muParser would misread silently: a control character ends the formula, and
+/// a single = assigns to x, y, z or t.
+void refuse_traps(const std::string& formula) {
+  constexpr std::string_view partners = "=!<>";
+  for (std::size_t i = 0; i < formula.size(); ++i) {
+    if (static_cast<unsigned char>(formula[i]) < 0x20)
+      throw InputError(fmt::format("a formula has a control character (byte {}) at character {}",
+                                   static_cast<int>(formula[i]), i + 1));
+    if (formula[i] != '=') continue;
+    const bool closes = i > 0 && partners.find(formula[i - 1]) != std::string_view::npos;
+    const bool opens = i + 1 < formula.size() && formula[i + 1] == '=';
+    if (!closes && !opens)
+      throw InputError(fmt::format(
+          "formula '{}': '=' at character {} is not allowed; equality is written ==", formula,
+          i + 1));
+  }
+}
+
+/// The error of muParser as a message of this program.
+std::string explain(const mu::ParserError& error, const mu::Parser& parser,
+                    const std::string& formula) {
+  const std::string& token = error.GetToken();
+  const auto place = [&] {
+    const int position = error.GetPos();
+    const bool known = position >= 0 && static_cast<std::size_t>(position) < formula.size();
+    return known ? fmt::format(" at character {}", position + 1) : std::string(" at its end");
+  };
+  switch (error.GetCode()) {
+    case mu::ecUNASSIGNABLE_TOKEN: {
+      const std::string name = token.substr(0, token.find_first_not_of(parser.ValidNameChars()));
+      if (name.empty())
+        return fmt::format("unexpected '{}'{}", token.substr(0, token.find(' ')), place());
+      return fmt::format(
+          "unknown name '{}'{}; allowed are x, y, z, t, pi, e{} and functions such as sqrt{}", name,
+          place(), parser.GetConst().size() > own_constants ? ", the [constants]" : "",
+          did_you_mean(name, known_names(parser)));
+    }
+    case mu::ecEXPRESSION_TOO_LONG:
+      return fmt::format("it is longer than {} characters", int{mu::MaxLenExpression});
+    case mu::ecEMPTY_EXPRESSION:
+      return "it is empty";
+    case mu::ecUNEXPECTED_EOF:
+      return "it ends too early";
+    case mu::ecMISSING_PARENS:
+      return "a closing bracket is missing";
+    case mu::ecTOO_MANY_PARAMS:
+      return fmt::format("too many arguments of '{}'", token);
+    case mu::ecTOO_FEW_PARAMS:
+      return fmt::format("too few arguments of '{}'", token);
+    default:
+      return token.empty() ? fmt::format("it cannot be understood{}", place())
+                           : fmt::format("unexpected '{}'{}", token, place());
+  }
+}
+
+}  // namespace
+
+Expression::Expression(Real value) : text_(fmt::format("{}", value)), value_(value) {}
+
+bool is_word_of_formulas(std::string_view word) {
+  mu::Parser parser;
+  std::array<Real, 4> variables{};
+  define_language(parser, variables);
+  const std::vector<std::string> known = known_names(parser);
+  return std::find(known.begin(), known.end(), word) != known.end();
+}
+
+Expression::Expression(std::string formula, const NamedNumbers& constants)
+    : text_(std::move(formula)) {
+  refuse_traps(text_);
+  auto parsed = std::make_shared<Parsed>();
+  try {
+    define_language(parsed->parser, parsed->variables);
+    for (const auto& [name, value] : constants) parsed->parser.DefineConst(name, value);
+    parsed->parser.SetExpr(text_);
+    value_ = parsed->parser.Eval();
+    if (parsed->parser.GetNumResults() != 1)
+      throw InputError(fmt::format("formula '{}': ',' outside of a function", text_));
+    const auto& used = parsed->parser.GetUsedVar();
+    for (std::size_t i = 0; i < variable_names.size(); ++i)
+      at(depends_on_, i) = used.count(variable_names[i]) != 0;
+    parsed->constants = constants;
+    if (!used.empty()) parsed_ = std::move(parsed);
+  } catch (const mu::ParserError& error) {
+    throw InputError(fmt::format("formula '{}': {}", text_, explain(error, parsed->parser, text_)));
+  }
+}
+
+Real Expression::operator()(const Eigen::Vector3d& X, Real t) const {
+  const Real value = unchecked(X, t);
+  if (std::isfinite(value) || constant()) return value;
+  throw SolveError(fmt::format(
+      "{}formula '{}' is {} at x = {:.6g}, y = {:.6g}, z = {:.6g}, t = {:.6g}; allowed are finite "
+      "numbers",
+      parsed_->place.empty() ? "" : parsed_->place + ": ", text_,
+      std::isnan(value) ? "not a number" : "infinite", X[0], X[1], X[2], t));
+}
+
+void Expression::set_place(std::string place) {
+  if (parsed_) parsed_->place = std::move(place);
+}
+
+const std::string& Expression::place() const {
+  static const std::string none;
+  return parsed_ ? parsed_->place : none;
+}
+
+Real Expression::unchecked(const Eigen::Vector3d& X, Real t) const {
+  if (constant()) return value_;
+  const std::lock_guard guard(parsed_->lock);
+  parsed_->variables = {X[0], X[1], X[2], t};
+  return parsed_->parser.Eval();
+}
+
+Jet<3> Expression::jet(const Eigen::Vector3d& X, Real t) const {
+  if (constant()) return value_;
+  const std::lock_guard guard(parsed_->lock);
+  if (!parsed_->jets) parsed_->jets.emplace(text_, parsed_->constants);
+  return (*parsed_->jets)(X, t);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From values of a scene to values of the program, and back to TOML for the complete input.
+#pragma once
+#include "input/constants.hpp"
+#include "input/input.hpp"
+#include "input/scene_tree.hpp"
+#include "input/text.hpp"
+#include "meniscus/error.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meniscus::input_values {
+
+std::string toml(bool value);
+std::string toml(std::int64_t value);
+std::string toml(Real value);
+std::string toml(const std::string& value);
+std::string toml(const Expression& value);
+template <class T>
+std::string toml(const std::vector<T>& values) {
+  std::vector<std::string> items;
+  for (const T& value : values) items.push_back(toml(value));
+  return "[" + joined(items, ", ") + "]";
+}
+
+/// Throws "is an integer; allowed is `allowed`".
+[[noreturn]] void refuse_kind(const scene_tree::Value& value, const std::string& allowed);
+
+/// The value as it stands. Throws InputError (without a place) if it is of another type.
+template <class T>
+T exactly(const scene_tree::Value& value, const std::string& allowed) {
+  if (const T* found = std::get_if<T>(&value.data)) return *found;
+  refuse_kind(value, allowed);
+}
+
+/// A text is a formula of constants.
+std::int64_t integer(const scene_tree::Value& value, const Range& range, const Constants&);
+/// "an integer, > 0".
+std::string allowed_integer(const Range& range);
+
+/// The dimension of a text with a unit or of a formula of constants; nothing for other values.
+std::optional<Dimension> own_dimension(const scene_tree::Value& value, const Constants&);
+
+/// Some number of the range, to go on with after a problem.
+Real harmless(const Range& range);
+
+/// Numbers of one dimension and range. The conversions throw InputError without a place.
+struct Number {
+  const UnitSystem& units;
+  Dimension dimension;
+  Range range;
+  const Constants& constants;
+
+  /// As written behind a number; empty for a plain number.
+  std::string unit() const;
+  /// "a number in Pa or a text with a unit, > 0".
+  std::string allowed() const { return allowed_or(""); }
+  std::string allowed_or_formula(Variables) const;
+
+  Real real(const scene_tree::Value& value) const;
+  /// A text is a quantity if it can be one, else a formula.
+  Expression expression(const scene_tree::Value& value, Variables) const;
+
+ private:
+  std::string allowed_or(const std::string& formula) const;
+  Real checked(Real value) const;
+  /// The number of a text with or without a unit, or of a formula of constants.
+  Real converted(const std::string& given) const;
+  void refuse_radians(const std::string& text) const;
+  /// A formula in which constants occur.
+  Expression formula_of_constants(const std::string& given, Variables) const;
+};
+
+}  // namespace meniscus::input_values

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The particles of one body in the reference configuration, and their kernel supports.
+#pragma once
+#include "kernel/neighbor_search.hpp"
+#include "kernel/reproducing_kernel.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace meniscus {
+
+/// Reference positions and supports of particles, with the search tree over them. Must not change
+/// once rows are built on it.
+///
+/// With a stretch U supports are ellipsoids: shape functions are evaluated at the kernel places
+/// U^-1 X, N_A(x) = M_A(U^-1 x), and supports are balls there, with their lengths measured there.
+/// The shape functions of a stretched ball are then as good as those of the ball.
+template <int D>
+class ParticleSet {
+ public:
+  /// Support of particle A = factor x distance to its rank-th nearest neighbour.
+  struct AdaptiveSupport {
+    Real factor = 1.8;
+    int rank = D == 3 ? 20 : 8;
+  };
+
+  /// Sets the supports by `rule`. The stretch U is symmetric with det U = 1.
+  ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window,
+              const Mat<D>& stretch = Mat<D>::Identity());
+  /// The same support for all particles.
+  ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
+              const Mat<D>& stretch = Mat<D>::Identity());
+
+  /// Sets the supports to support[particle].
+  ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support, Window window,
+              const Mat<D>& stretch = Mat<D>::Identity());
+
+  Index size() const { return static_cast<Index>(X_.size()); }
+  std::span<const Vec<D>> X() const { return X_; }
+  std::span<const Real> support() const { return support_; }
+  Window window() const { return window_; }
+  const NeighborSearch<D>& search() const { return search_; }
+
+  /// U^-1, or null without a stretch.
+  const Mat<D>* pressed() const { return pressed_ ? &pressed_->inverse_stretch : nullptr; }
+  /// U^-1 x, the place at which kernels are evaluated.
+  Vec<D> kernel_place(const Vec<D>& x) const {
+    return pressed_ ? Vec<D>(pressed_->inverse_stretch * x) : x;
+  }
+  template <std::size_t n>
+  std::array<Vec<D>, n> kernel_places(std::array<Vec<D>, n> x) const {
+    if (pressed_)
+      for (Vec<D>& place : x) place = kernel_place(place);
+    return x;
+  }
+
+  /// Limits the supports to limit[particle] from now on, e.g. the distance to the other side of a
+  /// cavity. Returns how many supports were shortened.
+  Index limit_supports(std::vector<Real> limit);
+
+  /// Finds all particles whose support reaches into the ball around `centre`, in ascending order.
+  /// With a stretch some more are found. The X of candidates are kernel places.
+  void candidates(const Vec<D>& centre, Real radius, std::vector<Candidate<D>>& found) const;
+  /// Like the function above; `around` has the candidates of a larger ball that contains this ball.
+  void candidates(const Vec<D>& centre, Real radius, std::span<const Candidate<D>> around,
+                  std::vector<Candidate<D>>& found) const;
+  /// Finds all particles whose support reaches one of the points, in ascending order.
+  void candidates(const std::array<Vec<D>, 4>& points, std::vector<Candidate<D>>& found) const;
+
+  /// Deficiency monitor (RKPM note 2.4) at `points`. Where the moment matrix is poor, the supports
+  /// of the particles around are enlarged in steps of 10 %, up to 2.6 times the original support
+  /// and up to the limit. Returns how many supports were enlarged. Throws SolveError naming `body`,
+  /// the point and its neighbour count if the matrix stays unusable.
+  Index ensure_quality(std::span<const Vec<D>> points, const std::string& body);
+
+  /// Throws SolveError naming `body`, the point x and its neighbour count if `quality` (of the
+  /// moment matrix at x) is below `least` or NaN.
+  void require_quality(Real quality, const Vec<D>& x, const std::string& body,
+                       Real least = unusable_quality) const {
+    if (!(quality >= least)) refuse(quality, x, body);
+  }
+
+  static constexpr Real unusable_quality = 1e-3;
+  static constexpr Real poor_quality = 1e-2;
+
+ private:
+  /// Particles at the kernel places U^-1 X.
+  struct Pressed {
+    Mat<D> inverse_stretch;
+    Real growth;  ///< largest factor by which U^-1 changes a length
+    std::vector<Vec<D>> X;
+    NeighborSearch<D> search;
+  };
+  static std::optional<Pressed> press(const Mat<D>& stretch, std::span<const Vec<D>> X);
+  std::span<const Vec<D>> kernel_X() const { return pressed_ ? pressed_->X : X_; }
+  const NeighborSearch<D>& kernel_search() const { return pressed_ ? pressed_->search : search_; }
+
+  template <class Keep>
+  void find(const Vec<D>& centre, Real radius, Keep&& keep, std::vector<Candidate<D>>& found) const;
+  void find_quality(std::span<const Vec<D>> points, std::span<const Index> numbers,
+                    std::vector<Real>& quality) const;
+  [[noreturn]] void refuse(Real quality, const Vec<D>& x, const std::string& body) const;
+
+  std::vector<Vec<D>> X_;
+  std::vector<Real> support_;
+  std::vector<Real> limit_;  // [particle]; empty without limits
+  Real largest_support_ = 0;
+  Window window_;
+  NeighborSearch<D> search_;
+  std::optional<Pressed> pressed_;
+};
+
+extern template class ParticleSet<2>;
+extern template class ParticleSet<3>;
+
+}  // namespace meniscus

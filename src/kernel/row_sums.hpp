@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums over one row of shape functions: the value of a nodal field at a point, and the transpose.
+#pragma once
+#include "kernel/point_rows.hpp"
+
+namespace meniscus {
+
+/// sum_A N_A f_A at point q.
+template <int D>
+NodalVector value_at(const PointRows<D>& rows, Index q, const NodalVector* field) {
+  Lanes even = Lanes::zero(), odd = even;  // two chains hide the latency
+  const Real* N = rows.value.data() + at(rows.start, q);
+  const Index* A = rows.particle.data() + at(rows.start, q);
+  const Index* const end = rows.particle.data() + at(rows.start, q + 1);
+  for (; A + 1 < end; A += 2, N += 2) {
+    even += N[0] * field[A[0]];
+    odd += N[1] * field[A[1]];
+  }
+  if (A != end) even += *N * field[*A];
+  return even + odd;
+}
+
+/// The gradient of the field at point q: column K is sum_A f_A N_A,K.
+template <int D>
+[[gnu::always_inline]] inline std::array<Lanes, D> gradient_at(const PointRows<D>& rows, Index q,
+                                                               const NodalVector* field) {
+  Lanes even[D], odd[D];
+  for (int K = 0; K < D; ++K) even[K] = odd[K] = Lanes::zero();
+  const Real* g = rows.gradient.data() + at(rows.start, q) * D;
+  const Index* A = rows.particle.data() + at(rows.start, q);
+  const Index* const end = rows.particle.data() + at(rows.start, q + 1);
+  for (; A + 1 < end; A += 2, g += 2 * D)
+    for (int K = 0; K < D; ++K) {
+      even[K] += field[A[0]] * g[K];
+      odd[K] += field[A[1]] * g[D + K];
+    }
+  if (A != end)
+    for (int K = 0; K < D; ++K) even[K] += field[*A] * g[K];
+  std::array<Lanes, D> column;
+  for (int K = 0; K < D; ++K) at(column, K) = even[K] + odd[K];
+  return column;
+}
+
+/// sum_A (direction . f_A) N_A,KL at point q, packed as in hessian_index().
+template <int D>
+std::array<Real, static_cast<std::size_t>(hessian_count(D))> hessian_along(
+    const PointRows<D>& rows, Index q, const NodalVector* field, const Vec<D>& direction) {
+  std::array<Real, static_cast<std::size_t>(hessian_count(D))> sum{};
+  for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e) {
+    const Lanes& f = field[at(rows.particle, e)];
+    Real component = direction[0] * f[0];
+    for (int i = 1; i < D; ++i) component += direction[i] * f[i];
+    const Real* hessian = rows.hessian.data() + e * hessian_count(D);
+    for (std::size_t ij = 0; ij < sum.size(); ++ij) sum[ij] += component * hessian[ij];
+  }
+  return sum;
+}
+
+/// field_A += N_A x.
+template <int D>
+void scatter_value(const PointRows<D>& rows, Index q, NodalVector x, NodalVector* field) {
+  for (Offset e = at(rows.start, q); e < at(rows.start, q + 1); ++e)
+    field[at(rows.particle, e)] += at(rows.value, e) * x;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures of drops: deviation from rest and from a sphere.
+#pragma once
+#include "body/body.hpp"
+#include "meniscus/physics/force_term.hpp"
+
+#include <vector>
+
+namespace meniscus {
+
+/// Area (2D: circumference) relative to that of a ball (disk) with the same volume (area).
+template <int D>
+Real isoperimetric_ratio(Real area, Real volume);
+
+/// The unbalanced forces on the particles of a body: sum |f_A| relative to the capillary forces (D
+/// - 1) gamma area / R, where R is the radius of the ball of the same volume.
+template <int D>
+Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real area, Real volume);
+
+/// Measures of a body with surface tension `gamma`. `viscosity` has one value per particle and is
+/// empty for a solid.
+///
+/// - isoperimetric, roughness (relative rms distance of the surface from its centre) and
+///   least_area_ratio (smallest da/dA), from 8 Gauss points per facet direction on the surface
+///   given by the shape functions, for every form of surface tension;
+/// - kinetic_at_places: kinetic energy from velocities at the particles (the audit uses
+///   coefficients);
+/// - ca: capillary number mu v / gamma of a fluid, where v is the rms velocity at the particles
+///   relative to their mean velocity.
+///
+/// The surface is built at the first evaluation.
+template <int D>
+std::vector<MeasureSource> drop_measures(const Body<D>& body, std::span<const Real> viscosity,
+                                         Real gamma);
+
+}  // namespace meniscus

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Assigns chunks and sums over particles to ranks.
+#include "parallel/shared_windows.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+
+SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Index> touched,
+                             std::span<const Offset> start, Index particles,
+                             const Division& division) {
+  // The particles are divided like the rows of the body: a rank follows the particles that it adds
+  // up.
+  for (int rank = 0; rank <= ranks().size(); ++rank)
+    border_.push_back(division.first_row(particles, rank));
+  const Touched by_chunks = touched_by_chunks(chunks, touched, start, division);
+  share_windows(chunks, by_chunks);
+  remember_touched(by_chunks);
+  particles_ = exchange_of_forces();
+}
+
+/// Gathers the particles that chunks touch. The rank of each chunk is known before its rows are.
+SharedWindows::Touched SharedWindows::touched_by_chunks(const std::vector<WindowChunk>& chunks,
+                                                        std::span<const Index> touched,
+                                                        std::span<const Offset> start,
+                                                        const Division& division) {
+  struct Size {
+    Index sums;
+    Offset pairs;
+  };
+  const int count = chunk_count(static_cast<Index>(start.size()) - 1);
+  std::vector<Size> size(static_cast<std::size_t>(count));
+  for (const WindowChunk& chunk : chunks) {
+    rank_.push_back(division.rank_of_item(count, chunk.number));
+    if (rank_.back() == ranks().rank())
+      at(size, chunk.number) = {chunk.sum_end - chunk.sum,
+                                at(start, chunk.end) - at(start, chunk.begin)};
+  }
+  division.complete_items(count, size.data(), sizeof size[0]);
+  Touched by_chunks;
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    const Size& found = at(size, chunks[k].number);
+    pairs_ += found.pairs;
+    std::vector<Index>& particles = by_chunks.emplace_back(static_cast<std::size_t>(found.sums));
+    if (rank_[k] == ranks().rank())
+      std::copy_n(touched.begin() + chunks[k].sum, found.sums, particles.begin());
+    ranks().hand_out(rank_[k], particles.data(), particles.size() * sizeof(Index));
+  }
+  return by_chunks;
+}
+
+/// Sums of a rank are numbered with its own windows first, then received ones.
+void SharedWindows::share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched) {
+  const int me = ranks().rank();
+  const ItemRange particles = summed_particles();
+  std::vector<Index> root(chunks.size());
+  std::vector<Index> used(border_.size(), 0);
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    root[k] = at(used, rank_[k]);
+    at(used, rank_[k]) += static_cast<Index>(touched[k].size());
+  }
+  size_ = at(used, me);
+  std::vector<Leaf> leaves;
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    const bool mine = rank_[k] == me;
+    if (mine) {
+      own_.push_back(chunks[k]);
+      own_.back().sum = root[k];
+      own_.back().sum_end = root[k] + static_cast<Index>(touched[k].size());
+    }
+    const auto first = std::lower_bound(touched[k].begin(), touched[k].end(), particles.begin);
+    const auto last = std::lower_bound(first, touched[k].end(), particles.end);
+    for (auto A = first; A != last; ++A) {
+      const Index sum = root[k] + static_cast<Index>(A - touched[k].begin());
+      summed_.push_back({*A, mine ? sum : size_});
+      if (!mine) leaves.push_back({size_++, rank_[k], sum});
+    }
+  }
+  windows_ = ranks().exchange(at(used, me), leaves);
+}
+
+void SharedWindows::remember_touched(const Touched& touched) {
+  touched_.assign(static_cast<std::size_t>(border_.back()), 0);
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const std::uint8_t bits = by_a_rank | (rank_[k] == ranks().rank() ? by_this_rank : 0);
+    for (const Index A : touched[k]) at(touched_, A) |= bits;
+  }
+}
+
+std::unique_ptr<Exchange> SharedWindows::exchange_of_forces() const {
+  std::vector<Leaf> leaves;
+  for (int rank = 0; rank < ranks().size(); ++rank)
+    for (Index A = at(border_, rank); A < at(border_, rank + 1); ++A)
+      if (rank != ranks().rank() && at(touched_, A) != 0) leaves.push_back({A, rank, A});
+  return ranks().exchange(border_.back(), leaves);
+}
+
+void SharedWindows::mark_touched(std::span<std::uint8_t> particles) const {
+  for (Index A = 0; A < border_.back(); ++A)
+    if ((at(touched_, A) & by_this_rank) != 0) at(particles, A) = 1;
+}
+
+void SharedWindows::mark_summed(std::span<std::uint8_t> particles) const {
+  const ItemRange summed = summed_particles();
+  std::fill(particles.begin() + summed.begin, particles.begin() + summed.end, std::uint8_t{1});
+}
+
+}  // namespace meniscus

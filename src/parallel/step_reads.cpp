@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Marks of particles that are read, and the halo made from them.
+#include "parallel/step_reads.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+
+void StepReads::rows(ForceWindows& windows, Index first) {
+  windows.mark_touched(std::span(read_).subspan(static_cast<std::size_t>(first)));
+  sums(windows, first);
+}
+
+void StepReads::sums(ForceWindows& windows, Index first) {
+  windows.mark_summed(std::span(read_).subspan(static_cast<std::size_t>(first)));
+  if (std::find(windows_.begin(), windows_.end(), &windows) == windows_.end())
+    windows_.push_back(&windows);
+}
+
+void StepReads::particles(std::span<const Index> numbers, Index first) {
+  for (const Index A : numbers) at(read_, first + A) = 1;
+}
+
+void StepReads::range(Index begin, Index end) {
+  std::fill(read_.begin() + begin, read_.begin() + end, std::uint8_t{1});
+}
+
+void StepReads::when_shared(std::function<void(const SharedHalo&)> learn) {
+  learners_.push_back(std::move(learn));
+}
+
+std::shared_ptr<Halo> StepReads::share(ParticleOwners owners) {
+  const auto halo = std::make_shared<Halo>(std::move(read_), std::move(owners));
+  if (!halo->is_partial()) return nullptr;
+  halo->keep(std::move(kept_));
+  for (ForceWindows* windows : windows_) windows->keep_to(halo);
+  for (const auto& learn : learners_) learn(halo);
+  return halo;
+}
+
+}  // namespace meniscus

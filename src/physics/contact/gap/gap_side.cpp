@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Forces between the surface points of one body and the facets of another.
+#include "physics/contact/gap/gap_side.hpp"
+
+namespace meniscus {
+namespace {
+
+/// Results of a cluster, as sent to other ranks; not used for adhesion that depends on the place.
+template <int D>
+struct OfCluster {
+  struct Point {
+    typename ContactFacets<D>::Foot foot;
+    Real stored, unit;
+  };
+  Lanes T[D], S[D];
+  std::array<Point, Lanes::width> point;
+
+  OfCluster() = default;
+  OfCluster(const GapForces<D>& forces, Index c) {
+    for (int i = 0; i < D; ++i) {
+      T[i] = at(forces.T, c * D + i);
+      S[i] = at(forces.S, c * D + i);
+    }
+    for (Index lane = 0; lane < Lanes::width; ++lane) {
+      const Index q = c * Lanes::width + lane;
+      at(point, lane) = {at(forces.foot, q), at(forces.stored, q),
+                         forces.unit.empty() ? 0 : at(forces.unit, q)};
+    }
+  }
+  void put(Index c, GapForces<D>& forces) const {
+    for (int i = 0; i < D; ++i) {
+      at(forces.T, c * D + i) = T[i];
+      at(forces.S, c * D + i) = S[i];
+    }
+    for (Index lane = 0; lane < Lanes::width; ++lane) {
+      const Index q = c * Lanes::width + lane;
+      at(forces.foot, q) = at(point, lane).foot;
+      at(forces.stored, q) = at(point, lane).stored;
+      if (!forces.unit.empty()) at(forces.unit, q) = at(point, lane).unit;
+    }
+  }
+};
+
+}  // namespace
+
+template <int D>
+GapForces<D>::GapForces(const GapSide<D>& side, const AdhesionPattern* pattern)
+    : places(side.points.at_rest()),
+      others(side.facets.at_rest()),
+      T(places.x.size(), Lanes::zero()),
+      S(T) {
+  foot.resize(static_cast<std::size_t>(places.size));
+  stored.resize(foot.size());
+  if (pattern) unit.resize(foot.size());
+  if (pattern && pattern->depends_on_place()) W.resize(foot.size());
+  pull.resize(others.corner.size());
+  near.reserve(static_cast<std::size_t>(side.points.clusters()));
+}
+
+template <int D>
+std::size_t GapForces<D>::bytes() const {
+  return places.bytes() + (others.samples.size() + T.size() + S.size()) * sizeof(Lanes) +
+         others.radius.size() * sizeof(Real) + foot.size() * (sizeof(foot[0]) + sizeof(Real)) +
+         (unit.size() + W.size()) * sizeof(Real) + 2 * pull.size() * sizeof(Vec<D>) +
+         near.capacity() * sizeof(Index);
+}
+
+template <int D>
+Real GapForces<D>::energy() const {
+  return parallel_sum(places.size, 0.0, [&](Index q) { return at(stored, q); });
+}
+
+template <int D>
+Real GapForces<D>::unit_energy() const {
+  return parallel_sum(places.size, 0.0, [&](Index q) { return at(unit, q); });
+}
+
+template <int D>
+Real GapForces<D>::force_on_facets(int i) const {
+  Real sum = 0;
+  for (const Vec<D>& p : pull) sum += p[i];
+  return sum;
+}
+
+template <int D>
+void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
+                 const Motion& motion, const Division& division, GapForces<D>& forces) {
+  const auto& active = list.of_first().active;
+  const std::optional<Vec<D>>& up = law.up();
+  const AdhesionPattern* pattern = law.pattern();
+  const Real even = law.adhesion(motion.time);
+  side.points.update_weights(active, motion, forces.places, division);
+  std::fill(forces.foot.begin(), forces.foot.end(), typename ContactFacets<D>::Foot());
+  std::fill(forces.stored.begin(), forces.stored.end(), 0.0);
+  std::fill(forces.unit.begin(), forces.unit.end(), 0.0);
+  std::fill(forces.W.begin(), forces.W.end(), 0.0);
+  divided_for(
+      // A place without adhesion has to fail on all ranks, so each computes all.
+      law.placed() ? Division::to_each() : division, static_cast<Index>(active.size()),
+      [&](Index k) {
+        const Index c = at(active, k);
+        for (int i = 0; i < D; ++i)
+          at(forces.T, c * D + i) = at(forces.S, c * D + i) = Lanes::zero();
+        for (int lane = 0; lane < side.points.points_in(c); ++lane) {
+          const Index q = c * Lanes::width + lane;
+          const Vec<D> place = forces.places.place(q);
+          const auto foot = up ? side.facets.below(forces.others, place, *up, list.of_first().of(c))
+                               : side.facets.foot(forces.others, place, list.of_first().of(c));
+          if (!(foot.distance < law.range())) continue;
+          Real W = even;
+          Vec<D> slope = Vec<D>::Zero();  // gradient of W
+          if (law.placed()) {
+            const Eigen::Vector3d X = spatial<D>(side.facets.reference_place(foot));
+            W = at(forces.W, q) = (*pattern)(X, motion.time);
+            const Vec<D> in_reference = pattern->gradient(X, motion.time).template head<D>();
+            slope = side.facets.carried(forces.others, foot, in_reference, *up);
+          }
+          const auto e = law.energy(foot.distance, W);
+          Vec<D> V;
+          for (int i = 0; i < D; ++i) V[i] = forces.places.weight_of(c)[i][lane];
+          const Real norm = V.norm(), area = up ? -up->dot(V) : 0.5 * norm;
+          for (int i = 0; i < D; ++i) {
+            at(forces.T, c * D + i)
+                .set(lane, area * e.slope * foot.normal[i] + area * e.unit * slope[i]);
+            at(forces.S, c * D + i)
+                .set(lane, up ? -e.value * (*up)[i] : 0.5 * e.value / norm * V[i]);
+          }
+          at(forces.foot, q) = foot;
+          at(forces.stored, q) = area * e.value;
+          if (pattern) at(forces.unit, q) = area * e.unit;
+        }
+      },
+      [&](Index k) { return OfCluster<D>(forces, at(active, k)); },
+      [&](Index k, const OfCluster<D>& of_other) { of_other.put(at(active, k), forces); }, 4);
+  // Sequential, since many points pull the same corner.
+  std::fill(forces.pull.begin(), forces.pull.end(), Vec<D>::Zero());
+  forces.gap = unbounded;
+  forces.near.clear();
+  for (const Index c : active)
+    for (int lane = 0; lane < side.points.points_in(c); ++lane) {
+      const Index q = c * Lanes::width + lane;
+      const auto& foot = at(forces.foot, q);
+      if (foot.facet < 0) continue;
+      if (forces.near.empty() || forces.near.back() != c) forces.near.push_back(c);
+      if (foot.distance < forces.gap) {
+        forces.gap = foot.distance;
+        forces.nearest = q;
+      }
+      Vec<D> T;
+      for (int i = 0; i < D; ++i) T[i] = at(forces.T, c * D + i)[lane];
+      for (std::size_t k = 0; k < D; ++k)
+        at(forces.pull, side.facets.corners_of(foot.facet)[k]) += foot.share[k] * T;
+    }
+}
+
+template <int D>
+GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law,
+                       const Division& division) {
+  GapForces<D> forces(side, law.pattern());
+  forces.move(side, motion, division);
+  ContactList<D> list(side.list.reach(), side.list.skin());
+  list.update(forces.places.x, forces.others.samples, division);
+  take_forces(side, list, law, motion, division, forces);
+  return forces;
+}
+
+template <int D>
+AdhesionSupply supply_of(const GapSide<D>& side, const GapForces<D>& forces,
+                         const AdhesionPattern& W, const AdhesionWork& work, Real time) {
+  AdhesionSupply supply;
+  for (const Index c : forces.near)
+    for (int lane = 0; lane < side.points.points_in(c); ++lane) {
+      const Index q = c * Lanes::width + lane;
+      const auto& foot = at(forces.foot, q);
+      if (foot.facet < 0) continue;
+      supply = supply + work.supply(W, spatial<D>(side.facets.reference_place(foot)),
+                                    at(forces.W, q), at(forces.unit, q), time);
+    }
+  return supply;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                         \
+  template struct GapForces<D>;                                                         \
+  template void take_forces(const GapSide<D>&, const ContactList<D>&, const GapLaw<D>&, \
+                            const Motion&, const Division&, GapForces<D>&);             \
+  template GapForces<D> forces_at(const Motion&, const GapSide<D>&, const GapLaw<D>&,   \
+                                  const Division&);                                     \
+  template AdhesionSupply supply_of(const GapSide<D>&, const GapForces<D>&,             \
+                                    const AdhesionPattern&, const AdhesionWork&, Real);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gap, closing speed and stiffness of a contact.
+#include "physics/contact/pair/contact_demand.hpp"
+
+#include "kernel/neighbor_search.hpp"
+#include "numbers/box.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+template <int D>
+std::vector<Vec<D>> list_of(const ContactPlaces<D>& points) {
+  std::vector<Vec<D>> x;
+  for (Index q = 0; q < points.size; ++q) x.push_back(points.place(q));
+  return x;
+}
+
+template <int D>
+Vec<D> mean_velocity(const ContactPoints<D>& points, std::span<const Index> active,
+                     const Motion& motion) {
+  Vec<D> mean = Vec<D>::Zero();
+  Lanes v[D];
+  for (const Index c : active) {
+    points.velocity_nearby(c, motion, v);
+    for (int i = 0; i < D; ++i) mean[i] += sum(v[i]);
+  }
+  return mean / (4 * std::max<Real>(1, static_cast<Real>(active.size())));
+}
+
+template <int D>
+Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> active,
+                       const Vec<D>& from, const Motion& motion) {
+  Lanes largest = Lanes::zero(), v[D];
+  for (const Index c : active) {
+    points.velocity_nearby(c, motion, v);
+    Lanes square = Lanes::zero();
+    for (int i = 0; i < D; ++i) square += (v[i] - from[i]) * (v[i] - from[i]);
+    largest = max(square, largest);
+  }
+  return std::sqrt(std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3])));
+}
+
+/// Bounding box of the velocity coefficients that points read.
+template <int D>
+Box<D> velocities(const ContactPoints<D>& points, const Motion& motion) {
+  const auto v = points.body().part(motion.v);
+  Lanes low(unbounded), high(-unbounded);
+  points.for_own_particles([&](Index k) {
+    const Lanes& of_particle = at(v, at(points.particles(), k));
+    low = min(low, of_particle);
+    high = max(high, of_particle);
+  });
+  Box<D> box;
+  for (int i = 0; i < D; ++i) {
+    box.low[i] = low[i];
+    box.high[i] = high[i];
+  }
+  return box;
+}
+
+/// Bounding box of the position coefficients that points read.
+template <int D>
+Box<D> places(const ContactPoints<D>& points, const Motion& motion) {
+  const auto u = points.body().part(motion.u);
+  Box<D> box;
+  points.for_own_particles([&](Index k) {
+    const Index A = at(points.particles(), k);
+    Vec<D> d = at(points.body().particles.X(), A);
+    for (int i = 0; i < D; ++i) d[i] += at(u, A)[i];
+    box.include(d);
+  });
+  return box;
+}
+
+/// Bounding boxes of all coefficients: in a halo the boxes of all ranks are joined.
+template <int D, std::size_t n>
+std::array<Box<D>, n> of_all(const ContactPoints<D>& points, std::array<Box<D>, n> boxes) {
+  if (!points.in_halo()) return boxes;
+  for (const std::array<Box<D>, n>& of_rank : said_by_ranks(boxes))
+    for (std::size_t k = 0; k < n; ++k) {
+      boxes[k].low = boxes[k].low.cwiseMin(of_rank[k].low);
+      boxes[k].high = boxes[k].high.cwiseMax(of_rank[k].high);
+    }
+  return boxes;
+}
+
+/// A box that contains sum_A N_A c_A at all contact points if `coefficients` contains all c_A. A
+/// value differs from the centre by at most sum_A |N_A| times the largest difference of a
+/// coefficient.
+template <int D>
+Box<D> of_points(const Box<D>& coefficients, const ContactPoints<D>& points) {
+  const Vec<D> half = points.gain() / 2 * coefficients.extent(), centre = coefficients.centre();
+  return {centre - half, centre + half};
+}
+
+template <int D>
+Real distance_between(const Box<D>& a, const Box<D>& b) {
+  return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(Vec<D>::Zero()).norm();
+}
+template <int D>
+Real farthest_between(const Box<D>& a, const Box<D>& b) {
+  return (a.high - b.low).cwiseAbs().cwiseMax((b.high - a.low).cwiseAbs()).norm();
+}
+
+}  // namespace
+
+/// Only few points of two bodies can be the nearest. A first distance is taken from the point of
+/// the first body nearest to the box around the second. Points of the first body farther than this
+/// from that box are dropped, then points of the second body farther from the box around the rest.
+template <int D>
+Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second) {
+  constexpr Real round_off = 1e-12;
+  std::vector<Vec<D>> x = list_of(first), y = list_of(second);
+  const auto from = [](const Box<D>& box) {
+    return [&box](const Vec<D>& p) { return distance_between({p, p}, box); };
+  };
+  const auto least = [](const std::vector<Vec<D>>& points, const auto& distance) {
+    return *std::ranges::min_element(points, {}, distance);
+  };
+  const auto keep = [](std::vector<Vec<D>>& points, Real bound, const auto& distance) {
+    std::erase_if(points, [&](const Vec<D>& p) { return distance(p) > bound; });
+  };
+  const Box<D> around_second = box_around<D>(y);
+  const Vec<D> start = least(x, from(around_second));
+  const auto from_start = [&](const Vec<D>& p) { return (p - start).norm(); };
+  const Real bound = (1 + round_off) * from_start(least(y, from_start));
+  keep(x, bound, from(around_second));
+  const Box<D> around_first = box_around<D>(x);
+  keep(y, bound, from(around_first));
+  const NeighborSearch<D> search(y);
+  Real gap = std::numeric_limits<Real>::max();
+  for (const Vec<D>& point : x) gap = std::min(gap, search.distance_of_nearest(point, 1));
+  return gap;
+}
+
+template <int D>
+Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active,
+                   const ContactPoints<D>* other, std::span<const Index> other_active,
+                   const Vec<D>& rigid_velocity, const Motion& motion) {
+  const Vec<D> mean = other ? mean_velocity(*other, other_active, motion) : rigid_velocity;
+  const Real own = largest_deviation(points, active, mean, motion);
+  return other ? own + largest_deviation(*other, other_active, mean, motion) : own;
+}
+
+template <int D>
+Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
+                  const Motion& motion) {
+  const auto [x, y, v, w] =
+      of_all(first, std::array{places(first, motion), places(second, motion),
+                               velocities(first, motion), velocities(second, motion)});
+  return {distance_between(of_points(x, first), of_points(y, second)),
+          farthest_between(of_points(v, first), of_points(w, second))};
+}
+
+template <int D>
+Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
+                  const Motion& motion) {
+  const auto [v] = of_all(points, std::array{velocities(points, motion)});
+  return {distance, farthest_between(of_points(v, points), Box<D>{velocity, velocity})};
+}
+
+StepDemand approach_demand(const Approach& approach, Real range) {
+  constexpr Real into_range = 0.25;
+  StepDemand demand;
+  if (approach.speed > 0)
+    demand.longest =
+        (std::max(0.0, approach.distance - range) + into_range * range) / approach.speed;
+  return demand;
+}
+
+StepDemand contact_demand(const ContactInertia& contact, Real gap, const ClosingSpeed& closing) {
+  constexpr Real closed_in_a_step = 0.05;
+  StepDemand demand;
+  if (!(gap > 0)) return demand;
+  if (closing.speed > 0) demand.longest = closed_in_a_step * gap / closing.speed;
+  if (closing.fastest > 0)
+    demand.longest =
+        std::min(demand.longest, (closing.within - (1 - closed_in_a_step) * gap) / closing.fastest);
+  const Real reached = std::max((1 - closed_in_a_step) * gap, contact.interaction.least_gap());
+  const Real K = contact.interaction.at(reached).stiffness;
+  const Real single = 1 + 2 * std::pow(contact.spacing / reached, contact.dimension - 1);
+  demand.stiffness = std::max(0.0, K) * single * contact.inverse_inertia;
+  if (demand.stiffness > 0 && contact.interaction.hardens())
+    demand.longest = std::min(demand.longest, 1 / std::sqrt(demand.stiffness));
+  return demand;
+}
+
+std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, Real spacing,
+                                          Real range) {
+  constexpr Real strong = 0.3;  // fraction of the range
+  if (gap > strong * range || gap >= 2 * spacing) return std::nullopt;
+  return fmt::format(
+      "contact '{}' is under-resolved: its gap {:.4g} is below twice the distance {:.4g} of its "
+      "points; the error of its forces grows from 1 % there to tens of per cent at a gap of one "
+      "distance (more points per facet, or finer bodies)",
+      contact, gap, spacing);
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                                \
+  template Real gap_between(const ContactPlaces<D>&, const ContactPlaces<D>&);                 \
+  template Real closing_speed(const ContactPoints<D>&, std::span<const Index>,                 \
+                              const ContactPoints<D>*, std::span<const Index>, const Vec<D>&,  \
+                              const Motion&);                                                  \
+  template Approach approach(const ContactPoints<D>&, const ContactPoints<D>&, const Motion&); \
+  template Approach approach(const ContactPoints<D>&, Real, const Vec<D>&, const Motion&);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tangent: changes of contact points and of their forces. It has a file of its own so that it
+// does not affect the compilation of the loops of the time step.
+#include "physics/contact/points/contact_points.hpp"
+#include "physics/contact/points/patch_points.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace meniscus {
+
+/// Like update_weights(), with dual numbers.
+template <int D>
+typename ContactPoints<D>::Turned ContactPoints<D>::turned(Index c, const Motion& motion,
+                                                           const Motion& change) const {
+  Tensor<Lanes> H, dH;
+  made_->rule.gather(c, motion.u.data() + body_->first, H);
+  made_->rule.gather(c, change.u.data() + body_->first, dH);
+  const Tensor<Dual<Lanes>> moved = dual(H, dH);
+  Tensor<Dual<Lanes>> cof = cofactor_of_deformation(moved);
+  const Dual<Lanes> one_over_J = 1.0 / (1.0 + volume_change(moved));
+  Turned now;
+  now.inverse = one_over_J * transpose(cof);
+  if (density_ == SiteDensity::referential) cof = one_over_J * cof;
+  const Lanes* N = reference_.data() + offset(c, D);
+  for (int i = 0; i < D; ++i) {
+    at(now.V, i) = cof(i, 0) * N[0];
+    for (int K = 1; K < D; ++K) at(now.V, i) += cof(i, K) * N[K];
+  }
+  return now;
+}
+
+/// The derivative of stress(), by dual numbers.
+template <int D>
+Tensor<Lanes> ContactPoints<D>::stress_change(const Turned& now,
+                                              const std::array<Dual<Lanes>, D>& S) const {
+  Dual<Lanes> SV(0.0), pulled[3], area[3];
+  for (int K = 0; K < 3; ++K) pulled[K] = area[K] = 0.0;
+  for (int i = 0; i < D; ++i) {
+    if (density_ == SiteDensity::constant) SV += at(S, i) * at(now.V, i);
+    area[i] = at(now.V, i);
+    for (int K = 0; K < D; ++K) pulled[K] += now.inverse(K, i) * at(S, i);
+  }
+  return Tensor<Lanes>::map(
+      [&](int i, int K) { return (SV * now.inverse(K, i) - area[i] * pulled[K]).d; });
+}
+
+template <int D>
+ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
+                                            const ContactPlaces<D>& places, const Motion& motion,
+                                            const Motion& change) const {
+  const NodalVector* du = change.u.data() + body_->first;
+  ContactChanges<D> all;
+  all.x.assign(offset(this->clusters(), D), Lanes::zero());
+  all.weight.assign(offset(this->clusters(), components_), Lanes::zero());
+  NodalVectors ahead, behind;
+  if (made_->patches) {
+    std::vector<Index> every(places.nodes.size());
+    std::iota(every.begin(), every.end(), Index{0});
+    all.nodes.resize(places.nodes.size());
+    made_->patches->values(du, every, Division::to_each(), all.nodes);
+    ahead = behind = places.nodes;
+    for (std::size_t a = 0; a < ahead.size(); ++a) {
+      ahead[a] += all.nodes[a];
+      behind[a] -= all.nodes[a];
+    }
+  }
+  parallel_for(
+      static_cast<Index>(clusters.size()),
+      [&](Index k) {
+        const Index c = at(clusters, k);
+        for (Index lane = 0; lane < Lanes::width; ++lane) {
+          const Index q = c * Lanes::width + std::min(lane, points_in(c) - 1);
+          Vec<D> dx;
+          if (made_->patches) {
+            dx = made_->patches->place(at(made_->order, q), all.nodes);
+          } else {
+            const Lanes moved = value_at(made_->rule.rows, q, du);
+            for (int i = 0; i < D; ++i) dx[i] = moved[i];
+          }
+          for (int i = 0; i < D; ++i) at(all.x, c * D + i).set(lane, dx[i]);
+          if (!made_->patches || lane >= points_in(c)) continue;
+          // Quadratic in the positions of the nodes, so central differences are exact.
+          const Vec<D> dV = 0.5 * beta_ *
+                            (made_->patches->area_vector(at(made_->order, q), ahead) -
+                             made_->patches->area_vector(at(made_->order, q), behind));
+          for (int i = 0; i < D; ++i) at(all.weight, c * D + i).set(lane, dV[i]);
+        }
+        if (made_->patches || components_ == 1) return;
+        const auto now = turned(c, motion, change);
+        for (int i = 0; i < D; ++i) at(all.weight, c * D + i) = at(now.V, i).d;
+      },
+      16);
+  return all;
+}
+
+template <int D>
+void ContactPoints<D>::add_force_change(const ContactPlaces<D>& places,
+                                        const ContactChanges<D>& changes, const Motion& motion,
+                                        const Motion& change, std::span<const Index> clusters,
+                                        std::span<const Lanes> dT, std::span<const Lanes> S,
+                                        std::span<const Lanes> dS, std::span<NodalVector> force) {
+  if (made_->patches) return add_change_on_patches(places, changes, clusters, dT, S, dS, force);
+  for (const Index c : clusters) at(pushed_, c) = 1;
+  made_->windows.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    for (Index c = begin; c < end; ++c) {
+      if (!at(pushed_, c)) continue;
+      const Lanes* pull = dT.data() + offset(c, D);
+      const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
+      for (Index lane = 0; lane < points_in(c); ++lane)
+        scatter_value(made_->rule.rows, c * Lanes::width + lane, -at(by_point, lane), f);
+      if (S.empty()) continue;
+      const auto now = turned(c, motion, change);
+      std::array<Dual<Lanes>, D> turn;
+      for (int i = 0; i < D; ++i)
+        at(turn, i) = {S[offset(c, D) + static_cast<std::size_t>(i)],
+                       dS[offset(c, D) + static_cast<std::size_t>(i)]};
+      made_->rule.scatter(c, -1.0 * stress_change(now, turn), f);
+    }
+  });
+  for (const Index c : clusters) at(pushed_, c) = 0;
+}
+
+template <int D>
+void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
+                                             const ContactChanges<D>& changes,
+                                             std::span<const Index> clusters,
+                                             std::span<const Lanes> dT, std::span<const Lanes> S,
+                                             std::span<const Lanes> dS,
+                                             std::span<NodalVector> force) {
+  for (const Index c : clusters) at(pushed_, c) = 1;
+  parallel_for(static_cast<Index>(made_->of_group.size()), [&](Index group) {
+    made_->patches->begin_force(group);
+    for (const Index q : at(made_->of_group, group)) {
+      const Index c = q / Lanes::width, lane = q % Lanes::width;
+      if (!at(pushed_, c)) continue;
+      Vec<D> pull, turn = Vec<D>::Zero(), turned_by = turn;
+      for (int i = 0; i < D; ++i) {
+        const std::size_t k = offset(c, D) + static_cast<std::size_t>(i);
+        pull[i] = dT[k][lane];
+        if (S.empty()) continue;
+        turn[i] = beta_ * S[k][lane];
+        turned_by[i] = beta_ * dS[k][lane];
+      }
+      made_->patches->add(at(made_->order, q), pull, turned_by, places.nodes);
+      // The force through the tangents is linear in them; in 2D there is no second tangent.
+      if (D == 3) made_->patches->add(at(made_->order, q), Vec<D>::Zero(), turn, changes.nodes);
+    }
+  });
+  made_->patches->end_force(body_->part(force));
+  for (const Index c : clusters) at(pushed_, c) = 0;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                             \
+  template ContactChanges<D> ContactPoints<D>::changes(                                     \
+      std::span<const Index>, const ContactPlaces<D>&, const Motion&, const Motion&) const; \
+  template void ContactPoints<D>::add_force_change(                                         \
+      const ContactPlaces<D>&, const ContactChanges<D>&, const Motion&, const Motion&,      \
+      std::span<const Index>, std::span<const Lanes>, std::span<const Lanes>,               \
+      std::span<const Lanes>, std::span<NodalVector>);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sums of contact over pairs of points. Scenes with two bodies in contact spend most of their
+// time in these loops.
+#include "physics/contact/pair/pair_sums.hpp"
+
+#include "meniscus/error.hpp"
+#include "parallel/divided.hpp"
+#include "parallel/parallel.hpp"
+#include "physics/contact/pair/contact_forms.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+template <int D, class Form, PairKernel K>
+class PairSumsOf final : public PairSums<D> {
+ public:
+  explicit PairSumsOf(const ContactLaw& law) : law_(law), reach_(law.reach()) {}
+
+  bool moment() const override { return Form::moment; }
+  bool conservative() const override {
+    return std::is_same_v<Form, contact::Energy<D>> || std::is_same_v<Form, contact::Volume<D>>;
+  }
+
+  void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
+                const ContactPlaces<D>& others, const Division& division,
+                PairEvaluation<D>& result) const override {
+    result.nearest.resize(rows.clusters.size());
+    divided_for(
+        division, static_cast<Index>(rows.clusters.size()),
+        [&](Index k) {
+          const Index c = at(rows.clusters, k);
+          Lanes T[D], S[D];
+          for (int i = 0; i < D; ++i) T[i] = S[i] = Lanes::zero();
+          const Lanes nearest = contact::sum_over_partners<Form, D>(
+              law_, reach_, points.x_of(c), points.weight_of(c), rows.partners_of(c),
+              rows.clusters_per_facet, others, T, S);
+          at(result.nearest, k) =
+              std::min(std::min(nearest[0], nearest[1]), std::min(nearest[2], nearest[3]));
+          for (int i = 0; i < D; ++i) {
+            at(result.T, c * D + i) = T[i];
+            if (Form::moment) at(result.S, c * D + i) = S[i];
+          }
+        },
+        [&](Index k) { return record_of(at(rows.clusters, k), at(result.nearest, k), result); },
+        [&](Index k, const Record& record) {
+          const Index c = at(rows.clusters, k);
+          for (int i = 0; i < D; ++i) {
+            at(result.T, c * D + i) = record.T[i];
+            if (Form::moment) at(result.S, c * D + i) = record.S[i];
+          }
+          at(result.nearest, k) = record.nearest;
+        },
+        4);
+  }
+
+  PairChange change(const ContactPlaces<D>& points, const ContactChanges<D>& changes,
+                    const FacetRows<D>& rows, const ContactPlaces<D>& others,
+                    const ContactChanges<D>& other_changes) const override {
+    PairChange result{AlignedVector<Lanes>(points.x.size(), Lanes::zero()), {}, {}};
+    if (Form::moment) result.S = result.dS = result.dT;
+    parallel_for(
+        static_cast<Index>(rows.clusters.size()),
+        [&](Index k) {
+          const Index c = at(rows.clusters, k);
+          Dual<Lanes> t[D], s[D];
+          for (int i = 0; i < D; ++i) t[i] = s[i] = 0.0;
+          contact::sum_changes_over_partners<Form, D>(
+              law_, reach_, points.x_of(c), changes.x_of(c), points.weight_of(c),
+              &at(changes.weight, c * Form::components), rows.partners_of(c),
+              rows.clusters_per_facet, others, other_changes, t, s);
+          for (int i = 0; i < D; ++i) {
+            at(result.dT, c * D + i) = t[i].d;
+            if (!Form::moment) continue;
+            at(result.S, c * D + i) = s[i].v;
+            at(result.dS, c * D + i) = s[i].d;
+          }
+        },
+        4);
+    return result;
+  }
+
+  Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
+              const ContactPlaces<D>& others, const Division& division) const override {
+    // Over all clusters, so that the order of summation does not depend on which are active.
+    return division.sum(clusters, 0.0, [&](Index c) {
+      Lanes T[D], S[1];
+      T[0] = Lanes::zero();
+      contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
+          law_, reach_, points.x_of(c), points.weight_of(c), rows.partners_of(c),
+          rows.clusters_per_facet, others, T, S);
+      return sum(T[0]);
+    });
+  }
+
+ private:
+  /// Results of a cluster, as sent to other ranks.
+  struct Record {
+    Lanes T[D], S[D];
+    Real nearest;
+  };
+  static Record record_of(Index cluster, Real nearest, const PairEvaluation<D>& result) {
+    Record record;
+    for (int i = 0; i < D; ++i) {
+      record.T[i] = at(result.T, cluster * D + i);
+      record.S[i] = Form::moment ? at(result.S, cluster * D + i) : Lanes::zero();
+    }
+    record.nearest = nearest;
+    return record;
+  }
+
+  PairLaw<K> law_;
+  Real reach_;
+};
+
+template <int D, PairKernel K>
+std::unique_ptr<PairSums<D>> with_form(const ContactLaw& law, ContactForm form) {
+  using namespace contact;
+  switch (form) {
+    case ContactForm::pressure:
+      return std::make_unique<PairSumsOf<D, Pressure<D>, K>>(law);
+    case ContactForm::volume:
+      return std::make_unique<PairSumsOf<D, Volume<D>, K>>(law);
+    case ContactForm::dissertation:
+      return std::make_unique<PairSumsOf<D, Dissertation<D>, K>>(law);
+    case ContactForm::energy:
+      break;
+  }
+  return std::make_unique<PairSumsOf<D, Energy<D>, K>>(law);
+}
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form) {
+  if (dimension_of(law.kernel) != D)
+    throw InputError("the kernel of the contact has another dimension than the bodies");
+  if constexpr (D == 3)
+    return with_form<D, PairKernel::space>(law, form);
+  else if (law.kernel == PairKernel::planar)
+    return with_form<D, PairKernel::planar>(law, form);
+  else
+    return with_form<D, PairKernel::integrated>(law, form);
+}
+
+template std::unique_ptr<PairSums<2>> pair_sums(const ContactLaw&, ContactForm);
+template std::unique_ptr<PairSums<3>> pair_sums(const ContactLaw&, ContactForm);
+
+}  // namespace meniscus

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Roughness of surfaces of contact points.
+#include "physics/contact/points/contact_resolution.hpp"
+
+#include "body/surface/surface_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace meniscus {
+
+Real roughness(Real gap_per_spacing, bool rigid) {
+  return rigid ? 2.5 * std::exp(-4 * gap_per_spacing) : 4 * std::exp(-2.6 * gap_per_spacing);
+}
+
+Real ContactResolution::tangential_share(int points) const {
+  return roughness(0.8 * gap * points / facet, rigid);
+}
+
+int ContactResolution::enough_points() const {
+  constexpr Real bearable = 1e-3;
+  const int most = rigid ? 4 : 8;
+  int points = 2;
+  while (points < most && tangential_share(points) > bearable) ++points;
+  return points;
+}
+
+Real ContactResolution::longest_spacing() const {
+  constexpr Real reach = 6;  // in equilibrium gaps; about 4 sigma0 for Lennard-Jones
+  return reach * gap;
+}
+
+template <int D>
+Real facet_size(const Body<D>& body) {
+  const std::vector<Real> area = surface_points(body.geometry, 2).area;
+  const Real total = std::accumulate(area.begin(), area.end(), Real{0});
+  return std::pow(total / static_cast<Real>(body.geometry.grid.facets.size()), 1.0 / (D - 1));
+}
+
+template <int D>
+FacetEdges facet_edges(const Body<D>& body) {
+  const std::vector<Real> area = surface_points(body.geometry, 1).area;
+  const auto [least, largest] = std::minmax_element(area.begin(), area.end());
+  return {std::pow(*least, 1.0 / (D - 1)), std::pow(*largest, 1.0 / (D - 1))};
+}
+
+template FacetEdges facet_edges(const Body<2>&);
+template FacetEdges facet_edges(const Body<3>&);
+template Real facet_size(const Body<2>&);
+template Real facet_size(const Body<3>&);
+
+}  // namespace meniscus

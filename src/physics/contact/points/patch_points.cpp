@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Positions, area vectors and forces of contact points on patches.
+#include "physics/contact/points/patch_points.hpp"
+
+#include "kernel/row_sums.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+template <int D>
+Vec<D> vector_of(const Lanes& x) {
+  Vec<D> y;
+  for (int i = 0; i < D; ++i) y[i] = x[i];
+  return y;
+}
+
+Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vec<2> area_normal(const std::array<Vec<2>, 1>& t) {
+  return {t[0][1], -t[0][0]};
+}
+Vec<3> area_normal(const std::array<Vec<3>, 2>& t) {
+  return cross(t[0], t[1]);
+}
+/// Sets values[a] = value(a) for the wanted nodes; ranks divide them.
+template <class F>
+void take_at(std::span<const Index> wanted, const Division& division, NodalVectors& values,
+             F&& value) {
+  divided_for(
+      division, static_cast<Index>(wanted.size()),
+      [&](Index k) { at(values, at(wanted, k)) = value(at(wanted, k)); },
+      [&](Index k) { return at(values, at(wanted, k)); },
+      [&](Index k, const NodalVector& of_other) { at(values, at(wanted, k)) = of_other; });
+}
+/// The vectors c_k of b . dm = sum_k c_k . dt_k.
+std::array<Vec<2>, 1> through_tangents(const std::array<Vec<2>, 1>&, const Vec<2>& b) {
+  return {Vec<2>(-b[1], b[0])};
+}
+std::array<Vec<3>, 2> through_tangents(const std::array<Vec<3>, 2>& t, const Vec<3>& b) {
+  return {cross(t[1], b), cross(b, t[0])};
+}
+
+}  // namespace
+
+template <int D>
+PatchPoints<D>::PatchPoints(const Body<D>& body, int points)
+    : surface_(body), functions_(patch_functions<D>(points)) {
+  for (Index a = 0; a < surface_.point_count(); ++a) {
+    const Vec<D>& X = surface_.reference_place(a);
+    reference_.push_back(Lanes(X[0], X[1], D == 3 ? X[D - 1] : 0.0, 0.0));
+  }
+  gradient_.assign(static_cast<std::size_t>(surface_.group_count()) * nodes * D, Lanes::zero());
+}
+
+template <int D>
+void PatchPoints<D>::place_nodes(const NodalVector* u, std::span<const Index> wanted,
+                                 const Division& division, NodalVectors& places) const {
+  take_at(wanted, division, places, [&](Index a) { return place_of_node(a, u); });
+}
+
+template <int D>
+void PatchPoints<D>::place_nodes(const NodalVector* u, const Division& division,
+                                 NodalVectors& places) const {
+  parallel_for(division.own_items(node_count()),
+               [&](Index a) { at(places, a) = place_of_node(a, u); });
+  division.complete_items(node_count(), places.data(), sizeof(NodalVector));
+}
+
+template <int D>
+void PatchPoints<D>::values(const NodalVector* field, std::span<const Index> wanted,
+                            const Division& division, NodalVectors& nodes_of_field) const {
+  take_at(wanted, division, nodes_of_field,
+          [&](Index a) { return value_at(surface_.rows(), a, field); });
+}
+
+template <int D>
+void PatchPoints<D>::want(Index point, std::span<std::uint8_t> is_wanted) const {
+  for (const Index node : surface_.points_of(patch(point))) at(is_wanted, node) = 1;
+}
+
+template <int D>
+Vec<D> PatchPoints<D>::place(Index point, const NodalVectors& places) const {
+  const auto& node = surface_.points_of(patch(point));
+  Lanes x = Lanes::zero();
+  for (int a = 0; a < nodes; ++a) x += at(functions(point).L, a) * at(places, at(node, a));
+  return vector_of<D>(x);
+}
+
+template <int D>
+std::array<Vec<D>, D - 1> PatchPoints<D>::tangents(Index point, const NodalVectors& places) const {
+  const auto& node = surface_.points_of(patch(point));
+  std::array<Vec<D>, D - 1> all;
+  for (int k = 0; k < D - 1; ++k) {
+    Lanes t = Lanes::zero();
+    for (int a = 0; a < nodes; ++a)
+      t += at(at(functions(point).dL, k), a) * at(places, at(node, a));
+    at(all, k) = vector_of<D>(t);
+  }
+  return all;
+}
+
+template <int D>
+Vec<D> PatchPoints<D>::area_vector(Index point, const NodalVectors& places) const {
+  return functions(point).weight * area_normal(tangents(point, places));
+}
+
+template <int D>
+Lanes PatchPoints<D>::velocity_nearby(Index point, const NodalVector* v) const {
+  const auto& L = functions(point).L;
+  const auto nearest = std::max_element(L.begin(), L.end()) - L.begin();
+  return value_at(surface_.rows(), at(surface_.points_of(patch(point)), nearest), v);
+}
+
+template <int D>
+void PatchPoints<D>::begin_force(Index group) {
+  std::fill_n(gradient_.begin() + group * nodes * D, nodes * D, Lanes::zero());
+}
+
+template <int D>
+void PatchPoints<D>::add(Index point, const Vec<D>& T, const Vec<D>& S,
+                         const NodalVectors& places) {
+  const PatchFunctions<D>& f = functions(point);
+  const auto c = through_tangents(tangents(point, places), f.weight * S);
+  Lanes* gradient = gradient_.data() + static_cast<std::size_t>(group(point)) * nodes * D;
+  const int lane = patch(point) % Lanes::width;
+  for (int a = 0; a < nodes; ++a) {
+    Vec<D> g = at(f.L, a) * T;
+    for (int k = 0; k < D - 1; ++k) g += at(at(f.dL, k), a) * at(c, k);
+    for (int i = 0; i < D; ++i) {
+      Lanes& sum = gradient[a * D + i];
+      sum.set(lane, sum[lane] + g[i]);
+    }
+  }
+}
+
+template class PatchPoints<2>;
+template class PatchPoints<3>;
+
+}  // namespace meniscus

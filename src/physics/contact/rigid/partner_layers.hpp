@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A body beside a rigid partner: its contact points in layers, one for each grade, and the forces
+// on them.
+#pragma once
+#include "physics/contact/contact.hpp"
+#include "physics/contact/pair/contact_ranks.hpp"
+#include "physics/contact/points/contact_resolution.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace meniscus {
+
+/// The parts that do not change in a run.
+template <int D>
+struct BodyAndPartner {
+  MovingPartner<D> partner;
+  std::shared_ptr<const Interaction> interaction;
+  ContactForm form;
+  FacetGrades grades;
+  std::vector<ContactPoints<D>> points;  ///< of the body, [grade]
+  ContactRanks ranks;
+  /// Each rank moves and visits the clusters whose forces it adds up. With to_each(), every rank
+  /// visits all of them: if few ranks have the body, and on patches, whose forces reach the
+  /// particles through nodes.
+  Division division;
+
+  BodyAndPartner(const ContactBody<D>& body, MovingPartner<D> moving_partner,
+                 std::shared_ptr<const Interaction> law, const ContactChoice& choice)
+      : partner(std::move(moving_partner)),
+        interaction(std::move(law)),
+        form(choice.form),
+        grades(choice.points, *interaction, facet_edges(body.body).least),
+        points(graded_contact_points(body.body, body.beta, choice, 0, grades)),
+        ranks({body.body.division}),
+        division(ranks.are_few() || finest().on_patches() ? Division::to_each()
+                                                          : body.body.division) {}
+
+  const ContactPoints<D>& finest() const { return points.front(); }
+  const ContactPoints<D>& coarsest() const { return points.back(); }
+  /// The clusters whose forces this rank adds up.
+  ItemRange own_clusters(std::size_t grade) const {
+    return division.own_rows(points[grade].clusters());
+  }
+  /// The clusters that this rank moves. With several grades it also needs the coarsest points, one
+  /// cluster per facet, of facets with own clusters of other grades, to find the grades.
+  ItemRange moved_clusters(std::size_t grade) const {
+    ItemRange moved = own_clusters(grade);
+    if (grade + 1 < points.size()) return moved;
+    for (std::size_t g = 0; g < grade; ++g) {
+      const ItemRange own = own_clusters(g);
+      const Index each = points[g].clusters() / coarsest().clusters();
+      if (own.begin == own.end) continue;
+      moved.begin = std::min(moved.begin, own.begin / each);
+      moved.end = std::max(moved.end, (own.end - 1) / each + 1);
+    }
+    return moved;
+  }
+  /// The division for work that all ranks have to do for the same clusters.
+  Division parts() const { return division.is_to_each() ? ranks.division() : Division::to_each(); }
+  /// True if no rank has such clusters, given that this rank has none.
+  bool without(const std::vector<Index>& clusters) const {
+    return clusters.empty() && (division.is_to_each() || meniscus::ranks().alone());
+  }
+  /// The largest of the values of all ranks, if each looked at a part.
+  Real largest(Real mine) const {
+    if (ranks.division().is_to_each() || meniscus::ranks().alone()) return mine;
+    const std::vector<Real> all = said_by_ranks(mine);
+    return *std::max_element(all.begin(), all.end());
+  }
+  /// Displacement and velocity of the partner.
+  Vec<D> shift(const Motion& motion) const { return partner.motion.displacement(motion.time); }
+  Vec<D> velocity(const Motion& motion) const {
+    return partner.motion.velocity(motion.time, partner.velocity_step);
+  }
+};
+
+/// Positions of the points of a grade at a motion and their forces, [cluster][i] as in
+/// contact_forms.hpp.
+template <int D>
+struct PartnerLayer {
+  /// Clusters of this rank that interact with the partner, in ascending order. Only they have
+  /// forces.
+  std::vector<Index> visited;
+  std::vector<Index> near;  ///< visited clusters within the range
+  ContactPlaces<D> places;
+  AlignedVector<Lanes> T, S;
+  AlignedVector<Lanes> distances;  ///< [cluster] from the surface of the partner; unbounded if not
+                                   ///< visited
+
+  /// A layer of a grade in which all clusters of this rank are visited.
+  PartnerLayer(const BodyAndPartner<D>& pair, std::size_t grade)
+      : places(pair.points[grade].at_rest()) {
+    const auto clusters = static_cast<std::size_t>(pair.points[grade].clusters());
+    const ItemRange own = pair.own_clusters(grade);
+    visited.resize(static_cast<std::size_t>(own.end - own.begin));
+    std::iota(visited.begin(), visited.end(), own.begin);
+    near.reserve(visited.size());
+    T.assign(clusters * D, Lanes::zero());
+    S = T;
+    distances.assign(clusters, Lanes(unbounded));
+  }
+  /// S for the form `energy`; empty for others.
+  std::span<const Lanes> moment(ContactForm form) const {
+    return form == ContactForm::energy ? std::span<const Lanes>(S) : std::span<const Lanes>();
+  }
+  Real distance(Index q) const { return at(distances, q / Lanes::width)[q % Lanes::width]; }
+  Real nearest_of(Index cluster) const {
+    const Lanes& d = at(distances, cluster);
+    return std::min(std::min(d[0], d[1]), std::min(d[2], d[3]));
+  }
+  std::size_t bytes() const { return places.bytes() + (T.size() + S.size()) * sizeof(Lanes); }
+};
+
+/// [grade]. The points of a facet are visited in one of the grades.
+template <int D>
+using PartnerLayers = std::vector<PartnerLayer<D>>;
+
+template <int D>
+PartnerLayers<D> layers_at_rest(const BodyAndPartner<D>& pair) {
+  PartnerLayers<D> layers;
+  for (std::size_t g = 0; g < pair.points.size(); ++g) layers.emplace_back(pair, g);
+  return layers;
+}
+
+/// Sum of f(c) over the clusters of a grade that all ranks visit, added in the order of the chunks
+/// of all clusters.
+template <int D, class T, class F>
+T sum_of_visited(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers, std::size_t grade,
+                 const T& zero, F&& f) {
+  const Index clusters = pair.points[grade].clusters();
+  const std::vector<Index>& visited = layers[grade].visited;
+  PerChunk<T> sums(chunk_count(clusters), zero);
+  parallel_for(
+      pair.division.own_items(chunk_count(clusters)),
+      [&](Index chunk) {
+        const Index end = chunk_begin(clusters, chunk + 1);
+        auto c = std::lower_bound(visited.begin(), visited.end(), chunk_begin(clusters, chunk));
+        T sum = zero;
+        for (; c != visited.end() && *c < end; ++c) sum += f(*c);
+        at(sums, chunk) = sum;
+      },
+      1);
+  pair.division.complete_items(chunk_count(clusters), sums.begin(), sizeof(T));
+  return std::accumulate(sums.begin(), sums.end(), zero);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums over the contact points beside a rigid partner, and the measures that are made of them.
+#include "physics/contact/rigid/partner_measures.hpp"
+
+#include "numbers/dense.hpp"
+#include "physics/contact/rigid/partner_field.hpp"
+#include "physics/contact/rigid/partner_visits.hpp"
+
+namespace meniscus {
+namespace {
+
+/// By the interaction of uniform strength.
+template <int D>
+PartnerLayers<D> layers_without_effects(const BodyAndPartner<D>& pair, const Motion& motion) {
+  PartnerLayers<D> layers = layers_at_rest(pair);
+  choose_grades(pair, motion, layers);
+  take_forces(pair, motion, layers);
+  return layers;
+}
+
+/// Of a lane.
+template <int D>
+Eigen::Vector3d vector_of(const Lanes* field, int lane) {
+  Vec<D> x;
+  for (int i = 0; i < D; ++i) x[i] = field[i][lane];
+  return spatial<D>(x);
+}
+
+template <int D>
+Real wetted_area(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
+                 const Motion& motion) {
+  const PartnerLayers<D> uniform = layers_without_effects(pair, motion);
+  const Real energy =
+      effects.pattern() ? unit_energy(pair, effects, motion, uniform) : energy_of(pair, uniform);
+  return std::max(0.0, -energy / effects.adhesion());
+}
+
+}  // namespace
+
+template <int D>
+PartnerLayers<D> layers_at(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
+                           const Motion& motion) {
+  PartnerLayers<D> layers = layers_without_effects(pair, motion);
+  add_effects(pair, effects, motion, layers);
+  return layers;
+}
+
+template <int D>
+Real energy_of(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
+  Real energy = 0;
+  for (std::size_t g = 0; g < layers.size(); ++g)
+    energy += sum_of_visited(pair, layers, g, 0.0, [&layer = layers[g]](Index c) {
+      Lanes E = Lanes::zero();
+      for (int i = 0; i < D; ++i) E += at(layer.S, c * D + i) * layer.places.weight_of(c)[i];
+      return sum(E);
+    });
+  return energy;
+}
+
+template <int D>
+Resultant resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+  for (std::size_t g = 0; g < layers.size(); ++g) {
+    const Resultant of_grade = sum_of_visited(pair, layers, g, Resultant(), [&](Index c) {
+      Resultant of_cluster;
+      for (int i = 0; i < D; ++i) of_cluster.force[i] = sum(at(layers[g].T, c * D + i));
+      for (int lane = 0; lane < Lanes::width; ++lane) {
+        of_cluster.moment += cross(vector_of<D>(layers[g].places.x_of(c), lane),
+                                   vector_of<D>(&at(layers[g].T, c * D), lane));
+        if (pair.form == ContactForm::energy)
+          of_cluster.moment += cross(vector_of<D>(layers[g].places.weight_of(c), lane),
+                                     vector_of<D>(&at(layers[g].S, c * D), lane));
+      }
+      return of_cluster;
+    });
+    force -= of_grade.force;
+    moment -= of_grade.moment;
+  }
+  return {force, moment};
+}
+
+template <int D>
+Real gap_at(const BodyAndPartner<D>& pair, const Motion& motion) {
+  PartnerLayer<D> layer(pair, 0);
+  take_distances(pair, 0, motion, layer);
+  Real least = unbounded;
+  for (const Index c : layer.visited) least = std::min(least, layer.nearest_of(c));
+  return -pair.largest(-least);
+}
+
+template <int D>
+std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
+                                       bool wets) {
+  const auto looked_at = [&pair, &effects](auto&& number) {
+    return [&pair, &effects, number](const Motion& motion) {
+      return Real(number(layers_at(pair, effects, motion)));
+    };
+  };
+  std::vector<MeasureSource> all{
+      {"energy", dimension::energy, "energy of the interaction",
+       looked_at([&pair](const PartnerLayers<D>& layers) { return energy_of(pair, layers); })},
+      {"gap", dimension::length, "least distance of the points of the body from the partner",
+       [&pair](const Motion& motion) { return gap_at(pair, motion); }},
+      {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
+       [&pair](const Motion& motion) { return gap_at(pair, motion) / pair.finest().spacing(); }}};
+  for (int i = 0; i < D; ++i)
+    all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the body",
+                   looked_at([i, &pair](const PartnerLayers<D>& layers) {
+                     return resultant(pair, layers).force[i];
+                   })});
+  for (int i = D == 3 ? 0 : 2; i < 3; ++i)
+    all.push_back({std::string("torque_") + "xyz"[i], dimension::energy,
+                   "torque on the body about the origin",
+                   looked_at([i, &pair](const PartnerLayers<D>& layers) {
+                     return resultant(pair, layers).moment[i];
+                   })});
+  if (wets) {
+    for (int i = 0; i < D; ++i)
+      all.push_back({std::string("reaction_") + "xyz"[i], dimension::force, "force on the partner",
+                     looked_at([i, &pair](const PartnerLayers<D>& layers) {
+                       return -resultant(pair, layers).force[i];
+                     })});
+    all.push_back(
+        {"wetted_area", D == 3 ? dimension::area : dimension::length,
+         "area in full contact that has the energy of the interaction (2D: length)",
+         [&pair, &effects](const Motion& motion) { return wetted_area(pair, effects, motion); }});
+  }
+  if (effects.rubs())
+    for (int i = 0; i < D; ++i)
+      all.push_back({std::string("slip_") + "xyz"[i], dimension::velocity,
+                     "mean velocity along the partner and relative to it, over the area that rubs",
+                     [i, &pair, &effects](const Motion& motion) {
+                       PartnerLayers<D> layers = layers_without_effects(pair, motion);
+                       return mean_slip(pair, effects, motion, layers)[i];
+                     }});
+  if (pair.partner.motion.moves())
+    for (int i = 0; i < D; ++i)
+      all.push_back({std::string("displacement_") + "xyz"[i], dimension::length,
+                     "prescribed displacement of the partner",
+                     [i, &pair](const Motion& motion) { return pair.shift(motion)[i]; }});
+  return all;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                                    \
+  template PartnerLayers<D> layers_at(const BodyAndPartner<D>&, const WallEffects<D>&,             \
+                                      const Motion&);                                              \
+  template Real energy_of(const BodyAndPartner<D>&, const PartnerLayers<D>&);                      \
+  template Resultant resultant(const BodyAndPartner<D>&, const PartnerLayers<D>&);                 \
+  template Real gap_at(const BodyAndPartner<D>&, const Motion&);                                   \
+  template std::vector<MeasureSource> measures_of(const BodyAndPartner<D>&, const WallEffects<D>&, \
+                                                  bool);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

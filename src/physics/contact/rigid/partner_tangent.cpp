@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Changes of the forces of a rigid partner with positions and area vectors of contact points.
+#include "physics/contact/rigid/partner_tangent.hpp"
+
+namespace meniscus {
+namespace {
+
+/// dT = (grad grad S dx) V + grad S dV and dS = grad S dx; or dT = (grad U dx) V + U dV for the
+/// pressure form. Derivatives of the field are differences of fourth order over a small part of the
+/// gap.
+template <int D>
+void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& pair,
+                            const PartnerLayer<D>& layer, const Motion& motion,
+                            const Motion& change, std::span<NodalVector> force) {
+  constexpr Real part_of_gap = 3e-4;
+  const Vec<D> shift = pair.shift(motion);
+  const ContactChanges<D> changes = points.changes(layer.visited, layer.places, motion, change);
+  AlignedVector<Lanes> dT(layer.S.size(), Lanes::zero()), dS = dT;
+  const auto change_of_point = [&](Index c, int lane) {
+    Vec<D> place, dx, V, dV;
+    for (int i = 0; i < D; ++i) {
+      place[i] = layer.places.x_of(c)[i][lane] - shift[i];
+      dx[i] = changes.x_of(c)[i][lane];
+      V[i] = layer.places.weight_of(c)[i][lane];
+      dV[i] = at(changes.weight, c * D + i)[lane];
+    }
+    const Real length = dx.norm();
+    if (length == 0 && dV.isZero(0)) return;
+    const Real gap = std::max(at(layer.distances, c)[lane], pair.interaction->least_gap());
+    const Real h = length > 0 ? part_of_gap * gap / length : 1;
+    const auto field = [&](Real s) { return pair.partner.shape->field(place + s * h * dx); };
+    const auto slope = [h](const auto& ahead, const auto& behind, const auto& ahead2,
+                           const auto& behind2) {
+      return ((8 * (ahead - behind) - (ahead2 - behind2)) / (12 * h)).eval();
+    };
+    const RigidField<D> here = field(0), ahead = field(1), behind = field(-1), ahead2 = field(2),
+                        behind2 = field(-2);
+    Vec<D> pull;
+    if (pair.form == ContactForm::pressure) {
+      const auto U = [](const RigidField<D>& f) { return Eigen::Matrix<Real, 1, 1>(f.U); };
+      pull = slope(U(ahead), U(behind), U(ahead2), U(behind2))[0] * V + here.U * dV;
+    } else {
+      pull =
+          slope(ahead.grad_S, behind.grad_S, ahead2.grad_S, behind2.grad_S) * V + here.grad_S * dV;
+    }
+    const Vec<D> turn = here.grad_S * dx;
+    for (int i = 0; i < D; ++i) {
+      at(dT, c * D + i).set(lane, pull[i]);
+      at(dS, c * D + i).set(lane, turn[i]);
+    }
+  };
+  parallel_for(
+      static_cast<Index>(layer.visited.size()),
+      [&](Index k) {
+        for (int lane = 0; lane < Lanes::width; ++lane) change_of_point(at(layer.visited, k), lane);
+      },
+      16);
+  points.add_force_change(layer.places, changes, motion, change, layer.visited, dT,
+                          layer.moment(pair.form), dS, force);
+}
+
+}  // namespace
+
+template <int D>
+void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
+                            const Motion& motion, const Motion& change,
+                            std::span<NodalVector> force) {
+  for (std::size_t g = 0; g < layers.size(); ++g)
+    if (!pair.without(layers[g].visited))
+      add_tangent_of_partner(pair.points[g], pair, layers[g], motion, change, force);
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                                    \
+  template void add_tangent_of_partner(BodyAndPartner<D>&, const PartnerLayers<D>&, const Motion&, \
+                                       const Motion&, std::span<NodalVector>);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tangent of contact with a rigid partner.
+#pragma once
+#include "physics/contact/rigid/partner_layers.hpp"
+
+namespace meniscus {
+
+/// force += the change of the forces of the partner on visited points, for uniform strength.
+template <int D>
+void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
+                            const Motion& motion, const Motion& change,
+                            std::span<NodalVector> force);
+
+}  // namespace meniscus

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Validity of the list of clusters that may interact with a rigid partner, for an interaction that
+// ends at a range.
+#pragma once
+#include "physics/contact/points/moved_since.hpp"
+
+namespace meniscus {
+
+/// The list has the clusters within twice the range. It is valid until the moves of a point and of
+/// the partner can add up to the range.
+template <int D>
+class ReachList {
+ public:
+  explicit ReachList(Real range) : range_(range) {}
+
+  bool holds(const ContactPoints<D>& points, const Motion& motion, const Vec<D>& shift) const {
+    const Real left = range_ * (1 - 1e-12) - (shift - shift_).norm();
+    return left > 0 && since_.farthest(points, motion) <= left;
+  }
+  /// Has to be called at the motion at which the clusters within distance() were found.
+  void begin(const ContactPoints<D>& points, const Motion& motion, const Vec<D>& shift) {
+    since_.begin(points, motion);
+    shift_ = shift;
+    ++times_;
+  }
+  /// Number of calls of begin().
+  std::int64_t times() const { return times_; }
+  Real distance() const { return 2 * range_; }
+  std::size_t bytes() const { return since_.bytes(); }
+
+ private:
+  Real range_;
+  MovedSince<D> since_;  // since begin()
+  Vec<D> shift_ = Vec<D>::Zero();
+  std::int64_t times_ = 0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields of balls and cylinders at a point: closed forms of the distance from the centre.
+#pragma once
+#include "physics/contact/contact_law.hpp"
+
+namespace meniscus {
+
+/// Field per density beta2 at the distance a from the centre. S = a tangent k with the radial
+/// direction k, and grad S = tangent (I - k(x)k) + (U - (D - 1) tangent) k(x)k since div S = U.
+struct RadialField {
+  Real U, tangent;
+};
+
+/// A ball (CGCM note 3.2). As for all round fields, a point may also be inside: there the field is
+/// minus that of all space around a cavity. The field is singular on the surface. Lengths are
+/// scaled by sigma0.
+class SphereField {
+ public:
+  SphereField(const ContactLaw& law, Real radius);
+
+  RadialField at(Real distance) const;
+  /// dU/da.
+  Real slope(Real distance) const;
+
+ private:
+  Real attraction(Real a) const;
+
+  Real sigma0_, R_, unit_;
+};
+
+/// A cylinder normal to the plane (CGCM note 3.3).
+///
+/// r is the distance of the point from the circle. With the integrals I_p = INT_0^pi r^-p dt and
+/// J_p = INT_0^pi cos(t) r^-p dt, and the powers c r^-p of psi and phi (p = 12 and 6, less one if
+/// `integrated`),
+///
+///   U       = sum c_psi ((a^2 - R^2) I_p - I_(p-2))
+///   S/a     = -sum c_psi 2 R J_(p-2)/((p - 2) a)
+///   dU/da   = -sum c_phi 2 R J_p
+///
+/// These are the note's combinations of J0, J1, J2 without their cancellation near contact. Lengths
+/// are scaled by sigma0.
+class CylinderField {
+ public:
+  CylinderField(const ContactLaw& law, Real radius);
+
+  RadialField at(Real distance) const;
+  Real slope(Real distance) const;
+
+ private:
+  Real sigma0_, R_, unit_;
+  PairCoefficients c_;
+};
+
+}  // namespace meniscus

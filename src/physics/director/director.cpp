@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Directors that bodies carry.
+#include "physics/director/director.hpp"
+
+#include "body/particle_values.hpp"
+#include "kernel/row_sums.hpp"
+#include "numbers/dense.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+template <int D>
+Tensor<Real> gradient_of(const PointRows<D>& rows, Index A, const NodalVector* field) {
+  const std::array<Lanes, D> columns = gradient_at(rows, A, field);
+  return Tensor<Real>::map([&](int i, int K) { return i < D && K < D ? at(columns, K)[i] : 0.0; });
+}
+
+Tensor<Real> inverse_of(const Tensor<Real>& x) {
+  return (1 / determinant(x)) * transpose(cofactor(x));
+}
+
+Eigen::Vector3d product(const Tensor<Real>& A, const Eigen::Vector3d& x) {
+  const auto row = [&](int i) { return A(i, 0) * x[0] + A(i, 1) * x[1] + A(i, 2) * x[2]; };
+  return {row(0), row(1), row(2)};
+}
+
+Lanes lanes_of(const Eigen::Vector3d& x) {
+  return {x[0], x[1], x[2], 0};
+}
+
+std::vector<Real> resistance(const NematicNumbers& numbers, std::vector<Real> volume) {
+  for (Real& c : volume) c *= numbers.rotational_viscosity;
+  return volume;
+}
+
+}  // namespace
+
+template <int D>
+Director<D>::Director(const Body<D>& body, std::size_t number, const NematicBody<D>& nematic)
+    : CarriedField(number, body.first, resistance(nematic.numbers, nematic.volume),
+                   "director of body '" + body.name + "'",
+                   "a lower frank_constant, a larger rotational_viscosity"),
+      body_(body),
+      numbers_(nematic.numbers),
+      gradients_(
+          build_point_rows<D>(body.particles, body.particles.X(), {.gradient = true}, body.name)),
+      windows_(gradients_.start, gradients_.particle, body.size(), body.division),
+      volume_(nematic.volume) {
+  for (const Vec<D>& h : nematic.director) initial_.push_back(spatial<D>(h));
+}
+
+/// With D = (F_1 - F_0) [(F_0 + F_1)/2]^-1 and B = skew D + lambda sym D - nu2 tr D I the director
+/// becomes (I - B/2)^-1 (I + B/2) h: exact where the body turns, the same forth and back.
+template <int D>
+void Director<D>::carry(const NodalVector* from, const NodalVector* to,
+                        std::span<NodalVector> x) const {
+  const Real lambda = numbers_.flow_alignment, nu2 = numbers_.dilatation_coupling;
+  parallel_for(body_.division.own_rows(body_.size()), [&](Index A) {
+    const Tensor<Real> H0 = gradient_of(gradients_, A, from), H1 = gradient_of(gradients_, A, to);
+    const Tensor<Real> change = (H1 - H0) * inverse_of(deformation_gradient(0.5 * (H0 + H1)));
+    const Tensor<Real> half =
+        add_diagonal(Tensor<Real>::map([&](int i, int j) {
+                       return 0.25 * ((lambda + 1) * change(i, j) + (lambda - 1) * change(j, i));
+                     }),
+                     -0.5 * nu2 * trace(change));
+    const Tensor<Real> one = Tensor<Real>::identity();
+    at(x, A) = lanes_of(product(inverse_of(one - half), product(one + half, spatial(at(x, A)))));
+  });
+  body_.division.complete_rows(body_.size(), x.data(), sizeof x[0]);
+}
+
+template <int D>
+void Director<D>::add_reaction(const Motion& motion, Forces force) {
+  if (force.fields.empty()) return;
+  const NodalVector* u = motion.u.data() + body_.first;
+  const auto x = part(std::span<const NodalVector>(at(motion.fields, number()).x));
+  const auto forces_on_x = part(std::span<const NodalVector>(at(force.fields, number()).f));
+  const Real lambda = numbers_.flow_alignment, nu2 = numbers_.dilatation_coupling;
+  windows_.accumulate(
+      body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end, NodalVector* f) {
+        for (Index A = begin; A < end; ++A) {
+          const Eigen::Vector3d h = spatial(at(x, A)), S = -spatial(at(forces_on_x, A));
+          const Tensor<Real> F = deformation_gradient(gradient_of(gradients_, A, u));
+          const Tensor<Real> Y =
+              add_diagonal(Tensor<Real>::map([&](int i, int j) {
+                             return 0.5 * ((lambda - 1) * h[i] * S[j] + (lambda + 1) * S[i] * h[j]);
+                           }),
+                           -nu2 * S.dot(h));
+          const Tensor<Real> P = (1 / determinant(F)) * (Y * cofactor(F));
+          std::array<Lanes, D> column;
+          for (int K = 0; K < D; ++K) at(column, K) = Lanes(P(0, K), P(1, K), P(2, K), 0);
+          for (Offset e = at(gradients_.start, A); e < at(gradients_.start, A + 1); ++e)
+            for (int K = 0; K < D; ++K)
+              f[at(gradients_.particle, e)] -= at(gradients_.gradient, e * D + K) * at(column, K);
+        }
+      });
+}
+
+template <int D>
+NodalVectors Director<D>::values(const Motion& motion) const {
+  return values_at_particles(body_, at(motion.fields, number()).x.data() + body_.first);
+}
+
+/// Over the reference volume.
+template <int D>
+template <class F>
+Real Director<D>::mean(F&& of_particle) const {
+  Real sum = 0, volume = 0;
+  for (Index A = 0; A < body_.size(); ++A) {
+    sum += body_.cells.volume(A) * of_particle(A);
+    volume += body_.cells.volume(A);
+  }
+  return sum / volume;
+}
+
+/// The greatest eigenvalue of the mean of (D h h/|h|^2 - I)/(D - 1).
+template <int D>
+Real Director<D>::order(const Motion& motion) const {
+  Mat<D> Q = Mat<D>::Zero();
+  Real volume = 0;
+  const NodalVectors directors = values(motion);
+  for (Index A = 0; A < body_.size(); ++A) {
+    const Eigen::Vector3d h = spatial(at(directors, A));
+    const Real square = h.squaredNorm();
+    if (!(square > 0)) continue;
+    const Vec<D> axis = h.template head<D>();
+    Q += body_.cells.volume(A) / square * (axis * axis.transpose());
+    volume += body_.cells.volume(A);
+  }
+  if (!(volume > 0)) return 0;
+  const Vec<D> eigenvalues = symmetric_eigenvalues<D>(Q / volume);
+  return (D * eigenvalues.maxCoeff() - 1) / (D - 1);
+}
+
+/// h x s per volume, s the force -dE/dh on the director that the elastic couple balances, zero at
+/// rest.
+template <int D>
+void Director<D>::couples(const Motion& motion, std::span<Real> values) {
+  const NodalVector* u = motion.u.data() + body_.first;
+  const auto x = part(std::span<const NodalVector>(at(motion.fields, number()).x));
+  NodalVectors f(x.size());
+  hold_places(u);
+  held_force(x.data(), f);
+  for (Index A = 0; A < body_.size(); ++A) {
+    const Eigen::Vector3d m = cross(spatial(at(x, A)), -spatial(at(f, A))) / at(volume_, A);
+    for (int i = 0; i < 3; ++i) at(values, 3 * A + i) = m[i];
+  }
+}
+
+/// P2 of the angle between the director and that of the start; 1 where there is none.
+template <int D>
+Real Director<D>::tilt(const Lanes& director, Index A) const {
+  const Eigen::Vector3d h = spatial(director), &h0 = at(initial_, A);
+  const Real squares = h.squaredNorm() * h0.squaredNorm(), product = h.dot(h0);
+  return squares > 0 ? (D * product * product / squares - 1) / (D - 1) : 1;
+}
+
+template <int D>
+std::vector<FieldSource> Director<D>::fields() {
+  return {{"director", D, dimension::none, "director of a nematic",
+           [this](const Motion& motion, std::span<Real> values) {
+             const NodalVectors h = this->values(motion);
+             for (Index A = 0; A < body_.size(); ++A)
+               for (int i = 0; i < D; ++i) at(values, D * A + i) = at(h, A)[i];
+           }},
+          {"director_couple", 3, dimension::pressure,
+           "couple h x s per volume that the director exerts while it is not at rest, s = dE/dh",
+           [this](const Motion& motion, std::span<Real> values) { couples(motion, values); }},
+          {"director_tilt", 1, dimension::none,
+           "P2 = (3 c^2 - 1)/2 (2D: 2 c^2 - 1), c the cosine between the director and that of the "
+           "start",
+           [this](const Motion& motion, std::span<Real> values) {
+             const NodalVectors h = this->values(motion);
+             for (Index A = 0; A < body_.size(); ++A) at(values, A) = tilt(at(h, A), A);
+           }}};
+}
+
+template <int D>
+std::vector<MeasureSource> Director<D>::measures() {
+  const auto length = [this](const Motion& motion) {
+    const NodalVectors h = values(motion);
+    return mean([&](Index A) { return spatial(at(h, A)).norm(); });
+  };
+  const auto couple = [this](const Motion& motion) {
+    std::vector<Real> m(3 * volume_.size());
+    couples(motion, m);
+    return std::sqrt(mean([&](Index A) {
+      return std::pow(at(m, 3 * A), 2) + std::pow(at(m, 3 * A + 1), 2) +
+             std::pow(at(m, 3 * A + 2), 2);
+    }));
+  };
+  return {
+      {"director_couple", dimension::pressure,
+       "rms of the couple h x s per volume that the director exerts while it is not at rest",
+       couple},
+      {"director_order", dimension::none,
+       "order of the directors: 1 where all are parallel, 0 where they have all directions",
+       [this](const Motion& motion) { return order(motion); }},
+      {"director_tilt", dimension::none,
+       "mean of P2 = (3 c^2 - 1)/2 (2D: 2 c^2 - 1), c the cosine between the director and that of "
+       "the start",
+       [this](const Motion& motion) {
+         const NodalVectors h = values(motion);
+         return mean([&](Index A) { return tilt(at(h, A), A); });
+       }},
+      {"director_length", dimension::none, "mean of |h|", length}};
+}
+
+template <int D>
+std::size_t Director<D>::bytes() const {
+  return CarriedField::bytes() + gradients_.bytes() + windows_.bytes() +
+         volume_.size() * sizeof(Real) + initial_.size() * sizeof(Eigen::Vector3d);
+}
+
+template class Director<2>;
+template class Director<3>;
+
+}  // namespace meniscus

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damping of combinations of velocity coefficients that leave every material point at rest.
+#include "physics/internal/coefficient_damping.hpp"
+
+#include "kernel/row_sums.hpp"
+#include "numbers/dense.hpp"
+
+namespace meniscus {
+namespace {
+
+template <int D>
+class CoefficientDamping final : public ForceTerm {
+ public:
+  CoefficientDamping(const Body<D>& body, std::span<const Real> viscosity, Real strength)
+      : body_(body),
+        windows_(body.at_particles.start, body.at_particles.particle, body.size(), body.division),
+        said_(windows_),
+        slip_(static_cast<std::size_t>(body.size())),
+        offset_(slip_) {
+    const Real h = mean_spacing(body.geometry.grid);
+    for (Index A = 0; A < body.size(); ++A)
+      rate_.push_back(strength * at(viscosity, A) * body.cells.volume(A) / (h * h));
+  }
+
+  std::string name() const override { return "coefficient damping of '" + body_.name + "'"; }
+  bool viscous() const override { return true; }
+  std::optional<Real> potential(const Motion&) override { return 0; }
+
+  void add_viscous(const Motion& motion, Forces force) override {
+    force.leave_chunks = true;  // the heat is not used
+    add_force(motion, force);
+  }
+  void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
+    const auto own = body_.part(diagonal);
+    windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* sum) {
+      const PointRows<D>& rows = body_.at_particles;
+      for (Index A = begin; A < end; ++A)
+        for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
+          const Index B = at(rows.particle, k);
+          const Real e = (A == B ? 1 : 0) - at(rows.value, k);
+          sum[B] += at(rate_, A) * e * e;
+        }
+    });
+  }
+
+  Report add_force(const Motion& motion, Forces force) override {
+    const Rotation sums = subtract_places(motion);
+    const Eigen::Vector3d w = sums.rate();
+    const auto own = body_.part(std::span<NodalVector>(force));
+    windows_.accumulate(own, [&](int chunk, Index begin, Index end, NodalVector* f) {
+      Real heat = 0;
+      for (Index A = begin; A < end; ++A) {
+        const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
+        const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
+        at(slip_, A) = at(rate_, A) * s;
+        heat += at(rate_, A) * sum(s * s);
+        scatter_value(body_.at_particles, A, at(slip_, A), f);
+      }
+      said_[chunk].heat = heat;
+    });
+    if (is_entered(halo_))
+      slips_->bring(slip_.data(), slip_.data(), sizeof(Lanes));
+    else
+      body_.division.complete_rows(body_.size(), slip_.data(), sizeof(Lanes));
+    for (Index A = 0; A < body_.size(); ++A) at(own, A) -= at(slip_, A);
+    return report_of(said_, motion, force);
+  }
+
+  bool tell_reads(StepReads& reads) override {
+    const OwnItems own = body_.division.own_rows(body_.size());
+    reads.particles(body_.at_particles.of_rows(own.begin, own.end), body_.first);
+    reads.rows(windows_, body_.first);
+    reads.when_shared([this](const auto& halo) { keep_to(halo); });
+    return true;
+  }
+
+  std::size_t bytes() const override {
+    return windows_.bytes() + rate_.size() * sizeof(Real) +
+           (slip_.size() + offset_.size()) * sizeof(Lanes);
+  }
+  Offset pairs() const override { return windows_.pairs(); }
+
+ private:
+  void keep_to(const std::shared_ptr<const Halo>& halo) {
+    halo_ = halo;
+    const OwnItems rows = body_.division.own_rows(body_.size());
+    std::vector<Leaf> leaves;
+    for (Index A = 0; A < body_.size(); ++A)
+      if (halo->follows(body_.first + A) && (A < rows.begin || A >= rows.end))
+        leaves.push_back({A, body_.division.rank_of_row(body_.size(), A), A});
+    slips_ = ranks().exchange(body_.size(), leaves);
+  }
+
+  /// Sums of c (|e|^2 I - e e) and c e x d with d = (I - N) v and e = (I - N) x.
+  struct Rotation {
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+    friend Rotation operator+(const Rotation& a, const Rotation& b) {
+      return {a.inertia + b.inertia, a.momentum + b.momentum};
+    }
+    /// The rotation w that solves sum c e x (d - w x e) = 0.
+    Eigen::Vector3d rate() const {
+      constexpr Real round_off = 1e-15;
+      const Real size = inertia.trace();
+      if (!(size > 0)) return Eigen::Vector3d::Zero();
+      return inverse<3>(inertia + round_off * size * Eigen::Matrix3d::Identity()) * momentum;
+    }
+  };
+
+  /// Sets slip_ to d and offset_ to e. Positions are reproduced, so (I - N) x = (I - N) u.
+  Rotation subtract_places(const Motion& motion) {
+    const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
+    return body_.division.sum_where_rows_are(body_.size(), Rotation{}, [&](Index A) {
+      const PointRows<D>& rows = body_.at_particles;
+      const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
+      at(slip_, A) = d;
+      at(offset_, A) = e;
+      const Eigen::Vector3d x = spatial(e);
+      const Real c = at(rate_, A);
+      return Rotation{c * (x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose()),
+                      c * cross(x, spatial(d))};
+    });
+  }
+
+  const Body<D>& body_;
+  ForceWindows windows_;
+  ChunkReports said_;
+  std::vector<Real> rate_;  // c, [particle]
+  NodalVectors slip_, offset_;
+  std::shared_ptr<const Halo> halo_;
+  std::unique_ptr<Exchange> slips_;  // sends slips of ghost particles
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ForceTerm> coefficient_damping(const Body<D>& body, std::span<const Real> viscosity,
+                                               Real strength) {
+  return std::make_unique<CoefficientDamping<D>>(body, viscosity, strength);
+}
+template std::unique_ptr<ForceTerm> coefficient_damping(const Body<2>&, std::span<const Real>,
+                                                        Real);
+template std::unique_ptr<ForceTerm> coefficient_damping(const Body<3>&, std::span<const Real>,
+                                                        Real);
+
+}  // namespace meniscus

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Materials: from the table of a scene to the internal force of a body. The template that joins law
+// and integration rule is instantiated once per law, at its registration.
+#pragma once
+#include "body/grid/nodal_cells.hpp"
+#include "meniscus/error.hpp"
+#include "physics/director/nematic.hpp"
+#include "physics/director/reference_director.hpp"
+#include "physics/internal/cell_average.hpp"
+#include "physics/internal/fluid_points.hpp"
+#include "physics/internal/internal_force.hpp"
+#include "physics/internal/referred_fluid.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+namespace meniscus {
+
+/// How the internal force is integrated.
+struct Integration {
+  std::string rule = "q_scni";  ///< "q_scni", "gauss" or "nodal"
+  int gauss_points = 3;         ///< per direction and cell, for "gauss"
+  /// "full", "cell_average" (with "q_scni" only) or "automatic": cell_average for "q_scni" where
+  /// the bulk modulus is at least 1000 shear moduli.
+  std::string volumetric = "automatic";
+  /// The pressure of a fluid works on the volume that the surface encloses: its discrete surface
+  /// tension is balanced. Then "automatic" is cell_average with "q_scni".
+  bool enclosed = false;
+  RowPrecision precision = RowPrecision::full;  ///< of the rows of "q_scni"
+};
+
+/// A material read from a scene, ready to be applied to a body.
+template <int D>
+class Material {
+ public:
+  virtual ~Material() = default;
+  struct Built {
+    std::unique_ptr<ForceTerm> force;
+    MassReport mass;
+    bool cell_average;                   ///< one volume change per nodal cell
+    std::optional<std::string> note;     ///< for the log
+    std::optional<std::string> warning;  ///< for the log, of what is doubtful
+    std::vector<Real> viscosity;  ///< shear viscosity of a fluid, per particle; empty: a solid
+    Real bulk_modulus;            ///< the least of the body
+    Real bulk_over_shear = 0;     ///< the largest of a solid; 0: not known
+    std::unique_ptr<NematicBody<D>> nematic = {};  ///< null: no director
+  };
+  /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
+  /// InputError (a formula leaves its range somewhere in the body).
+  virtual Built build(Body<D>& body, const Integration& integration) const = 0;
+  /// No stress but a pressure at rest.
+  virtual bool fluid() const = 0;
+  /// A nematic, whose director is a second unknown.
+  virtual bool carries_director() const { return false; }
+};
+
+/// A material with the law L. What is done once is marked cold: it is compiled for every law.
+template <int D, Law L>
+class MaterialOf final : public Material<D> {
+ public:
+  /// `director` for a DirectedLaw.
+  MaterialOf(Varying<L> law, std::optional<ReferenceDirector> director)
+      : law_(std::move(law)), director_(std::move(director)) {}
+
+  [[gnu::cold]] typename Material<D>::Built build(Body<D>& body,
+                                                  const Integration& integration) const override {
+    if (integration.rule == "q_scni") {
+      CellOperator<D> op = body.cell_rows ? cell_rule_of(body, std::move(*body.cell_rows))
+                                          : build_cell_rule(body, integration.precision);
+      body.cell_rows.reset();
+      std::vector<Vec<D>> places;
+      for (Index A = 0; A < body.size(); ++A) places.push_back(body.cell_origin(A));
+      return integrated(body, std::move(op.rule), laws_at(places, body.geometry), op.shape_integral,
+                        integration);
+    }
+    const bool gauss = integration.rule == "gauss";
+    const auto X = body.particles.X();
+    const std::vector<Vec<D>> places =
+        gauss ? cell_gauss_points(body.geometry.grid, integration.gauss_points).X
+              : std::vector<Vec<D>>(X.begin(), X.end());
+    const Index per_group = uniform() ? PointRule<D>::most_per_group : 1;
+    PointRule<D> rule = gauss ? build_gauss_rule(body, integration.gauss_points, per_group)
+                              : build_nodal_rule(body, per_group);
+    return integrated(body, std::move(rule), laws_at(places, body.geometry), shape_integrals(body),
+                      integration);
+  }
+  bool fluid() const override { return FluidLaw<L>; }
+
+ private:
+  bool uniform() const { return law_.uniform() && (!director_ || director_->uniform()); }
+
+  L law_at(const Vec<D>& X, const Geometry<D>& geometry) const {
+    L law = law_.at(spatial<D>(X));
+    if (const auto wrong = check(law); wrong && !law_.uniform())
+      throw InputError(law_.formulas.front().place + ": " + *wrong);
+    if constexpr (DirectedLaw<L>) {
+      const Eigen::Vector3d h = director_->at(X, geometry);
+      law.director = {h[0], h[1], h[2]};
+    }
+    return law;
+  }
+
+  /// One law for all groups of stress points, or one at the place of each if the material varies.
+  std::vector<L> laws_at(const std::vector<Vec<D>>& places, const Geometry<D>& geometry) const {
+    std::vector<L> laws;
+    for (const Vec<D>& X : places) {
+      laws.push_back(law_at(X, geometry));
+      if (uniform()) break;
+    }
+    return laws;
+  }
+
+  static bool averages(const Integration& integration, const std::vector<L>& laws) {
+    if (integration.rule != "q_scni") return false;
+    if (integration.volumetric != "automatic") return integration.volumetric == "cell_average";
+    return integration.enclosed || std::any_of(laws.begin(), laws.end(), [](const L& law) {
+             return bulk_over_shear(law) >= 1e3;
+           });
+  }
+
+  static Real largest_bulk_over_shear(const std::vector<L>& laws) {
+    Real largest = 0;
+    for (const L& law : laws) largest = std::max(largest, bulk_over_shear(law).value_or(0));
+    return largest;
+  }
+
+  static Real least_bulk_modulus(const std::vector<L>& laws) {
+    Real least = unbounded;
+    for (const L& law : laws) least = std::min(least, meniscus::bulk_modulus(law));
+    return least;
+  }
+
+  template <class Rule>
+  [[gnu::cold]] typename Material<D>::Built integrated(Body<D>& body, Rule rule,
+                                                       const std::vector<L>& laws,
+                                                       const std::vector<Real>& shape_integral,
+                                                       const Integration& integration) const {
+    std::vector<Real> density, viscosity;
+    Real least = unbounded, most = 0;
+    for (Index A = 0; A < body.size(); ++A) {
+      const L law = law_.uniform() ? law_.base : law_at(body.origin(A), body.geometry);
+      density.push_back(law.density / body.volume_ratio(A));
+      least = std::min(least, law.density);
+      most = std::max(most, law.density);
+      if constexpr (FluidLaw<L>) viscosity.push_back(law.viscosity);
+    }
+    body.uniform_density = least == most;
+    const MassReport mass = lump_mass(body, density, shape_integral);
+    std::optional<std::string> note;
+    if constexpr (NotingLaw<L>) note = laws.front().note(mean_spacing(body.geometry.grid));
+    std::optional<std::string> warning;
+    if constexpr (DirectedLaw<L> && std::is_same_v<Rule, CellRule<D>>)
+      if (!director_->uniform()) warning = doubt_of_turns(body, laws);
+    const bool averaged = averages(integration, laws);
+    return {force(body, std::move(rule), laws, averaged, integration.enclosed),
+            mass,
+            averaged,
+            std::move(note),
+            std::move(warning),
+            std::move(viscosity),
+            least_bulk_modulus(laws),
+            largest_bulk_over_shear(laws)};
+  }
+
+  /// A nodal cell has one law: the director of its centre.
+  static std::optional<std::string> doubt_of_turns(const Body<D>& body,
+                                                   const std::vector<L>& laws) {
+    std::vector<Eigen::Vector3d> directors;
+    for (const L& law : laws) directors.push_back(Eigen::Vector3d::Map(law.director.data()));
+    return doubt_of_director(largest_turn(body.geometry.grid, directors));
+  }
+
+  /// The law of a group of stress points is L itself or what is made of it.
+  template <class Rule>
+  static std::unique_ptr<ForceTerm> force(const Body<D>& body, Rule rule,
+                                          const std::vector<L>& laws, bool averaged,
+                                          bool enclosed) {
+    if constexpr (FluidLaw<L>) {
+      std::vector<FluidPoints<D, L>> points;
+      for (const L& law : laws) points.emplace_back(law, averaged);
+      auto surface = enclosed ? std::make_unique<SurfacePatches<D>>(body) : nullptr;
+      if (body.reference && !body.reference->undeformed()) {
+        if constexpr (std::is_same_v<Rule, CellRule<D>>)
+          return std::make_unique<InternalForce<D, ReferredFluid<D, L>, Rule>>(
+              body, std::move(rule), referred(body, points), std::move(surface));
+        throw InputError(fmt::format(
+            "body '{}': only integration = \"q_scni\" can be referred anew", body.name));
+      }
+      return force_of(body, std::move(rule), std::move(points), std::move(surface));
+    } else {
+      if (body.reference && !body.reference->undeformed())
+        throw InputError(fmt::format(
+            "body '{}': a solid cannot be referred anew, its stress depends on more than J",
+            body.name));
+      if constexpr (std::is_same_v<Rule, CellRule<D>>)
+        if (averaged)
+          return force_of(body, std::move(rule),
+                          std::vector<CellAverage<D, L>>(laws.begin(), laws.end()), nullptr);
+      return force_of(body, std::move(rule), laws, nullptr);
+    }
+  }
+
+  template <class Points, class Rule>
+  static std::unique_ptr<ForceTerm> force_of(const Body<D>& body, Rule rule,
+                                             std::vector<Points> points,
+                                             std::unique_ptr<SurfacePatches<D>> surface) {
+    if constexpr (Points::viscous)
+      if (std::all_of(points.begin(), points.end(), [](const auto& law) { return law.inviscid(); }))
+        return force_of(body, std::move(rule),
+                        std::vector<WithoutViscosity<Points>>(points.begin(), points.end()),
+                        std::move(surface));
+    return std::make_unique<InternalForce<D, Points, Rule>>(body, std::move(rule),
+                                                            std::move(points), std::move(surface));
+  }
+
+  Varying<L> law_;
+  std::optional<ReferenceDirector> director_;
+};
+
+/// Reads the numbers of the law L from a scene; problems are noted in the block.
+template <int D, Law L>
+std::unique_ptr<Material<D>> read_material(const Block& block) {
+  Varying<L> law = read_varying<L>(block);
+  if (const auto wrong = check(law.base); wrong && law.uniform()) block.problem("", *wrong);
+  std::optional<ReferenceDirector> director;
+  if constexpr (DirectedLaw<L>) director.emplace(block, D);
+  return std::make_unique<MaterialOf<D, L>>(std::move(law), std::move(director));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tangent, energy, failures, warnings and output of the internal force.
+#include "physics/internal/stress_point_force.hpp"
+
+#include <fmt/core.h>
+
+namespace meniscus {
+namespace {
+
+/// H at one stress point.
+Tensor<Real> lane_of(const Tensor<Lanes>& H, int lane) {
+  return Tensor<Real>::map([&](int i, int j) { return H(i, j)[lane]; });
+}
+
+}  // namespace
+
+template <int D, class Rule>
+Tensor<Lanes> StressPointForce<D, Rule>::gradients(Index group, const NodalVector* u) const {
+  Tensor<Lanes> H;
+  rule_.gather(group, u, H);
+  return H;
+}
+
+/// With J_e = V/V0 of the surface the force is -sum w P grad N - (sum w dW/dJ_e) dV/du / V0.
+template <int D, class Rule>
+void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& change,
+                                            Forces force) {
+  const NodalVector *u = motion.u.data() + body_.first, *du = change.u.data() + body_.first,
+                    *v = motion.v.data() + body_.first, *dv = change.v.data() + body_.first;
+  const bool viscous = this->viscous();
+  Dual<Real> enclosed(0.0);
+  if (surface_)
+    enclosed = surface_->measure(Size::volume, u, du) / surface_->reference(Size::volume) - 1.0;
+  PerChunk<Dual<Real>> pull(chunks(), 0.0);
+  accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
+    DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
+    Dual<Lanes> sum_of_pulls(0.0);
+    for (Index g = begin; g < end; ++g) {
+      x.H = gradients(g, u, du);
+      if (viscous) x.F_rate = gradients(g, v, dv);
+      const StressChange stress = laws_->tangent(g, motion.time, x);
+      const Lanes w = rule_.weight(g);
+      rule_.scatter(g, -w * stress.P, f);
+      sum_of_pulls += w * stress.pull_on_enclosed;
+    }
+    at(pull, chunk) = sum(sum_of_pulls);
+  });
+  if (!surface_) return;
+  const Dual<Real> slope = sum_of_chunks(pull);
+  surface_->add_gradient_change(Size::volume, u, du, -slope / surface_->reference(Size::volume),
+                                body_.part(std::span<NodalVector>(force)));
+}
+
+template <int D, class Rule>
+void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diagonal) {
+  if (!keeps_) return;
+  accumulate(diagonal, [&](int, Index begin, Index end, NodalVector* sum) {
+    for (Index g = begin; g < end; ++g) {
+      const auto viscosity = laws_->viscosity(g, 0, kept()[g]);
+      std::array<Tensor<Lanes>, D> weighted;
+      for (int i = 0; i < D; ++i) at(weighted, i) = rule_.weight(g) * at(viscosity, i);
+      rule_.add_diagonal(g, weighted, sum);
+    }
+  });
+}
+
+template <int D, class Rule>
+Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
+  const NodalVector* u = motion.u.data() + body_.first;
+  return body_.division.sum(rule_.groups(), 0.0, [&](Index g) {
+    return sum(rule_.weight(g) * laws.energy_density(g, motion.time, gradients(g, u)));
+  });
+}
+
+template <int D, class Rule>
+std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motion) const {
+  if (!surface_) return energy(*laws_, motion);
+  const Real volume = surface_->measure(Size::volume, motion.u.data() + body_.first);
+  return energy(*laws_->about(volume / surface_->reference(Size::volume) - 1), motion);
+}
+
+template <int D, class Rule>
+Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
+  const NodalVector* u = motion.u.data() + body_.first;
+  const Real force = body_.division.sum(rule_.groups(), 0.0, [&](Index g) {
+    return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
+  });
+  return force / spacing_;
+}
+
+template <int D, class Rule>
+Index StressPointForce<D, Rule>::first_folded(Index begin, Index end, const NodalVector* u) const {
+  for (Index g = begin; g < end; ++g) {
+    const Tensor<Lanes> H = gradients(g, u);
+    for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+      if (!(1 + volume_change(lane_of(H, lane)) > 0)) return g;
+  }
+  return ChunkReport::nowhere;
+}
+
+template <int D, class Rule>
+std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
+                                                             const Motion& motion) const {
+  Tensor<Lanes> H = gradients(group, motion.u.data() + body_.first);
+  ranks().hand_out(body_.division.rank_of_row(rule_.groups(), group), &H, sizeof H);
+  int lane = 0;
+  while (lane + 1 < rule_.points_per_group() && 1 + volume_change(lane_of(H, lane)) > 0) ++lane;
+  const Tensor<Real> F = deformation_gradient(lane_of(H, lane));
+  return Failure{
+      body_.first + rule_.owner(group, lane),
+      fmt::format("J = det F = {:.6g} at a stress point, F = [{:.4g} {:.4g} {:.4g}; {:.4g} {:.4g} "
+                  "{:.4g}; {:.4g} {:.4g} {:.4g}]",
+                  1 + volume_change(lane_of(H, lane)), F(0, 0), F(0, 1), F(0, 2), F(1, 0), F(1, 1),
+                  F(1, 2), F(2, 0), F(2, 1), F(2, 2)),
+      true};
+}
+
+template <int D, class Rule>
+std::optional<std::string> StressPointForce<D, Rule>::warning(const Motion& motion) const {
+  if (!laws_->warns()) return {};
+  const std::string said = ranks().first_said(own_warning(motion));
+  return said.empty() ? std::nullopt : std::optional(said);
+}
+
+template <int D, class Rule>
+std::string StressPointForce<D, Rule>::own_warning(const Motion& motion) const {
+  const NodalVector* u = motion.u.data() + body_.first;
+  for (Index g = own_.begin; g < own_.end; ++g) {
+    const Tensor<Lanes> H = gradients(g, u);
+    const Lanes w = rule_.weight(g);
+    for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+      if (w[lane] > 0)
+        if (const auto cause = laws_->warning(g, motion.time, lane_of(H, lane)))
+          return fmt::format("body '{}', particle {}: {}", body_.name,
+                             body_.first + rule_.owner(g, lane), *cause);
+  }
+  return {};
+}
+
+template <int D, class Rule>
+void StressPointForce<D, Rule>::visit(const Motion& motion,
+                                      const std::function<void(const StressPoint&)>& f) const {
+  const NodalVector* u = motion.u.data() + body_.first;
+  body_.division.for_all_in_order(
+      rule_.groups(), [&](Index g) { return gradients(g, u); },
+      [&](Index g, const Tensor<Lanes>& H) {
+        const Tensor<Lanes> P = laws_->stress(g, motion.time, H);
+        const Lanes w = rule_.weight(g);
+        for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+          if (w[lane] > 0) {
+            const Index owner = rule_.owner(g, lane);
+            f({owner, w[lane], lane_of(H, lane), lane_of(P, lane), body_.volume_ratio(owner)});
+          }
+      });
+}
+
+template <int D, class Rule>
+VisitStressPoints StressPointForce<D, Rule>::visitor() const {
+  return [this](const Motion& motion, const std::function<void(const StressPoint&)>& f) {
+    visit(motion, f);
+  };
+}
+
+template <int D, class Rule>
+std::vector<FieldSource> StressPointForce<D, Rule>::fields() const {
+  std::vector<bool> owns(static_cast<std::size_t>(body_.size()), false);
+  for (Index g = 0; g < rule_.groups(); ++g)
+    for (int lane = 0; lane < rule_.points_per_group(); ++lane)
+      owns[static_cast<std::size_t>(rule_.owner(g, lane))] = true;
+  return stress_fields(visitor(), body_.size(), stand_ins<D>(body_.particles.X(), owns));
+}
+
+template <int D, class Rule>
+std::vector<MeasureSource> StressPointForce<D, Rule>::measures() const {
+  return stress_measures(visitor(), D);
+}
+
+template class StressPointForce<2, CellRule<2>>;
+template class StressPointForce<3, CellRule<3>>;
+template class StressPointForce<2, PointRule<2>>;
+template class StressPointForce<3, PointRule<3>>;
+
+}  // namespace meniscus

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A force that comes from stresses at the points of an integration rule, whatever the law: energy,
+// failures, warnings, fields and measures of the internal force. Only the loop of the time step
+// itself, which has to know the law, is left to internal_force.hpp.
+#pragma once
+#include "body/grid/stress_rules.hpp"
+#include "body/surface/surface_patches.hpp"
+#include "meniscus/physics/force_term.hpp"
+#include "parallel/divided.hpp"
+#include "physics/internal/point_laws.hpp"
+#include "physics/internal/stress_output.hpp"
+
+namespace meniscus {
+
+/// Where the loop over groups of stress points leaves their H = F - I; nowhere without `all`.
+class KeptDeformations {
+ public:
+  explicit KeptDeformations(Tensor<Lanes>* all)
+      : first_(all ? all : &last_), stride_(all ? 1 : 0) {}
+  KeptDeformations(const KeptDeformations&) = delete;
+  KeptDeformations& operator=(const KeptDeformations&) = delete;
+  [[gnu::always_inline]] void take(Index group, const Tensor<Lanes>& H) {
+    first_[group * stride_] = H;
+  }
+
+ private:
+  Tensor<Lanes> last_;
+  Tensor<Lanes>* first_;
+  std::ptrdiff_t stride_;
+};
+
+/// `Rule` is CellRule<D> or PointRule<D>.
+template <int D, class Rule>
+class StressPointForce : public ForceTerm {
+ public:
+  std::string name() const final { return "internal force of '" + body_.name + "'"; }
+  std::string_view energy_kind() const final { return "strain"; }
+  Real steady_after() const final { return laws_->steady_after(); }
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) final;
+  std::optional<Real> stored_energy(const Motion& motion) const final;
+  Real uncancelled_force(const Motion& motion) const final;
+  std::optional<std::string> warning(const Motion& motion) const final;
+  std::vector<FieldSource> fields() const final;
+  std::vector<MeasureSource> measures() const final;
+  std::size_t bytes() const final {
+    return rule_.bytes() + windows_.bytes() + laws_->bytes() + (surface_ ? surface_->bytes() : 0) +
+           kept_.size() * sizeof(Tensor<Lanes>);
+  }
+  void add_viscous_diagonal(std::span<NodalVector> diagonal) final;
+  bool tell_reads(StepReads& reads) final {
+    reads.rows(windows_, body_.first);
+    if (surface_) surface_->tell_reads(reads, body_.first);
+    return true;
+  }
+  std::optional<Failure> failure_of(Index group, const Motion& motion) const final;
+  Offset pairs() const final { return windows_.pairs() + (surface_ ? surface_->pairs() : 0); }
+
+ protected:
+  StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<PointLaws> laws,
+                   std::unique_ptr<SurfacePatches<D>> surface)
+      : body_(body),
+        rule_(std::move(rule)),
+        windows_(rule_.windows(body.size(), body.division)),
+        said_(windows_),
+        own_(body.division.own_rows(rule_.groups())),
+        laws_(std::move(laws)),
+        surface_(std::move(surface)),
+        spacing_(mean_spacing(body.geometry.grid)) {}
+
+  const Body<D>& body() const { return body_; }
+  const Rule& rule() const { return rule_; }
+  PointLaws& laws() { return *laws_; }
+  int chunks() const { return windows_.chunks(); }
+  ChunkReports& said() { return said_; }
+  /// Sums of the forces of this body's particles out of `all`.
+  template <class F>
+  void accumulate(std::span<NodalVector> all, F&& work) {
+    windows_.accumulate(body_.part(all), work);
+  }
+  /// Of what the chunks of all ranks have left, where the rows are.
+  template <class T>
+  T sum_of_chunks(PerChunk<T>& left) const {
+    body_.division.complete_where_rows_are(chunks(), left.begin(), sizeof(T));
+    T sum(0.0);
+    for (const T& of_chunk : left) sum += of_chunk;
+    return sum;
+  }
+
+  /// J_e - 1 of the surface at the displacements `u` of the body, whose gradient is remembered;
+  /// zero without a surface.
+  Real follow_enclosed(const NodalVector* u) {
+    return surface_ ? surface_->follow(Size::volume, u) / surface_->reference(Size::volume) - 1 : 0;
+  }
+  /// Forces of the energy whose derivative with respect to J_e is `slope`.
+  void pull_on_surface(Real slope, std::span<NodalVector> all) {
+    if (surface_)
+      surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
+  }
+
+  /// From now on add_force leaves H of the groups of this rank in kept()[group].
+  void keep_deformations() {
+    keeps_ = true;
+    kept_.resize(static_cast<std::size_t>(own_.end - own_.begin));
+  }
+  Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data() - own_.begin; }
+
+  /// The first of these groups with a point where J <= 0 or not a number; ChunkReport::nowhere if
+  /// there is none. `u` is that of the body.
+  Index first_folded(Index begin, Index end, const NodalVector* u) const;
+
+ private:
+  using Size = typename SurfacePatches<D>::Size;
+
+  Real energy(const PointLaws& laws, const Motion& motion) const;
+  /// H at the stress points of a group.
+  [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const NodalVector* u) const;
+  Tensor<Dual<Lanes>> gradients(Index group, const NodalVector* u, const NodalVector* du) const {
+    return dual(gradients(group, u), gradients(group, du));
+  }
+  /// Of the groups of this rank; empty if there is nothing to say.
+  std::string own_warning(const Motion& motion) const;
+  void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
+  VisitStressPoints visitor() const;
+
+  const Body<D>& body_;
+  Rule rule_;
+  ForceWindows windows_;
+  ChunkReports said_;
+  OwnItems own_;  // groups whose rows this rank has
+  std::unique_ptr<PointLaws> laws_;
+  std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
+  Real spacing_;
+  bool keeps_ = false;
+  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group]
+};
+
+extern template class StressPointForce<2, CellRule<2>>;
+extern template class StressPointForce<3, CellRule<3>>;
+extern template class StressPointForce<2, PointRule<2>>;
+extern template class StressPointForce<3, PointRule<3>>;
+
+}  // namespace meniscus

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wetting by Young's law: the energy of a surface falls by the adhesion W where it touches the
+// wall, smoothly over a range.
+#include "input/optional_rows.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/physics/interaction_registry.hpp"
+#include "physics/contact/adhesion.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meniscus {
+namespace {
+
+/// With t = (g - offset) / range (wetting note 1),
+///   e = - W (1 - 10 t^3 + 15 t^4 - 6 t^5) for 0 < t < 1, zero beyond;
+///   e = - W + C k |t|^3 / 3 for t < 0: no deeper than the load asks for. C = W or, where that is
+/// more, the tension gamma + min(gamma, gamma_2) - W that is left of both surfaces: it presses also
+/// where little adheres. Where W varies, C is what W is at most without complete wetting: the wall
+/// is one also where nothing adheres. k = 100, or more where the offset is short: a surface that
+/// falls into the well must not come through.
+struct SmoothYoung final : Interaction {
+  static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nrange = 0.3\n";
+  std::optional<Expression> angle, work, actin;  // as given
+  std::optional<Real> depth, film;
+  Real W = 0, ell = 0, g0 = 0;                     // adhesion, range, offset
+  Real core = 0;                                   // C k
+  Real W_below = 0;                                // below the centre of the body, at the start
+  std::shared_ptr<const AdhesionPattern> varying;  // then W is 1
+
+  static Rows<SmoothYoung> rows() {
+    return {
+        optional_expression_row(
+            "contact_angle", &SmoothYoung::angle, dimension::degrees, {1, 179}, "by adhesion",
+            "in degrees; adhesion = gamma (1 + cos theta), gamma the surface tension of the body; "
+            "like adhesion and actin a number or a formula of the time t, with a rigid partner or "
+            "on ground (`up`) also of the place x, y, z on it, which moves and deforms with it, "
+            "smooth over a hundredth of the range"),
+        optional_expression_row("adhesion", &SmoothYoung::work, dimension::tension,
+                                range::non_negative, "by contact_angle",
+                                "energy per area that contact releases"),
+        optional_expression_row("actin", &SmoothYoung::actin, dimension::tension, range::any, "0",
+                                "tension by which the front of a cell pulls itself outward, added "
+                                "to the adhesion; what its change with time supplies is external "
+                                "work"),
+        optional_row("range", &SmoothYoung::depth, dimension::length, range::positive,
+                     "half the size of a facet",
+                     "beyond the offset, over which the interaction acts"),
+        optional_row("offset", &SmoothYoung::film, dimension::length, range::positive,
+                     "quarter of the size of a facet", "gap at which the surface rests")};
+  }
+  void check(const Block& block) const {
+    if (angle.has_value() == work.has_value())
+      block.problem("adhesion", angle ? "is given beside contact_angle; allowed is one of them"
+                                      : "and contact_angle are missing; one of them is needed");
+  }
+
+  /// With numbers for these surfaces. Throws InputError where the angle has no surface tension, or
+  /// where there is no adhesion.
+  std::shared_ptr<const Interaction> fitted(const ContactSurfaces& surfaces) const {
+    auto law = std::make_shared<SmoothYoung>(*this);
+    law->ell = depth.value_or(surfaces.facet / 2);
+    law->g0 = film.value_or(surfaces.facet / 4);
+    const AdhesionFormulas formulas{angle, work, actin};
+    const AdhesionPattern pattern(formulas, angle ? surfaces.tension() : 0, law->ell);
+    try {
+      law->W = law->W_below = pattern(surfaces.centre, 0);
+    } catch (const SolveError& error) {
+      throw InputError((formulas.constant() ? surfaces.place + ": " : "") + error.what());
+    }
+    if (!(law->W > 0))
+      throw InputError(fmt::format("{}: adhesion and actin are {:.4g} together{}; allowed is > 0",
+                                   surfaces.place, law->W,
+                                   formulas.constant() ? "" : " below the centre of the body"));
+    // At least_gap() the core has taken up 1.6 C.
+    const Real depth_of_core = 0.75 * law->g0 / law->ell;
+    const Real k = std::max(100.0, 4.8 / (depth_of_core * depth_of_core * depth_of_core));
+    const Real gamma = surfaces.gamma.value_or(0),
+               left = gamma + std::min(gamma, surfaces.gamma_beyond.value_or(0)) - law->W;
+    law->core = k * std::max(law->W, formulas.constant() ? left : 2 * gamma);
+    if (formulas.constant()) return law;
+    law->varying = std::make_shared<AdhesionPattern>(pattern);
+    law->W = 1;
+    return law;
+  }
+
+  PlaneState at(Real gap) const override {
+    const Real t = (gap - g0) / ell, s = 1 - t;
+    if (t >= 1) return {0, 0, 0};
+    if (t < 0) return {-W - core * t * t * t / 3, core * t * t / ell, -2 * core * t / (ell * ell)};
+    return {-W * (1 - t * t * t * (10 - t * (15 - 6 * t))), -30 * W * t * t * s * s / ell,
+            60 * W * t * s * (1 - 2 * t) / (ell * ell)};
+  }
+  Real range() const override { return g0 + ell; }
+  Real least_gap() const override { return g0 / 4; }
+  bool hardens() const override { return false; }
+  bool ends() const override { return true; }
+  PlaneContact flat() const override {
+    const Real softest = (3 + std::numbers::sqrt3_v<Real>) / 6;  // largest -K
+    const Real softening = -at(g0 + softest * ell).stiffness * W_below / W;
+    return {g0, W_below,   1.875 * W_below / ell, g0 + ell / 2,
+            0,  softening, g0 + softest * ell,    W_below};
+  }
+  const AdhesionPattern* pattern() const override { return varying.get(); }
+  std::string described(const UnitSystem& units) const override {
+    const std::string unit = units.symbol(dimension::length);
+    std::string text = fmt::format("range {:.4g} {}, offset {:.4g} {}", ell, unit, g0, unit);
+    if (varying) text += "; W varies and is that below the centre of the body at t = 0";
+    return text;
+  }
+  std::optional<std::string> doubt(Real facet) const override {
+    if (ell >= facet / 3) return std::nullopt;
+    return fmt::format(
+        "its range {:.3g} is below a third of the size {:.3g} of the facets, so that the contact "
+        "line moves from facet to facet; allowed are longer ranges, or finer bodies",
+        ell, facet);
+  }
+};
+
+const bool registered = register_interaction<SmoothYoung>(
+    "smooth_young", "wetting: energy of the area in contact, for a given contact angle");
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loads per mass from formulas.
+#include "physics/loads/body_force.hpp"
+
+#include "numbers/dense.hpp"
+#include "parallel/divided.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace meniscus {
+namespace {
+
+template <int D>
+class BodyForce final : public ForceTerm {
+ public:
+  BodyForce(const Body<D>& body, const std::vector<Real>& mass,
+            std::vector<Expression> acceleration)
+      : body_(body), mass_(mass), acceleration_(std::move(acceleration)), load_(mass.size()) {
+    for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
+  }
+
+  std::string name() const override { return "body force on '" + body_.name + "'"; }
+
+  Report add_force(const Motion& motion, Forces force) override {
+    evaluate(motion.time);
+    for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += at(load_, A);
+    Report report;
+    const Resultant all = body_.division.sum(body_.size(), Resultant(), [&](Index A) {
+      const Eigen::Vector3d f = spatial(at(load_, A)), X = spatial<D>(at(body_.particles.X(), A));
+      return Resultant(f, cross(X + spatial(at(motion.u, body_.first + A)), f));
+    });
+    report.outside = {all.force, all.moment};
+    return report;
+  }
+  void add_tangent(const Motion&, const Motion&, Forces) override {}  // the same everywhere
+  bool tell_reads(StepReads& reads) override {
+    const OwnItems own = body_.division.own_rows(body_.size());
+    reads.range(body_.first + own.begin, body_.first + own.end);
+    return true;
+  }
+  std::optional<Real> potential(const Motion& motion) override {
+    evaluate(motion.time);
+    return -parallel_sum(body_.size(), 0.0, [&](Index A) {
+      return sum(at(load_, A) * at(motion.u, body_.first + A));
+    });
+  }
+  Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
+  Real load_power(const Motion& motion) override {
+    evaluate(motion.time);
+    return body_.division.sum(body_.size(), 0.0, [&](Index A) {
+      return sum(at(load_, A) * at(motion.v, body_.first + A));
+    });
+  }
+  std::size_t bytes() const override { return load_.size() * sizeof(Lanes); }
+  Offset pairs() const override { return 0; }
+
+ private:
+  /// load_ at a time, which is that of the call before as a rule.
+  void evaluate(Real time) {
+    if (time == evaluated_at_ || (steady_ && evaluated_at_ > never)) return;
+    for (Index A = 0; A < body_.size(); ++A) {
+      const Eigen::Vector3d X = spatial<D>(body_.origin(A));
+      at(load_, A) = Lanes::zero();
+      for (int i = 0; i < D; ++i) at(load_, A).set(i, at(mass_, A) * at(acceleration_, i)(X, time));
+    }
+    evaluated_at_ = time;
+  }
+
+  const Body<D>& body_;
+  const std::vector<Real>& mass_;
+  std::vector<Expression> acceleration_;
+  NodalVectors load_;
+  bool steady_ = true;
+  static constexpr Real never = -unbounded;
+  Real evaluated_at_ = never;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ForceTerm> body_force(const Body<D>& body, const std::vector<Real>& mass,
+                                      std::vector<Expression> acceleration) {
+  return std::make_unique<BodyForce<D>>(body, mass, std::move(acceleration));
+}
+template std::unique_ptr<ForceTerm> body_force(const Body<2>&, const std::vector<Real>&,
+                                               std::vector<Expression>);
+template std::unique_ptr<ForceTerm> body_force(const Body<3>&, const std::vector<Real>&,
+                                               std::vector<Expression>);
+
+}  // namespace meniscus

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Body force of a drop: the gradient of the height of the centroid that its patches enclose.
+#include "body/surface/surface_patches.hpp"
+#include "numbers/dense.hpp"
+#include "physics/loads/body_force.hpp"
+
+#include <limits>
+#include <numeric>
+
+namespace meniscus {
+namespace {
+
+/// The potential is - M a . centroid, with the mass M of the body and the acceleration a(t).
+template <int D>
+class WeightOnPatches final : public ForceTerm {
+ public:
+  WeightOnPatches(const Body<D>& body, std::vector<Expression> acceleration)
+      : body_(body),
+        acceleration_(std::move(acceleration)),
+        mass_(std::accumulate(body.mass_integral.begin(), body.mass_integral.end(), 0.0)),
+        patches_(body) {
+    const NodalVectors rest(static_cast<std::size_t>(body.size()), Lanes::zero());
+    for (int i = 0; i < D; ++i) centre_[i] = patches_.height(Vec<D>::Unit(i), rest.data());
+    for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
+  }
+
+  std::string name() const override { return "body force on '" + body_.name + "'"; }
+
+  Report add_force(const Motion& motion, Forces force) override {
+    const Vec<D> weight = weight_at(motion.time);
+    patches_.follow_height(weight, own(motion.u));
+    patches_.add_gradient(1, body_.part(std::span<NodalVector>(force)));
+    Report report;
+    report.outside = {spatial<D>(weight), patches_.followed_moment()};
+    return report;
+  }
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    patches_.add_height_gradient_change(weight_at(motion.time), own(motion.u), own(change.u), 1,
+                                        body_.part(std::span<NodalVector>(force)));
+  }
+  bool tell_reads(StepReads& reads) override {
+    patches_.tell_reads(reads, body_.first);
+    return true;
+  }
+  std::optional<Real> potential(const Motion& motion) override {
+    const Vec<D> weight = weight_at(motion.time);
+    return weight.dot(centre_) - patches_.height(weight, own(motion.u));
+  }
+  Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
+  Real load_power(const Motion& motion) override {
+    patches_.follow_height(weight_at(motion.time), own(motion.u));
+    return patches_.followed_change(own(motion.v));
+  }
+  std::size_t bytes() const override { return patches_.bytes(); }
+  Offset pairs() const override { return patches_.pairs(); }
+
+ private:
+  const NodalVector* own(std::span<const NodalVector> field) const {
+    return field.data() + body_.first;
+  }
+  Vec<D> weight_at(Real time) const {
+    Vec<D> weight;
+    for (int i = 0; i < D; ++i) weight[i] = mass_ * at(acceleration_, i)({0, 0, 0}, time);
+    return weight;
+  }
+
+  const Body<D>& body_;
+  std::vector<Expression> acceleration_;
+  Real mass_;
+  SurfacePatches<D> patches_;
+  Vec<D> centre_;  // of the reference
+  bool steady_ = true;
+};
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ForceTerm> weight_on_patches(const Body<D>& body,
+                                             std::vector<Expression> acceleration) {
+  return std::make_unique<WeightOnPatches<D>>(body, std::move(acceleration));
+}
+template std::unique_ptr<ForceTerm> weight_on_patches(const Body<2>&, std::vector<Expression>);
+template std::unique_ptr<ForceTerm> weight_on_patches(const Body<3>&, std::vector<Expression>);
+
+}  // namespace meniscus

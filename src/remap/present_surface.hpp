@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surface of a body where it is now, as the patches that its tension acts on.
+#pragma once
+#include "body/surface/surface_patches.hpp"
+#include "numbers/dense.hpp"
+
+#include <vector>
+
+namespace meniscus {
+
+/// Patches through the places of material points, found by nearest points.
+template <int D>
+class PresentSurface {
+ public:
+  /// `u` is that of the body. Throws SolveError if shape functions cannot be built.
+  PresentSurface(const Body<D>& body, const NodalVector* u);
+
+  struct Foot {
+    Index patch = 0;
+    Vec<D - 1> xi = Vec<D - 1>::Zero();  ///< in [-1, 1]^(D-1)
+    Vec<D> x = Vec<D>::Zero();
+    Real distance = 0;  ///< from the point whose foot it is
+  };
+  /// A point of the surface that is nearest to p among those near by: the search begins in `patch`
+  /// and goes on to patches that share a point for as long as it comes nearer. Throws SolveError if
+  /// p is not finite.
+  Foot nearest(const Vec<D>& p, Index patch) const;
+
+  /// Points of the patches, by the numbers of PatchNodes.
+  const std::vector<Vec<D>>& points() const { return x_; }
+  const std::vector<std::array<Index, PatchFunctions<D>::nodes>>& patches() const { return patch_; }
+  /// The part of the surface where `inside`, at 3 Gauss points per direction, over the whole.
+  template <class Inside>
+  Real fraction(Inside&& inside) const {
+    Real part = 0, whole = 0;
+    for (const auto& patch : patch_)
+      for (const PatchFunctions<D>& f : gauss_) {
+        const CellPoint<D, D - 1> place = patch_place<D>(f, patch, x_);
+        const Real area = f.weight * area_of(place.J);
+        whole += area;
+        if (inside(place.X)) part += area;
+      }
+    return part / whole;
+  }
+
+ private:
+  static Real area_of(const Eigen::Matrix<Real, D, D - 1>& J) {
+    if constexpr (D == 3)
+      return cross(J.col(0), J.col(1)).norm();
+    else
+      return J.norm();
+  }
+  Foot nearest_in(const Vec<D>& p, Index patch) const;
+
+  std::vector<PatchFunctions<D>> gauss_;
+  std::vector<std::array<Index, PatchFunctions<D>::nodes>> patch_;
+  std::vector<Vec<D>> x_;
+  std::vector<std::vector<Index>> beside_;  // [patch] those that share a point, ascending
+};
+
+/// Volume enclosed by patches through points (2D: area).
+template <int D>
+Real enclosed_volume(const std::vector<std::array<Index, PatchFunctions<D>::nodes>>& patches,
+                     const std::vector<Vec<D>>& points);
+
+}  // namespace meniscus

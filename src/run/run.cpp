@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene run from another program.
+#include "meniscus/run.hpp"
+
+#include "body/particle_values.hpp"
+#include "input/names.hpp"
+#include "io/checkpoint.hpp"
+#include "meniscus/error.hpp"
+#include "run/epochs.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace meniscus {
+
+struct Run::Base {
+  virtual ~Base() = default;
+  virtual int dimension() const = 0;
+  virtual double time() const = 0;
+  virtual std::int64_t step() const = 0;
+  virtual bool finished() const = 0;
+  virtual void advance() = 0;
+  virtual std::vector<std::string> bodies() const = 0;
+  virtual std::vector<std::string> measures() const = 0;
+  virtual std::vector<std::string> fields(const std::string& body) const = 0;
+  virtual double measure(const std::string& name) const = 0;
+  virtual Field field(const std::string& body, const std::string& name) const = 0;
+  virtual void save(const std::string& directory) = 0;
+  virtual void restore(const std::string& directory) = 0;
+};
+
+namespace {
+
+/// Position in `names`; throws InputError that lists them.
+std::size_t find(const char* what, const std::string& name, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError(
+        fmt::format("there is no {} '{}'; {}", what, name, allowed_names(name, names)));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+template <class Sources>
+std::vector<std::string> names_of(const Sources& sources) {
+  std::vector<std::string> names;
+  for (const auto& source : sources) names.push_back(source.name);
+  return names;
+}
+
+template <int D>
+class RunIn final : public Run::Base {
+ public:
+  explicit RunIn(const SceneInput& input)
+      : epochs_(read_plan<D>(input)), complete_(input.complete()) {
+    epochs_.simulation().begin();
+    epochs_.simulation().settle();
+  }
+
+  int dimension() const override { return D; }
+  double time() const override { return now().time; }
+  std::int64_t step() const override { return now().step; }
+  bool finished() const override { return epochs_.simulation().finished(); }
+  void advance() override { epochs_.advance(); }
+
+  std::vector<std::string> bodies() const override { return names_of(scene().system.bodies); }
+  std::vector<std::string> measures() const override { return names_of(scene().measures); }
+  std::vector<std::string> fields(const std::string& body) const override {
+    std::vector<std::string> names{"position", "displacement", "velocity", "mass"};
+    const std::size_t b = find("body", body, bodies());
+    for (const BodyField& field : scene().fields)
+      if (field.body == b &&
+          std::find(names.begin(), names.end(), field.source.name) == names.end())
+        names.push_back(field.source.name);
+    return names;
+  }
+
+  double measure(const std::string& name) const override {
+    return scene().measures[find("measure", name, measures())].compute(now().motion());
+  }
+
+  Field field(const std::string& body_name, const std::string& name) const override {
+    const std::size_t b = find("body", body_name, bodies());
+    const std::size_t k = find("field", name, fields(body_name));
+    const Body<D>& body = scene().system.bodies[b];
+    const State& state = now();
+    const auto unit = [&](Dimension d) { return scene().units.symbol(d); };
+    switch (k) {
+      case 0:
+        return {D, unit(dimension::length), places(body, state.u, true)};
+      case 1:
+        return {D, unit(dimension::length), places(body, state.u, false)};
+      case 2:
+        return {D, unit(dimension::velocity), places(body, state.v, false)};
+      case 3:
+        return {1, scene().symbol_of_sum(dimension::mass), body.mass};
+      default:
+        break;
+    }
+    const FieldSource& source = field_named(scene(), name);
+    const std::vector<Real> all = field_values(scene(), name, state.motion());
+    const auto begin = all.begin() + body.first * source.components;
+    return {source.components,
+            unit(source.dimension),
+            {begin, begin + body.size() * source.components}};
+  }
+
+  void save(const std::string& directory) override {
+    const RunDirectory folder(directory, ExistingRun::keep);
+    CheckpointWriter(folder, provenance("a program with the library", complete_))
+        .write(step(), time(), epochs_.simulation().snapshot());
+  }
+  void restore(const std::string& directory) override {
+    epochs_.restore(read_checkpoint(directory).checkpoint.state);
+  }
+
+ private:
+  /// sum_B N_B(X_A) f_B, plus X_A for positions.
+  static std::vector<double> places(const Body<D>& body, const NodalVectors& f, bool position) {
+    const NodalVectors x = values_at_particles(body, f.data() + body.first);
+    std::vector<double> values;
+    for (Index A = 0; A < body.size(); ++A)
+      for (int i = 0; i < D; ++i)
+        values.push_back(at(x, A)[i] + (position ? at(body.particles.X(), A)[i] : 0.0));
+    return values;
+  }
+
+  const Scene<D>& scene() const { return epochs_.scene(); }
+  const State& now() const { return epochs_.simulation().state(); }
+
+  Epochs<D> epochs_;
+  std::string complete_;
+};
+
+std::unique_ptr<Run::Base> begin(const SceneInput& input) {
+  if (scene_dimension(input) == 2) return std::make_unique<RunIn<2>>(input);
+  return std::make_unique<RunIn<3>>(input);
+}
+
+}  // namespace
+
+Run::Run(std::unique_ptr<Base> base) : base_(std::move(base)) {}
+Run::Run(Run&&) noexcept = default;
+Run& Run::operator=(Run&&) noexcept = default;
+Run::~Run() = default;
+
+Run Run::from_file(const std::string& path, const std::vector<std::string>& overrides) {
+  return Run(begin(SceneInput::from_file(path, overrides)));
+}
+Run Run::from_text(const std::string& toml, const std::vector<std::string>& overrides) {
+  return Run(begin(SceneInput::from_text(toml, "scene", overrides)));
+}
+
+int Run::dimension() const {
+  return base_->dimension();
+}
+double Run::time() const {
+  return base_->time();
+}
+std::int64_t Run::step() const {
+  return base_->step();
+}
+bool Run::finished() const {
+  return base_->finished();
+}
+void Run::advance() {
+  base_->advance();
+}
+void Run::advance_to(double time) {
+  while (!finished() && this->time() < time) advance();
+}
+std::vector<std::string> Run::bodies() const {
+  return base_->bodies();
+}
+std::vector<std::string> Run::measures() const {
+  return base_->measures();
+}
+std::vector<std::string> Run::fields(const std::string& body) const {
+  return base_->fields(body);
+}
+double Run::measure(const std::string& name) const {
+  return base_->measure(name);
+}
+Field Run::field(const std::string& body, const std::string& name) const {
+  return base_->field(body, name);
+}
+void Run::save(const std::string& directory) {
+  base_->save(directory);
+}
+void Run::restore(const std::string& directory) {
+  base_->restore(directory);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Beginning, advancing, saving and restoring a run.
+#include "run/simulation.hpp"
+
+#include "body/grid/ordering.hpp"
+#include "measure/drop_measures.hpp"
+#include "meniscus/error.hpp"
+#include "parallel/nodal_algebra.hpp"
+#include "solve/step/central_difference.hpp"
+#include "solve/step/viscosity_choice.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace meniscus {
+
+template <int D>
+std::vector<Real> packed(const NodalVectors& field) {
+  std::vector<Real> values;
+  values.reserve(field.size() * D);
+  for (const NodalVector& x : field)
+    for (int i = 0; i < D; ++i) values.push_back(x[i]);
+  return values;
+}
+
+namespace {
+
+template <int D>
+StepperChoice stepper_choice(const Scene<D>& scene, bool implicit_viscosity) {
+  StepperChoice choice{scene.time.end,
+                       scene.time.force_tolerance,
+                       scene.time.shape_tolerance,
+                       {},
+                       implicit_viscosity,
+                       scene.time.step,
+                       scene.time.solver_place,
+                       scene.time.safety};
+  if (choice.implicit_viscosity && !scene.system.viscous())
+    throw InputError(scene.time.viscosity_place +
+                     ": implicit viscosity is for scenes with a viscous fluid, this has none; "
+                     "leave the key out");
+  for (const std::vector<Real>& viscosity : scene.viscosity)
+    choice.fluid.push_back(!viscosity.empty());
+  return choice;
+}
+
+/// copy = state, what is large by all threads.
+template <int D>
+void keep(const System<D>& system, State& state, State& copy) {
+  constexpr std::array large{&State::u, &State::v, &State::force};
+  std::array<NodalVectors, large.size()> of_state, of_copy;
+  for (std::size_t k = 0; k < large.size(); ++k) {
+    at(of_state, k) = std::move(state.*at(large, k));
+    at(of_copy, k) = std::move(copy.*at(large, k));
+    at(of_copy, k).resize(at(of_state, k).size());
+  }
+  copy = state;
+  copy.energies.reserve(state.energies.capacity());
+  for (std::size_t k = 0; k < large.size(); ++k) {
+    state.*at(large, k) = std::move(at(of_state, k));
+    copy.*at(large, k) = std::move(at(of_copy, k));
+  }
+  system.for_particles([&](Index begin, Index end) {
+    for (const auto vector : large)
+      std::copy((state.*vector).begin() + begin, (state.*vector).begin() + end,
+                (copy.*vector).begin() + begin);
+  });
+}
+
+}  // namespace
+
+template <int D>
+Simulation<D>::Simulation(Scene<D>& scene)
+    : scene_(scene),
+      state_(scene.initial),
+      keeps_state_before_(std::any_of(
+          scene.system.terms.begin(), scene.system.terms.end(),
+          [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })) {
+  make_stepper(scene.time.viscosity == "implicit");
+  keeps_state_before_ |= !scene.time.step && stepper_->may_reject_steps();
+}
+
+template <int D>
+void Simulation<D>::make_stepper(bool implicit_viscosity) {
+  const TimeSettings& time = scene_.time;
+  implicit_viscosity_ = implicit_viscosity;
+  controller_.emplace(scene_.system,
+                      typename StepController<D>::Choice{time.step, time.safety, time.check_every,
+                                                         time.step_place, implicit_viscosity});
+  stepper_ = Registry<StepperEntry>::all()
+                 .at(time.solver)
+                 .make(scene_.system, stepper_choice(scene_, implicit_viscosity));
+  share_steps();
+}
+
+/// Between ranks, as far as stepper and terms know what they read. All ranks know the state.
+template <int D>
+void Simulation<D>::share_steps() {
+  scene_.system.halo.reset();
+  StepReads reads(scene_.system.size());
+  if (!stepper_->chooses_step()) controller_->tell_reads(reads);
+  if (stepper_->tell_reads(reads)) scene_.system.share_steps(std::move(reads));
+}
+
+/// By the present state, where the scene leaves it open.
+template <int D>
+void Simulation<D>::choose_viscosity() {
+  if (scene_.time.viscosity != "automatic") return;
+  const ViscosityChoice choice =
+      meniscus::choose_viscosity(scene_.system, state_, scene_.time.step);
+  notes_.push_back(choice.reason);
+  if (choice.implicit != implicit_viscosity_) make_stepper(choice.implicit);
+}
+
+template <int D>
+std::vector<std::string> Simulation<D>::take_notes() {
+  std::vector<std::string> notes = std::exchange(notes_, {});
+  for (std::string& note : stepper_->take_notes()) notes.push_back(std::move(note));
+  return notes;
+}
+
+template <int D>
+void Simulation<D>::begin() {
+  start(scene_.system, state_);
+  choose_viscosity();
+  if (stepper_->implicit())  // without motion
+    std::fill(state_.v.begin(), state_.v.end(), Lanes::zero());
+  if (!stepper_->chooses_step()) controller_->begin(state_);
+  begin_audit();
+  stepper_->begin(state_);
+}
+
+template <int D>
+void Simulation<D>::begin_audit() {
+  const Ledger ledger = take_ledger(scene_.system, state_);
+  state_.books.momentum = ledger.momentum;
+  state_.books.angular_momentum = ledger.angular_momentum;
+  audit_.begin(ledger);
+}
+
+template <int D>
+void Simulation<D>::begin_after(Simulation& before, State state) {
+  Snapshot history;
+  before.archive_terms(Archive::writing(history));
+  archive_terms(Archive::reading(history));
+  if (implicit_viscosity_ != before.implicit_viscosity_) make_stepper(before.implicit_viscosity_);
+  state_ = std::move(state);
+  ++state_.epoch;
+  last_step_ = before.last_step_;
+  possible_at_ = before.possible_at_;
+  surfaces_seen_ = before.surfaces_seen_;
+  start(scene_.system, state_);
+  state_.books.remapped += take_ledger(scene_.system, state_).balance() -
+                           take_ledger(before.scene_.system, before.state_).balance();
+  if (!stepper_->chooses_step()) controller_->begin(state_);
+  audit_ = before.audit_;
+  stepper_->begin(state_);
+}
+
+template <int D>
+bool Simulation<D>::finished() const {
+  return state_.time >= scene_.time.end || stepper_->arrived() || stepper_->blocked();
+}
+
+/// Where ranks come to need more than they follow, again with the state that all of them know.
+template <int D>
+void Simulation<D>::step(Real dt) {
+  try {
+    step_or_halve(dt);
+  } catch (const HaloOutgrown&) {
+    state_ = before_;
+    complete_state();
+    step_or_halve(dt);
+  }
+}
+
+/// A step of dt or, if that is rejected, of a half of it, and so on. What no step is short enough
+/// for, as a blow, is taken as it is.
+template <int D>
+void Simulation<D>::step_or_halve(Real dt) {
+  constexpr int most_halvings = 6;
+  keep(scene_.system, state_, before_);
+  for (int halvings = 0;; ++halvings) {
+    last_step_ = dt;
+    try {
+      if (halvings == most_halvings || scene_.time.step)
+        stepper_->step(state_, dt);
+      else
+        stepper_->try_step(state_, dt);
+      if (halvings > 0) controller_->shorten(dt);
+      return;
+    } catch (StepError& e) {
+      e.failure.halvings = halvings;
+      if (!e.failure.of_step || halvings == most_halvings) throw;
+      state_ = before_;
+      dt /= 2;
+    }
+  }
+}
+
+template <int D>
+void Simulation<D>::settle() {
+  or_give_up([&] { stepper_->settle(state_); });
+}
+
+template <int D>
+void Simulation<D>::advance() {
+  or_give_up([&] {
+    const Real longest = stepper_->longest_step(state_);
+    last_step_ = stepper_->chooses_step() ? std::min(longest, scene_.time.end - state_.time)
+                                          : controller_->next(state_, scene_.time.end, longest);
+    state_.energies_asked =
+        !stepper_->implicit() &&  // whose last forces need not be those of the state it finds
+        scene_.output.record_due(state_.time, state_.time + last_step_, scene_.time.end);
+    if (scene_.system.reads_changed()) {
+      complete_state();
+      share_steps();
+    }
+    scene_.system.enter_halo(state_);
+    if (keeps_state_before_)
+      step(last_step_);
+    else
+      stepper_->step(state_, last_step_);
+  });
+}
+
+template <int D>
+void Simulation<D>::stop_when(const std::function<bool()>& asked) {
+  stepper_->stop_when(asked);
+  may_be_interrupted_ = stepper_->implicit();
+}
+
+template <int D>
+template <class Work>
+void Simulation<D>::or_give_up(const Work& work) {
+  std::optional<Snapshot> before;
+  if (may_be_interrupted_) before = snapshot();
+  try {
+    work();
+  } catch (const Interrupted&) {
+    restore(before.value());
+    throw;
+  } catch (const StepError& e) {
+    give_up(e.failure);
+  } catch (const SolveError& e) {
+    StepFailure failure;
+    failure.cause = e.what();
+    give_up(failure);
+  }
+}
+
+template <int D>
+void Simulation<D>::refuse_impossible_states() {
+  for (const StateCheck& check : scene_.checks) refuse(check);
+  refuse_impossible_surfaces();
+  if (!surfaces_due()) return;
+  refuse(scene_.surfaces);
+  surfaces_seen_ = state_.step;
+  possible_at_ = state_.time;
+}
+
+/// Looks at all surfaces are so far apart that they take less than a hundredth of the steps.
+template <int D>
+bool Simulation<D>::surfaces_due() const {
+  constexpr std::int64_t between = 50;
+  return surfaces_seen_ < 0 || finished() || stepper_->implicit() ||
+         state_.step >= surfaces_seen_ + between;
+}
+
+template <int D>
+void Simulation<D>::refuse(const StateCheck& check) const {
+  const auto found = check(state_.motion());
+  if (!found) return;
+  StepFailure failure = scene_.system.located(*found, state_.motion());
+  if (possible_at_) failure.cause += fmt::format("; this was not so at t = {:.9g}", *possible_at_);
+  failure.step = state_.step;
+  failure.time = state_.time;
+  failure.dt = last_step_;
+  throw StepError(failure);
+}
+
+/// A surface smaller than that of the ball (2D: disk) of the same volume cannot be: its quadrature
+/// has lost the shape.
+template <int D>
+void Simulation<D>::refuse_impossible_surfaces() const {
+  constexpr Real bearable = 1e-3;
+  for (const Drop<D>& drop : scene_.drops) {
+    const Real area = drop.area(state_.motion()), volume = drop.volume(state_.motion());
+    const Real ratio = isoperimetric_ratio<D>(area, volume);
+    if (drop.inscribed || ratio >= 1 - bearable) continue;
+    throw SolveError(fmt::format(
+        "step {}, t = {:.9g}: body '{}' has the isoperimetric ratio {:.6f}: the {} {:.6g} of its "
+        "surface tension is below the least possible {:.6g} for its {}; the surface is no longer "
+        "resolved; use form = \"balanced\", finer particles, or a reference shape nearer to the "
+        "present one",
+        state_.step, state_.time, drop.body->name, ratio, D == 3 ? "area" : "circumference", area,
+        area / ratio, D == 3 ? "volume" : "area"));
+  }
+}
+
+template <int D>
+void Simulation<D>::give_up(StepFailure failure) {
+  complete_state();
+  // The step left its broken forces; those of the places it was taken back to can be shown.
+  scene_.system.add_up(state_.motion(), state_.forces());
+  failure.step = state_.step + 1;
+  failure.time = state_.time + last_step_;
+  failure.dt = last_step_;
+  throw StepError(failure);
+}
+
+template <int D>
+Ledger Simulation<D>::audit_now() {
+  complete_state();
+  refuse_impossible_states();
+  const Ledger ledger = take_ledger(scene_.system, state_);
+  audit_.follow(scene_.system, state_, ledger);
+  return ledger;
+}
+
+template <int D>
+void Simulation<D>::archive(const Archive& a) {
+  archive_orders(a.in("orders"));
+  state_.archive(a, D);
+  a("last_step", last_step_, dimension::time);
+  require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
+  archive_viscosity(a);
+  if (!stepper_->chooses_step()) {
+    if (a.is_reading() && !a.has("step_control"))  // the run's stepper chose its steps
+      controller_->begin(state_);
+    else
+      controller_->archive(a.in("step_control"));
+  }
+  const Archive stepper = a.in("stepper").in(scene_.time.solver);
+  if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's
+    stepper_->begin(state_);
+  else
+    stepper_->archive(stepper, state_);
+  if (a.is_reading()) audit_.begin(take_ledger(scene_.system, state_));  // its kinds of energy
+  audit_.archive(a.in("audit"), D);
+  // They begin as these and change by impulses from outside only.
+  a.in("audit")("initial_momentum", state_.books.momentum, of_sum(dimension::momentum, D));
+  a.in("audit")("initial_angular_momentum", state_.books.angular_momentum,
+                of_sum(dimension::angular_momentum, D));
+  archive_terms(a);
+  archive_references(a.in("references"));
+}
+
+/// What was chosen at the beginning, where the scene leaves it open, is kept to the end.
+template <int D>
+void Simulation<D>::archive_viscosity(const Archive& a) {
+  if (scene_.time.viscosity != "automatic") return;
+  const Archive choice = a.in("viscosity");
+  if (a.is_reading() && !a.has("viscosity")) return choose_viscosity();  // it was not open
+  bool implicit = implicit_viscosity_;
+  choice("implicit", implicit);
+  if (implicit != implicit_viscosity_) make_stepper(implicit);
+}
+
+template <int D>
+void Simulation<D>::archive_terms(const Archive& a) {
+  for (std::size_t k = 0; k < scene_.system.terms.size(); ++k) {
+    ForceTerm& term = *scene_.system.terms[k];
+    term.archive(a.in(fmt::format("terms/{} {}", k, term.name())));
+  }
+  for (std::size_t k = 0; k < scene_.system.carried.size(); ++k)
+    scene_.system.carried[k]->archive(a.in(fmt::format("carried/{}", k)));
+}
+
+/// The scene is built on its references, so that a state that is read only has to be of the same.
+template <int D>
+void Simulation<D>::archive_references(const Archive& a) const {
+  for (const Body<D>& body : scene_.system.bodies) {
+    if (a.is_reading() && a.has(body.name) != (body.reference != nullptr))
+      throw FileError(fmt::format("the state has another reference of body '{}'", body.name));
+    if (!a.is_reading() && body.reference) {
+      Reference<D> reference = *body.reference;
+      reference.archive(a.in(body.name));
+    }
+  }
+}
+
+/// Values are those of particles by their numbers, which another version may give otherwise. Places
+/// of later references are kept themselves.
+template <int D>
+void Simulation<D>::archive_orders(const Archive& a) const {
+  constexpr Real of_rounding = 1e-6;  // of the spacing, of all particles together
+  for (const Body<D>& body : scene_.system.bodies) {
+    if (body.reference) continue;
+    const Vec<D> mark = mark_of_order<D>(body.geometry.grid.X);
+    Eigen::Vector3d saved = Eigen::Vector3d::Zero();
+    saved.head<D>() = mark;
+    a(body.name, saved, dimension::length);
+    if (!((saved.head<D>() - mark).norm() < of_rounding * mean_spacing(body.geometry.grid)))
+      throw FileError(
+          fmt::format("the saved state of body '{}' has its particles in another order: it was "
+                      "written by another version; continue it with that one, or run it again",
+                      body.name));
+  }
+}
+
+template <int D>
+Snapshot Simulation<D>::snapshot() {
+  complete_state();
+  Snapshot snapshot;
+  archive(Archive::writing(snapshot, [this](Dimension d) { return scene_.units.symbol(d); }));
+  return snapshot;
+}
+
+template <int D>
+Snapshot Simulation<D>::snapshot_of_first_rank() {
+  if (ranks().first()) return snapshot();
+  complete_state();
+  archive(Archive::nowhere());
+  return {};
+}
+
+template <int D>
+void Simulation<D>::restore(const Snapshot& snapshot) {
+  archive(Archive::reading(snapshot));
+}
+
+template std::vector<Real> packed<2>(const NodalVectors&);
+template std::vector<Real> packed<3>(const NodalVectors&);
+template class Simulation<2>;
+template class Simulation<3>;
+
+}  // namespace meniscus

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys by which loads name a face of a body.
+#pragma once
+#include "body/surface/face_cells.hpp"
+#include "input/optional_rows.hpp"
+#include "meniscus/scene/load.hpp"
+
+namespace meniscus {
+
+/// A body, and a face by its name, by a formula, or by both.
+struct FaceKeys {
+  std::string body, face;
+  std::optional<Expression> where;
+
+  /// Notes a face that there is not.
+  template <int D>
+  void check(const Block& block, const BodyPlans<D>& bodies) const;
+  /// Notes that the body has a load on a face.
+  template <int D>
+  void prepare(BodyPlans<D>& bodies) const {
+    for (BodyPlan<D>& planned : bodies) planned.loaded_faces |= planned.settings.name == body;
+  }
+  /// `place` of the table, to begin messages with. Throws as face_cells().
+  template <int D>
+  FaceCells<D> cells(const std::string& place, const Body<D>& body) const;
+  /// "beam-x_min"; "beam" if the face has no name.
+  std::string label() const { return face.empty() ? body : body + "-" + face; }
+};
+
+/// A row of a struct for a row of one of its members.
+template <class M, class Part>
+Row<M> row_of_part(const Row<Part>& row, Part M::*part) {
+  return {row.key,
+          row.type,
+          row.unit,
+          row.range,
+          row.fallback,
+          row.meaning,
+          [=](M& m, const Block& block) { row.read(m.*part, block); }};
+}
+
+template <class M>
+Rows<M> face_rows(FaceKeys M::*face) {
+  return {row_of_part(text_row("body", &FaceKeys::body, "name of the body"), face),
+          row_of_part(text_row("face", &FaceKeys::face,
+                               "name of a face of its shape, as `meniscus check` lists them; "
+                               "empty: the whole surface",
+                               ""),
+                      face),
+          row_of_part(optional_expression_row(
+                          "where", &FaceKeys::where, dimension::none, range::any, "1",
+                          "only facets at whose reference place x, y, z this formula is not zero, "
+                          "e.g. \"x < 0.1\""),
+                      face)};
+}
+
+}  // namespace meniscus

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Settings of a scene: structs whose rows are the reference of the input keys.
+#pragma once
+#include "input/input.hpp"
+
+#include <optional>
+
+namespace meniscus {
+
+/// [time]
+struct TimeSettings {
+  Real end = 0;
+  std::optional<Real> step;     ///< given: checked against the stable step; else chosen
+  std::string step_place;       ///< where the scene gives it, to begin messages with
+  std::string solver_place;     ///< the same of `solver`
+  std::string viscosity_place;  ///< the same of `viscosity`
+  Real safety = 0.9;
+  int check_every = 0;    ///< most steps between estimates of the stable step
+  std::string solver;     ///< "dynamics" or "relax"
+  std::string viscosity;  ///< "explicit", "implicit" or "automatic"
+  Real force_tolerance = 0, shape_tolerance = 0;  ///< of relax (solve/step/relaxation.hpp)
+  static Rows<TimeSettings> rows();
+};
+
+/// [output]
+struct OutputSettings {
+  Real frames_every = 0, history_every = 0;  ///< time; 0: 50 frames, 200 records over the run
+  std::vector<std::string> fields, measures;
+  std::string precision;
+  int compression = 0;
+  bool restartable = false;
+  Real checkpoint_minutes = 0;
+  static Rows<OutputSettings> rows();
+
+  /// Whether a record, a frame is due after a step from `before` to `now` of a run to `end`.
+  bool record_due(Real before, Real now, Real end) const;
+  bool frame_due(Real before, Real now, Real end) const;
+};
+
+/// The keys of [[body]] besides those of its shape, and the tables in it.
+struct BodySettings {
+  std::string name, integration, volumetric, precision, window, support_by;
+  int gauss_points = 3;
+  std::optional<Real> support_factor;  ///< x length of support_by; a plan has one
+  int support_rank = 0;                ///< 0: 20 in 3D, 8 in 2D
+  Real support_spacings = 0;           ///< > 0: the same support everywhere, x mean cell size
+  std::vector<Expression> initial_displacement, initial_velocity;  ///< empty: zero
+  static Rows<BodySettings> rows();
+  /// Defaults of support_factor and support_by, which depend on what else the scene says, where it
+  /// gives none.
+  void settle_support(const Block& block, Real factor, const std::string& by);
+};
+
+/// What [body.material] of any solid may have besides the numbers of its law.
+struct SolidSettings {
+  Real viscosity = 0;  ///< eta of physics/internal/solid_viscosity.hpp
+  static Rows<SolidSettings> rows();
+};
+
+/// [expect.NAME]
+struct ExpectSettings {
+  std::string of;              ///< column of the history; the name of the table if empty
+  std::string reduce;          ///< how the record becomes one number
+  std::optional<Real> at, to;  ///< times; absent: the end of the scene
+  Real from = 0, value = 0;
+  std::optional<Real> level;                    ///< for the reduction "falls"
+  std::optional<Real> within, within_relative;  ///< tolerances, at least one is given
+  static Rows<ExpectSettings> rows();
+};
+
+}  // namespace meniscus

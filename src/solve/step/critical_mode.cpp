@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Combinations of modes by the quotients of Rayleigh and Ritz.
+#include "solve/step/critical_mode.hpp"
+
+#include "parallel/halo_algebra.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <utility>
+
+namespace meniscus {
+namespace {
+
+using SharedHalo = std::shared_ptr<const Halo>;
+
+/// a = factor_of_a a + factor b; a may be empty, as b where there is no viscosity.
+void mix(const SharedHalo& halo, NodalScratch& a, Real factor_of_a, const NodalScratch& b,
+         Real factor) {
+  if (b.empty()) return;
+  const bool is_new = a.empty();
+  a.resize(b.size());
+  for_particles(halo, static_cast<Index>(a.size()), [&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(a, A) = factor_of_a * (is_new ? Lanes::zero() : at(a, A)) + factor * at(b, A);
+  });
+}
+
+void mix(const SharedHalo& halo, TrialMode& a, Real factor_of_a, const TrialMode& b, Real factor) {
+  mix(halo, a.w, factor_of_a, b.w, factor);
+  mix(halo, a.Kw, factor_of_a, b.Kw, factor);
+  mix(halo, a.Cw, factor_of_a, b.Cw, factor);
+}
+
+}  // namespace
+
+Lanes CriticalMode::force(const TrialMode& of, Real dt, Index A) const {
+  const Lanes stiff = (dt * dt / 4) * at(of.Kw, A);
+  return of.Cw.empty() ? stiff : stiff + (dt / 2) * at(of.Cw, A);
+}
+
+void CriticalMode::begin(std::span<const NodalVector> start) {
+  trial.w.resize(start.size());
+  copy(halo_, start, trial.w);
+  for (TrialMode* none : {&mode, &way_})
+    for (NodalScratch* field : {&none->w, &none->Kw, &none->Cw}) field->clear();
+}
+
+ModeRates CriticalMode::rates(const TrialMode& of) const {
+  struct Sums {
+    Real mass, stiffness, viscosity;
+    Sums operator+(const Sums& b) const {
+      return {mass + b.mass, stiffness + b.stiffness, viscosity + b.viscosity};
+    }
+  };
+  const bool viscous = !of.Cw.empty();
+  const Sums all = sum_over_particles(halo_, static_cast<Index>(of.w.size()), Sums{}, [&](Index A) {
+    const Lanes& w = at(of.w, A);
+    return Sums{at(mass_, A) * sum(w * w), sum(w * at(of.Kw, A)),
+                viscous ? sum(w * at(of.Cw, A)) : 0};
+  });
+  return {all.stiffness / all.mass, all.viscosity / all.mass};
+}
+
+void CriticalMode::propose_trial(Real dt) {
+  const ModeRates q = rates(mode);
+  const Real lambda = dt * dt / 4 * q.stiffness + dt / 2 * q.viscosity;
+  trial.w.resize(mode.w.size());
+  for_particles(halo_, static_cast<Index>(mode.w.size()), [&](Index begin, Index end) {
+    for (Index A = begin; A < end; ++A)
+      at(trial.w, A) = (1 / at(mass_, A)) * force(mode, dt, A) - lambda * at(mode.w, A);
+  });
+}
+
+void CriticalMode::include_trial(Real dt) {
+  if (mode.w.empty()) return std::swap(mode, trial);
+  using Products = Eigen::Matrix<Real, 3, 6>;  // by M, by A
+  const std::array<const TrialMode*, 3> all{&mode, &trial, &way_};
+  const int count = way_.w.empty() ? 2 : 3;
+  const Products products = sum_over_particles(
+      halo_, static_cast<Index>(mode.w.size()), Products(Products::Zero()), [&](Index A) {
+        Products p = Products::Zero();
+        for (int j = 0; j < count; ++j) {
+          const Lanes momentum = at(mass_, A) * at(at(all, j)->w, A), f = force(*at(all, j), dt, A);
+          for (int i = 0; i < count; ++i) {
+            p(i, j) = sum(at(at(all, i)->w, A) * momentum);
+            p(i, 3 + j) = sum(at(at(all, i)->w, A) * f);
+          }
+        }
+        return p;
+      });
+  // Of length one; without a way that is about a combination of the others.
+  using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+  constexpr Real independent = 1e-6;
+  const Eigen::Vector3d size = products.leftCols<3>().diagonal().cwiseSqrt();
+  if (!(size[1] > 0)) return;
+  for (int n = count; n >= 2; --n) {
+    const auto scale = size.head(n).cwiseInverse().asDiagonal();
+    const Square M = scale * products.topLeftCorner(n, n) * scale,
+                 a = scale * products.block(0, 3, n, n) * scale;
+    if (!(M.determinant() > independent) && n > 2) continue;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Square> solver(0.5 * (a + a.transpose()), M);
+    Eigen::Vector3d best = Eigen::Vector3d::Zero();
+    best.head(n) = scale * solver.eigenvectors().col(n - 1);
+    mix(halo_, way_, best[2], trial, best[1]);
+    mix(halo_, mode, best[0], way_, 1);
+    return;
+  }
+}
+
+}  // namespace meniscus
