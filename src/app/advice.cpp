@@ -37,10 +37,9 @@ struct RoundDrop {
 };
 
 template <int D>
-RoundDrop round_drop(const Scene<D>& scene, const Drop<D>& drop) {
-  const Body<D>& body = *drop.body;
-  std::size_t number = 0;
-  while (&scene.system.bodies[number] != &body) ++number;
+RoundDrop round_drop(const Scene<D>& scene, std::size_t number) {
+  const Body<D>& body = scene.system.bodies[number];
+  const SceneBody& own = scene.bodies[number];
   Real volume = 0, fastest = 0;
   for (Index A = 0; A < body.size(); ++A) {
     volume += body.cells.volume(A);
@@ -53,10 +52,10 @@ RoundDrop round_drop(const Scene<D>& scene, const Drop<D>& drop) {
   const Real mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
   return {D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
                  : std::sqrt(volume / std::numbers::pi),
-          drop.gamma,
+          own.tension->gamma,
           mass / volume,
-          mean(at(scene.viscosity, number)),
-          at(scene.bulk_modulus, number),
+          mean(own.viscosity),
+          own.bulk_modulus,
           std::sqrt(fastest),
           D - 1};
 }
@@ -131,18 +130,19 @@ void say_units(const UnitSystem& units) {
 
 template <int D>
 void say_drop_numbers(const Scene<D>& scene, const SceneInput& input) {
-  for (const Drop<D>& drop : scene.drops) {
+  for (const std::size_t drop : scene.drops()) {
     const RoundDrop r = round_drop(scene, drop);
-    const std::string time = scene.units.symbol(dimension::time);
+    const std::string &name = scene.system.bodies[drop].name,
+                      time = scene.units.symbol(dimension::time);
     const std::string viscous =
         r.viscosity > 0 ? fmt::format(", viscosity rho R^2/mu {:.3g}", r.time_of_viscosity()) : "";
     std::string bond;
-    if (const auto g = constant_acceleration<D>(input, drop.body->name))
+    if (const auto g = constant_acceleration<D>(input, name))
       bond = fmt::format(", Bond number rho g R^2/gamma {:.4g}", r.bond(*g));
     say("drop '{}': radius of its volume {:.4g} {}, Ohnesorge number mu/sqrt(rho gamma R) "
         "{:.4g}{}; "
         "times of sound R/c {:.3g}, capillarity sqrt(rho R^3/gamma) {:.3g}{} {}\n",
-        drop.body->name, r.radius, scene.units.symbol(dimension::length), r.ohnesorge(), bond,
+        name, r.radius, scene.units.symbol(dimension::length), r.ohnesorge(), bond,
         r.time_of_sound(), r.time_of_capillarity(), viscous, time);
   }
 }
@@ -151,13 +151,14 @@ template <int D>
 void say_softer_drops(const Scene<D>& scene, const RunRequest& request, Real stable) {
   constexpr Real hard = 100, worth_a_trial = 4, worth_saying = 1.5;
   std::vector<std::string> settings = request.set, moduli;
-  for (const Drop<D>& drop : scene.drops) {
+  for (const std::size_t drop : scene.drops()) {
     const RoundDrop r = round_drop(scene, drop);
+    const std::string& name = scene.system.bodies[drop].name;
     const Real enough = rounded_up(hard * r.pressure());
     if (r.bulk_modulus < worth_a_trial * enough) continue;
-    settings.push_back(fmt::format("body.{}.material.bulk_modulus={}", drop.body->name, enough));
-    moduli.push_back(fmt::format("{:g} {} of '{}'", enough, scene.units.symbol(dimension::pressure),
-                                 drop.body->name));
+    settings.push_back(fmt::format("body.{}.material.bulk_modulus={}", name, enough));
+    moduli.push_back(
+        fmt::format("{:g} {} of '{}'", enough, scene.units.symbol(dimension::pressure), name));
   }
   if (moduli.empty()) return;
   const auto longer = stable_step<D>(SceneInput::from_file(request.scene, settings));

@@ -31,11 +31,10 @@ void Warnings<D>::follow(const Simulation<D>& simulation) {
   simulation_ = &simulation;
   enclosures_.clear();
   const Scene<D>& scene = simulation.scene();
-  for (const Body<D>& body : scene.system.bodies) {
-    const bool refused = std::any_of(scene.drops.begin(), scene.drops.end(), [&](const Drop<D>& d) {
-      return d.body == &body && !d.inscribed;  // the simulation refuses smaller flaws
-    });
-    if (refused) continue;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body<D>& body = scene.system.bodies[b];
+    const SceneBody& own = scene.bodies[b];
+    if (own.is_drop() && !own.tension->inscribed()) continue;  // a run refuses smaller flaws
     const MeasureSource* area = find_measure(scene.measures, body.name + ".area");
     const MeasureSource* volume = find_measure(scene.measures, body.name + ".volume");
     if (area && volume) enclosures_.push_back({body.name, area, volume});

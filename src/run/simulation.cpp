@@ -42,8 +42,7 @@ StepperChoice stepper_choice(const Scene<D>& scene, bool implicit_viscosity) {
     throw InputError(scene.time.viscosity_place +
                      ": implicit viscosity is for scenes with a viscous fluid, this has none; "
                      "leave the key out");
-  for (const std::vector<Real>& viscosity : scene.viscosity)
-    choice.fluid.push_back(!viscosity.empty());
+  for (const SceneBody& body : scene.bodies) choice.fluid.push_back(body.is_fluid());
   return choice;
 }
 
@@ -287,17 +286,18 @@ void Simulation<D>::refuse(const StateCheck& check) const {
 template <int D>
 void Simulation<D>::refuse_impossible_surfaces() const {
   constexpr Real bearable = 1e-3;
-  for (const Drop<D>& drop : scene_.drops) {
-    const Real area = drop.area(state_.motion()), volume = drop.volume(state_.motion());
+  for (const std::size_t b : scene_.drops()) {
+    const BodyTension& tension = *scene_.bodies[b].tension;
+    const Real area = tension.area(state_.motion()), volume = tension.volume(state_.motion());
     const Real ratio = isoperimetric_ratio<D>(area, volume);
-    if (drop.inscribed || ratio >= 1 - bearable) continue;
+    if (tension.inscribed() || ratio >= 1 - bearable) continue;
     throw SolveError(fmt::format(
         "step {}, t = {:.9g}: body '{}' has the isoperimetric ratio {:.6f}: the {} {:.6g} of its "
         "surface tension is below the least possible {:.6g} for its {}; the surface is no longer "
         "resolved; use form = \"balanced\", finer particles, or a reference shape nearer to the "
         "present one",
-        state_.step, state_.time, drop.body->name, ratio, D == 3 ? "area" : "circumference", area,
-        area / ratio, D == 3 ? "volume" : "area"));
+        state_.step, state_.time, scene_.system.bodies[b].name, ratio,
+        D == 3 ? "area" : "circumference", area, area / ratio, D == 3 ? "volume" : "area"));
   }
 }
 

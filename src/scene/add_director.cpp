@@ -39,7 +39,7 @@ void add_director(const Body<D>& body, NematicBody<D> nematic, Scene<D>& scene,
       std::make_unique<FrankEnergy<D>>(body, number, nematic.numbers, std::move(nematic.rule));
   director->add(*frank);
   assembly.add(std::move(frank), body.name);
-  assembly.set_director(body.name, *director);
+  assembly.of(body.name).director = director.get();
   system.carried.push_back(std::move(director));
 }
 

@@ -2,7 +2,7 @@
 // The director of a nematic body becomes a field of the scene.
 #pragma once
 #include "meniscus/scene/assembly.hpp"
-#include "physics/director/nematic.hpp"
+#include "physics/director/nematic_numbers.hpp"
 
 namespace meniscus {
 

@@ -110,16 +110,6 @@ std::function<Real(const Motion&)> Assembly<D>::measure_named(const std::string&
   throw std::logic_error("there is no measure '" + name + "'");
 }
 
-template <int D>
-const std::vector<Real>& Assembly<D>::viscosity(const std::string& name) const {
-  return scene_.viscosity.at(number_of(name));
-}
-
-template <int D>
-Real Assembly<D>::bulk_modulus(const std::string& name) const {
-  return scene_.bulk_modulus.at(number_of(name));
-}
-
 /// Many contacts ask for that of one body.
 template <int D>
 Real Assembly<D>::shear_modulus(const std::string& name) const {
@@ -132,7 +122,7 @@ template <int D>
 Real Assembly<D>::find_shear_modulus(const std::string& name) const {
   constexpr Real small = 1e-4;
   const Body<D>& sheared = body(name);
-  const ForceTerm& force = *scene_.internal_forces.at(number_of(name));
+  const ForceTerm& force = *of(name).internal_force;
   // Kept at rest from body to body: they are as long as all bodies together.
   rest_.resize(scene_.system.mass.size(), Lanes::zero());
   sheared_.resize(rest_.size(), Lanes::zero());
@@ -163,12 +153,6 @@ Vec<D> Assembly<D>::acceleration(const std::string& name) const {
       force[i] += term->load_power({begin.time, begin.u, v, begin.fields});
   }
   return force / mass;
-}
-
-template <int D>
-std::optional<Real> Assembly<D>::surface_energy(const std::string& body) const {
-  const auto found = surface_energy_->find(body);
-  return found == surface_energy_->end() ? std::nullopt : std::optional(found->second);
 }
 
 template class Assembly<2>;

@@ -220,9 +220,7 @@ std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned, Body<D>& 
   if (body.reference) keep_mass(body);
   system.mass.insert(system.mass.end(), body.mass.begin(), body.mass.end());
   report(body, built, settings, assembly);
-  scene.viscosity.push_back(std::move(built.viscosity));
-  scene.bulk_modulus.push_back(built.bulk_modulus);
-  scene.internal_forces.push_back(built.force.get());
+  scene.bodies.push_back({built.force.get(), std::move(built.viscosity), built.bulk_modulus});
   if (!planned.material->fluid())
     assembly.keep_reference(body.name, "the stress of a solid depends on its first reference");
   if (settings.integration != "q_scni")

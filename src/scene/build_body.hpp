@@ -2,7 +2,7 @@
 // From a planned body to particles, internal force and measures.
 #pragma once
 #include "meniscus/scene/assembly.hpp"
-#include "physics/director/nematic.hpp"
+#include "physics/director/nematic_numbers.hpp"
 
 namespace meniscus {
 

@@ -28,8 +28,8 @@ TouchingBody touching_body(const std::string& name, const Assembly<D>& assembly)
   Real volume = 0;
   for (Index A = 0; A < body.size(); ++A) volume += body.cells.volume(A);
   const Real mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
-  const bool fluid = !assembly.viscosity(name).empty();
-  return {mass / volume, fluid ? 0 : assembly.shear_modulus(name), assembly.bulk_modulus(name),
+  const bool fluid = assembly.of(name).is_fluid();
+  return {mass / volume, fluid ? 0 : assembly.shear_modulus(name), assembly.of(name).bulk_modulus,
           D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
                  : std::sqrt(volume / std::numbers::pi)};
 }
@@ -170,8 +170,8 @@ void advise_on_spreading(const std::string& contact, const std::string& drop, Re
                          const std::function<Real(const Motion&)>& wetted_area,
                          Assembly<D>& assembly) {
   constexpr Real calm = 0.1, far = 2;  // Ohnesorge number; wetted area at rest / at the start
-  const Real gamma = assembly.surface_energy(drop).value_or(0);
-  const std::vector<Real>& viscosity = assembly.viscosity(drop);
+  const Real gamma = assembly.of(drop).surface_energy.value_or(0);
+  const std::vector<Real>& viscosity = assembly.of(drop).viscosity;
   if (!(gamma > 0) || viscosity.empty() || adhesion < gamma) return;  // beyond 90 degrees
   const Body<D>& body = assembly.body(drop);
   Real volume = 0;
@@ -205,7 +205,7 @@ void advise(const BeginningContact<D>& contact, Assembly<D>& assembly) {
     const Real softness = contact.flat.adhesion / (body.shear_modulus * body.radius);
     assembly.note(fmt::format("contact '{}': elastocapillary number W/(mu R) of '{}' {:.3g}",
                               contact.name, name, softness));
-    const Real tension = assembly.surface_energy(name).value_or(0);
+    const Real tension = assembly.of(name).surface_energy.value_or(0);
     const bool below_drop = &name != &contact.bodies[0] && touching[0].shear_modulus == 0;
     if (softness > 1 && tension < contact.flat.adhesion / 2 && !below_drop)  // of drops others warn
       assembly.warn(fmt::format(

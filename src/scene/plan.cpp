@@ -2,7 +2,7 @@
 // Reading a scene whole, with every check that needs no particles.
 #include "scene/plan.hpp"
 
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "input/names.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"

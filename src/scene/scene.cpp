@@ -83,9 +83,10 @@ std::vector<Real> field_values(const Scene<D>& scene, const std::string& name,
 
 template <int D>
 void require_remappable(const Scene<D>& scene, const std::string& body) {
-  const auto kept = scene.kept_references.find(body);
-  if (kept != scene.kept_references.end())
-    throw InputError(fmt::format("body '{}' cannot be referred anew: {}", body, kept->second));
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (const std::string& why = scene.bodies[b].kept_reference;
+        scene.system.bodies[b].name == body && !why.empty())
+      throw InputError(fmt::format("body '{}' cannot be referred anew: {}", body, why));
 }
 
 template <int D>

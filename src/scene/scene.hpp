@@ -3,25 +3,43 @@
 #pragma once
 #include "meniscus/physics/partner_registry.hpp"
 #include "physics/contact/rigid/rigid_motion.hpp"
+#include "physics/surface/surface_tension.hpp"
 #include "remap/reseed.hpp"
 #include "scene/plan.hpp"
 #include "solve/system.hpp"
 
+#include <deque>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace meniscus {
 
-/// A body of fluid under surface tension.
-template <int D>
-struct Drop {
-  const Body<D>* body;
+/// The [[surface_tension]] of a body.
+struct BodyTension {
+  TensionForm form;
   Real gamma;
   std::function<Real(const Motion&)> area, volume;  ///< those of the forces
-  bool inscribed;  ///< the area is of a polyhedron inside: smaller than what encloses the volume
+
+  /// The area is that of a polyhedron inside, and smaller than what encloses the volume.
+  bool inscribed() const { return form == TensionForm::triangles; }
+};
+
+/// What a scene knows of a body beside the body itself: of its material, and what its loads say to
+/// other loads, to checks and to measures.
+struct SceneBody {
+  const ForceTerm* internal_force;
+  std::vector<Real> viscosity;       ///< [particle] shear viscosity of a fluid; empty: a solid
+  Real bulk_modulus;                 ///< the least of the body, in the reference
+  CarriedField* director = nullptr;  ///< of a nematic
+  std::optional<Real> surface_energy = {};  ///< energy per area of the free surface
+  std::optional<BodyTension> tension = {};
+  std::string kept_reference = {};  ///< why the body cannot be referred anew; empty: it can
+
+  bool is_fluid() const { return !viscosity.empty(); }
+  bool is_drop() const { return is_fluid() && tension; }
+  bool has_balanced_tension() const { return tension && tension->form == TensionForm::balanced; }
 };
 
 /// A field of one of the bodies. Of another body it is 0, if that has no field of the same name;
@@ -80,11 +98,7 @@ template <int D>
 struct Scene : RunSettings {
   System<D> system;
   State initial;
-  std::vector<std::vector<Real>> viscosity;        ///< [body][particle]; empty: a solid
-  std::vector<Real> bulk_modulus;                  ///< [body], the least of each
-  std::vector<const ForceTerm*> internal_forces;   ///< [body]
-  std::map<std::string, CarriedField*> directors;  ///< [body], of nematics
-  std::vector<Drop<D>> drops;
+  std::deque<SceneBody> bodies;  ///< [body of the system]
   std::vector<StateCheck> checks;
   /// Measures by full name, e.g. "drop.aspect".
   std::vector<MeasureSource> measures;
@@ -93,12 +107,18 @@ struct Scene : RunSettings {
   std::vector<PlannedRemap> remaps;
   std::vector<Wetting<D>> wetting;
   std::vector<DrawnPartner<D>> partners;
-  std::map<std::string, std::string> kept_references;  ///< [body] why it cannot be referred anew
   std::vector<std::string> notes;     ///< what was decided while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
   std::vector<ContactBetween> contacts;
   StateCheck surfaces;  ///< of all bodies: takes up to half a step, and is looked at more seldom
 
+  /// The bodies of fluid under surface tension, by number.
+  std::vector<std::size_t> drops() const {
+    std::vector<std::size_t> found;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (bodies[b].is_drop()) found.push_back(b);
+    return found;
+  }
   /// How a sum over bodies is written.
   std::string symbol_of_sum(Dimension d) const { return units.symbol(of_sum(d, D)); }
 };

@@ -2,9 +2,8 @@
 // Total force between two balls of radius 3 sigma0 for all forms of contact, against the exact
 // value: error over time and pairs at gaps of 0.5, 0.64 and 1 sigma0 (CGCM note 7). The law is cut
 // off at 4 sigma0 by a switch that keeps the forms equivalent, so one exact value holds for all.
-#include "physics/contact/contact.hpp"
-
 #include "body/grid/gauss.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "study/study.hpp"
 #include "study/support/bodies.hpp"
 #include "study/support/contact_costs.hpp"

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""check.py BUILD COMPILER: installs the build tree, builds the example against what is installed,
-and compares what it prints with the history of the installed program.
+"""check.py BUILD COMPILER: installs the build tree, compiles each installed header alone, builds the
+example against what is installed, and compares what it prints with the history of the installed
+program, and its own material law with the law of the program that has the same energy.
 """
 
 import pathlib
@@ -29,7 +30,17 @@ def main():
         run("cmake", "-S", HERE, "-B", folder / "example", "-G", "Ninja",
             f"-DCMAKE_PREFIX_PATH={installed}", f"-DCMAKE_CXX_COMPILER={compiler}")  # fmt: skip
         run("cmake", "--build", folder / "example")
-        step, measure = run(folder / "example/example", SCENE, "drop.area").split()
+        example = folder / "example/example"
+        step, measure = run(example, SCENE, "drop.area").split()
+
+        law = run(example, HERE / "own.toml", "block.extent_y").split()
+        same = run(example, HERE / "own.toml", "block.extent_y",
+                   "body.block.material.type=st_venant_kirchhoff").split()  # fmt: skip
+        rest = run(example, HERE / "own.toml", "block.extent_y", "time.end=1e-9").split()
+        if law[0] != same[0] or abs(float(law[1]) - float(same[1])) > 1e-9:
+            sys.exit(f"the law of the example gives {law}, the same of the program {same}")
+        if abs(float(law[1]) - float(rest[1])) < 1e-3:
+            sys.exit(f"the block of own.toml has not deformed: {law}, {rest} at its beginning")
 
         program = installed / "bin/meniscus"
         for shipped in ("man/man1/meniscus.1", "bash-completion/completions/meniscus",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pairs of small bodies a gap apart, for tests of contact.
 #pragma once
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "support.hpp"
 
 namespace meniscus::test {

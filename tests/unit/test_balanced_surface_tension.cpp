@@ -317,8 +317,10 @@ TEST(Simulation, StopsADropWhoseAreaIsImpossible) {
   Simulation<3> simulation(scene);
   simulation.begin();
   EXPECT_NO_THROW(simulation.audit_now());
-  const auto true_area = scene.drops.front().area;
-  scene.drops.front().area = [&](const Motion& motion) { return 0.99 * true_area(motion); };
+  const auto true_area = scene.bodies.front().tension->area;
+  scene.bodies.front().tension->area = [&](const Motion& motion) {
+    return 0.99 * true_area(motion);
+  };
   try {
     simulation.audit_now();
     FAIL() << "an area below the least possible was accepted";

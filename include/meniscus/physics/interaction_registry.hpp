@@ -11,7 +11,8 @@
 // Interactions that need more than the gap implement ContactModel.
 #pragma once
 #include "meniscus/physics/partner_registry.hpp"
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
+#include "physics/surface/surface_tension.hpp"
 
 namespace meniscus {
 
@@ -31,8 +32,8 @@ struct ContactSurfaces {
   std::optional<Real> gamma;  ///< surface tension of the first body, if it has any
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean position of the particles of the
                                                      ///< first body
-  std::string tension_form = {};          ///< of its [[surface_tension]]; empty without one
-  std::optional<Real> gamma_beyond = {};  ///< surface tension of the second body, if any
+  std::optional<TensionForm> tension_form = {};      ///< of its [[surface_tension]], if it has one
+  std::optional<Real> gamma_beyond = {};             ///< surface tension of the second body, if any
 
   /// gamma, for a contact angle; throws InputError if the first body has no surface tension.
   Real tension() const;

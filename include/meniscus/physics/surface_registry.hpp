@@ -4,7 +4,7 @@
 #include "input/key_table.hpp"
 #include "input/registry.hpp"
 #include "physics/director/carried_field.hpp"
-#include "physics/surface/surface_force.hpp"
+#include "physics/surface/surface_law_force.hpp"
 #include "physics/surface/surface_viscosity.hpp"
 
 #include <memory>

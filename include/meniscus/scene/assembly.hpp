@@ -18,6 +18,9 @@ class Assembly {
 
   /// Throws InputError if there is none of that name.
   const Body<D>& body(const std::string& name) const;
+  /// What loads say and ask of that body; it stays where it is.
+  SceneBody& of(const std::string& body) { return scene_.bodies[number_of(body)]; }
+  const SceneBody& of(const std::string& body) const { return scene_.bodies[number_of(body)]; }
 
   /// Adds a term; its measures are called `prefix`.NAME. Its fields, if it has any, are of the body
   /// of that name.
@@ -49,8 +52,6 @@ class Assembly {
   std::vector<FieldSource> fields_of(const std::string& body) const;
   /// The measure of that full name; it has been added.
   std::function<Real(const Motion&)> measure_named(const std::string& name) const;
-  /// Says that a body is a drop.
-  void drop(Drop<D> drop) { scene_.drops.push_back(std::move(drop)); }
   /// Says when a body is to be referred anew.
   void remap(PlannedRemap planned) { scene_.remaps.push_back(std::move(planned)); }
   /// Says where a body touches a rigid partner.
@@ -59,24 +60,12 @@ class Assembly {
   void draw(DrawnPartner<D> partner) { scene_.partners.push_back(std::move(partner)); }
   /// Says why a body cannot be referred anew: something depends on its reference by more than J.
   void keep_reference(const std::string& body, std::string why) {
-    scene_.kept_references[body] = std::move(why);
+    of(body).kept_reference = std::move(why);
   }
   /// Says which bodies a contact is between.
   void contact(ContactBetween contact) { scene_.contacts.push_back(std::move(contact)); }
   /// Watches for what cannot be.
   void check(StateCheck check) { scene_.checks.push_back(std::move(check)); }
-  /// Shear viscosity of each particle of a fluid; empty for a solid.
-  const std::vector<Real>& viscosity(const std::string& body) const;
-  /// The director of a nematic; null for other bodies.
-  CarriedField* director(const std::string& body) const {
-    const auto found = scene_.directors.find(body);
-    return found == scene_.directors.end() ? nullptr : found->second;
-  }
-  void set_director(const std::string& body, CarriedField& director) {
-    scene_.directors[body] = &director;
-  }
-  /// The least bulk modulus of a body at its reference state.
-  Real bulk_modulus(const std::string& body) const;
   /// Stiffness of a body against a small simple shear, x over y, at its reference state, in the
   /// mean over it; 0 of a fluid.
   Real shear_modulus(const std::string& body) const;
@@ -85,22 +74,6 @@ class Assembly {
   /// For the log: what was decided, and what is doubtful.
   void note(std::string sentence) { scene_.notes.push_back(std::move(sentence)); }
   void warn(std::string sentence) { scene_.warnings.push_back(std::move(sentence)); }
-
-  /// Says, or asks, the energy per area of the free surface of a body; none if nobody said it.
-  void set_surface_energy(const std::string& body, Real gamma) { (*surface_energy_)[body] = gamma; }
-  std::optional<Real> surface_energy(const std::string& body) const;
-  /// The same of all bodies, also what is said later.
-  std::shared_ptr<const std::map<std::string, Real>> surface_energies() const {
-    return surface_energy_;
-  }
-  /// The same of the form of a [[surface_tension]]; empty if there is none.
-  void set_tension_form(const std::string& body, std::string form) {
-    tension_form_[body] = std::move(form);
-  }
-  std::string tension_form(const std::string& body) const {
-    const auto found = tension_form_.find(body);
-    return found == tension_form_.end() ? std::string() : found->second;
-  }
 
   const UnitSystem& units() const { return scene_.units; }
   Real end_time() const { return scene_.time.end; }
@@ -120,9 +93,6 @@ class Assembly {
   Scene<D>& scene_;
   bool begins_;
   std::vector<std::unique_ptr<Constraint>> constraints_;
-  std::shared_ptr<std::map<std::string, Real>> surface_energy_ =
-      std::make_shared<std::map<std::string, Real>>();
-  std::map<std::string, std::string> tension_form_;
   mutable std::map<std::string, Real> shear_modulus_;
   mutable NodalVectors rest_, sheared_;
   struct CapMeasure {

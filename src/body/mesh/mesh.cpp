@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies of mesh files.
-#include "body/cell_count.hpp"
 #include "body/grid/simplex.hpp"
 #include "body/mesh/mesh_checks.hpp"
 #include "body/mesh/mesh_file.hpp"
 #include "body/mesh/mesh_surface.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "input/sha256.hpp"
 #include "kernel/neighbor_search.hpp"
 #include "meniscus/body/shapes.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes of VTK: unstructured grids as XML, with their numbers as text, as base64 in place, or
 // appended. Source: VTK file formats, section "XML File Formats".
-#include "body/cell_count.hpp"
 #include "body/mesh/mesh_cells.hpp"
 #include "body/mesh/mesh_text.hpp"
 #include "body/mesh/vtk_numbers.hpp"
 #include "body/mesh/xml_scanner.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "meniscus/error.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Memory of a body from the number of its cells.
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 
 #include "meniscus/error.hpp"
 #include "parallel/memory.hpp"

@@ -2,7 +2,7 @@
 // Cubed disk and cubed sphere.
 #include "body/shapes/cubed.hpp"
 
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "meniscus/error.hpp"
 
 #include <algorithm>

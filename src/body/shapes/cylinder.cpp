@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cylinder: the disk repeated along z.
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"
 

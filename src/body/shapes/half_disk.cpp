@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Half disk: the upper half of the disk, or the lower one.
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Half sphere: the upper half of the cubed sphere, or the lower one.
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Octant: an eighth of the ball between three planes, which rollers make planes of symmetry.
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ring: the plane section of a thick-walled cylinder.
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 

@@ -2,7 +2,7 @@
 // The map of the unit spherical shell onto a wall, and its body.
 #include "body/shapes/wall.hpp"
 
-#include "body/cell_count.hpp"
+#include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
 #include "meniscus/error.hpp"
 

@@ -2,7 +2,7 @@
 // Gauss points of boundary facets.
 #pragma once
 #include "body/grid/gauss.hpp"
-#include "body/surface/surface.hpp"
+#include "body/surface/reference_surface.hpp"
 #include "numbers/dense.hpp"
 #include "parallel/parallel.hpp"
 

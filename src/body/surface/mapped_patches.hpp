@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exact surfaces: patches of a unit shape and a smooth map onto the body.
 #pragma once
-#include "body/surface/surface.hpp"
+#include "body/surface/reference_surface.hpp"
 
 #include <string>
 #include <utility>

@@ -4,7 +4,7 @@
 #pragma once
 #include "body/body.hpp"
 #include "physics/director/carried_field.hpp"
-#include "physics/director/nematic.hpp"
+#include "physics/director/nematic_numbers.hpp"
 
 namespace meniscus {
 

@@ -4,7 +4,7 @@
 #pragma once
 #include "body/grid/nodal_cells.hpp"
 #include "meniscus/error.hpp"
-#include "physics/director/nematic.hpp"
+#include "physics/director/nematic_numbers.hpp"
 #include "physics/director/reference_director.hpp"
 #include "physics/internal/cell_average.hpp"
 #include "physics/internal/fluid_points.hpp"

@@ -4,18 +4,18 @@
 #include "body/surface/surface_patches.hpp"
 #include "body/surface/surface_points.hpp"
 #include "physics/surface/surface_tension.hpp"
-#include "physics/surface/tension_form.hpp"
+#include "physics/surface/tension_term.hpp"
 
 namespace meniscus {
 namespace {
 
 template <int D>
-class BalancedSurfaceTension final : public TensionForm<D> {
+class BalancedSurfaceTension final : public TensionTerm<D> {
   using Size = typename SurfacePatches<D>::Size;
 
  public:
   BalancedSurfaceTension(const Body<D>& body, Real gamma)
-      : TensionForm<D>(body, gamma), patches_(body) {
+      : TensionTerm<D>(body, gamma), patches_(body) {
     constexpr int fine = 8;
     Real exact = 0;
     for (const Real area : surface_points(body.geometry, fine).area) exact += area;

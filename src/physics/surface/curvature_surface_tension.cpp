@@ -6,7 +6,7 @@
 #include "numbers/dual.hpp"
 #include "numbers/surface_geometry.hpp"
 #include "physics/surface/surface_tension.hpp"
-#include "physics/surface/tension_form.hpp"
+#include "physics/surface/tension_term.hpp"
 
 #include <fmt/core.h>
 
@@ -14,10 +14,10 @@ namespace meniscus {
 namespace {
 
 template <int D>
-class CurvatureSurfaceTension final : public TensionForm<D> {
+class CurvatureSurfaceTension final : public TensionTerm<D> {
  public:
   CurvatureSurfaceTension(const Body<D>& body, Real gamma, int points)
-      : TensionForm<D>(body, gamma), surface_(surface_points(body.geometry, points)) {
+      : TensionTerm<D>(body, gamma), surface_(surface_points(body.geometry, points)) {
     if (!body.geometry.surface->smooth() || !surface_.exact)
       throw InputError(
           fmt::format("body '{}': the curvature form of surface tension needs a smooth analytic "
@@ -63,7 +63,7 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
   }
 
   std::vector<MeasureSource> measures() const override {
-    auto sources = TensionForm<D>::measures();
+    auto sources = TensionTerm<D>::measures();
     sources.push_back({"mean_curvature", Dimension{-1, 0, 0},
                        "area mean of 2 kappa = -div n (-2/R on a sphere, -1/R on a circle)",
                        [this](const Motion& motion) { return mean_curvature(motion); }});
@@ -76,8 +76,8 @@ class CurvatureSurfaceTension final : public TensionForm<D> {
   Offset pairs() const override { return rows_.entries(); }
 
  private:
-  using TensionForm<D>::body_;
-  using TensionForm<D>::gamma_;
+  using TensionTerm<D>::body_;
+  using TensionTerm<D>::gamma_;
 
   Tensor<Real> displacement_gradient(Index q, const NodalVector* u, Real diagonal = 0) const {
     const auto column = gradient_at(rows_, q, u);

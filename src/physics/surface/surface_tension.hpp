@@ -9,6 +9,14 @@
 
 namespace meniscus {
 
+/// The discrete forms, by the names of tension_form_names.
+enum class TensionForm { balanced, weak, curvature, triangles };
+inline constexpr std::array<const char*, 4> tension_form_names{"balanced", "weak", "curvature",
+                                                               "triangles"};
+inline const char* name_of(TensionForm form) {
+  return tension_form_names[static_cast<std::size_t>(form)];
+}
+
 /// The exact gradient of gamma c A. A is the area of closed patches through positions
 /// (SurfacePatches); c makes gamma c A exact in the reference. It is balanced together with a fluid
 /// whose pressure works on the volume of the same patches (FluidPoints). At rest the body is then a

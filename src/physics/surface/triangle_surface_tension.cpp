@@ -3,7 +3,7 @@
 #include "body/surface/boundary_simplices.hpp"
 #include "numbers/dense.hpp"
 #include "physics/surface/surface_tension.hpp"
-#include "physics/surface/tension_form.hpp"
+#include "physics/surface/tension_term.hpp"
 
 namespace meniscus {
 
@@ -53,10 +53,10 @@ std::array<Vec<D>, D> flat_pull_change(const std::array<Vec<D>, D>& x,
 }
 
 template <int D>
-class TriangleSurfaceTension final : public TensionForm<D> {
+class TriangleSurfaceTension final : public TensionTerm<D> {
  public:
   TriangleSurfaceTension(const Body<D>& body, Real gamma)
-      : TensionForm<D>(body, gamma), boundary_(body) {
+      : TensionTerm<D>(body, gamma), boundary_(body) {
     x_.resize(boundary_.X.size());
     pull_.resize(boundary_.X.size());
     load_.resize(boundary_.X.size());
@@ -97,8 +97,8 @@ class TriangleSurfaceTension final : public TensionForm<D> {
   Offset pairs() const override { return boundary_.rows.entries(); }
 
  private:
-  using TensionForm<D>::body_;
-  using TensionForm<D>::gamma_;
+  using TensionTerm<D>::body_;
+  using TensionTerm<D>::gamma_;
 
   void find_places(const Motion& motion, std::vector<Vec<D>>& x) const {
     boundary_.find_places(this->displacements(motion), x);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The number of pairs of contact points of a form of contact.
 #pragma once
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_list.hpp"
 
 namespace meniscus::study {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of two deformable bodies by a law of the gap between their surfaces.
 #include "meniscus/error.hpp"
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/gap/gap_side.hpp"
 #include "physics/contact/pair/contact_demand.hpp"
 #include "physics/contact/pair/contact_ranks.hpp"

@@ -3,7 +3,7 @@
 // the other.
 #pragma once
 #include "physics/contact/adhesion_work.hpp"
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/gap/gap_law.hpp"
 #include "physics/contact/pair/contact_list.hpp"
 #include "physics/contact/points/contact_facets.hpp"

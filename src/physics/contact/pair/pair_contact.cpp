@@ -2,8 +2,8 @@
 // Contact of two deformable bodies by the pairs of their points: forces, the limits of steps and
 // measures.
 #include "meniscus/error.hpp"
-#include "physics/contact/contact.hpp"
 #include "physics/contact/contact_numbers.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_demand.hpp"
 #include "physics/contact/pair/contact_visits.hpp"
 #include "physics/contact/pair/pair_sums.hpp"

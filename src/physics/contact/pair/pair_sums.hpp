@@ -2,7 +2,7 @@
 // The sums of contact over pairs of points, compiled for each form and kernel.
 #pragma once
 #include "numbers/dual.hpp"
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/facet_pairs.hpp"
 
 #include <memory>

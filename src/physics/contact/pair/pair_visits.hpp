@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The contact points of two bodies that may be within reach of each other, and their pairs.
 #pragma once
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_list.hpp"
 #include "physics/contact/pair/contact_ranks.hpp"
 #include "physics/contact/pair/facet_pairs.hpp"

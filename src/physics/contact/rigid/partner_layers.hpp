@@ -2,7 +2,7 @@
 // A body beside a rigid partner: its contact points in layers, one for each grade, and the forces
 // on them.
 #pragma once
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_ranks.hpp"
 #include "physics/contact/points/contact_resolution.hpp"
 

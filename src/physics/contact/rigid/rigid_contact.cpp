@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of a deformable body with a rigid partner in closed form.
 #include "meniscus/error.hpp"
-#include "physics/contact/contact.hpp"
 #include "physics/contact/contact_numbers.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_demand.hpp"
 #include "physics/contact/pair/contact_visits.hpp"
 #include "physics/contact/rigid/layer_effects.hpp"

@@ -4,7 +4,7 @@
 #pragma once
 #include "meniscus/physics/partner_registry.hpp"
 #include "physics/contact/adhesion_work.hpp"
-#include "physics/contact/contact.hpp"
+#include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_ranks.hpp"
 
 #include <algorithm>

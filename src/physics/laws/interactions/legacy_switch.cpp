@@ -230,12 +230,13 @@ class Model final : public ContactModel<D> {
     if (!plan.shape->flat())
       throw InputError(surfaces.place +
                        ": legacy_switch is for planes; allowed partners are half_space");
-    if (surfaces.tension_form != "triangles")
+    if (surfaces.tension_form != TensionForm::triangles)
       throw InputError(fmt::format(
           "{}: legacy_switch changes the tension of flat triangles, and '{}' has none{}; allowed "
           "is a [[surface_tension]] of it with form = \"triangles\"",
           surfaces.place, body.name,
-          surfaces.tension_form.empty() ? "" : " (its form is " + surfaces.tension_form + ")"));
+          surfaces.tension_form ? fmt::format(" (its form is {})", name_of(*surfaces.tension_form))
+                                : ""));
     MovingPartner<D> partner{plan.shape->lennard_jones(law_, 1), plan.motion, 1, plan.velocity_step,
                              plan.shape};
     const Real gamma = surfaces.tension(), line = adhesion_of_angle(k_.angle, gamma) / 2;

@@ -243,6 +243,12 @@ void Contact<D>::build(Assembly<D>& assembly) const {
 }
 
 template <int D>
+std::optional<TensionForm> form_of_tension(const Assembly<D>& assembly, const std::string& body) {
+  const auto& tension = assembly.of(body).tension;
+  return tension ? std::optional(tension->form) : std::nullopt;
+}
+
+template <int D>
 ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
   Real facet = 0;
   for (const std::string& body : bodies) facet = std::max(facet, facet_size(assembly.body(body)));
@@ -250,10 +256,10 @@ ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
   const Vec<D> sum = std::accumulate(X.begin(), X.end(), Vec<D>(Vec<D>::Zero()));
   return {this->place,
           facet,
-          assembly.surface_energy(bodies[0]),
+          assembly.of(bodies[0]).surface_energy,
           spatial<D>(sum / static_cast<Real>(X.size())),
-          assembly.tension_form(bodies[0]),
-          bodies.size() > 1 ? assembly.surface_energy(bodies[1]) : std::nullopt};
+          form_of_tension(assembly, bodies[0]),
+          bodies.size() > 1 ? assembly.of(bodies[1]).surface_energy : std::nullopt};
 }
 
 template <int D>
@@ -275,7 +281,7 @@ ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
     if (contact_form_names[k] == form) choice.form = static_cast<ContactForm>(k);
   choice.density = density == "constant" ? SiteDensity::constant : SiteDensity::referential;
   for (std::size_t side = 0; side < bodies.size(); ++side)
-    choice.on_patches[side] = assembly.tension_form(bodies[side]) == "balanced";
+    choice.on_patches[side] = assembly.of(bodies[side]).has_balanced_tension();
   choice.points = points_chosen(assembly);
   choice.skin = skin;
   choice.friction = friction;
@@ -283,7 +289,7 @@ ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
   if (const std::string why = soft_wetting(assembly) ? folding(assembly) : ""; !why.empty())
     choice.fold = ": " + why;
   choice.overlap = overlap(assembly);
-  choice.wets = assembly.surface_energy(bodies[0]).has_value();
+  choice.wets = assembly.of(bodies[0]).surface_energy.has_value();
   return choice;
 }
 
@@ -397,7 +403,7 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
     note += ", " + more;
   // The traction along the normal of the wall does no work on the line of contact.
   for (const std::string& body : bodies)
-    if (const auto gamma = assembly.surface_energy(body); gamma && form != "dissertation")
+    if (const auto gamma = assembly.of(body).surface_energy; gamma && form != "dissertation")
       note += fmt::format(", contact angle of '{}': {}", body,
                           contact_angle_text(flat.adhesion, *gamma));
   assembly.note(note);
@@ -437,7 +443,7 @@ BeginningContact<D> Contact<D>::beginning(const ForceTerm& term,
 /// What a drop does on a wall.
 template <int D>
 void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
-  if (!assembly.surface_energy(bodies[0])) return;
+  if (!assembly.of(bodies[0]).surface_energy) return;
   for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area")))
     assembly.measure(name, std::move(source));
   assembly.wets({bodies[0],
@@ -465,8 +471,8 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
 /// Whether the first is a drop, and the second is not.
 template <int D>
 bool Contact<D>::soft_wetting(const Assembly<D>& assembly) const {
-  return !partner && assembly.surface_energy(bodies[0]) && !assembly.viscosity(bodies[0]).empty() &&
-         assembly.viscosity(bodies[1]).empty();
+  return !partner && assembly.of(bodies[0]).surface_energy && assembly.of(bodies[0]).is_fluid() &&
+         !assembly.of(bodies[1]).is_fluid();
 }
 
 /// Why the surface of soft ground may fold: a traction of the adhesion W over the range l pulls it
@@ -478,10 +484,10 @@ std::string Contact<D>::folding(const Assembly<D>& assembly) const {
   const PlaneContact& flat = this->flat(assembly);
   const Real W = model->greatest_adhesion(surfaces(assembly), assembly.end_time()),
              range = peak_of_chi * flat.adhesion / flat.peak_traction;
-  const Real mu = assembly.shear_modulus(bodies[1]), K = assembly.bulk_modulus(bodies[1]),
+  const Real mu = assembly.shear_modulus(bodies[1]), K = assembly.of(bodies[1]).bulk_modulus,
              E = 9 * K * mu / (3 * K + mu);
   const Real number = W / (E * range);
-  if (number <= largest || assembly.surface_energy(bodies[1]).value_or(0) > W / 2) return {};
+  if (number <= largest || assembly.of(bodies[1]).surface_energy.value_or(0) > W / 2) return {};
   const auto unit = [&](Dimension d) { return assembly.units().symbol(d); };
   return fmt::format(
       "adhesion with actin / (Young's modulus x range) is {:.3g} of '{}', {:.4g} {} at most, "
@@ -512,7 +518,7 @@ void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
   if (const std::string why = folding(assembly); !why.empty())
     assembly.warn(fmt::format("contact '{}': {}", name, why));
   // Half of the energy of the contact is that of either surface.
-  const Real tension = assembly.surface_energy(bodies[1]).value_or(0);
+  const Real tension = assembly.of(bodies[1]).surface_energy.value_or(0);
   const Real half = model->greatest_adhesion(surfaces(assembly), assembly.end_time()) / 2;
   if (up.empty() && tension < half)
     assembly.warn(fmt::format(

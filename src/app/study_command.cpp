@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Running a study: its table as it grows, its checks, and its files.
-#include "study/study.hpp"
-
 #include "app/commands.hpp"
 #include "app/print.hpp"
 #include "input/text.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
 #include "meniscus/error.hpp"
+#include "study/study.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>

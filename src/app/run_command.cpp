@@ -132,15 +132,16 @@ void introduce(const Scene<D>& scene, const Provenance& origin,
 template <int D>
 void report_residuals(const Simulation<D>& simulation, RunLog& log) {
   const State& state = simulation.state();
-  for (const Drop<D>& drop : simulation.scene().drops) {
-    const Body<D>& body = *drop.body;
+  for (const std::size_t b : simulation.scene().drops()) {
+    const BodyTension& tension = *simulation.scene().bodies[b].tension;
+    const Body<D>& body = simulation.scene().system.bodies[b];
     const auto force =
         std::span<const NodalVector>(state.force)
             .subspan(static_cast<std::size_t>(body.first), static_cast<std::size_t>(body.size()));
     log.info(fmt::format("body '{}': residual force of the start: {:.2g} of the capillary force",
                          body.name,
-                         capillary_residual<D>(force, drop.gamma, drop.area(state.motion()),
-                                               drop.volume(state.motion()))));
+                         capillary_residual<D>(force, tension.gamma, tension.area(state.motion()),
+                                               tension.volume(state.motion()))));
   }
 }
 

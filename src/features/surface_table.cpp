@@ -62,18 +62,17 @@ struct Surface final : Load<D>, Keys {
     if (auto* anchored = dynamic_cast<AnchoredTerm*>(term.get()))
       anchored->anchor(required_director(assembly));
     const auto* varied = dynamic_cast<const VariedTension*>(term.get());
-    if (varied && !assembly.viscosity(body).empty())
-      assembly.check(negative_tension(*varied, assembly));
+    if (varied && assembly.of(body).is_fluid()) assembly.check(negative_tension(*varied, assembly));
     assembly.add(std::move(term), type == "tension" ? body : body + "." + type);
     if (const Real energy = law->energy_at_rest(); energy > 0)
-      assembly.set_surface_energy(body, energy);
+      assembly.of(body).surface_energy = energy;
     if (law->keeps_reference())
       assembly.keep_reference(body, "its [[surface]] has an energy per area of the reference");
   }
 
  private:
   CarriedField& required_director(const Assembly<D>& assembly) const {
-    if (CarriedField* director = assembly.director(body)) return *director;
+    if (CarriedField* director = assembly.of(body).director) return *director;
     throw InputError(fmt::format(
         "{}: \"{}\" acts on a director, which body '{}' has none of; expected is a body whose "
         "material is \"nematic\"",
@@ -81,13 +80,11 @@ struct Surface final : Load<D>, Keys {
   }
   /// The surface of a fluid that has all in all a negative tension would grow without bound.
   StateCheck negative_tension(const VariedTension& varied, const Assembly<D>& assembly) const {
-    return [&varied, name = body, first = assembly.body(body).first,
-            symbol = assembly.units().symbol(dimension::tension),
-            constant =
-                assembly.surface_energies()](const Motion& motion) -> std::optional<Failure> {
+    return [&varied, &own = assembly.of(body), first = assembly.body(body).first,
+            symbol = assembly.units().symbol(dimension::tension)](
+               const Motion& motion) -> std::optional<Failure> {
       const auto [gamma, particle] = varied.least(motion);
-      const auto found = constant->find(name);
-      const Real all = gamma + (found == constant->end() ? 0 : found->second);
+      const Real all = gamma + own.surface_energy.value_or(0);
       if (all >= 0) return std::nullopt;
       return Failure{first + particle,
                      fmt::format("the tension of the surface is {:.4g} {} here, all tables of it "
@@ -101,7 +98,7 @@ struct Surface final : Load<D>, Keys {
   void require_stable(Assembly<D>& assembly) const {
     const std::optional<Real> modulus = law->unstable_modulus();
     if (!modulus) return;
-    const bool fluid = !assembly.viscosity(body).empty();
+    const bool fluid = assembly.of(body).is_fluid();
     const Real shear = fluid ? 0 : assembly.shear_modulus(body),
                spacing = mean_spacing(assembly.body(body).geometry.grid),
                least = shear > 0 ? std::numbers::pi * std::abs(std::min(0.0, *modulus)) / shear

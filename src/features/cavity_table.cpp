@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cavity load: what fills a closed surface.
-#include "physics/loads/cavity.hpp"
-
 #include "body/wall_supports.hpp"
 #include "input/optional_rows.hpp"
 #include "meniscus/scene/assembly.hpp"
+#include "physics/loads/cavity.hpp"
 
 #include <fmt/core.h>
 

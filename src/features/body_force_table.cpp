@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A force per mass as a formula of place and time.
-#include "physics/loads/body_force.hpp"
-
 #include "meniscus/scene/assembly.hpp"
+#include "physics/loads/body_force.hpp"
 
 #include <algorithm>
 
@@ -30,8 +29,7 @@ struct BodyForce final : Load<D> {
     const Body<D>& on = assembly.body(body);
     const bool one_for_all = std::none_of(acceleration.begin(), acceleration.end(),
                                           [](const Expression& a) { return a.depends_on_place(); });
-    const bool drop =
-        !assembly.viscosity(body).empty() && assembly.tension_form(body) == "balanced";
+    const bool drop = assembly.of(body).is_fluid() && assembly.of(body).has_balanced_tension();
     if (drop && one_for_all && on.uniform_density)
       assembly.add(weight_on_patches(on, acceleration), body);
     else

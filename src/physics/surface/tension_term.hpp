@@ -8,9 +8,9 @@ namespace meniscus {
 
 /// A form of surface tension implements area() and add_force().
 template <int D>
-class TensionForm : public ForceTerm {
+class TensionTerm : public ForceTerm {
  public:
-  TensionForm(const Body<D>& body, Real gamma) : body_(body), gamma_(gamma) {}
+  TensionTerm(const Body<D>& body, Real gamma) : body_(body), gamma_(gamma) {}
 
   std::string name() const final { return "surface tension of '" + body_.name + "'"; }
   std::string_view energy_kind() const final { return "surface"; }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tension of the whole surface of a body.
-#include "physics/surface/surface_tension.hpp"
-
 #include "measure/drop_measures.hpp"
 #include "meniscus/scene/assembly.hpp"
 #include "physics/internal/coefficient_damping.hpp"
+#include "physics/surface/surface_tension.hpp"
 
 #include <fmt/core.h>
 
@@ -26,7 +25,7 @@ Rows<Keys> Keys::rows() {
       text_row("body", &Keys::body, "name of the body whose surface is under tension"),
       real_row("gamma", &Keys::gamma, dimension::tension, range::positive, "surface tension"),
       choice_row(
-          "form", &Keys::form, {"balanced", "weak", "curvature", "triangles"},
+          "form", &Keys::form, {tension_form_names.begin(), tension_form_names.end()},
           "gradient of the area of patches through places, with the volume that they enclose for "
           "the pressure of a fluid; gradient of the area at Gauss points; curvature from second "
           "derivatives (smooth surfaces only); flat triangles",
@@ -66,19 +65,17 @@ struct SurfaceTension final : Load<D>, Keys {
 
   void build(Assembly<D>& assembly) const override {
     const Body<D>& on = assembly.body(body);
-    const std::vector<Real>& viscosity = assembly.viscosity(body);
+    const std::vector<Real>& viscosity = assembly.of(body).viscosity;
     assembly.add(term(on), body);
     for (MeasureSource& source : drop_measures(on, viscosity, gamma))
       assembly.measure(body, std::move(source));
+    assembly.of(body).surface_energy = gamma;
+    assembly.of(body).tension = BodyTension{kind(), gamma, assembly.measure_named(body + ".area"),
+                                            assembly.measure_named(body + ".volume")};
     if (form == "balanced" && this->coefficient_damping > 0 &&
         std::any_of(viscosity.begin(), viscosity.end(), [](Real mu) { return mu > 0; }))
       assembly.add(meniscus::coefficient_damping(on, viscosity, this->coefficient_damping), body);
     require_stiffness(assembly);
-    assembly.set_surface_energy(body, gamma);
-    assembly.set_tension_form(body, form);
-    if (!viscosity.empty())
-      assembly.drop({&on, gamma, assembly.measure_named(body + ".area"),
-                     assembly.measure_named(body + ".volume"), form == "triangles"});
   }
 
  private:
@@ -88,9 +85,9 @@ struct SurfaceTension final : Load<D>, Keys {
     constexpr Real most = 2;
     if (!assembly.initial()) return;
     const Motion motion = assembly.initial()->motion();
-    const Real area = assembly.measure_named(body + ".area")(motion),
-               volume = assembly.measure_named(body + ".volume")(motion),
-               pressure = (D - 1) * gamma * area / (D * volume), K = assembly.bulk_modulus(body);
+    const BodyTension& tension = *assembly.of(body).tension;
+    const Real area = tension.area(motion), volume = tension.volume(motion),
+               pressure = (D - 1) * gamma * area / (D * volume), K = assembly.of(body).bulk_modulus;
     const auto text = [&](Real value, Dimension d) {
       return fmt::format("{:.4g} {}", value, assembly.units().symbol(d));
     };
@@ -103,10 +100,21 @@ struct SurfaceTension final : Load<D>, Keys {
           text(gamma * most * K / pressure, dimension::tension)));
   }
 
+  TensionForm kind() const {
+    const auto* found = std::find(tension_form_names.begin(), tension_form_names.end(), form);
+    return static_cast<TensionForm>(found - tension_form_names.begin());
+  }
   std::unique_ptr<ForceTerm> term(const Body<D>& on) const {
-    if (form == "balanced") return balanced_surface_tension(on, gamma);
-    if (form == "weak") return weak_surface_tension(on, gamma, points);
-    if (form == "curvature") return curvature_surface_tension(on, gamma, points);
+    switch (kind()) {
+      case TensionForm::balanced:
+        return balanced_surface_tension(on, gamma);
+      case TensionForm::weak:
+        return weak_surface_tension(on, gamma, points);
+      case TensionForm::curvature:
+        return curvature_surface_tension(on, gamma, points);
+      case TensionForm::triangles:
+        break;
+    }
     return triangle_surface_tension(on, gamma);
   }
 };

@@ -27,8 +27,8 @@ namespace {
 
 template <int D>
 bool flows(const Scene<D>& scene) {
-  return std::any_of(scene.viscosity.begin(), scene.viscosity.end(),
-                     [](const auto& viscosity) { return !viscosity.empty(); });
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const SceneBody& body) { return body.is_fluid(); });
 }
 
 /// What the two ways to equilibrium are expected to take; none if that is not known.
@@ -36,7 +36,7 @@ template <int D>
 std::optional<ExpectedEffort> effort_to_rest(Scene<D>& scene, const State& state, Real stable) {
   constexpr Real usual_steps = 20;
   std::vector<bool> fluid;
-  for (const auto& viscosity : scene.viscosity) fluid.push_back(!viscosity.empty());
+  for (const SceneBody& body : scene.bodies) fluid.push_back(body.is_fluid());
   const Real steady = scene.system.steady_after(), end = scene.time.end;
   const Real duration = steady > 0 ? std::min(steady, end) : end;
   const Real steps = steady == 0 ? !flows(scene)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Viscosity of a solid (Kelvin and Voigt).
-#include "physics/internal/solid_viscosity.hpp"
-
 #include "meniscus/scene/assembly.hpp"
+#include "physics/internal/solid_viscosity.hpp"
 
 namespace meniscus::solid_viscosity_load {
 namespace {

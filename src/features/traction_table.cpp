@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A force per area on a face.
-#include "physics/loads/traction.hpp"
-
 #include "input/optional_rows.hpp"
 #include "meniscus/scene/assembly.hpp"
+#include "physics/loads/traction.hpp"
 #include "scene/face_keys.hpp"
 
 #include <fmt/core.h>

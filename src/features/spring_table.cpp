@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Springs and dampers on a face or at a place of a body.
-#include "physics/loads/spring.hpp"
-
 #include "body/surface/face_means.hpp"
 #include "input/optional_rows.hpp"
 #include "meniscus/scene/assembly.hpp"
+#include "physics/loads/spring.hpp"
 #include "scene/face_keys.hpp"
 
 #include <fmt/core.h>
