@@ -20,7 +20,7 @@
 #include "parallel/parallel.hpp"
 #include "solve/newton/newton_method.hpp"
 #include "solve/step/central_difference.hpp"
-#include "solve/step/leapfrog.hpp"
+#include "solve/step/pseudo_time.hpp"
 
 #include <fmt/core.h>
 
@@ -33,14 +33,14 @@ namespace {
 
 constexpr Real damping_ratio = 0.6;
 
+}  // namespace
+
 template <int D>
 Real kinetic_energy(const System<D>& system, const State& state) {
   return system.sum_over_particles(0.0, [&](Index A) {
     return 0.5 * at(system.mass, A) * sum(at(state.v, A) * at(state.v, A));
   });
 }
-
-}  // namespace
 
 template <int D>
 Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances,
@@ -54,17 +54,7 @@ Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances,
 }
 
 template <int D>
-void Relaxation<D>::relieve(Real safety) {
-  inertia_ = std::make_unique<ElasticInertia<D>>(system_);
-  elastic_step_.emplace(system_, safety);
-  momentum_.assign(last_u_.size(), Lanes::zero());
-  acceleration_ = impulse_ = window_impulse_ = momentum_;
-}
-
-template <int D>
 void Relaxation<D>::begin(const State& state) {
-  std::fill(momentum_.begin(), momentum_.end(), Lanes::zero());
-  starts_ = true;
   settled_windows_ = pulled_windows_ = 0;
   shape_change_ = 1;
   open_window(state, 0);
@@ -76,84 +66,35 @@ Real Relaxation<D>::steady_after() const {
 }
 
 template <int D>
-void Relaxation<D>::take_up(const State& state) {
-  inertia_->solve(state.force, acceleration_);
-  beyond_ = energy_of_motion(state) - kinetic_energy(system_, state);
-}
-
-template <int D>
 Real Relaxation<D>::energy_of_motion(const State& state) const {
-  return inertia_ ? 0.5 * dot(momentum_, state.v) : kinetic_energy(system_, state);
-}
-
-template <int D>
-Real Relaxation<D>::longest_step(const State& state) {
-  return inertia_ ? elastic_step_->at_state(*inertia_, state) : unbounded;
-}
-
-template <int D>
-std::string Relaxation<D>::effort() const {
-  return inertia_ ? fmt::format("{} forces for the stable step", elastic_step_->evaluations()) : "";
+  return kinetic_energy(system_, state);
 }
 
 template <int D>
 void Relaxation<D>::step(State& state, Real dt) {
-  if (inertia_ && starts_) {
-    if (kinetic_energy(system_, state) > 0) stop_motion(system_, state);
-    take_up(state);
-    starts_ = false;
-  }
   system_.for_particles([&](Index begin, Index end) {
     std::copy(state.u.begin() + begin, state.u.begin() + end, last_u_.begin() + begin);
     std::copy(state.force.begin() + begin, state.force.begin() + end, last_force_.begin() + begin);
   });
-  if (inertia_)
-    glide(state, dt);
-  else
-    advance(system_, state, dt);
+  move(state, dt);
   damp(state, dt);
 }
 
 template <int D>
-void Relaxation<D>::glide(State& state, Real dt) {
-  add(momentum_, dt / 2, state.force);
-  add(state.v, dt / 2, acceleration_);
-  sweep(system_.size(), [&](Index begin, Index end) {
-    for (Index A = begin; A < end; ++A) {
-      at(impulse_, A) = dt * at(momentum_, A);
-      at(window_impulse_, A) += at(impulse_, A);
-    }
-  });
-  leapfrog::drift(system_, state, dt);
-  Report report;
-  try {
-    report = system_.compute_forces(state.motion(), state.forces());
-  } catch (const SolveError&) {
-    leapfrog::drift(system_, state, -dt);
-    throw;
-  }
-  inertia_->solve(state.force, acceleration_);
-  add(momentum_, dt / 2, state.force);
-  add(state.v, dt / 2, acceleration_);
-  leapfrog::conclude(system_, state, report, dt, 0.75);
+void Relaxation<D>::move(State& state, Real dt) {
+  advance(system_, state, dt);
 }
 
 template <int D>
 void Relaxation<D>::damp(State& state, Real dt) {
-  const Real omega = change_since(last_u_, last_force_, state).omega;
+  const Real omega = change_of(sums_of_step(state)).omega;
   const Real factor = std::exp(-2 * damping_ratio * omega * dt);
   state.books.dissipated += (1 - factor * factor) * energy_of_motion(state);
   state.books.scale_momenta(factor);
   system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(state.v, A) *= factor;
   });
-  if (inertia_) {
-    for (NodalVector& p : momentum_) p *= factor;
-    const Real before = beyond_;
-    beyond_ = energy_of_motion(state) - kinetic_energy(system_, state);
-    state.books.dissipated += beyond_ - before;
-    if (omega * dt > 1) elastic_step_->doubt();
-  }
+  follow_brake(state, factor, omega * dt);
   // What is prescribed is not braked.
   if (system_.constraints && state.time < system_.constraints->steady_after())
     system_.constraints->restore_velocities(state);
@@ -167,17 +108,16 @@ template <int D>
 void Relaxation<D>::open_window(const State& state, Real length) {
   window_u_ = state.u;
   window_force_ = state.force;
-  std::fill(window_impulse_.begin(), window_impulse_.end(), Lanes::zero());
+  begin_window();
   window_begin_ = state.time;
   window_length_ = length;
 }
 
 template <int D>
 void Relaxation<D>::judge(State& state, Real dt) {
-  const Real fewest_steps = inertia_ ? 8 : 40;
   const Real elapsed = state.time - window_begin_;
   const bool ramps_ended = window_begin_ < steady_after() && state.time >= steady_after();
-  if (!ramps_ended && elapsed < std::max(window_length_, fewest_steps * dt) * (1 - 1e-9)) return;
+  if (!ramps_ended && elapsed < std::max(window_length_, fewest_steps() * dt) * (1 - 1e-9)) return;
   system_.complete(state);
   const Change change = judged_window(state);
   const Real quarter = change.omega > 0 ? std::numbers::pi / (2 * change.omega) : 2 * elapsed;
@@ -220,8 +160,7 @@ typename Relaxation<D>::Change Relaxation<D>::judged_window(const State& state) 
   remove_free_drift(system_, state, df_, du_);
   for (Index A = 0; A < system_.size(); ++A)
     if (fluids_.holds(A)) at(du_, A) = at(df_, A) = Lanes::zero();
-  Change change = change_of([&](Index A) { return at(du_, A); },
-                            [&](Index A) { return at(df_, A); }, window_impulse_, state);
+  Change change = change_of(sums_of_window(state));
   shape_change_ = change.left * largest_change();
   if (!fluids_.any()) return change;
 
@@ -236,29 +175,30 @@ typename Relaxation<D>::Change Relaxation<D>::judged_window(const State& state) 
 }
 
 template <int D>
-typename Relaxation<D>::Change Relaxation<D>::change_since(const NodalVectors& u,
-                                                           const NodalVectors& f,
-                                                           const State& state) const {
-  return change_of([&](Index A) { return at(state.u, A) - at(u, A); },
-                   [&](Index A) { return at(state.force, A) - at(f, A); }, impulse_, state);
+typename Relaxation<D>::ModeSums Relaxation<D>::sums_of_step(const State& state) const {
+  return system_.sum_over_particles(Lanes::zero(), [&](Index A) {
+    const Lanes du = at(state.u, A) - at(last_u_, A);
+    const Lanes df = at(state.force, A) - at(last_force_, A);
+    const Real mass = at(system_.mass, A);
+    return Lanes(-sum(du * df), mass * sum(du * du), sum(du * at(state.force, A)),
+                 mass * sum(du * at(state.v, A)));
+  });
+}
+
+template <int D>
+typename Relaxation<D>::ModeSums Relaxation<D>::sums_of_window(const State& state) const {
+  return system_.sum_over_particles(Lanes::zero(), [&](Index A) {
+    const Lanes &du = at(du_, A), &df = at(df_, A);
+    const Real mass = at(system_.mass, A);
+    return Lanes(-sum(du * df), mass * sum(du * du), sum(du * at(state.force, A)),
+                 mass * sum(du * at(state.v, A)));
+  });
 }
 
 /// In the energy of the mode w = du, stiffness k = - du.df and mass m = du.M du: the present force
 /// is f.du/k of w away from where it vanishes, and the velocity carries on by v.M du/sqrt(k m).
 template <int D>
-template <class U, class F>
-typename Relaxation<D>::Change Relaxation<D>::change_of(U&& du_of, F&& df_of,
-                                                        const NodalVectors& impulse,
-                                                        const State& state) const {
-  const Lanes sums = system_.sum_over_particles(Lanes::zero(), [&](Index A) {
-    const Lanes du = du_of(A);
-    if (inertia_)
-      return Lanes(-sum(du * df_of(A)), sum(du * at(impulse, A)), sum(du * at(state.force, A)),
-                   sum(du * at(momentum_, A)));
-    const Real mass = at(system_.mass, A);
-    return Lanes(-sum(du * df_of(A)), mass * sum(du * du), sum(du * at(state.force, A)),
-                 mass * sum(du * at(state.v, A)));
-  });
+typename Relaxation<D>::Change Relaxation<D>::change_of(const ModeSums& sums) const {
   const Real k = sums[0], m = sums[1];
   if (m == 0) return {0, 0};
   if (k <= 0 || m < 0) return {0, 1 / tolerances_.shape};  // nothing brings it back
@@ -316,14 +256,6 @@ void Relaxation<D>::archive(const Archive& a, const State& state) {
   a("shape_change", shape_change_);
   a("settled_windows", settled_windows_);
   a("pulled_windows", pulled_windows_);
-  if (inertia_ && (!a.is_reading() || a.has("elastic_inertia"))) {
-    const Archive own = a.in("elastic_inertia");
-    own("momentum", momentum_, D, dimension::momentum);
-    own("window_impulse", window_impulse_, D);
-    own("starts", starts_);
-    elastic_step_->archive(a.in("elastic_step"));
-    if (a.is_reading()) take_up(state);
-  }
   require_saved(settled_windows_ >= 0 && pulled_windows_ >= 0, a, "settled_windows");
 }
 
@@ -359,12 +291,12 @@ std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice)
       refuse_change(choice, term->name(), term->steady_after());
   if (system.constraints && system.constraints->steady_after() >= choice.end)
     refuse_change(choice, "a displacement of [[held]]", system.constraints->steady_after());
-  auto relaxation = std::make_unique<Relaxation<D>>(
-      system, typename Relaxation<D>::Tolerances{choice.force_tolerance, choice.shape_tolerance},
-      choice.fluid);
+  const typename Relaxation<D>::Tolerances tolerances{choice.force_tolerance,
+                                                      choice.shape_tolerance};
   // A step that is given is one of the masses.
-  if (!choice.step && is_thin_and_elastic(system, choice.fluid)) relaxation->relieve(choice.safety);
-  return relaxation;
+  if (!choice.step && is_thin_and_elastic(system, choice.fluid))
+    return std::make_unique<PseudoTime<D>>(system, tolerances, choice.safety);
+  return std::make_unique<Relaxation<D>>(system, tolerances, choice.fluid);
 }
 
 const bool registered =

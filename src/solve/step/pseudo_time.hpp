@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dynamic relaxation of thin bodies in a time of its own: with an inertia that is chosen for long
+// steps.
+#pragma once
+#include "solve/step/elastic_inertia.hpp"
+#include "solve/step/relaxation.hpp"
+
+namespace meniscus {
+
+/// Relaxation with the inertia M of ElasticInertia. Bodies begin without motion. The kinetic energy
+/// v.M v/2 beyond that of the masses counts as dissipated.
+template <int D>
+class PseudoTime final : public Relaxation<D> {
+ public:
+  /// Steps are `safety` times the longest stable one.
+  PseudoTime(System<D>& system, const typename Relaxation<D>::Tolerances& tolerances, Real safety);
+
+  void begin(const State& state) override;
+  bool chooses_step() const override { return true; }
+  Real longest_step(const State& state) override { return step_.at_state(inertia_, state); }
+  /// M^-1 reads the forces on all particles.
+  bool tell_reads(StepReads&) override { return false; }
+  std::string effort() const override;
+  void archive(const Archive& a, const State& state) override;
+
+ private:
+  using typename Relaxation<D>::ModeSums;
+  using Relaxation<D>::system_;
+  using Relaxation<D>::last_u_;
+  using Relaxation<D>::last_force_;
+  using Relaxation<D>::du_;
+  using Relaxation<D>::df_;
+
+  void move(State& state, Real dt) override;
+  Real energy_of_motion(const State& state) const override;
+  ModeSums sums_of_step(const State& state) const override;
+  ModeSums sums_of_window(const State& state) const override;
+  void follow_brake(State& state, Real factor, Real omega_dt) override;
+  Real fewest_steps() const override { return 8; }
+  void begin_window() override;
+  /// Finds the acceleration of a state, and how much kinetic energy is beyond that of the masses.
+  void take_up(const State& state);
+
+  ElasticInertia<D> inertia_;
+  ElasticStep<D> step_;
+  NodalVectors momentum_, acceleration_;   ///< M v, M^-1 f
+  NodalVectors impulse_, window_impulse_;  ///< M du of the last step, and since the window began
+  Real beyond_ = 0;                        ///< kinetic energy beyond that of the masses
+  bool starts_ = true;                     ///< with the next step, at rest
+};
+
+}  // namespace meniscus
