@@ -40,7 +40,7 @@ MAY_INCLUDE = {layer: others.split() for layer, others in LAYERS.items()}
 # A header without a layer, which all files may include.
 COMMON = [pathlib.Path("include/meniscus/error.hpp")]
 # Folders of sources without headers: each source registers what it defines.
-LEAVES = ["src/parallel/mpi", "src/physics/laws", "src/features"]
+LEAVES = ["src/parallel/mpi", "src/physics/laws"]
 
 # Library: (beginning of its headers' names, files that may see it; None: any one source).
 CONFINED = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Impact pressure, elastocapillary and Tabor numbers of a contact, and waves of drops that spread.
-#include "scene/contact_advice.hpp"
+#include "features/contact/contact_advice.hpp"
 
 #include "physics/contact/contact_numbers.hpp"
 

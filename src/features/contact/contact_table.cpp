@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of [[contact]], their checks, and the bodies, terms and measures that it adds.
+#include "features/contact/contact_table.hpp"
+
+#include "meniscus/error.hpp"
+
+#include <fmt/core.h>
+
+namespace meniscus::contact_table {
+namespace {
+
+/// What an absent key stands for.
+std::string usual_interaction(const Block& block) {
+  if (!block.has("contact_angle") && !block.has("adhesion")) return "lennard_jones";
+  return block.has("sigma0") ? "scaled_lennard_jones" : "smooth_young";
+}
+}  // namespace
+
+std::vector<std::string> forms() {
+  return {contact_form_names.begin(), contact_form_names.end()};
+}
+
+Rows<Keys> Keys::rows() {
+  Row<Keys> interaction =
+      choice_row("interaction", &Keys::interaction, interactions<3>().names(),
+                 "by which they act on each other; its own keys follow in the same table. With an "
+                 "adhesion or a contact_angle it may be left out: it is smooth_young then, or "
+                 "with sigma0 scaled_lennard_jones",
+                 "lennard_jones");
+  interaction.read = [](Keys& keys, const Block& block) {
+    keys.interaction =
+        block.choice("interaction", interactions<3>().names(), usual_interaction(block));
+  };
+  Row<Keys> form =
+      choice_row("form", &Keys::form, forms(),
+                 "gradient of the surface energy (conserves energy and momenta exactly); "
+                 "disjoining pressure; forces between volume points; traction of the dissertation "
+                 "(not the gradient of any energy), the only one of legacy_switch",
+                 "energy");
+  form.read = [](Keys&, const Block&) {};  // with the interaction, which knows its usual one
+  return {
+      text_row("name", &Keys::name, "by which messages and measures call it; empty: the bodies",
+               ""),
+      texts_row("bodies", &Keys::bodies,
+                "names of two bodies, or of one that has a [contact.partner]"),
+      interaction,
+      form,
+      choice_row("density", &Keys::density, {"constant", "referential"},
+                 "surface forms: beta per current volume, or per reference volume (beta/J); the "
+                 "form volume is referential",
+                 "constant"),
+      integer_row(
+          "points", &Keys::points, {0, 20},
+          "Gauss points per direction and facet of the surface (form volume: cell); 0: so "
+          "many that tangential forces of smooth bodies stay below 1e-3 of the normal ones, "
+          "2 to 8 (rigid partners: to 4, form volume: 2)",
+          0),
+      real_row("skin", &Keys::skin, dimension::none, {0.01, 10},
+               "reach of the list beyond the cut-off / sigma0 (a law of the gap: / quarter of its "
+               "range)",
+               0.4),
+      reals_row("up", &Keys::up, 0, dimension::none, range::any,
+                "of two bodies with a law of the gap: the first is a drop that rests on the "
+                "second, ground below it, and this points from the ground to the drop. Gaps are "
+                "those along it and the drop has all of the energy, as on a rigid partner; "
+                "without it both surfaces have a half",
+                std::vector<Real>{}),
+      real_row("friction", &Keys::friction, {-2, -1, 1}, range::non_negative,
+               "with a rigid partner: traction along it per relative speed where the surfaces "
+               "touch, fading with the energy of the interaction",
+               0.0),
+  };
+}
+
+/// Of the interactions and of the partners.
+std::vector<KeyTable> tables_of_parts() {
+  std::vector<KeyTable> tables;
+  for (const auto& [name, interaction] : interactions<3>())
+    tables.push_back(
+        {fmt::format("[[contact]] interaction = \"{}\": {}", name, interaction.meaning),
+         interaction.keys(),
+         fmt::format("[[contact]]\nbodies = [\"drop\", \"other\"]\ninteraction = \"{}\"\n{}", name,
+                     interaction.example)});
+  // In the plane there are all partners of space, and more.
+  tables.push_back({"[contact.partner] of any type", key_texts(Partner<2>::rows())});
+  for (const auto& [name, partner] : partners<2>()) {
+    const auto* in_space = partners<3>().find(name);
+    tables.push_back({fmt::format("[contact.partner] type = \"{}\"{}: {}", name,
+                                  in_space ? "" : " (2D)", partner.meaning),
+                      in_space ? in_space->keys() : partner.keys(),
+                      fmt::format("[contact.partner]\ntype = \"{}\"\n{}", name,
+                                  in_space ? in_space->example : partner.example)});
+  }
+  return tables;
+}
+
+template <int D>
+void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
+  require_plain_name(block, name);
+  const std::size_t wanted = partner ? 1 : 2;
+  if (block.has("bodies") && bodies.size() != wanted)
+    block.problem("bodies", fmt::format("names {} bodies; allowed are two, or one with a "
+                                        "[contact.partner]",
+                                        bodies.size()));
+  for (const std::string& body : bodies) require_body(block, planned, body, "bodies");
+  if (bodies.size() == 2 && bodies[0] == bodies[1])
+    block.problem("bodies", fmt::format("'{}' cannot be in contact with itself", bodies[0]));
+  model->check(block, partner.has_value());
+  if (friction > 0 && !partner)
+    block.problem("friction", "is for rigid partners; allowed between two bodies is 0");
+  if (!up.empty() && partner)
+    block.problem("up", "is for two bodies; a [contact.partner] has a direction of its own");
+  if (!up.empty() && up.size() != D)
+    block.problem("up", fmt::format("has {} numbers; expected is a vector of {}", up.size(), D));
+  else if (!up.empty() && !(Vec<D>::Map(up.data()).norm() > 0))
+    block.problem("up", "has no direction; allowed is any vector of a finite length > 0");
+  if (form != "volume") return;
+  if (block.has("density") && density == "constant")
+    block.problem("density",
+                  "form = \"volume\" has beta per reference volume; allowed is referential");
+  if (partner)
+    block.problem("form",
+                  "volume is for two bodies; allowed with a rigid partner are energy, pressure, "
+                  "dissertation");
+}
+
+template <int D>
+void Contact<D>::build(Assembly<D>& assembly) const {
+  flat_.reset();
+  require_points_to_meet(assembly);
+  std::unique_ptr<ForceTerm> term = this->term(assembly);
+  const StateCheck inside = containment(assembly);
+  if (const State* initial = assembly.initial()) {
+    if (const auto failure = inside(initial->motion()))
+      throw InputError(fmt::format("{}: {}; move the bodies apart", this->place,
+                                   assembly.located(*failure).text()));
+    require_gap(*term, *initial);
+  }
+  assembly.check(inside);
+  report(*term, assembly);
+  if (density == "referential" || form == "volume")
+    for (const std::string& body : bodies)
+      assembly.keep_reference(body, "its [[contact]] has beta per volume of the reference");
+  if (!partner && model->placed(surfaces(assembly)))
+    assembly.keep_reference(bodies[1], "the adhesion of its [[contact]] is a formula of it");
+  assembly.add(std::move(term), name);
+  assembly.contact({name, bodies, flat(assembly).adhesion});
+  if (partner) {
+    assembly.draw({name, partner->shape, partner_motion()});
+    measure_wetting(assembly);
+  } else {
+    measure_soft_wetting(assembly);
+  }
+}
+
+const bool registered = register_load<Contact>(
+    "contact", Stage::contact, "adhesive contact of two bodies, or of one with a rigid partner");
+
+}  // namespace meniscus::contact_table

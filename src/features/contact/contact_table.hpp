@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table [[contact]]: its keys, and what is built from them.
+#pragma once
+#include "features/contact/contact_advice.hpp"
+#include "input/optional_rows.hpp"
+#include "meniscus/physics/interaction_registry.hpp"
+#include "meniscus/scene/assembly.hpp"
+#include "physics/contact/contact_numbers.hpp"
+#include "physics/contact/points/contact_resolution.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meniscus::contact_table {
+
+struct Keys {
+  std::string name, form, density, interaction;
+  std::vector<std::string> bodies;
+  std::vector<Real> up;
+  Real skin = 0, friction = 0;
+  int points = 0;
+  static Rows<Keys> rows();
+};
+
+/// Names of the forms of the forces of a contact.
+std::vector<std::string> forms();
+
+/// [contact.partner]
+template <int D>
+struct Partner {
+  std::shared_ptr<const PartnerShape<D>> shape;
+  std::vector<Expression> displacement;  // of the time; empty: at rest
+
+  static Rows<Partner> rows() {
+    Row<Partner> type = choice_row<Partner>("type", nullptr, partners<D>().names(),
+                                            "kind of the rigid partner; its own keys follow");
+    type.read = [](Partner& p, const Block& block) {
+      const auto kind = block.kind("type", partners<D>().names());
+      if (kind) p.shape = partners<D>().at(*kind).read(block);
+    };
+    return {type, optional_expressions_row("displacement", &Partner::displacement, D,
+                                           dimension::length, Variables::time,
+                                           "prescribed motion, a formula of t for each component")};
+  }
+};
+
+/// Tables of keys of the interactions and of the partners.
+std::vector<KeyTable> tables_of_parts();
+
+template <int D>
+struct Contact final : Load<D>, Keys {
+  static constexpr std::string_view example =
+      "bodies = [\"drop\", \"other\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\n";
+  std::unique_ptr<const ContactModel<D>> model;
+  std::optional<Partner<D>> partner;  // none: between two bodies
+
+  void read_inner(const Block& block) {
+    model = interactions<D>().at(interaction).read(block);
+    form = block.choice("form", forms(), model->usual_form());
+    if (const auto table = block.table("partner")) {
+      partner = read<Partner<D>>(*table);
+      table->done();
+    }
+    if (name.empty() && !bodies.empty())
+      name = bodies[0] + "-" + (bodies.size() > 1 ? bodies[1] : "partner");
+  }
+  static std::vector<KeyTable> inner_tables() { return tables_of_parts(); }
+
+  std::optional<typename Load<D>::Identity> identity() const override { return {{"name", name}}; }
+  void check(const Block& block, const BodyPlans<D>& planned) const override;
+  void build(Assembly<D>& assembly) const override;
+
+ private:
+  ContactChoice choice(const Assembly<D>& assembly) const;
+  ContactSurfaces surfaces(const Assembly<D>& assembly) const;
+  /// Computed once in build(), which uses it many times. Throws InputError if it is not finite.
+  const PlaneContact& flat(const Assembly<D>& assembly) const {
+    if (!flat_) {
+      flat_ = model->flat(partner.has_value(), surfaces(assembly));
+      require_finite(*flat_, this->place);
+    }
+    return *flat_;
+  }
+  ContactResolution resolution(const Assembly<D>& assembly) const;
+  int points_chosen(const Assembly<D>& assembly) const;
+  std::unique_ptr<ForceTerm> term(const Assembly<D>& assembly) const;
+  RigidMotion<D> partner_motion() const;
+  void require_gap(ForceTerm& term, const State& initial) const;
+  void require_points_to_meet(const Assembly<D>& assembly) const;
+  void report_points(Assembly<D>& assembly) const;
+  StateCheck containment(const Assembly<D>& assembly) const;
+  void report(const ForceTerm& term, Assembly<D>& assembly) const;
+  void measure_wetting(Assembly<D>& assembly) const;
+  void measure_soft_wetting(Assembly<D>& assembly) const;
+  bool soft_wetting(const Assembly<D>& assembly) const;
+  std::string folding(const Assembly<D>& assembly) const;
+  std::string overlap(const Assembly<D>& assembly) const;
+  BeginningContact<D> beginning(const ForceTerm& term, const Assembly<D>& assembly) const;
+
+  mutable std::optional<PlaneContact> flat_;
+};
+
+}  // namespace meniscus::contact_table
