@@ -2,7 +2,6 @@
 // Beginning, advancing, saving and restoring a run.
 #include "run/simulation.hpp"
 
-#include "body/grid/ordering.hpp"
 #include "measure/drop_measures.hpp"
 #include "meniscus/error.hpp"
 #include "parallel/nodal_algebra.hpp"
@@ -319,108 +318,6 @@ Ledger Simulation<D>::audit_now() {
   const Ledger ledger = take_ledger(scene_.system, state_);
   audit_.follow(scene_.system, state_, ledger);
   return ledger;
-}
-
-template <int D>
-void Simulation<D>::archive(const Archive& a) {
-  archive_orders(a.in("orders"));
-  state_.archive(a, D);
-  a("last_step", last_step_, dimension::time);
-  require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
-  archive_viscosity(a);
-  if (!stepper_->chooses_step()) {
-    if (a.is_reading() && !a.has("step_control"))  // the run's stepper chose its steps
-      controller_->begin(state_);
-    else
-      controller_->archive(a.in("step_control"));
-  }
-  const Archive stepper = a.in("stepper").in(scene_.time.solver);
-  if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's
-    stepper_->begin(state_);
-  else
-    stepper_->archive(stepper, state_);
-  if (a.is_reading()) audit_.begin(take_ledger(scene_.system, state_));  // its kinds of energy
-  audit_.archive(a.in("audit"), D);
-  // They begin as these and change by impulses from outside only.
-  a.in("audit")("initial_momentum", state_.books.momentum, of_sum(dimension::momentum, D));
-  a.in("audit")("initial_angular_momentum", state_.books.angular_momentum,
-                of_sum(dimension::angular_momentum, D));
-  archive_terms(a);
-  archive_references(a.in("references"));
-}
-
-/// What was chosen at the beginning, where the scene leaves it open, is kept to the end.
-template <int D>
-void Simulation<D>::archive_viscosity(const Archive& a) {
-  if (scene_.time.viscosity != "automatic") return;
-  const Archive choice = a.in("viscosity");
-  if (a.is_reading() && !a.has("viscosity")) return choose_viscosity();  // it was not open
-  bool implicit = implicit_viscosity_;
-  choice("implicit", implicit);
-  if (implicit != implicit_viscosity_) make_stepper(implicit);
-}
-
-template <int D>
-void Simulation<D>::archive_terms(const Archive& a) {
-  for (std::size_t k = 0; k < scene_.system.terms.size(); ++k) {
-    ForceTerm& term = *scene_.system.terms[k];
-    term.archive(a.in(fmt::format("terms/{} {}", k, term.name())));
-  }
-  for (std::size_t k = 0; k < scene_.system.carried.size(); ++k)
-    scene_.system.carried[k]->archive(a.in(fmt::format("carried/{}", k)));
-}
-
-/// The scene is built on its references, so that a state that is read only has to be of the same.
-template <int D>
-void Simulation<D>::archive_references(const Archive& a) const {
-  for (const Body<D>& body : scene_.system.bodies) {
-    if (a.is_reading() && a.has(body.name) != (body.reference != nullptr))
-      throw FileError(fmt::format("the state has another reference of body '{}'", body.name));
-    if (!a.is_reading() && body.reference) {
-      Reference<D> reference = *body.reference;
-      reference.archive(a.in(body.name));
-    }
-  }
-}
-
-/// Values are those of particles by their numbers, which another version may give otherwise. Places
-/// of later references are kept themselves.
-template <int D>
-void Simulation<D>::archive_orders(const Archive& a) const {
-  constexpr Real of_rounding = 1e-6;  // of the spacing, of all particles together
-  for (const Body<D>& body : scene_.system.bodies) {
-    if (body.reference) continue;
-    const Vec<D> mark = mark_of_order<D>(body.geometry.grid.X);
-    Eigen::Vector3d saved = Eigen::Vector3d::Zero();
-    saved.head<D>() = mark;
-    a(body.name, saved, dimension::length);
-    if (!((saved.head<D>() - mark).norm() < of_rounding * mean_spacing(body.geometry.grid)))
-      throw FileError(
-          fmt::format("the saved state of body '{}' has its particles in another order: it was "
-                      "written by another version; continue it with that one, or run it again",
-                      body.name));
-  }
-}
-
-template <int D>
-Snapshot Simulation<D>::snapshot() {
-  complete_state();
-  Snapshot snapshot;
-  archive(Archive::writing(snapshot, [this](Dimension d) { return scene_.units.symbol(d); }));
-  return snapshot;
-}
-
-template <int D>
-Snapshot Simulation<D>::snapshot_of_first_rank() {
-  if (ranks().first()) return snapshot();
-  complete_state();
-  archive(Archive::nowhere());
-  return {};
-}
-
-template <int D>
-void Simulation<D>::restore(const Snapshot& snapshot) {
-  archive(Archive::reading(snapshot));
 }
 
 template std::vector<Real> packed<2>(const NodalVectors&);

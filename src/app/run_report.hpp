@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the log says of a run: at its beginning, and at its end.
+#pragma once
+#include "app/commands.hpp"
+#include "app/interruption.hpp"
+#include "app/restart.hpp"
+#include "io/provenance.hpp"
+#include "io/run_log.hpp"
+#include "run/simulation.hpp"
+
+#include <optional>
+#include <string>
+
+namespace meniscus {
+
+template <int D>
+void introduce(const Scene<D>& scene, const Provenance& origin,
+               const std::optional<Restart>& restart, const StableStep& stable, RunLog& log);
+/// How far the drops are from equilibrium at the start.
+template <int D>
+void report_residuals(const Simulation<D>& simulation, RunLog& log);
+/// Steps, time and state hash of a run that has made its steps since `first_step`.
+template <int D>
+std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double set_up_seconds,
+                      const Interruption& interruption);
+/// Pairs that the contacts visited per force, beside those of all other terms.
+template <int D>
+void report_contacts(const System<D>& system, RunLog& log);
+/// What the ranks have sent and held since the beginning of the run.
+template <int D>
+void report_ranks(const System<D>& system, std::int64_t steps, RunLog& log);
+/// Says whether the bodies are at rest, at a state that is stable; false if they should be, but are
+/// not.
+template <int D>
+bool report_rest(Simulation<D>& simulation, RunLog& log);
+/// The expectations of the scene beside its results; returns the exit code.
+template <int D>
+int report_expectations(const Simulation<D>& simulation, const RunDirectory& directory, RunLog& log);
+
+std::string name_of(int signal);
+template <int D>
+void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunDirectory& directory,
+                         RunLog& log);
+/// All warnings of the run together: where they came, much was said after them.
+void repeat_warnings(bool quiet, RunLog& log);
+
+}  // namespace meniscus
