@@ -8,7 +8,7 @@
 
 file(GLOB scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/inputs/*.toml)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${scenes})
-# Each test has one thread, several tests run at once; results do not depend on the threads.
+# Each test uses one thread, and several tests run at once. Results do not depend on threads.
 set(scene_environment OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1)
 
 foreach(scene ${scenes})

@@ -1,5 +1,5 @@
-# Every study in its short form (label verify), which asserts orders and targets, and in
-# full (configuration full: tools/verify), which writes verification/NAME.
+# Runs every study in its short form (label verify), which asserts orders and targets. tools/verify
+# (configuration full) runs it in full and writes verification/NAME.
 file(GLOB study_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/study/*.cpp)
 
 foreach(source ${study_sources})

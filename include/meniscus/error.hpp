@@ -9,9 +9,9 @@
 
 namespace meniscus {
 
-/// The input is wrong (exit code 3). what() has one line per problem, each
+/// The input is wrong (exit code 3). what() has one line per problem:
 ///
-///   file:line:column: key: what is wrong; allowed; did you mean
+///   file:line:column: key: the problem; allowed values; did you mean
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

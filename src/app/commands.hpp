@@ -37,8 +37,8 @@ struct RunRequest {
 /// Runs a scene to its end; returns an exit code. Throws InputError, SolveError, FileError.
 int run(const RunRequest& request);
 
-/// Everything short of running: reads, builds, estimates step, memory and duration, and prints
-/// them.
+/// Reads and builds the scene without running it. Estimates the step, memory and duration, and
+/// prints them.
 void check(const RunRequest& request);
 
 /// The time of --until in units of the scene; infinity if none was given. Throws InputError.
@@ -46,7 +46,7 @@ Real time_to_stop(const RunRequest& request, const UnitSystem& units);
 
 struct StudyRequest {
   std::string name, output, command_line;
-  std::vector<int> levels;  ///< empty: those of the study
+  std::vector<int> levels;  ///< empty: the levels of the study
   std::vector<std::string> set;
   int threads = 0;  ///< 0: all cores
   bool brief = false;
@@ -59,8 +59,8 @@ int run_study(const StudyRequest& request);
 /// Prints the known studies.
 void list_studies();
 
-/// Calls the command. What it throws becomes a message on the standard error output and the exit
-/// code that goes with it.
+/// Calls the command and returns its exit code. If the command throws, prints the message to stderr
+/// and returns the exit code that belongs to the kind of exception.
 int exit_code_of(const std::function<int()>& command);
 
 }  // namespace meniscus

@@ -7,22 +7,23 @@
 
 namespace meniscus {
 
-/// SIGINT, SIGTERM, SIGHUP, SIGUSR1 and SIGXCPU are noted and acted on at the end of the step, of
-/// Newton's method within it; another one a second later ends the program at once, and so it stays
-/// when the object is gone. One object at a time.
+/// Notes SIGINT, SIGTERM, SIGHUP, SIGUSR1 and SIGXCPU. The run stops at the end of the current
+/// step; Newton's method also stops within a step. Another signal more than a second later ends the
+/// program at once. This remains so after the object is destroyed. Only one object may exist at a
+/// time.
 class Interruption {
  public:
-  /// `max_walltime` in seconds from now.
+  /// The run may take `max_walltime` seconds from now.
   explicit Interruption(std::optional<double> max_walltime);
   ~Interruption();
   Interruption(const Interruption&) = delete;
 
-  /// From now on signals are noted, but for those the program was started to ignore (nohup).
+  /// Starts to note signals. Signals that the program was started to ignore (nohup) remain ignored.
   void catch_signals();
 
-  /// Number of the signal to stop for; SIGALRM (14) when the time is up.
+  /// Number of the signal for which this process should stop; SIGALRM (14) when the time is up.
   std::optional<int> noticed() const;
-  /// The same of all ranks, which ask together.
+  /// Like noticed(), for all ranks together: all return the same signal. All ranks call this.
   std::optional<int> requested() const;
   double elapsed_seconds() const;
 
@@ -31,7 +32,7 @@ class Interruption {
   double limit_seconds_;
 };
 
-/// Seconds of "H:M:S", "M:S" or "S"; nothing if the text is none of these or not positive.
+/// Seconds of "H:M:S", "M:S" or "S". Empty if the text has another form or is not positive.
 std::optional<double> parse_duration(const std::string& text);
 
 }  // namespace meniscus

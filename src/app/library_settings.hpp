@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings of the C library and of OpenMP that they read once, where a program begins.
+// Settings that the C library and OpenMP read only when a program starts.
 #pragma once
 
 namespace meniscus {
 
-/// Begins the program anew, once, with these in its environment where it says nothing of them:
-/// memory in pages of 2 MB (GLIBC_TUNABLES), threads that wait for each other for microseconds
-/// before they sleep (GOMP_SPINCOUNT, unless there is OMP_WAIT_POLICY). `argv`: that of main.
+/// Restarts the program once with two settings in its environment, unless they are set already.
+/// GLIBC_TUNABLES makes malloc use pages of 2 MB. GOMP_SPINCOUNT makes waiting threads spin for
+/// microseconds before they sleep; it is not set if OMP_WAIT_POLICY is. `argv` is the argument of
+/// main().
 void begin_with_settings(char** argv);
 
 }  // namespace meniscus

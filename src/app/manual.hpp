@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts about the command line that are made from the command line itself: completion of the shell
-// and the manual page.
+// Texts generated from the definition of the command line: completion for the shell, and the manual
+// page.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 namespace meniscus {
 
 struct OptionText {
-  std::vector<std::string> names;  ///< "--output", "-q"; none of what is given by its place
-  std::string value;               ///< "DIR"; empty of a flag
+  std::vector<std::string> names;  ///< "--output", "-q"; empty for a positional argument
+  std::string value;               ///< "DIR"; empty for a flag
   std::string meaning;
   bool required = false;
 };
@@ -19,10 +19,10 @@ struct CommandText {
   std::vector<OptionText> options;
 };
 
-/// A script for bash that completes commands, options and their values.
+/// A bash script that completes commands, options and their values.
 std::string bash_completion(const std::vector<CommandText>& commands);
 
-/// The manual page in the language of man. `description` is a sentence, `exit_codes` text.
+/// The manual page in the format of man. `description` is a sentence; `exit_codes` is a text.
 std::string manual_page(const std::vector<CommandText>& commands, const std::string& version,
                         const std::string& description, const std::string& exit_codes);
 

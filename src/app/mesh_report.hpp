@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `meniscus check` says of bodies of mesh files.
+// The report of `meniscus check` on bodies that are read from mesh files.
 #pragma once
 #include "scene/scene.hpp"
 
 namespace meniscus {
 
-/// Of each body with shape = "mesh": its cells, whether its surface is closed, the volume within it
-/// with its sign and that of the cells, its area, the smallest nodal cell, and the smallest row sum
-/// over the volume of its nodal cell.
+/// Prints for each body with shape = "mesh": the number and kind of cells; whether the surface is
+/// closed; the area; the signed volume that the surface encloses, and the volume of the cells; the
+/// smallest nodal cell; and the smallest row sum, relative to the volume of its nodal cell.
 template <int D>
 void say_meshes(const Scene<D>& scene, const SceneInput& input);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of the output of a run: columns of its history and fields of its frames.
+// Names in the output of a run: columns of the history and fields of the frames.
 #pragma once
 #include "io/history.hpp"
 #include "scene/scene.hpp"
 
 namespace meniscus {
 
-/// Kinds of energy that the force terms store ("strain", "surface"), each once.
+/// The kinds of energy that the force terms store ("strain", "surface"), without repetitions.
 template <int D>
 std::vector<std::string> stored_kinds(const Scene<D>& scene);
 
@@ -14,13 +14,14 @@ std::vector<std::string> stored_kinds(const Scene<D>& scene);
 template <int D>
 std::vector<MeasureSource> chosen_measures(const Scene<D>& scene);
 
-/// The columns of history.csv: time, step, dt, energies, errors, how far from
-/// rest a relaxation is, and the chosen measures.
+/// The columns of history.csv: time, step, dt, energies, errors, the distance of a relaxation from
+/// rest, and the chosen measures.
 template <int D>
 std::vector<HistoryColumn> history_columns(const Scene<D>& scene);
 
-/// Throws InputError with every field, measure and column that [output] and [expect] name but the
-/// scene does not have. (They are known only when the bodies and their force terms are built.)
+/// Throws InputError if [output] or [expect] names an unknown field, measure or column; the message
+/// lists all of them. The check needs the built scene, since bodies and force terms define the
+/// names.
 template <int D>
 void require_known_outputs(const SceneInput& input, const Scene<D>& scene);
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DIR/partners.h5 and its views: where the rigid partners of contacts are in the frames of a run.
+// DIR/partners.h5 and its views for ParaView: the positions of the rigid partners of contacts in
+// each frame.
 #pragma once
 #include "io/result_file.hpp"
 #include "run/simulation.hpp"
 
 namespace meniscus {
 
-/// The surfaces of the rigid partners of a scene; writes nothing if it has none.
+/// Writes the surfaces of the rigid partners of a scene. Writes nothing if the scene has none.
 template <int D>
 class PartnerFrames {
  public:
-  /// `continued`: the run goes on in the directory it was in before.
+  /// `continued`: the run continues in the directory of an earlier run.
   PartnerFrames(const Simulation<D>& simulation, const RunDirectory& directory,
                 const Provenance& provenance, bool continued);
 

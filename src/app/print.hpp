@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Printing that never fails: a stream that is full or gone loses the text, not the run.
+// Printing that never fails: if a stream is full or closed, the text is lost but the run goes on.
 #pragma once
 #include <fmt/core.h>
 
@@ -8,28 +8,29 @@
 
 namespace meniscus {
 
-/// Makes closed standard streams lead to the null device, so that no file of a run gets their
-/// numbers and with them the messages; ignores signals about pipes and file sizes, whose errors are
-/// reported where they occur. To be called first.
+/// Opens /dev/null in place of closed standard streams. Otherwise a file of the run could get the
+/// descriptor of a standard stream, and with it the messages. Also ignores the signals for broken
+/// pipes and exceeded file sizes; these errors are reported where they occur. Call this first.
 void secure_streams();
 
-/// Writes to stdout what is printable() of the text. Here and below, only the first of several
-/// ranks writes.
+/// Writes printable(text) to stdout. Of several ranks, only rank 0 writes; this also holds for the
+/// functions below.
 void print_text(std::string_view text);
-/// Writes the text over the present line of a terminal.
+/// Overwrites the current line of the terminal with the text.
 void print_over_line(std::string_view text);
-/// Writes what is readable() of the text to stderr, as a line.
+/// Writes readable(text) to stderr as one line.
 void print_complaint(std::string_view text);
-/// Keeps the text as the complaint of this rank without writing it.
+/// Stores the text as the complaint of this rank without writing it.
 void keep_complaint(std::string_view text);
-/// The complaint printed or kept last, also on ranks that do not write; empty if there was none.
+/// The complaint that was printed or stored last, on every rank. Empty if there was none.
+/// was none.
 const std::string& last_complaint();
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... arguments) {
   print_text(fmt::vformat(format, fmt::make_format_args(arguments...)));
 }
 
-/// Throws FileError if something printed to stdout was lost: for commands that do nothing else.
+/// Throws FileError if text for stdout was lost. For commands whose only result is this text.
 void require_printed();
 
 }  // namespace meniscus

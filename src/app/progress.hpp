@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Progress of a run: how far it is, how fast it goes, and how long it may still take.
+// Progress of a run: the time reached, the speed, and an estimate of the remaining time.
 #pragma once
 #include "solve/audit.hpp"
 
@@ -10,18 +10,18 @@
 
 namespace meniscus {
 
-/// How fast a run goes, over its last minute and its last ten steps at least.
+/// Speed of a run, averaged over at least its last minute and its last ten steps.
 class Pace {
  public:
-  /// The run begins, `seconds` after any beginning of wall time.
+  /// Starts at the state `begin`. `seconds` is the wall-clock time, counted from any origin.
   Pace(double seconds, const State& begin) : marks_{{seconds, begin.time, begin.step}} {}
 
-  /// A step of `dt` has ended at `state`.
+  /// Records a step of size `dt` that ended at `state`.
   void add(double seconds, const State& state, Real dt);
   double seconds_of_last_step() const { return last_step_seconds_; }
   double steps_per_second() const;
-  /// Seconds until `end` if it goes on like this; none while too few steps have been made, and
-  /// while the step is another than it was: then nobody can tell.
+  /// Estimated seconds until the time `end` at the present speed. Empty after too few steps, and
+  /// while the step size changes, since no estimate is then reliable.
   std::optional<double> seconds_to(Real end) const;
 
  private:
@@ -39,27 +39,27 @@ class Pace {
   double last_step_seconds_ = 0;
 };
 
-/// On a terminal it is one line that is written over twice a second; elsewhere and in the log there
-/// is a line after ten seconds and then one every minute.
+/// Shows the progress of a run. On a terminal, one line is overwritten twice a second. Otherwise,
+/// and in the log, a line is written after ten seconds and then every minute.
 class Progress {
  public:
   enum class Shown { on_terminal, in_lines, in_log_only };
   struct Text {
     std::string time_unit, energy_unit;
-    bool may_end_earlier = false;  ///< at rest, say
+    bool may_end_earlier = false;  ///< e.g. because a state of rest is reached
   };
   using Seconds = std::function<double()>;
 
-  /// The run begins now, at `begin`, and is meant to reach the time `end`. `log` gets lines;
-  /// `seconds` is wall time.
+  /// The run starts now at `begin` and is to reach the time `end`. `log` receives lines; `seconds`
+  /// returns the wall-clock time.
   Progress(const State& begin, Real end, Text text, Shown shown,
            std::function<void(const std::string&)> log, Seconds seconds = wall_time);
-  /// After each step. `ledger`: the newest one, if there is a new one.
+  /// Call this after each step. `ledger`: the newest ledger if this step wrote one.
   void show(const State& state, Real dt, const std::optional<Ledger>& ledger);
-  /// Makes place on the terminal for something else.
+  /// Clears the line on the terminal, so that other text can be written.
   void finish();
 
-  /// How stdout wants it.
+  /// The way to show progress that suits stdout: terminal, file, or quiet.
   static Shown for_stdout(bool quiet);
   static double wall_time();
 

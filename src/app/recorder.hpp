@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Output of a run: rows of the history, frames and checkpoints, and when they are due.
+// Output of a run: rows of the history, frames and checkpoints, and the times at which they are
+// due.
 #pragma once
 #include "app/partner_frames.hpp"
 #include "io/checkpoint.hpp"
@@ -9,25 +10,26 @@
 
 namespace meniscus {
 
-/// Writes what is due after each step of a run. All ranks find out what is written, the first one
-/// has the files.
+/// Writes the output that is due after each step of a run. All ranks compute the output; rank 0
+/// holds the files.
 template <int D>
 class Recorder {
  public:
-  /// `continued`: the run goes on in the directory it was in before. Rows and frames after the
-  /// present state are dropped: the run will make them again.
+  /// `continued`: the run continues in the directory of an earlier run. Rows and frames later than
+  /// the present state are deleted, since the run will write them again.
   Recorder(Simulation<D>& simulation, const RunDirectory& directory, const Provenance& provenance,
            bool continued);
 
-  /// The run goes on as another simulation, the same scene with new references of bodies: a result
-  /// file of its own begins, with a frame.
+  /// Continues with another simulation of the same scene, whose bodies have new reference
+  /// configurations. Begins a new result file with a frame.
   void begin_epoch(Simulation<D>& simulation);
-  /// Writes the row and frame that are due after a step that began at `before` (-1: the initial
-  /// state), or because the end of the scene is reached. Returns the ledger if a row was written.
+  /// Writes the row and the frame that are due after a step that began at time `before` (-1: for
+  /// the initial state), or because the end of the scene is reached. Returns the ledger if a row
+  /// was written.
   std::optional<Ledger> record(Real before);
   void checkpoint();
-  /// After a failed step: the frame before it if it was not written yet, without the state, which
-  /// is not complete.
+  /// Call this after a failed step. Writes the frame before that step if it was not written yet.
+  /// The frame has no state for a restart, because the state is incomplete.
   void write_last_good_frame();
 
  private:
@@ -45,8 +47,7 @@ class Recorder {
           const Provenance& provenance, bool continued);
 
     CheckpointWriter checkpoints;
-    HistoryWriter
-        history;  // before the frames: it refuses other columns before anything is dropped
+    HistoryWriter history;  // refuses other columns; constructed before `results` deletes frames
     std::vector<HistoryWriter> lines;
     std::unique_ptr<ResultFile> results;
     PartnerFrames<D> partners;

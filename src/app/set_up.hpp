@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors before the first step: they are errors of the scene and have a place in it.
+// Errors before the first step. They are reported as errors of the scene, with their place in it.
 #pragma once
 #include "input/input.hpp"
 #include "meniscus/error.hpp"
@@ -9,12 +9,13 @@
 
 namespace meniscus {
 
-/// The message of a failed set-up behind its place in the scene: that of the body or contact that
-/// it names, unless it has one already.
+/// Puts a place in the scene before the message of a failed set-up: the place of the body or
+/// contact that the message names, otherwise the start of the scene. A message that has a place
+/// already is returned unchanged.
 std::string placed(const SceneInput& input, const std::string& message);
 
-/// What `work` returns, which reads, builds or begins a scene. SolveError becomes InputError, and
-/// every message has a place.
+/// Calls `work`, which reads, builds or starts a scene, and returns its result. Turns a SolveError
+/// into an InputError and gives every message a place.
 template <class Work>
 auto set_up(const SceneInput& input, Work&& work) {
   try {

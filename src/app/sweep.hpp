@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene run with all combinations of values of some keys.
+// Runs a scene with all combinations of given values of some keys.
 #pragma once
 #include <array>
 #include <map>
@@ -16,10 +16,11 @@ struct SweepRequest {
   bool overwrite = false;
 };
 
-/// Runs what has not been run yet, one after the other in processes of their own, each into a
-/// directory with its values in the name, and writes sweep.csv: a row for each run with what it
-/// ended with. A run that fails does not stop the others; a signal does, and the same command goes
-/// on. Returns the gravest exit code of all runs. Throws InputError, FileError.
+/// Runs the combinations that have not been run yet, one after the other, each as a process of its
+/// own. The results of a run are in a directory whose name contains its values. Writes sweep.csv
+/// with a row of final numbers for each run. A run that fails does not stop the sweep. A signal
+/// stops it; the same command then continues it. Returns the most severe exit code of all runs.
+/// Throws InputError, FileError.
 int sweep(const SweepRequest& request);
 
 /// One key and its values, as texts.
@@ -28,10 +29,11 @@ struct SweptKey {
   std::vector<std::string> values;
 };
 
-/// Of "key=a,b,c": commas within brackets and quotes belong to a value. Throws InputError.
+/// Splits "key=a,b,c" into the key and its values. A comma within brackets or quotes does not
+/// separate values. Throws InputError.
 SweptKey swept_key(const std::string& setting);
 
-/// The rows of sweep.csv: the values of the keys, and numbers by name.
+/// The rows of sweep.csv: the values of the keys, and the numbers of each run by name.
 class SweepTable {
  public:
   using Values = std::vector<std::string>;
@@ -41,13 +43,14 @@ class SweepTable {
   };
 
   explicit SweepTable(std::vector<std::string> keys) : keys_(std::move(keys)) {}
-  /// Rows of a file that write() has made. Throws InputError if it is of other keys.
+  /// Reads the rows of a file that was made from text(). Throws InputError if the file has other
+  /// keys.
   void read(const std::string& text, const std::string& name);
-  /// Columns in the order in which they are seen first, with their units.
+  /// Sets the row of a run. Columns are in the order of their first appearance.
   void put(const Values& values, int exit_code,
            const std::vector<std::array<std::string, 3>>& name_unit_number);
   const Row* find(const Values& values) const;
-  /// Names in the first line, units in the second.
+  /// The table as CSV: names in the first line, units in the second.
   std::string text() const;
 
  private:

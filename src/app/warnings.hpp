@@ -9,25 +9,26 @@
 
 namespace meniscus {
 
-/// Says each kind of warning once per run.
+/// Prints each kind of warning at most once per run.
 template <int D>
 class Warnings {
  public:
   /// `say` is called with a sentence.
   Warnings(const Simulation<D>& simulation, std::function<void(const std::string&)> say);
 
-  /// From now on looks at that simulation, of the same scene.
+  /// From now on checks this simulation, which must be of the same scene.
   void follow(const Simulation<D>& simulation);
-  /// `ledger` of now.
+  /// Checks the present state. `ledger` is the ledger of this state.
   void look(const Ledger& ledger);
 
  private:
-  /// States that a material law should not be trusted in.
+  /// Warns of states in which a material law is not reliable.
   void doubtful_laws();
-  /// Energy that appears or disappears, which no exact solution does.
+  /// Warns if energy appears or disappears, which no exact solution does.
   void imbalance(const Ledger& ledger);
-  /// A surface smaller than that of the ball (2D: disk) of the same volume, which cannot be: its
-  /// quadrature no longer resolves the folds that surface tension pulls into it.
+  /// Warns if the surface area of a body is smaller than the area of a ball (2D: the perimeter of a
+  /// disk) of the same volume. This is impossible, so the quadrature no longer resolves folds that
+  /// surface tension makes in the surface.
   void impossible_areas();
 
   struct Enclosure {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A body: particles, cells and surface in the reference configuration, and the operators that terms
-// build on them.
+// A body: its particles, cells and surface in the reference configuration, and the integration
+// rules that force terms use.
 #pragma once
 #include "body/grid/nodal_cells.hpp"
 #include "body/grid/stress_rules.hpp"
@@ -19,57 +19,61 @@ namespace meniscus {
 template <int D>
 struct CellRows;
 
-/// The particles first ... first + size() - 1 of all, with their grid, nodal cells and masses.
+/// A body with its grid, nodal cells and masses. In arrays over all particles of a scene, its
+/// particles have the numbers first, ..., first + size() - 1.
 template <int D>
 struct Body {
   std::string name;
-  Division division;  ///< of its rows, between the ranks
+  Division division;  ///< divides its rows between the ranks
   Index first = 0;    ///< number of its first particle in the arrays of all bodies
   Geometry<D> geometry;
   ParticleSet<D> particles;
   NodalCells<D> cells;  ///< refers to `geometry`: a body does not move in memory
-  /// Loads act on faces of it (FaceCells): what the rule of nodal cells has of the boundary is then
-  /// computed at their points, so that they balance a uniform stress to the last digits; otherwise
-  /// at few.
+  /// True if loads may act on faces of the body (FaceCells). The boundary integrals of the
+  /// nodal-cell rule are then computed at the points of the face cells, so that loads balance a
+  /// uniform stress to round-off. If false, fewer points are used.
   bool loaded_faces = true;
-  std::vector<Real> mass;           ///< of the particles in the time step (lump_mass())
-  std::vector<Real> mass_integral;  ///< INT rho N_A dV: what loads per mass act on; any sign
-  bool uniform_density = true;      ///< in the reference of the scene
-  /// Values of the shape functions at the particles: places x(X_A) = sum_B N_B(X_A) d_B. Particle
-  /// coefficients d_A are not places. The rows of this rank; those of others are empty.
+  std::vector<Real> mass;           ///< lumped masses of the time step (lump_mass())
+  std::vector<Real> mass_integral;  ///< INT rho N_A dV, on which loads per mass act; any sign
+  bool uniform_density = true;      ///< in the reference configuration of the scene
+  /// Values of the shape functions at the particles, which give positions x(X_A) = sum_B N_B(X_A)
+  /// d_B. The coefficients d_A are not positions. Has the rows of this rank; all other rows are
+  /// empty.
   PointRows<D> at_particles;
-  /// Rows of its cells that were made ahead, for the material to take; null: it makes them.
+  /// Rows of the cells that were computed in advance for the internal force, which takes them. If
+  /// null, the internal force computes them itself.
   std::unique_ptr<CellRows<D>> cell_rows;
-  /// What several terms need of it alike, as contact points.
+  /// Data that several force terms share, such as contact points.
   mutable SharedParts shared;
-  /// What it was referred to anew; null: it has the reference of its scene.
+  /// The updated reference configuration after a remap; null before the first remap.
   std::shared_ptr<const Reference<D>> reference;
 
-  /// Place of a particle in the reference of the scene, of which formulas are functions.
+  /// Position of particle A in the reference of the scene. Formulas are functions of this position.
   const Vec<D>& origin(Index A) const {
     return reference ? at(reference->origin, A) : at(particles.X(), A);
   }
-  /// The same of the centroid of a nodal cell.
+  /// Position of the centroid of nodal cell A in the reference of the scene.
   const Vec<D>& cell_origin(Index A) const {
     return reference ? at(reference->cell_origin, A) : cells.centroid(A);
   }
-  /// Volume of a nodal cell in this reference / in that of the scene.
+  /// Volume of nodal cell A in the present reference, divided by its volume in the reference of the
+  /// scene.
   Real volume_ratio(Index A) const { return reference ? at(reference->volume_ratio, A) : 1; }
 
   Index size() const { return particles.size(); }
-  /// Its own part of an array over the particles of all bodies.
+  /// The values of this body in an array over the particles of all bodies.
   template <class T>
   std::span<T> part(std::span<T> all) const {
     return all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(size()));
   }
   Body(const Body&) = delete;
   Body(Body&&) = delete;
-  /// All ranks make it, with its values at particles.
+  /// Divides the rows evenly between ranks and computes at_particles. All ranks call this.
   Body(std::string body_name, Geometry<D> body_geometry, ParticleSet<D> body_particles)
       : Body(std::move(body_name), std::move(body_geometry), std::move(body_particles), evenly) {
     on_each_rank([this] { build_values(); });
   }
-  /// Without values at its particles.
+  /// Leaves at_particles empty; build_values() computes it.
   Body(std::string body_name, Geometry<D> body_geometry, ParticleSet<D> body_particles,
        Division between_ranks)
       : name(std::move(body_name)),
@@ -77,26 +81,29 @@ struct Body {
         geometry(std::move(body_geometry)),
         particles(std::move(body_particles)),
         cells(geometry.grid) {}
-  /// Those of this rank. Throws SolveError where shape functions cannot be determined.
+  /// Computes the rows of at_particles that belong to this rank. Throws SolveError where shape
+  /// functions cannot be determined.
   void build_values() {
     at_particles = build_point_rows<D>(particles, particles.X(), {.value = true}, name,
                                        division.own_rows(size()));
   }
 };
 
-/// How the coefficients of a cell rule are stored: in double, or in single precision but for a few
-/// of each row that keep all sums over quadratic polynomials (performance note 2).
+/// Precision in which a cell rule stores its coefficients. `full`: double. `rounded`: single,
+/// except a few coefficients per row in double that keep all sums over quadratic polynomials exact
+/// (performance note 2).
 enum class RowPrecision : std::uint8_t { full, rounded };
 
-/// q_scni: smoothed gradients with linear moments over nodal cells (RKPM note 5.3). Also returns
-/// the integrals of the shape functions over the body, for row-sum masses.
+/// The integration rule q_scni: smoothed gradients with linear moments over nodal cells (RKPM note
+/// 5.3), together with integrals of the shape functions for row-sum masses.
 template <int D>
 struct CellOperator {
   CellRule<D> rule;
   std::vector<Real> shape_integral;  ///< [particle] integral of N_A over the body
 };
 
-/// The rows of the rule of some cells, which a rank makes by itself; those of all others are empty.
+/// The rows of a cell rule for some cells, computed by one rank alone. The rows of all other cells
+/// are empty.
 template <int D>
 struct CellRows {
   /// Throws SolveError where shape functions cannot be determined.
@@ -105,25 +112,27 @@ struct CellRows {
   CellRule<D> rule;
   SumsOverRanks shape_integral;
 };
-/// The rule that all ranks have made the rows of. All ranks call this.
+/// Makes a cell rule from the rows that all ranks have computed. All ranks call this.
 template <int D>
 CellOperator<D> cell_rule_of(const Body<D>& body, CellRows<D> rows);
 
-/// The rows of this rank, and the integrals over all cells. All ranks call this. Throws SolveError
-/// where shape functions cannot be determined.
+/// Computes the rows of this rank, and the integrals over all cells. All ranks call this. Throws
+/// SolveError where shape functions cannot be determined.
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision = RowPrecision::full);
-/// Likewise the rows of some cells, which the ranks share out; those of all others are empty.
+/// Computes the rows of the given cells only, divided between the ranks. The rows of all other
+/// cells are empty.
 template <int D>
 CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells);
 
-/// `points_per_direction` Gauss points in every cell of the grid. The rows of this rank.
+/// A rule with `points_per_direction` Gauss points in every cell of the grid. Has the rows of this
+/// rank.
 template <int D>
 PointRule<D> build_gauss_rule(const Body<D>& body, int points_per_direction,
                               Index per_group = PointRule<D>::most_per_group);
 
-/// One point per particle with the volume of its nodal cell: unstable, for comparison only. The
-/// rows of this rank.
+/// A rule with one point per particle, weighted by the volume of its nodal cell. It is unstable and
+/// serves for comparison only. Has the rows of this rank.
 template <int D>
 PointRule<D> build_nodal_rule(const Body<D>& body, Index per_group = PointRule<D>::most_per_group);
 
@@ -132,16 +141,17 @@ template <int D>
 std::vector<Real> shape_integrals(const Body<D>& body);
 
 struct MassReport {
-  Index raised = 0;     ///< particles that were below the floor
-  int kept_degree = 2;  ///< moments of the masses up to this degree are those of the row sums
-  Real added = 0;       ///< relative change of the total mass, where not even that is kept
+  Index raised = 0;     ///< particles whose row sum was below the floor
+  int kept_degree = 2;  ///< degree up to which the moments of the row sums are kept
+  Real added = 0;       ///< relative change of the total mass, if even this is not kept
 };
 
-/// m_A = integral of density N_A, with the floor m_A >= 0.3 density V_A (tiny and negative row sums
-/// at corners are unstable at any step; performance note 3). What the floor adds is taken from
-/// other particles, neighbours first, so that mass, first and second moments of the body stay those
-/// of the row sums, which are those of its volume. The row sums themselves become the mass
-/// integrals of the body. `density` per particle.
+/// Sets the lumped masses: m_A = integral of density N_A, but at least 0.3 density V_A. The floor
+/// is needed because tiny and negative row sums at corners are unstable at any step (performance
+/// note 3). The added mass is taken from other particles, neighbours first. The total mass and the
+/// first and second moments of the body thus keep their values, which are exact for its volume. The
+/// unchanged row sums become the mass integrals of the body. `density` and `shape_integral` are per
+/// particle.
 template <int D>
 MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
                      const std::vector<Real>& shape_integral);

@@ -12,7 +12,7 @@ bool is_hollow(const Geometry<D>& geometry) {
   return geometry.surface->hollow();
 }
 
-/// What keep_supports_in_wall() did.
+/// Result of keep_supports_in_wall().
 struct WallReport {
   Index shortened = 0;
   Real least_share = 1;  ///< smallest ratio of support to original support

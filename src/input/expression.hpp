@@ -21,10 +21,12 @@ using NamedNumbers = std::vector<std::pair<std::string, Real>>;
 /// True if `word` has a meaning in formulas: a variable, pi, e or a function.
 bool is_word_of_formulas(std::string_view word);
 
-/// A real function of reference position x, y, z and time t. A formula may use
+/// A real function of reference position x, y, z and time t. Formulas may contain:
 ///
-/// - the constants pi and e and the given ones, numbers, brackets, + - * / ^ (with -x^2 = -(x^2)),
-/// - comparisons < > <= >= == !=, && and ||, and `condition ? a : b`,
+/// - the constants pi and e, given constants, numbers, brackets, + - * / ^ (with -x^2 = -(x^2));
+///
+/// - comparisons < > <= >= == !=, && and ||, and `condition ? a : b`;
+///
 /// - sin cos tan asin acos atan atan2 sinh cosh tanh exp log (natural) log10 sqrt cbrt abs sign
 ///   floor ceil erf pow min max (the last two with any number of arguments).
 ///
@@ -43,9 +45,9 @@ class Expression {
   Real operator()(const Eigen::Vector3d& X, Real t = 0) const;
   /// Like operator(), but returns infinite values and NaN: the caller has to check the range.
   Real unchecked(const Eigen::Vector3d& X, Real t = 0) const;
-  /// The value with its exact first and second derivatives with respect to x, y, z. At kinks (abs,
-  /// sign, floor, ceil, min, max, conditions) derivatives are those of the branch at X. The caller
-  /// has to check that all numbers are finite.
+  /// The value with its exact first and second derivatives with respect to x, y, z. At a kink (abs,
+  /// sign, floor, ceil, min, max, conditions) the derivatives belong to the branch taken at X. The
+  /// caller has to check that all numbers are finite.
   Jet<3> jet(const Eigen::Vector3d& X, Real t = 0) const;
   /// Sets the place of the formula in the input, "file:line:column: key", which begins messages.
   void set_place(std::string place);

@@ -40,7 +40,7 @@ Row<M> ramp_row(std::string key, Ramp M::*member, const std::string& what) {
     const std::vector<Real> span =
         block.reals(key, 2, dimension::time, range::non_negative, std::vector<Real>{0, 0});
     m.*member = {span[0], span[1]};
-    if (!block.in_order()) return;  // of numbers out of range nothing more is to be said
+    if (!block.in_order()) return;  // numbers out of range are already reported
     if (span[0] > span[1] || (span[0] == span[1] && span[0] > 0))
       block.problem(key,
                     "the ramp ends before it begins, or at once; allowed is begin < end, or "

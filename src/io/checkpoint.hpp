@@ -45,15 +45,15 @@ class CheckpointWriter {
 struct ReadCheckpoint {
   Checkpoint checkpoint;
   std::filesystem::path file;
-  /// Damaged files that were passed over; another program or build that wrote the state.
+  /// Warnings: damaged files that were skipped; a state written by another program or build.
   std::vector<std::string> warnings;
 };
 
 /// Reads the state to continue from. `path` is one of:
 /// - a checkpoint file;
-/// - the directory of a run: its newest valid checkpoint;
-/// - with `frame`, a result file or the directory of a run, whose files are counted through: that
-///   frame, if it holds the state.
+/// - the directory of a run: its newest valid checkpoint is read;
+/// - with `frame`, a result file or the directory of a run: this frame is read if it holds the
+///   state. Frames of a directory are counted over all of its result files.
 /// Every state is checked against its stored hash, and its numbers are finite. Throws FileError if
 /// nothing valid is found.
 ReadCheckpoint read_checkpoint(const std::filesystem::path& path,

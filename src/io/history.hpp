@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// history.csv: numbers over time, one row per record.
+// The file history.csv: numbers over time, one row per record.
 //
 //   # time,kinetic_energy
 //   # s,J
 //   0,1.25
-// Two comment lines with names and units, then rows with 17 digits (they read back bit for bit),
-// each on the disk's side of the program as soon as it is written (`tail -f`). In Python:
+//
+// Two comment lines with names and units are followed by rows of numbers with 17 digits. The digits
+// read back bit for bit. Each row is flushed after writing (`tail -f` shows it). To read it in
+// Python:
 //   names = open(f).readline()[2:].strip().split(','); numpy.loadtxt(f, delimiter=',')
 #pragma once
 #include "numbers/types.hpp"
@@ -22,7 +24,7 @@
 namespace meniscus {
 
 struct HistoryColumn {
-  std::string name;  ///< without comma and line break; the first column is "time"
+  std::string name;  ///< no comma or line break; the first column is "time"
   std::string unit = "1";
   friend bool operator==(const HistoryColumn&, const HistoryColumn&) = default;
 };
@@ -30,14 +32,14 @@ struct HistoryColumn {
 /// Writes or continues history.csv.
 class HistoryWriter {
  public:
-  /// Begins a new file. With `continue_after`, an existing file is continued: its rows up to that
-  /// time stay (the one at that time too), later ones and an incomplete last one are cut.
-  /// Throws FileError if the file cannot be written or the columns are others.
+  /// Begins a new file. With `continue_after`, continues an existing file: rows up to and including
+  /// this time are kept; later rows and an incomplete last row are removed. Throws FileError if the
+  /// file cannot be written or has other columns.
   HistoryWriter(const std::filesystem::path& file, std::vector<HistoryColumn> columns,
                 std::optional<Real> continue_after = {});
 
-  /// Adds one row, a value per column. Throws SolveError that names the first column whose value is
-  /// infinite or not a number, and writes nothing then; throws FileError if writing fails.
+  /// Adds a row with one value per column. If a value is infinite or NaN, writes nothing and throws
+  /// SolveError, which names the first such column. Throws FileError if writing fails.
   void write(std::span<const Real> values);
 
  private:
@@ -49,14 +51,15 @@ class HistoryWriter {
 /// A history read from its file.
 class History {
  public:
-  /// An incomplete last row is left out. Throws FileError naming the line if the file is not a
-  /// history.
+  /// Reads a file; an incomplete last row is left out. Throws FileError with the line if the file
+  /// is not a history.
   static History read(const std::filesystem::path& file);
 
   const std::vector<HistoryColumn>& columns() const { return columns_; }
   std::size_t rows() const { return values_.front().size(); }
   bool has(std::string_view name) const;
-  /// The values of a column. Throws FileError listing the names there are.
+  /// The values of a column. Throws FileError with the names of all columns if there is no such
+  /// column.
   const std::vector<Real>& column(std::string_view name) const;
 
  private:

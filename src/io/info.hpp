@@ -6,9 +6,9 @@
 
 namespace meniscus {
 
-/// Program, bodies, fields with units and frames with times of a result file (or of all in the
-/// directory of a run), or program, step and arrays of a checkpoint, as text. Throws FileError if
-/// it is neither.
+/// Describes a file as text. For a result file, or all result files in the directory of a run:
+/// program, bodies, fields with units, frames with times. For a checkpoint: program, step, arrays.
+/// Throws FileError if the file is neither.
 std::string describe_file(const std::filesystem::path& path);
 
 }  // namespace meniscus

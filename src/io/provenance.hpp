@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Provenance of a result: program, libraries, command and input. Nothing in it names a machine or a
-// person.
+// Provenance of a result: program, libraries, command and input. It contains no name of a machine
+// or a person.
 #pragma once
 #include <string>
 #include <utility>
@@ -8,13 +8,13 @@
 
 namespace meniscus {
 
-/// What was built.
+/// Version, compiler and libraries of this program.
 struct Build {
   std::string version;   ///< "0.1.0"
-  std::string git_hash;  ///< of the sources, "unknown" outside of a repository
-  bool git_dirty;        ///< the sources differed from that commit
+  std::string git_hash;  ///< commit of the sources; "unknown" outside a repository
+  bool git_dirty;        ///< the sources had changes that were not committed
   std::string compiler;
-  std::string flags;  ///< those on which the bits of a result depend
+  std::string flags;  ///< compiler flags that affect the bits of a result
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
 };
 Build build();
@@ -22,7 +22,7 @@ Build build();
 /// "meniscus 0.1.0 (0123456789ab with changes), g++ 12.2.0, Release -march=x86-64-v3".
 std::string program_text(const Build&);
 
-/// What is stored under /meta of every file.
+/// The data under /meta of every result file and checkpoint.
 struct Provenance {
   Build build;
   int threads;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DIR/run.h5 and DIR/run.xdmf: the frames of a run, for people, plotting tools and ParaView. A run
-// whose bodies are referred anew goes on in run.1.h5, run.2.h5, ..., each whole in itself;
-// run.xdmf has the frames of all, and run.vtkhdf.series lists the files.
+// The files DIR/run.h5 and DIR/run.xdmf contain the frames of a run for plotting tools and
+// ParaView. After each remap a new file begins: run.1.h5, run.2.h5, ... Each file is complete in
+// itself. run.xdmf lists the frames of all files; run.vtkhdf.series lists the files.
 //
 // run.h5:
 //   /steps/<k>/<field>      one array per field of frame k = 0, 1, ...; attributes step, time
 //   /steps/<k>/state/...    the complete state at double precision, if the frame has it
-//   /reference/<body>/...   X, volume, cells, surface, ...: what does not change
+//   /reference/<body>/...   X, volume, cells, surface, ...: constant data
 //   /meta                   provenance and the complete input
 //   /VTKHDF                 the same frames as a mesh that moves (VTK 9.3, ParaView 5.12 or newer,
 //                           which open run.vtkhdf, a link to it)
-// Rigid partners are drawn by partners.h5 and its views in the same way: their surfaces are cells,
-// the only field is the position. Every array has an attribute "units". run.xdmf describes the
-// frames to older ParaView. After an interruption, even kill -9, the file opens and has every frame
-// that write_frame() had returned from. It can be read while the run goes on.
+// The rigid partners of contacts are in partners.h5 and its views, in the same way: the cells are
+// the surfaces of the partners, and the only field is the position. Every array has an attribute
+// "units". run.xdmf describes the frames for older versions of ParaView. A frame is safe when
+// write_frame() returns: after an interruption, even by kill -9, the file opens and contains it.
+// The file can be read during the run.
 #pragma once
 #include "io/provenance.hpp"
 #include "io/run_directory.hpp"
@@ -28,63 +29,65 @@
 
 namespace meniscus {
 
-/// Values per particle, particle by particle: values[components * I + c].
+/// A field with values per particle, all components of a particle together: values[components * I +
+/// c].
 struct ResultField {
   std::string name;  ///< letters, digits, '_'
-  /// 1 scalar; 2 or 3 vector (of a 2D run: stored with z = 0); 6 symmetric tensor in the order
-  /// xx, yy, zz, xy, yz, xz; 9 tensor by rows.
+  /// 1: scalar. 2 or 3: vector; a vector of a 2D run is stored with z = 0. 6: symmetric tensor in
+  /// the order xx, yy, zz, xy, yz, xz. 9: tensor, row-major.
   int components = 1;
   std::string unit = "1";
   std::span<const Real> values;
 };
 
-/// What does not change of a body. Particles of the bodies follow each other in every field; those
-/// of a body are counted from 0 in its cells and facets.
+/// Constant data of a body. A field contains the particles of all bodies, one body after the other.
+/// In `cells` and `facets`, particles are numbered from 0 within the body.
 struct BodyReference {
   std::string name;                 ///< not empty, without '/'
   std::vector<ResultField> arrays;  ///< at least one; all have one value per particle of the body
-  int corners;  ///< of a cell: 8 of a hexahedron, 4 of a quadrilateral, 2 of a line; of simplices
-                ///< one more than D
+  int corners;  ///< per cell: 8 for a hexahedron, 4 for a quadrilateral, 2 for a line, D + 1 for a
+                ///< simplex
   /// Corners of the cells in the order of VTK: around the face at the lower end of the third
-  /// direction, then around that at the upper.
+  /// direction, then around the face at the upper end.
   std::span<const Index> cells;
-  /// Corners of the facets of the surface in tensor order; a b c c of a triangle. Empty: all cells
-  /// are of the surface.
+  /// Corners of the surface facets in tensor order; a triangle abc is a b c c. If empty, the cells
+  /// themselves are the surface.
   std::span<const Index> facets;
   bool simplices = false;  ///< the cells are tetrahedra or triangles
 };
 
 struct ResultOptions {
-  std::string name = "run";  ///< of the files
+  std::string name = "run";  ///< first part of the file names
   enum class Precision { float32, float64 };
-  Precision precision = Precision::float64;  ///< of fields; a state is always double
+  Precision precision = Precision::float64;  ///< of fields; the state is always in double precision
   int compression = 0;                       ///< deflate level, 0 (none) to 9
   std::string time_unit = "s";
-  /// How often bodies were referred anew: files of earlier epochs stay, of later ones are removed.
+  /// Number of remaps so far. Files of earlier epochs are kept; files of later epochs are removed.
   std::int64_t epoch = 0;
-  /// Continue the file of this epoch after this step: frames of later steps are dropped (the run
-  /// will make them again), the others stay. Without the file a new one is begun.
+  /// Continues the file of this epoch after this step. Frames of later steps are removed, since the
+  /// run will make them again. Begins a new file if there is none.
   std::optional<std::int64_t> continue_after{};
 };
 
 /// Writes or continues the frames of a run.
 class ResultFile {
  public:
-  /// Throws FileError if the file cannot be made, or if the run to be continued has other bodies,
-  /// particle counts, or is damaged.
+  /// Throws FileError if the file cannot be made. When a run is continued, throws FileError if the
+  /// file is damaged or has other bodies or particle counts.
   ResultFile(const RunDirectory&, const Provenance&, std::span<const BodyReference>,
              const ResultOptions&);
   ~ResultFile();
 
   /// Adds a frame and returns its number. One field is "position" (2 or 3 components); all frames
-  /// have the same fields. When it returns, the frame survives a kill.
-  /// Throws SolveError naming field and particle if a value is NaN or infinite, FileError if the
-  /// disk does not take it or if a continued file has other fields; the frames before are safe.
+  /// have the same fields. When this returns, the frame is safe even if the process is killed.
+  /// Throws SolveError with field and particle if a value is NaN or infinite. Throws FileError if
+  /// the disk is full or broken, or if the continued file has other fields; earlier frames stay
+  /// valid.
   std::int64_t write_frame(std::int64_t step, Real time, std::span<const ResultField> fields,
                            const Snapshot* state = nullptr);
 
   std::int64_t frames() const;
-  /// How many frames continue_after removed.
+  /// Number of frames that `continue_after` removed.
   std::int64_t dropped_frames() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Log of a run: everything to run.log, warnings and errors also to stderr.
+// Log of a run. All messages go to run.log; warnings and errors also go to stderr.
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -13,11 +13,12 @@ namespace meniscus {
 /// The log of a run in its results directory.
 class RunLog {
  public:
-  /// A log on stderr alone (for what happens before there is a directory, and for tests).
+  /// A log that writes to stderr only, for messages before the directory exists and for tests.
   RunLog();
-  /// Appends to `file`, each line with its time (UTC) and level, written at once. Throws FileError.
+  /// Appends to `file`. Each line has its time (UTC) and level and is written at once. Throws
+  /// FileError.
   explicit RunLog(const std::filesystem::path& file);
-  /// Nothing but the list of warnings.
+  /// A log that writes nothing and only collects warnings.
   static RunLog silent();
   ~RunLog();
   RunLog(RunLog&&) noexcept;
@@ -27,7 +28,8 @@ class RunLog {
   void warning(std::string_view message);
   void error(std::string_view message);
 
-  /// The warnings so far in the order of their first time, each text once with how often it came.
+  /// All different warnings with the number of times each was logged, in the order of their first
+  /// time.
   const std::vector<std::pair<std::string, int>>& warnings() const;
 
  private:

@@ -16,9 +16,10 @@ class NeighborSearch {
  public:
   /// One tree over a copy of the points.
   explicit NeighborSearch(std::span<const Vec<D>> points);
-  /// A tree for each so many points that follow each other, made when a query first comes near
-  /// them: of a cloud ordered in space (order_spatially()), a rank has the trees where its rows
-  /// are and around. The points stay where they are.
+  /// Divides the points into blocks of `points_per_tree` consecutive points, with one tree per
+  /// block. A tree is built when a query first comes near its block. If the points are sorted by
+  /// order_spatially(), a rank therefore builds only the trees around its own rows. The points are
+  /// not copied and must stay alive.
   static NeighborSearch in_order(std::span<const Vec<D>> points, Index points_per_tree = 2048);
   ~NeighborSearch();
   NeighborSearch(NeighborSearch&&) noexcept;
@@ -27,7 +28,7 @@ class NeighborSearch {
   /// Indices with |points[i] - x| <= radius, up to rounding of the distance, ascending (a fixed
   /// order of summation).
   void within(const Vec<D>& x, Real radius, std::vector<Index>& found) const;
-  /// The same in no particular order.
+  /// Like within(), but the indices are not sorted.
   void within_unsorted(const Vec<D>& x, Real radius, std::vector<Index>& found) const;
 
   /// Distance from x to its k-th nearest point (x itself counts if it is in the cloud). Clouds of
@@ -35,10 +36,10 @@ class NeighborSearch {
   /// is near it.
   Real distance_of_nearest(const Vec<D>& x, int k) const;
 
-  /// Makes the one tree over other points, in its place.
+  /// Replaces the tree by one tree over other points.
   void rebuild(std::span<const Vec<D>> points);
 
-  /// How many trees there are so far.
+  /// Number of trees built so far.
   Index trees() const;
 
  private:

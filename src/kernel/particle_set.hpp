@@ -10,12 +10,13 @@
 
 namespace meniscus {
 
-/// Reference positions and supports of particles, with the search tree over them. Must not change
-/// once rows are built on it.
+/// Reference positions and supports of particles, with the search tree over them. The set must not
+/// change once rows are built on it.
 ///
-/// With a stretch U supports are ellipsoids: shape functions are evaluated at the kernel places
-/// U^-1 X, N_A(x) = M_A(U^-1 x), and supports are balls there, with their lengths measured there.
-/// The shape functions of a stretched ball are then as good as those of the ball.
+/// With a stretch U, supports are ellipsoids. Shape functions are evaluated at kernel places U^-1
+/// X: N_A(x) = M_A(U^-1 x). In kernel places, supports are balls, and their radii are measured
+/// there. The shape functions of a stretched ball are then as good as the shape functions of the
+/// unstretched ball.
 template <int D>
 class ParticleSet {
  public:
@@ -28,7 +29,7 @@ class ParticleSet {
   /// Sets the supports by `rule`. The stretch U is symmetric with det U = 1.
   ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window,
               const Mat<D>& stretch = Mat<D>::Identity());
-  /// The same support for all particles.
+  /// Gives all particles the same support.
   ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
               const Mat<D>& stretch = Mat<D>::Identity());
 

@@ -26,11 +26,11 @@ struct Candidate {
 /// that share a list of candidate particles. Candidates that do not reach a point get N = 0 there.
 ///
 /// At each point x, p(s) are the monomials of s = (y - x)/H and P_A = p((x_A - x)/H), with one H
-/// for the whole batch. Then
+/// for the whole batch. The shape functions N_A and their derivatives follow from:
 ///
-///   M = sum P_A P_A^T Phi_A,                     M c     = e_0
-///   M c,i  = p,i  - sum Phi_A,i P_A (P_A.c)
-///   M c,ij = p,ij - sum P_A [Phi_A,ij (P_A.c) + Phi_A,i (P_A.c,j) + Phi_A,j (P_A.c,i)]
+///   M = sum P_A P_A^T Phi_A,                     M c     = e_0;
+///   M c,i  = p,i  - sum Phi_A,i P_A (P_A.c);
+///   M c,ij = p,ij - sum P_A [Phi_A,ij (P_A.c) + Phi_A,i (P_A.c,j) + Phi_A,j (P_A.c,i)];
 ///   N_A    = (P_A.c) Phi_A, N_A,i and N_A,ij by the product rule at fixed P_A.
 template <int D, int Degree = 2>
 class ReproducingKernel {

@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// Area (2D: circumference) relative to that of a ball (disk) with the same volume (area).
+/// Ratio of `area` (2D: circumference) to the area of a ball (disk) with the same volume (area).
 template <int D>
 Real isoperimetric_ratio(Real area, Real volume);
 
@@ -20,15 +20,21 @@ Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real are
 /// Measures of a body with surface tension `gamma`. `viscosity` has one value per particle and is
 /// empty for a solid.
 ///
-/// - isoperimetric, roughness (relative rms distance of the surface from its centre) and
-///   least_area_ratio (smallest da/dA), from 8 Gauss points per facet direction on the surface
-///   given by the shape functions, for every form of surface tension;
-/// - kinetic_at_places: kinetic energy from velocities at the particles (the audit uses
-///   coefficients);
-/// - ca: capillary number mu v / gamma of a fluid, where v is the rms velocity at the particles
-///   relative to their mean velocity.
+/// - isoperimetric: see isoperimetric_ratio().
 ///
-/// The surface is built at the first evaluation.
+/// - roughness: relative rms deviation of the distance of the surface from its centre.
+///
+/// - least_area_ratio: smallest da/dA.
+///
+/// - kinetic_at_places: kinetic energy from velocities at the particles. (The audit uses
+/// coefficients.)
+///
+/// - ca: capillary number mu v / gamma of a fluid, where v is the rms velocity at the particles
+/// relative to their mean velocity.
+///
+/// For every form of surface tension, the first three measures use 8 Gauss points per facet
+/// direction on the surface that the shape functions give. This surface is built at the first
+/// evaluation.
 template <int D>
 std::vector<MeasureSource> drop_measures(const Body<D>& body, std::span<const Real> viscosity,
                                          Real gamma);

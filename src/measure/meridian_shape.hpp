@@ -9,9 +9,9 @@
 
 namespace meniscus {
 
-/// The mean of all meridians from the upper pole over the rim to the lower pole. The axes move with
-/// the body: they are those of the reference after the rigid motion that fits the outer surface
-/// best.
+/// The mean of all meridians from the upper pole over the rim to the lower pole. It is given in
+/// axes that move with the body: the axes of the reference, moved by the rigid motion that fits the
+/// outer surface best.
 struct MeanMeridian {
   std::vector<Real> r, z;
   std::vector<Real> rim_radius;  ///< largest r of each meridian

@@ -18,12 +18,12 @@ inline Eigen::Vector3d cross(const Eigen::Vector3d& x, const Eigen::Vector3d& y)
 
 template <int D>
 Real determinant(const Mat<D>& A);
-/// Determinants of four matrices A[i][j], one per lane, bitwise equal to those of
-/// determinant(Mat<D>).
+/// Determinants of four matrices A[i][j], one matrix per lane. Each has the same bits as
+/// determinant() of its matrix.
 template <std::size_t D>
 Lanes determinant(const std::array<std::array<Lanes, D>, D>& A);
 
-/// The inverse of A, which has to be regular: this is not checked.
+/// The inverse of A. The caller ensures that A is regular; this is not checked.
 template <int D>
 Mat<D> inverse(const Mat<D>& A);
 

@@ -72,8 +72,8 @@ void grow(UnsetVector<T>& v, std::size_t size) {
 using NodalVector = Lanes;
 /// One vector per particle.
 using NodalVectors = AlignedVector<NodalVector>;
-/// One vector per particle for intermediate results, which are written before they are read. Pages
-/// of particles that a rank does not follow take no memory.
+/// One vector per particle for intermediate results, which are written before they are read.
+/// Entries that a rank never touches take no memory.
 using NodalScratch = UnsetVector<NodalVector>;
 
 /// The first D components of entry i.

@@ -19,8 +19,9 @@ class LoopShares {
   Index take();
 
  private:
-  /// The next part of the owner in the low half, one past the last part in the high half. Each
-  /// share has its own cache line: taking from the share of another thread fetches that line only.
+  /// The next part of the owner is in the low half, and one past the last part in the high half.
+  /// Each share has its own cache line, so that taking from the share of another thread fetches one
+  /// line only.
   struct alignas(64) Share {
     std::atomic<std::uint64_t> parts;
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constraints: linear conditions on the displacements of particles, prescribed in time, such as
-// held faces.
+// Constraints: linear conditions on displacements, prescribed as functions of time, e.g. held
+// faces.
 #pragma once
 #include "numbers/types.hpp"
 
@@ -11,10 +11,10 @@
 
 namespace meniscus {
 
-/// Rows of C in C u = g(t): row r says
+/// Rows of C in C u = g(t). Row r is
 ///   direction_r . sum_A weight_kA u_A = g_r(t),   k = place_r.
-/// Rows of several components share the weights of their place. The weights of a place sum to one,
-/// so that lambda_r direction_r is the force of row r on its body.
+/// Rows for several components share the weights of their place. The weights of a place sum to one,
+/// so lambda_r direction_r is the force of row r on its body.
 struct ConstraintRows {
   struct Row {
     Index place;
@@ -33,28 +33,30 @@ struct ConstraintRows {
 /// One table of a scene that prescribes displacements.
 class Constraint {
  public:
-  /// What is called "held face 'grip'" in messages, and where its table stands, to begin them with.
+  /// `called` is the name in messages, "held face 'grip'". `stands` is the place of its table in
+  /// the scene, with which messages begin.
   Constraint(std::string called, std::string stands, ConstraintRows its_rows)
       : rows(std::move(its_rows)), name(std::move(called)), place(std::move(stands)) {}
   virtual ~Constraint() = default;
 
-  /// g(t), a number per row. The same bits whenever it is asked.
+  /// Sets g(t), one number per row. Returns the same bits for the same time.
   virtual void targets(Real time, std::span<Real> g) = 0;
-  /// From when on g is constant; infinite for one that never ceases to change.
+  /// The time after which g is constant; infinite if g never becomes constant.
   virtual Real steady_after() const = 0;
-  /// A time in which g changes little, for its derivatives where no step is known.
+  /// A time over which g changes little. It is the step of differences of g when no time step is
+  /// known.
   virtual Real moment() const = 0;
 
   const ConstraintRows rows;
   const std::string name, place;
-  /// Number of the first row, and of the constraint, among those of the system.
+  /// Number of the first row among all rows of the system, and number of the constraint.
   Index first = 0, number = 0;
 };
 
-/// What constraints do to the bodies, as part of the state.
+/// Forces and work of the constraints, as part of the state.
 struct Reactions {
-  std::vector<Real> force;  ///< lambda, per row of all constraints: on the bodies
-  std::vector<Real> work;   ///< on the bodies so far, per constraint
+  std::vector<Real> force;  ///< lambda on the bodies, [row of all constraints]
+  std::vector<Real> work;   ///< done on the bodies so far, [constraint]
 };
 
 }  // namespace meniscus

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the cells of a body are from those of its reference.
+// Distortion: how much the cells of a body differ from the cells of its reference configuration.
 #pragma once
 #include "body/body.hpp"
 
 namespace meniscus {
 
-/// Condition number of F, the ratio of the largest and the least stretch, at the particles.
+/// Condition number of F at the particles: the ratio of the largest to the smallest stretch.
 template <int D>
 class Distortion {
  public:
   /// Throws SolveError if shape functions cannot be built.
   explicit Distortion(const Body<D>& body);
 
-  /// What 99 of 100 particles stay below; `u` is that of the body. Infinite where F has no inverse.
+  /// The 99th percentile of the condition number over the particles. `u` has the displacement
+  /// coefficients of the body. Infinite where F has no inverse.
   Real condition(const NodalVector* u) const;
 
  private:

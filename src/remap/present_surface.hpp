@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface of a body where it is now, as the patches that its tension acts on.
+// The current surface of a body, as the patches on which its surface tension acts.
 #pragma once
 #include "body/surface/surface_patches.hpp"
 #include "numbers/dense.hpp"
@@ -8,28 +8,29 @@
 
 namespace meniscus {
 
-/// Patches through the places of material points, found by nearest points.
+/// Patches through the current positions of material points, with a search for the nearest point.
 template <int D>
 class PresentSurface {
  public:
-  /// `u` is that of the body. Throws SolveError if shape functions cannot be built.
+  /// `u` has the displacement coefficients of the body. Throws SolveError if shape functions cannot
+  /// be built.
   PresentSurface(const Body<D>& body, const NodalVector* u);
 
   struct Foot {
     Index patch = 0;
     Vec<D - 1> xi = Vec<D - 1>::Zero();  ///< in [-1, 1]^(D-1)
     Vec<D> x = Vec<D>::Zero();
-    Real distance = 0;  ///< from the point whose foot it is
+    Real distance = 0;  ///< from the given point to x
   };
-  /// A point of the surface that is nearest to p among those near by: the search begins in `patch`
-  /// and goes on to patches that share a point for as long as it comes nearer. Throws SolveError if
-  /// p is not finite.
+  /// The point of the surface that is nearest to p, by a local search. The search begins in `patch`
+  /// and continues with patches that share a point, as long as the distance decreases. Throws
+  /// SolveError if p is not finite.
   Foot nearest(const Vec<D>& p, Index patch) const;
 
-  /// Points of the patches, by the numbers of PatchNodes.
+  /// Positions of the points of the patches, numbered as in PatchNodes.
   const std::vector<Vec<D>>& points() const { return x_; }
   const std::vector<std::array<Index, PatchFunctions<D>::nodes>>& patches() const { return patch_; }
-  /// The part of the surface where `inside`, at 3 Gauss points per direction, over the whole.
+  /// Fraction of the surface area at which inside(x) is true, by 3 Gauss points per direction.
   template <class Inside>
   Real fraction(Inside&& inside) const {
     Real part = 0, whole = 0;
@@ -55,10 +56,10 @@ class PresentSurface {
   std::vector<PatchFunctions<D>> gauss_;
   std::vector<std::array<Index, PatchFunctions<D>::nodes>> patch_;
   std::vector<Vec<D>> x_;
-  std::vector<std::vector<Index>> beside_;  // [patch] those that share a point, ascending
+  std::vector<std::vector<Index>> beside_;  // [patch] patches that share a point, ascending
 };
 
-/// Volume enclosed by patches through points (2D: area).
+/// Volume (2D: area) that the patches through `points` enclose.
 template <int D>
 Real enclosed_volume(const std::vector<std::array<Index, PatchFunctions<D>::nodes>>& patches,
                      const std::vector<Vec<D>>& points);

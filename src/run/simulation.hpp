@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene in motion: state, step control and audit, and their snapshot.
+// A running scene: state, step control and audit, and their snapshot.
 #pragma once
 #include "meniscus/solve/stepper.hpp"
 #include "scene/scene.hpp"
@@ -18,60 +18,67 @@ std::vector<Real> packed(const NodalVectors& field);
 template <int D>
 class Simulation {
  public:
-  /// `scene` must outlive the simulation. Throws InputError if its stepper cannot do what it asks.
+  /// `scene` must outlive the simulation. Throws InputError if the stepper cannot run this scene.
+  /// scene.
   explicit Simulation(Scene<D>& scene);
 
-  /// Forces, stable step and audit at the initial state. Throws as StepController::begin.
+  /// Computes the forces, the stable step and the audit of the initial state. Throws like
+  /// StepController::begin.
   void begin();
-  /// To the first state that can be shown: with `newton` the equilibrium at the start. Without it
-  /// the first step begins with that. Throws as advance().
+  /// Moves to the first state that is shown. With `newton` this is the equilibrium at the start
+  /// time; otherwise the initial state itself. If this is not called, the first step begins with
+  /// it. Throws like advance().
   void settle();
-  /// Goes on in place of `before`, of the same scene with other references of its bodies, from its
-  /// state carried over to them. The history of force terms, the books and the audit are those of
-  /// before; the energy that has come by the change is booked as remapped. Throws as begin().
+  /// Continues `before`, a simulation of the same scene with other references of its bodies.
+  /// `state` is the state of `before`, transferred to this scene. The history of force terms, the
+  /// books and the audit are taken from `before`. The change of energy due to the remap is booked
+  /// as `remapped`. Throws like begin().
   void begin_after(Simulation& before, State state);
-  /// One step towards the end of the scene; one that is rejected is taken back and halved, a few
-  /// times. Throws StepError; the state is then back at the places before the step, but not
-  /// complete.
+  /// Makes one step towards the end of the scene. A rejected step is undone and halved, several
+  /// times if needed. Throws StepError; the state then has the positions before the step, but is
+  /// incomplete.
   void advance();
 
-  /// From now on steps that take long stop when they are asked to: settle() and advance() then
-  /// throw Interrupted, and all is as it was before, bit for bit.
+  /// From now on long steps stop when asked() returns true. settle() and advance() then throw
+  /// Interrupted, and the state is bitwise as before the call.
   void stop_when(const std::function<bool()>& asked);
 
-  /// Whether the end of the scene, or the rest that it asks for, is reached.
+  /// True if the end time or the required state of rest is reached, or if it cannot be reached any
+  /// more.
   bool finished() const;
 
   const Scene<D>& scene() const { return scene_; }
-  /// In a run of several ranks, between steps, places and velocities may be known to the ranks that
-  /// need them only.
+  /// The current state. Between steps of a run on several ranks, positions and velocities may be
+  /// valid only for the own and ghost particles of this rank; see complete_state().
   const State& state() const { return state_; }
-  /// Makes all known to all ranks. All ranks call this.
+  /// Gathers the state of all particles on all ranks. All ranks call this.
   void complete_state() { scene_.system.complete(state_); }
   Real last_step() const { return last_step_; }
   StepController<D>& controller() { return *controller_; }
   const Audit& audit() const { return audit_; }
   const Stepper<D>& stepper() const { return *stepper_; }
-  /// What the log should say of begin() and of the steps since it was asked last.
+  /// Sentences for the log about begin() and about the steps since the last call.
   std::vector<std::string> take_notes();
-  /// The ledger of now; widens the scales of the audit. Throws SolveError for a state that cannot
-  /// be: what a check of the scene finds, or a drop that has lost its shape (an isoperimetric ratio
-  /// below 1 - 1e-3).
+  /// The ledger of the present state; also widens the scales of the audit. Throws SolveError for an
+  /// impossible state: a failed check of the scene, or a drop with an isoperimetric ratio below 1 -
+  /// 1e-3.
   Ledger audit_now();
 
-  /// Everything that decides how the run goes on, bit for bit.
+  /// All values that determine how the run continues, bit for bit.
   Snapshot snapshot();
-  /// The same for the first rank of a run, which writes it; nothing for the others, so that they
-  /// have no memory for it. All ranks call this.
+  /// Like snapshot(), on rank 0, which writes it. Other ranks get an empty snapshot, which saves
+  /// memory. All ranks call this.
   Snapshot snapshot_of_first_rank();
-  /// Throws FileError if the snapshot is of another scene.
+  /// Restores a snapshot. Throws FileError if it belongs to another scene.
   void restore(const Snapshot& snapshot);
 
  private:
   void archive(const Archive& a);
-  /// Energies and momenta are counted from those of the state of now.
+  /// Makes the present energies and momenta the zero of the audit.
   void begin_audit();
-  /// Makes the stepper and its step control. Throws InputError as the stepper does.
+  /// Makes the stepper and its step control. Throws InputError if the stepper cannot run this
+  /// scene.
+  /// scene.
   void make_stepper(bool implicit_viscosity);
   void share_steps();
   void choose_viscosity();
@@ -86,13 +93,14 @@ class Simulation {
   bool surfaces_due() const;
   void refuse_impossible_surfaces() const;
   [[noreturn]] void give_up(StepFailure failure);
-  /// Failures of `work` get their step and time; of one that is interrupted nothing is left.
+  /// Calls `work`. Adds the step and the time to failures. If `work` is interrupted, restores
+  /// everything.
   template <class Work>
   void or_give_up(const Work& work);
 
   Scene<D>& scene_;
   State state_;
-  State before_;  // the step, where a term may reject it
+  State before_;  // state before the step, if a term may reject the step
   bool keeps_state_before_;
   bool may_be_interrupted_ = false;
   bool implicit_viscosity_ = false;
@@ -102,7 +110,7 @@ class Simulation {
   Audit audit_;
   Real last_step_ = 0;
   std::optional<Real> possible_at_;  // time of the last state that passed all checks
-  std::int64_t surfaces_seen_ = -1;  // step of the last look at all surfaces; -1: none
+  std::int64_t surfaces_seen_ = -1;  // step of the last check of all surfaces; -1: none
 };
 
 }  // namespace meniscus

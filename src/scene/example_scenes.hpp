@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small scenes around the examples that loads, laws and partners bring: for the list of measures,
-// and for the tests of everything that is registered.
+// Small scenes around the examples that loads, laws and partners provide. The list of measures and
+// the tests of all registered items use them.
 #pragma once
 #include <string>
 
 namespace meniscus {
 
-/// A fluid ball (2D: disk) 'drop' of radius 1 about the origin, in D dimensions.
+/// The lines of a scene with a fluid ball (2D: disk) 'drop' of radius 1 about the origin.
 std::string one_drop(int D);
-/// And an elastic one, 'other', that moves towards it, their surfaces 0.2 apart.
+/// Like one_drop(), with an elastic ball 'other' that moves towards the drop; their surfaces are
+/// 0.2 apart.
 std::string two_drops(int D);
 /// A hollow elastic 'shell' of outer radius 2 (3D).
 std::string one_shell();
@@ -18,15 +19,15 @@ std::string example_ball(int D, const std::string& name);
 std::string example_solid();
 /// The material of 'drop'.
 std::string example_liquid();
-/// A nematic, as a table of its own after the other lines of a body.
+/// The director of a nematic, as a table that follows the other lines of a body.
 std::string example_nematic(int D);
 
-/// The lines of a scene before its bodies; `time` are more of [time].
+/// The lines of a scene before its bodies. `time` has further lines of [time].
 std::string example_heading(int D, const std::string& time = "");
-/// The scene with the bodies that the lines of a load name, and the load [[name]].
+/// A scene with the load [[name]], given by `lines`, and the bodies that these lines refer to.
 std::string scene_with_load(int D, const std::string& name, const std::string& lines);
-/// The lines of a contact of 'drop' by interaction "legacy_switch", which brings no example: it
-/// goes with a plane and this tension only.
+/// The lines of a contact of 'drop' by the interaction "legacy_switch". This interaction has no
+/// example, since it needs a plane and this surface tension.
 std::string legacy_contact(int D);
 
 }  // namespace meniscus

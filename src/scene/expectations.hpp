@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expectations of a scene, compared with the history of its run.
+// Expectations of a scene, which are compared with the history of its run.
 #pragma once
 #include "scene/settings.hpp"
 
@@ -10,24 +10,24 @@
 
 namespace meniscus {
 
-/// The history by column; throws FileError for a name it does not have.
+/// Returns a column of the history by name; throws FileError if there is none.
 using HistoryColumns = std::function<const std::vector<Real>&(const std::string&)>;
 
-/// What became of an expectation.
+/// Result of an expectation.
 struct ExpectationResult {
   std::string name;
-  Real obtained = 0;                 ///< not a number if the history holds too few rows to tell
+  Real obtained = 0;                 ///< NaN if the history has too few rows
   Real expected = 0, tolerance = 0;  ///< tolerance is absolute
-  bool reached = true;  ///< false: the history does not cover the times the expectation is about
+  bool reached = true;  ///< false if the history does not cover the times of the expectation
   bool met = false;
 };
 
-/// Evaluates all expectations; `end` is that of the scene.
+/// Evaluates all expectations. `end` is the end time of the scene.
 std::vector<ExpectationResult> evaluate_expectations(
     const std::vector<std::pair<std::string, ExpectSettings>>& expectations,
     const HistoryColumns& history, Real end);
 
-/// The results as a table of lines.
+/// The results as a table with one line per expectation.
 std::string expectation_table(const std::vector<ExpectationResult>& results);
 
 }  // namespace meniscus

@@ -7,27 +7,28 @@
 
 namespace meniscus {
 
-/// A body, and a face by its name, by a formula, or by both.
+/// A body and a part of its surface, given by the name of a face, by a formula, or by both.
 struct FaceKeys {
   std::string body, face;
   std::optional<Expression> where;
 
-  /// Notes a face that there is not.
+  /// Notes a problem if the face does not exist.
   template <int D>
   void check(const Block& block, const BodyPlans<D>& bodies) const;
-  /// Notes that the body has a load on a face.
+  /// Sets `loaded_faces` of the body.
   template <int D>
   void prepare(BodyPlans<D>& bodies) const {
     for (BodyPlan<D>& planned : bodies) planned.loaded_faces |= planned.settings.name == body;
   }
-  /// `place` of the table, to begin messages with. Throws as face_cells().
+  /// The face cells. `place` is the place of the table, with which messages begin. Throws like
+  /// face_cells().
   template <int D>
   FaceCells<D> cells(const std::string& place, const Body<D>& body) const;
   /// "beam-x_min"; "beam" if the face has no name.
   std::string label() const { return face.empty() ? body : body + "-" + face; }
 };
 
-/// A row of a struct for a row of one of its members.
+/// Makes a row of a struct from a row of one of its members.
 template <class M, class Part>
 Row<M> row_of_part(const Row<Part>& row, Part M::*part) {
   return {row.key,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plan of a scene: its input, read and checked before anything large is built.
+// Plan of a scene: its input, read and checked before particles are made.
 #pragma once
 #include "meniscus/scene/load.hpp"
 #include "scene/settings.hpp"
@@ -11,7 +11,7 @@
 
 namespace meniscus {
 
-/// The parts of a scene that say how it is run, whatever is in it.
+/// Settings of a run that do not depend on its bodies and loads.
 struct RunSettings {
   std::string title;
   UnitSystem units;
@@ -20,14 +20,15 @@ struct RunSettings {
   std::vector<std::pair<std::string, ExpectSettings>> expectations;
 };
 
-/// Never changes once it is read; anything can be built from it any number of times.
+/// The input of a scene. It is constant after reading; scenes can be built from it any number of
+/// times.
 template <int D>
 struct Plan : RunSettings {
   BodyPlans<D> bodies;
-  std::vector<std::unique_ptr<const Load<D>>> loads;  ///< as they are built
+  std::vector<std::unique_ptr<const Load<D>>> loads;  ///< in the order in which they are built
 };
 
-/// 2 or 3. Throws InputError if the scene does not say.
+/// The dimension of a scene, 2 or 3. Throws InputError if the scene has none.
 int scene_dimension(const SceneInput& input);
 
 /// Reads the whole scene. Throws InputError with all problems of the input at once.

@@ -26,8 +26,8 @@ struct BodyTension {
   bool inscribed() const { return form == TensionForm::triangles; }
 };
 
-/// What a scene knows of a body beside the body itself: of its material, and what its loads say to
-/// other loads, to checks and to measures.
+/// Facts about a body that loads, checks and measures need: properties of its material, and results
+/// of loads that other loads use.
 struct SceneBody {
   const ForceTerm* internal_force;
   std::vector<Real> viscosity;       ///< [particle] shear viscosity of a fluid; empty: a solid
@@ -35,21 +35,21 @@ struct SceneBody {
   CarriedField* director = nullptr;  ///< of a nematic
   std::optional<Real> surface_energy = {};  ///< energy per area of the free surface
   std::optional<BodyTension> tension = {};
-  std::string kept_reference = {};  ///< why the body cannot be referred anew; empty: it can
+  std::string kept_reference = {};  ///< why the body cannot be remapped; empty: it can
 
   bool is_fluid() const { return !viscosity.empty(); }
   bool is_drop() const { return is_fluid() && tension; }
   bool has_balanced_tension() const { return tension && tension->form == TensionForm::balanced; }
 };
 
-/// A field of one of the bodies. Of another body it is 0, if that has no field of the same name;
-/// those of the same name on the same body add up.
+/// A field of one body. The output shows 0 on other bodies without a field of this name. Fields of
+/// one body with the same name are added.
 struct BodyField {
   std::size_t body;  ///< its number
   FieldSource source;
 };
 
-/// Fields along a line of points of a body, for a file of their own.
+/// Fields along a line of points of a body, which are written to a file of their own.
 struct ProbedLine {
   struct Column {
     std::string name;
@@ -60,30 +60,30 @@ struct ProbedLine {
   std::function<std::vector<std::vector<Real>>(const Motion&)> compute;  ///< [point][column]
 };
 
-/// When a body is to be referred anew to where it is.
+/// Times and condition at which a body is remapped.
 struct PlannedRemap {
   std::string body;
   std::vector<Real> times;
-  bool even;       ///< nodes are placed evenly, not where the particles are
-  Real condition;  ///< of F since the last time, beyond which it is due; 0: at the times alone
-  std::function<Real(const Motion&)> now;  ///< that condition
+  bool even;       ///< true: nodes are spaced evenly; false: nodes are at the particles
+  Real condition;  ///< condition of F since the last remap that triggers one; 0: none
+  std::function<Real(const Motion&)> now;  ///< the present condition of F
 };
 
-/// Where a body touches a rigid partner.
+/// A body that touches a rigid partner, and the contact line.
 template <int D>
 struct Wetting {
   std::string body;
   ContactLine<D> line;
 };
 
-/// The bodies that a [[contact]] is between: two, or one beside a rigid partner.
+/// The bodies of a [[contact]]: two, or one if the other side is a rigid partner.
 struct ContactBetween {
   std::string name;
   std::vector<std::string> bodies;
   Real adhesion;  ///< energy per area
 };
 
-/// A rigid partner, as viewers draw it.
+/// A rigid partner for output.
 template <int D>
 struct DrawnPartner {
   std::string contact;  ///< name of the contact
@@ -91,7 +91,7 @@ struct DrawnPartner {
   RigidMotion<D> motion;
 };
 
-/// What is wrong with a motion that cannot be; looked for at the start and at output times.
+/// Returns the failure of an impossible motion. Called at the start and at output times.
 using StateCheck = std::function<std::optional<Failure>(const Motion&)>;
 
 template <int D>
@@ -107,38 +107,40 @@ struct Scene : RunSettings {
   std::vector<PlannedRemap> remaps;
   std::vector<Wetting<D>> wetting;
   std::vector<DrawnPartner<D>> partners;
-  std::vector<std::string> notes;     ///< what was decided while building, for the log
+  std::vector<std::string> notes;     ///< decisions while building, for the log
   std::vector<std::string> warnings;  ///< doubtful choices
   std::vector<ContactBetween> contacts;
-  StateCheck surfaces;  ///< of all bodies: takes up to half a step, and is looked at more seldom
+  StateCheck
+      surfaces;  ///< check of all surfaces; it may take half a step, so it is called less often
 
-  /// The bodies of fluid under surface tension, by number.
+  /// Numbers of the fluid bodies with surface tension.
   std::vector<std::size_t> drops() const {
     std::vector<std::size_t> found;
     for (std::size_t b = 0; b < bodies.size(); ++b)
       if (bodies[b].is_drop()) found.push_back(b);
     return found;
   }
-  /// How a sum over bodies is written.
+  /// Unit symbol of a sum over bodies (2D: per depth).
   std::string symbol_of_sum(Dimension d) const { return units.symbol(of_sum(d, D)); }
 };
 
-/// A field of any body by its name. Throws std::logic_error if no body has it.
+/// A field of any body, by name. Throws std::logic_error if no body has it.
 template <int D>
 const FieldSource& field_named(const Scene<D>& scene, const std::string& name);
 
-/// The field of that name at the particles of all bodies, [particle][component].
+/// The values of a field at the particles of all bodies, [particle][component].
 template <int D>
 std::vector<Real> field_values(const Scene<D>& scene, const std::string& name,
                                const Motion& motion);
 
-/// Throws InputError if something in the scene depends on the reference of that body.
+/// Throws InputError if a part of the scene depends on the reference of this body.
 template <int D>
 void require_remappable(const Scene<D>& scene, const std::string& body);
 
-/// Throws InputError for what shows only here (a formula that leaves its range, surfaces that start
-/// too close), SolveError if shape functions cannot be built. Bodies with a reference are built on
-/// that, and their initial state means nothing.
+/// Builds a scene. Bodies in `references` are built on these references, and their initial state is
+/// meaningless. Throws InputError for problems that only the built scene shows (a formula that
+/// leaves its range, surfaces that start too close). Throws SolveError if shape functions cannot be
+/// built.
 template <int D>
 Scene<D> build(const Plan<D>& plan, const References<D>& references = {});
 

@@ -10,21 +10,22 @@ namespace meniscus {
 /// [time]
 struct TimeSettings {
   Real end = 0;
-  std::optional<Real> step;     ///< given: checked against the stable step; else chosen
-  std::string step_place;       ///< where the scene gives it, to begin messages with
-  std::string solver_place;     ///< the same of `solver`
-  std::string viscosity_place;  ///< the same of `viscosity`
+  std::optional<Real>
+      step;                ///< given: checked against the stable step; empty: chosen automatically
+  std::string step_place;  ///< place of `step` in the scene, for messages
+  std::string solver_place;     ///< place of `solver`
+  std::string viscosity_place;  ///< place of `viscosity`
   Real safety = 0.9;
-  int check_every = 0;    ///< most steps between estimates of the stable step
+  int check_every = 0;    ///< largest number of steps between estimates of the stable step
   std::string solver;     ///< "dynamics" or "relax"
   std::string viscosity;  ///< "explicit", "implicit" or "automatic"
-  Real force_tolerance = 0, shape_tolerance = 0;  ///< of relax (solve/step/relaxation.hpp)
+  Real force_tolerance = 0, shape_tolerance = 0;  ///< of "relax" (solve/step/relaxation.hpp)
   static Rows<TimeSettings> rows();
 };
 
 /// [output]
 struct OutputSettings {
-  Real frames_every = 0, history_every = 0;  ///< time; 0: 50 frames, 200 records over the run
+  Real frames_every = 0, history_every = 0;  ///< time; 0: 50 frames and 200 records per run
   std::vector<std::string> fields, measures;
   std::string precision;
   int compression = 0;
@@ -32,12 +33,12 @@ struct OutputSettings {
   Real checkpoint_minutes = 0;
   static Rows<OutputSettings> rows();
 
-  /// Whether a record, a frame is due after a step from `before` to `now` of a run to `end`.
+  /// True if a record or a frame is due after a step from `before` to `now`, in a run until `end`.
   bool record_due(Real before, Real now, Real end) const;
   bool frame_due(Real before, Real now, Real end) const;
 };
 
-/// The keys of [[body]] besides those of its shape, and the tables in it.
+/// The keys and inner tables of [[body]], except the keys of its shape.
 struct BodySettings {
   std::string name, integration, volumetric, precision, window, support_by;
   int gauss_points = 3;
@@ -46,12 +47,12 @@ struct BodySettings {
   Real support_spacings = 0;           ///< > 0: the same support everywhere, x mean cell size
   std::vector<Expression> initial_displacement, initial_velocity;  ///< empty: zero
   static Rows<BodySettings> rows();
-  /// Defaults of support_factor and support_by, which depend on what else the scene says, where it
-  /// gives none.
+  /// Sets support_factor and support_by if the scene leaves them out. The defaults depend on other
+  /// keys of the scene.
   void settle_support(const Block& block, Real factor, const std::string& by);
 };
 
-/// What [body.material] of any solid may have besides the numbers of its law.
+/// The keys that [body.material] of any solid may have in addition to the keys of its law.
 struct SolidSettings {
   Real viscosity = 0;  ///< eta of physics/internal/solid_viscosity.hpp
   static Rows<SolidSettings> rows();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the equilibria of a scene are expected to take by Newton's method and by relaxation.
+// Estimates the effort of Newton's method and of relaxation for the equilibria of a scene.
 #pragma once
 #include "solve/system.hpp"
 
@@ -8,10 +8,11 @@
 
 namespace meniscus {
 
-/// Times are of this machine, now.
+/// Estimated numbers of steps, and seconds on this machine.
 struct ExpectedEffort {
-  Real load_steps = 0, tangents_per_step = 0;        ///< of Newton's method
-  Real seconds_per_tangent = 0, set_up_seconds = 0;  ///< the former with a preconditioner
+  Real load_steps = 0, tangents_per_step = 0;  ///< of Newton's method
+  Real seconds_per_tangent = 0,
+       set_up_seconds = 0;  ///< seconds_per_tangent includes the preconditioner
   Real relaxation_steps = 0, seconds_per_step = 0;
 
   Real newton_seconds() const {
@@ -20,12 +21,14 @@ struct ExpectedEffort {
   Real relaxation_seconds() const { return relaxation_steps * seconds_per_step; }
 };
 
-/// From the time of a force and of a tangent, what conjugate gradients took in the measurements of
-/// quasi-statics note 6, and the frequency of linear elements at which the final loads make the
-/// bodies swing: relaxation goes on for the time of the ramps and two periods of that, with steps
-/// of `stable` times its usual share. With fluids Newton's method takes ten more steps, of implicit
-/// Euler, and relaxation five times the clock of FluidRest. None where the factors of the
-/// preconditioner would be too large to find out, or a term has no potential.
+/// Estimates the effort from three numbers: the measured time of a force and of a tangent, the
+/// numbers of iterations in quasi-statics note 6, and the frequency (with linear elements) of the
+/// mode that the final loads excite.
+///
+/// Relaxation takes the time of the ramps and two periods of this mode, with steps of the usual
+/// fraction of the stable step `stable`. With fluids, Newton's method takes ten further steps of
+/// implicit Euler, and relaxation five times the clock of FluidRest. Empty if the factors of the
+/// preconditioner would be too large to try, or if a term has no potential.
 template <int D>
 std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& state,
                                               Real load_steps, Real steady_after, Real stable,

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid motions that cost no energy.
+// Rigid motions of bodies that cost no energy.
 #pragma once
 #include "solve/system.hpp"
 
 namespace meniscus {
 
-/// Rigid motions of bodies, or of all that touch each other together, along which no term has a
-/// force at any state nearby and no place is held: the tangent is singular there, and so is a
-/// preconditioner made for it. To first order about a motion, in coefficients.
+/// Rigid motions of bodies, or of groups of touching bodies, along which no term exerts a force in
+/// nearby states and no place is held. The tangent and its preconditioner are singular for these
+/// motions. They are coefficients, to first order about a motion.
 template <int D>
 class FreeMotions {
  public:
-  /// None.
+  /// No motions.
   FreeMotions() = default;
-  /// At a motion, whose velocity counts for nothing. `scale`: of displacements that are small.
+  /// Finds the free motions at `motion`, whose velocity is ignored. `scale` is the size of small
+  /// trial displacements.
   FreeMotions(System<D>& system, const Motion& motion, Real scale);
 
   bool any() const { return !modes_.empty(); }
-  /// Takes them out of forces or displacements.
+  /// Removes them from forces or displacements.
   void remove_from(NodalVectors& w) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The smallest distance between two particles of a body.
+// The smallest distance between two particles of the same body.
 #pragma once
 #include "body/body.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// Of all bodies, in their references; length. All ranks call this.
+/// The smallest distance over all bodies, in their references. All ranks call this.
 template <int D>
 Real least_spacing(const std::deque<Body<D>>& bodies);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// System: all that moves and all that acts, bodies and force terms.
+// System: all bodies and all force terms of a scene.
 #pragma once
 #include "body/body.hpp"
 #include "meniscus/error.hpp"
@@ -18,31 +18,31 @@ template <int D>
 struct System {
   std::deque<Body<D>> bodies;
   std::vector<std::unique_ptr<ForceTerm>> terms;
-  std::vector<Real> mass;       ///< of all particles, bodies one after the other
-  std::vector<Unknown> fields;  ///< unknowns beside the displacement, as a run begins with them
-  std::vector<std::unique_ptr<CarriedField>> carried;  ///< those of them that bodies carry
-  std::unique_ptr<Constraints> constraints;            ///< null: no place is prescribed
+  std::vector<Real> mass;       ///< [particle], one body after the other
+  std::vector<Unknown> fields;  ///< unknowns beside the displacement, with their initial values
+  std::vector<std::unique_ptr<CarriedField>> carried;  ///< fields of Evolution::carried
+  std::unique_ptr<Constraints> constraints;            ///< null: no displacement is prescribed
 
-  /// Of a run of several ranks, in steps that need no more; null: steps are made on all particles.
+  /// Halo for steps on several ranks. Null if steps are made on all particles.
   std::shared_ptr<Halo> halo = {};
 
   Index size() const { return static_cast<Index>(mass.size()); }
-  /// An unknown field that begins at zero; returns its number in Motion and Forces. One that is
-  /// asked for twice is the same field, with the sum of both capacities; throws std::logic_error if
-  /// it is not described in the same way.
+  /// Adds an unknown field with initial value zero; returns its number in Motion and Forces. If two
+  /// terms add the same field, it has the sum of their capacities. Throws std::logic_error if their
+  /// descriptions differ.
   std::size_t add_field(const FieldSpec& spec, std::span<const Real> capacity);
 
-  /// Prescribes displacements, once all bodies have their masses; `state` gets its reactions.
-  /// Throws as Constraints.
+  /// Sets the constraints when all bodies have their masses. Allocates the reactions of `state`.
+  /// Throws like Constraints.
   void hold(std::vector<std::unique_ptr<Constraint>> all, State& state);
-  /// Of the constraints, in a step of dt: places after the drift, and reactions at its end.
+  /// Apply the constraints in a step of dt: constrain() after the drift, react() at the end.
   void constrain(State& state, Real dt) {
     if (constraints) constraints->constrain(state, dt);
   }
   void react(State& state, Real dt) {
     if (constraints) constraints->react(state, dt);
   }
-  /// Of the carried fields, in a step of dt: before the drift, and where it has led.
+  /// Advance the carried fields in a step of dt: depart() before the drift, arrive() after it.
   void depart(const State& state) {
     for (auto& field : carried) field->depart(state.u);
   }
@@ -50,25 +50,28 @@ struct System {
     for (auto& field : carried)
       state.books.dissipated += field->arrive(state.u, dt, at(state.fields, field->number()).x);
   }
-  /// From when on nothing but the motion changes forces and prescribed places.
+  /// The time after which forces and prescribed displacements depend on the motion only.
   Real steady_after() const;
 
-  /// From now on steps are made on what this rank follows, if all terms know what that is and some
-  /// rank needs less than all. `reads`: of the stepper. All ranks call this, with a complete state.
+  /// Makes a halo for the next steps, if all terms can register their reads and some rank needs
+  /// less than all particles. `reads` has the reads of the stepper. All ranks call this, with a
+  /// complete state.
   void share_steps(StepReads reads);
-  /// Whether a term has come to read other particles than when steps were shared.
+  /// True if a term reads other particles than at the last share_steps().
   bool reads_changed() const;
-  /// Before steps of that kind, and where more is asked for than they know. All ranks call these.
+  /// Enter and leave the halo: enter_halo() before steps, complete() before other particles are
+  /// read. All ranks call these.
   void enter_halo(State& state) {
     if (halo) halo->enter({&state.u, &state.v, &state.force});
   }
   void complete(State& state);
   bool in_halo() const { return is_entered(halo); }
-  /// After terms have added to `sums`, [particle]: brings them to all that follow a particle.
+  /// Call this after terms have added to `sums`, [particle]: sends the sums to all ranks that
+  /// follow a particle.
   void spread(std::span<NodalVector> sums) const {
     if (in_halo()) halo->spread(sums);
   }
-  /// Calls f(begin, end) for all particles, those that are followed in a step.
+  /// Calls f(begin, end) for ranges of all particles; in a halo, of the own and ghost particles.
   template <class F>
   void for_particles(F&& f) const {
     meniscus::for_particles(halo, size(), f);
@@ -80,31 +83,31 @@ struct System {
   }
 
   bool viscous() const;
-  std::size_t bytes() const;  ///< held by terms and constraints
+  std::size_t bytes() const;  ///< memory of terms and constraints
 
-  /// Forces of all terms. Throws StepError with body, particle, place and cause where a term cannot
-  /// compute one (J <= 0) or a force is not a number; `force` is then not to be used.
+  /// Computes the forces of all terms. Throws StepError with body, particle, position and cause if
+  /// a term fails (J <= 0) or a force is NaN or infinite; `force` is then invalid.
   Report compute_forces(const Motion& motion, Forces force);
 
-  /// Same, without the checks: for trial motions of the time-step estimate.
+  /// Like compute_forces() without the checks, for trial motions.
   Report add_up(const Motion& motion, Forces force);
 
-  /// Of all terms.
+  /// Call load_power() and commit() of all terms.
   Real load_power(const Motion& motion);
   void commit(const Motion& motion);
 
-  /// A failure with body and place of its particle.
+  /// Describes a failure with the body and position of its particle.
   StepFailure located(const Failure& failure, const Motion& motion) const;
   /// The body that holds a particle.
   const Body<D>& body_of(Index particle) const;
 
  private:
-  /// Brings the reports of all terms what other ranks say.
+  /// Adds the results of all ranks to the reports of all terms.
   void complete_reports(const Motion& motion, Forces force);
   Index first_not_finite(std::span<const NodalVector> force) const;
 
-  std::vector<Report> reports_;      // of the last call, [term]
-  std::vector<ChunkReports*> left_;  // by reports
+  std::vector<Report> reports_;      // [term] of the last call
+  std::vector<ChunkReports*> left_;  // work space
   ReportExchange exchange_;
   RankReports of_ranks_;
 };

@@ -6,9 +6,10 @@
 namespace meniscus {
 
 /// Rate s of mode l >= 2 with amplitude ~ exp(s t), in units of the capillary time sqrt(rho
-/// R^3/gamma). Oh = mu / sqrt(rho gamma R). For an oscillating mode, the one of s, conj(s) with Im
-/// s > 0; for an overdamped mode the slow one, Im s = 0 (Lamb, Chandrasekhar; RKPM note 7). Throws
-/// std::domain_error if the iteration fails, which happens only next to the critical Oh.
+/// R^3/gamma). Oh = mu / sqrt(rho gamma R). For an oscillating mode, s is the root with Im s > 0 of
+/// the pair s, conj(s). For an overdamped mode, s is the slow root, with Im s = 0 (Lamb,
+/// Chandrasekhar; RKPM note 7). Throws std::domain_error if the iteration fails, which happens only
+/// next to the critical Oh.
 Complex drop_mode_rate(int l, Real Oh);
 
 }  // namespace meniscus

@@ -10,8 +10,8 @@
 namespace meniscus::bench {
 namespace {
 
-/// As in the time loop, stress points come in blocks; here 8 blocks of four, at strains of a few
-/// per cent.
+/// Stress points come in blocks, as in the time loop: here 8 blocks of four points, at strains of a
+/// few per cent.
 using Points = std::array<Tensor<Lanes>, 8>;
 
 Points sample(Real size) {
@@ -24,7 +24,7 @@ Points sample(Real size) {
   return points;
 }
 
-/// Calls per time window, long compared with the resolution of the clock.
+/// Number of calls per time window, which is then long compared with the resolution of the clock.
 constexpr int repeats = 200;
 
 template <class Evaluate>

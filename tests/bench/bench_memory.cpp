@@ -9,10 +9,10 @@
 namespace meniscus::bench {
 namespace {
 
-/// Far more than caches hold.
+/// Size of the array: far more than the caches hold.
 constexpr std::size_t numbers = std::size_t{1} << 27;
 
-/// Lines are prefetched like those of rows.
+/// Sum of an array. Cache lines are prefetched as in the loops over rows.
 Real sum_of(const Real* p, const Real* end) {
   constexpr std::ptrdiff_t line = 8, ahead = 512;
   Lanes even = Lanes::zero(), odd = even;

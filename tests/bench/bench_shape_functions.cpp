@@ -44,7 +44,7 @@ void add_shape_function_cases() {
                              {.value = true, .gradient = true, .hessian = true}}})
     add_case("shape functions", c.name, 1, [cloud, c](benchmark::State& state) {
       PointRows<3> rows;
-      // Windows are short: each covers a part of the cloud.
+      // Time windows are short: each covers a part of the cloud.
       constexpr std::size_t part = 20;
       std::size_t begin = 0;
       double least = 1e300, neighbors = 0;

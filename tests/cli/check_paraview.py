@@ -87,7 +87,7 @@ def cube_of_tetrahedra(n):
 
 
 def block_of_hexahedra(n):
-    """A grid of VTK in the unit cube with a vector, whose range VTK writes as <InformationKey>."""
+    """A VTK grid in the unit cube with a vector, whose range VTK writes as <InformationKey>."""
     number = {x: k for k, x in enumerate(itertools.product(range(n + 1), repeat=3))}
     grid, points, field = vtkUnstructuredGrid(), vtkPoints(), vtkDoubleArray()
     points.SetDataTypeToDouble()
@@ -164,7 +164,7 @@ class ParaView(unittest.TestCase):
         self.assertGreater(high, low)
 
     def test_meshes_of_vtk(self):
-        """Every data mode, compressed as by default or not, appended as base64 or as bytes."""
+        """Every data mode of VTK, compressed or not, with appended data as base64 or as raw bytes."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         directory = Path(folder.name)

@@ -53,7 +53,7 @@ aspect = {{ of = "drop.aspect", at = 0.02, value = 1.2, within = 1 }}
 
 
 class Page(html.parser.HTMLParser):
-    """Reads a page: its text, where its pictures come from, and which elements were left open."""
+    """Parses a page: its text, the sources of its pictures, and elements that are not closed."""
 
     def __init__(self):
         super().__init__()
@@ -136,10 +136,10 @@ class Pictures(unittest.TestCase):
             "energies", "drop_shape", "drop_measures", "drop_decay", "sections_pressure", "surface"
         }  # fmt: skip
         self.assertEqual(set(pictures), names)
-        self.assertGreater(min(pictures.values()), 10000)  # an empty picture has less
+        self.assertGreater(min(pictures.values()), 10000)  # an empty picture is smaller
 
     def test_directors(self):
-        """In the plane of x and z: of a length one along x, of half of it out of the picture, none."""
+        """Directors in the plane of x and z: one with length one along x, one half out of the plane, one zero."""
         values = {
             "director": np.array([[1, 0, 0], [0, -0.5, 0], [0, 0, 0.25]]),
             "position": np.array([[0, 0, 0], [1, 0, 2], [3, 0, 3]]),
@@ -201,7 +201,8 @@ type = "half_space"
             self.assertGreater(min(pictures.values()), 10000)
 
     def test_sections_contain_the_normals_of_walls(self):
-        """Of a ball across z, on a wall and on ground along its normal; of a wall that stands askew as of none."""
+        """The section of a ball across z, and on a wall or ground along its normal. An oblique wall has no
+        influence."""
         corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
         ball = types.SimpleNamespace(X=corners, settings={"shape": "ball"})
         for contact, axes in (
@@ -216,7 +217,7 @@ type = "half_space"
             self.assertEqual(sections.Plane(run).axes, axes, contact)
 
     def test_nematic_drops(self):
-        """Force dipole and tilt; in a section along x and z the eye is at -y."""
+        """Force dipole and tilt. A section along x and z is seen from -y."""
         plane = types.SimpleNamespace(axes=[0, 2])
         np.testing.assert_array_equal(nematics.out_of_picture(plane), [0, -1, 0])
         director = 'type = "nematic", frank_constant = 0.2, rotational_viscosity = 0.5'
@@ -261,7 +262,7 @@ points = 4
         self.assertGreater(min(pictures.values()), 10000)
 
     def test_report(self):
-        """One page, whole in itself: what was expected, doubted and drawn, the input, and who made it."""
+        """The report is one self-contained page with expectations, warnings, pictures, input and provenance."""
         shape = "shape = 'ellipse'\nsemi_axes = [1, 1.2]\ncore = 4\nrings = 2\nintegration = 'nodal'"
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
@@ -282,7 +283,7 @@ points = 4
         reader.feed(page)
         self.assertEqual(reader.open, [])
         self.assertEqual(len(reader.sources), 4)
-        for source in reader.sources:  # nothing from elsewhere
+        for source in reader.sources:  # the page loads nothing from elsewhere
             self.assertTrue(source.startswith("data:image/png;base64,iVBOR"))
         text = " ".join(reader.text.split())
         for words in ("A <drop> & more", "aspect", "MISSED", "met", "drop.p2", "drop ellipse newtonian",
@@ -319,7 +320,7 @@ at = [0, 0, 0]
                 self.assertTrue(name.endswith(f".{ending}") and content.startswith(begin), name)
 
     def test_movie(self):
-        """All frames, or as many as are asked for; each another picture, with a wall that moves."""
+        """A movie has all frames or the requested number. All pictures differ, and the wall moves."""
         wall = """
 [[contact]]
 bodies = ["drop"]
@@ -350,7 +351,8 @@ displacement = {zeros}, "-0.4*t"]
                     self.assertGreater(np.abs(after - before).max(), 50)
 
     def test_where_a_partner_is(self):
-        """Where the program has written it, whatever formula moves it; none where nothing was written."""
+        """Partners are drawn at the positions in the file, whatever formula moves them. Without a file, none is
+        drawn."""
         wall = """
 [[contact]]
 name = "roof"
@@ -384,7 +386,7 @@ displacement = ["0.1*sin(20*t)^2", "t < 0.03 ? -0.4*t : -0.012"]
             self.assertEqual(len(list(partners.partners(Results(folder / "run"), 0))), 1)
 
     def test_gallery(self):
-        """The last frame, known by the scene whatever the directory is called."""
+        """The gallery shows the last frame of a run, named by its scene, whatever the directory is called."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             scene = ROOT / "inputs/spinning_ball.toml"

@@ -72,7 +72,7 @@ def check_units(file):
 
 
 def hexahedra():
-    """Corners of the cells of result_writer."""
+    """Corners of the cells that result_writer writes."""
     first = [*range(FIRST_BODY - 7), *range(FIRST_BODY, PARTICLES - 7)]
     return np.array(first)[:, None] + np.arange(8)
 

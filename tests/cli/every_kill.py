@@ -34,7 +34,7 @@ def events(record):
 
 
 class Image:
-    """run.h5 on the disk, from the moment at which it has its name."""
+    """The file run.h5 on the disk, from the moment at which it has this name."""
 
     def __init__(self):
         self.content = bytearray()
@@ -98,7 +98,7 @@ def main():
         image = Image()
         for change in recorded(recorder, directory, f"{frames}", "float64", "1"):
             image.apply(*change)
-            image.kept = max(image.kept, image.frames)  # none is lost
+            image.kept = max(image.kept, image.frames)  # no frame is lost
         assert image.frames == frames
         last = frames * 2 // 3
         changes = recorded(recorder, directory, f"{frames + 5}", "float64", "1", f"{last}")

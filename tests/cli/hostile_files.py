@@ -27,7 +27,7 @@ def fnv(data, value=0xCBF29CE484222325):
 
 
 def state_hash(state):
-    """The hash that a group of arrays, of numbers, has to carry."""
+    """The right hash of a group of numeric arrays."""
     value, arrays = 0xCBF29CE484222325, {}
     state.visititems(lambda name, item: arrays.update({name: item[()]} if isinstance(item, h5py.Dataset) else {}))
     for name, array in sorted(arrays.items()):
@@ -38,7 +38,7 @@ def state_hash(state):
 
 
 def sign(holder):
-    """Gives the state of a frame or checkpoint the hash of what it holds now."""
+    """Gives the state of a frame or checkpoint the hash of its present contents."""
     set_text(holder["state"], "hash", state_hash(holder["state"]))
 
 
@@ -53,7 +53,7 @@ def replace(group, name, data, **options):
 
 
 def huge(group, name, shape, dtype="f8", **options):
-    """An array that says to be large and has no bytes."""
+    """An array that claims to be large but contains no bytes."""
     if name in group:
         del group[name]
     group.create_dataset(name, shape, dtype, **options)
@@ -70,7 +70,7 @@ def many_names_of_one(group, count):
 
 
 def tree_of_links(group, levels, width):
-    """Few objects, width^levels ways to them."""
+    """A few objects that can be reached by width^levels paths."""
     for level in range(levels):
         below = group.file.create_group(f"level{level}")
         for k in range(width):
@@ -85,7 +85,7 @@ def external(group, name, target):
 
 
 def outside_storage(group, name):
-    """An array whose bytes are those of another file."""
+    """An array whose bytes are stored in another file."""
     if name in group:
         del group[name]
     group.create_dataset(name, (64,), "f8", external=[("/etc/passwd", 0, 512)])
@@ -99,7 +99,7 @@ def virtual(group, name):
     group.create_virtual_dataset(name, layout)
 
 
-# What is done to a file, and the ways that refuse it ("" if it may be read).
+# Changes of the state in a file, by name.
 STATE = {
     "variable text": lambda s: replace(s, "velocity", "text", dtype=h5py.string_dtype()),
     "texts": lambda s: replace(s, "velocity", np.array([b"abc"] * 100000)),
@@ -137,7 +137,7 @@ STATE = {
     "empty hash": lambda s: s.attrs.create("hash", h5py.Empty("S16")),
     "other hash": lambda s: set_text(s, "hash", "0" * 16),
 }
-# The same with the right hash, where it is the numbers that are wrong.
+# Changes of the state with a corrected hash: only the numbers are wrong.
 SIGNED = {
     "not a number": lambda s: replace(s, "velocity", np.full(900, np.nan)),
     "infinite": lambda s: replace(s, "velocity", np.full(900, np.inf)),
@@ -166,7 +166,7 @@ META = {
     "no sum": lambda m: m.attrs.__delitem__("input_sha256"),
     "sums": lambda m: m.attrs.create("input_sha256", np.array([b"0" * 64] * 900)),
 }
-PROGRAM = {  # read by info as well
+PROGRAM = {  # changes that `meniscus info` also reads
     "versions": lambda m: m.attrs.create("version", np.array([b"abc"] * 9000)),
     "version of a number": lambda m: m.attrs.create("version", 1.0),
     "variable compiler": lambda m: m.attrs.__setitem__("compiler", "g++"),
@@ -186,7 +186,7 @@ INFO = {
 
 
 class Files:
-    """Damaged copies of a run, and what the reader makes of them."""
+    """Damaged copies of a run, and the answers of the reader."""
 
     def __init__(self, writer, reader, directory, limited):
         self.reader, self.directory, self.limited = reader, directory, limited
@@ -195,8 +195,8 @@ class Files:
         self.count = 0
 
     def harm(self, what, source, change, *refusing, flips=()):
-        """`change` is made to a copy of `source`, which the ways `refusing` have to refuse. `flips`:
-        where in the file bytes are changed after that, from 0 to 1."""
+        """Applies `change` to a copy of `source`, which the readers in `refusing` must refuse. `flips`:
+        positions in the file, from 0 to 1, at which bytes are changed afterwards."""
         path = self.directory / "harmed.h5"
         shutil.copy(self.directory / "run" / source, path)
         with h5py.File(path, "r+") as file:
@@ -227,7 +227,7 @@ class Files:
 
 
 def combinations(files, count, seed=3):
-    """Several changes to one file: nothing is expected of them but an answer."""
+    """Several changes to one file. Any answer is right, but there must be one."""
     chosen = random.Random(seed)
     kinds = {"steps/0/state": STATE | SIGNED, "steps/0": HOLDER, "meta": META | PROGRAM, "/": INFO}
     for k in range(count):
@@ -242,14 +242,14 @@ def combinations(files, count, seed=3):
                 try:
                     kinds[path][name](file[path])
                 except (KeyError, ValueError, TypeError, RuntimeError, OSError, AttributeError):
-                    pass  # an earlier change has taken what this one is done to
+                    pass  # an earlier change has removed the target of this one
 
         files.harm(f"{k}: {changes}", "run.h5", change, flips=flips)
 
 
 def main():
     writer, reader, *options = sys.argv[1:]
-    # HDF5 goes through nested groups by recursion when it takes them out of a file again.
+    # HDF5 needs a deep stack to delete nested groups, which it does by recursion.
     resource.setrlimit(resource.RLIMIT_STACK, (STACK[1], STACK[1]))
     sanitized, more = options == ["sanitized"], [int(option) for option in options if option.isdigit()]
     with tempfile.TemporaryDirectory() as name:

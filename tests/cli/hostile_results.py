@@ -81,7 +81,7 @@ SCENES = {
 
 
 def replace(group, name, data, **options):
-    """Another array in place of one, with its unit."""
+    """Replaces an array by another one with the same unit."""
     units = group[name].attrs.get("units", np.bytes_("1")) if name in group else np.bytes_("1")
     if name in group:
         del group[name]
@@ -89,7 +89,7 @@ def replace(group, name, data, **options):
 
 
 def rewrite_input(file, change):
-    """The text of the scene in a file."""
+    """Applies `change` to the text of the scene in a file."""
     replace(file["meta"], "input", np.bytes_(change(file["meta/input"][()].decode()).encode()))
 
 
@@ -100,7 +100,7 @@ def in_input(old, new):
 
 
 def code(text):
-    """A formula that would leave a mark if anybody ran it."""
+    """A formula that would leave a mark if it were executed."""
     return in_input(r'"-0\.1\*t"', json.dumps(text))
 
 
@@ -108,7 +108,7 @@ MARK = "HARMED"
 GENERATOR = (f"[b for b in [(g.gi_frame.f_back.f_back.f_builtins for g in [(1,)])]] and "
              f"().__class__.__base__.__subclasses__() and open('{MARK}', 'w')")
 
-# What is done to run.h5.
+# Changes of run.h5, by name.
 FILE = {
     "code in a formula": code(f"open('{MARK}', 'w')"),
     "code in generators": code(GENERATOR),
@@ -153,7 +153,7 @@ FILE = {
 
 
 def text_of(name, content):
-    """What is done to a text file of the folder."""
+    """Changes of a text file in the folder, by name."""
     return lambda folder: (folder / name).write_bytes(content)
 
 
@@ -172,7 +172,7 @@ def sparse(path):
         file.truncate(1 << 42)
 
 
-# What is done to the folder.
+# Changes of the folder of results, by name.
 FOLDER = {
     "history in a pipe": in_place_of("history.csv", os.mkfifo),
     "history without end": in_place_of("history.csv", lambda path: path.symlink_to("/dev/zero")),
@@ -203,8 +203,8 @@ FOLDER = {
 
 
 def draw(work, arguments):
-    """Calls main() of a script in a process of its own, as its last lines do. Returns (exit code or
-    -signal, what it printed)."""
+    """Calls main() of a script in a process of its own, as the script itself does. Returns (exit code or
+    -signal, printed text)."""
     read, write = os.pipe()
     child = os.fork()
     if child == 0:
@@ -234,7 +234,7 @@ def draw(work, arguments):
 
 
 class Results:
-    """Damaged copies of runs, and what the scripts make of them."""
+    """Damaged copies of runs, and the answers of the scripts."""
 
     def __init__(self, program, directory):
         self.directory, self.count, self.drawn, self.slowest = directory, 0, 0, 0.0
@@ -295,7 +295,7 @@ def combinations(results, count, seed):
                 try:
                     FILE[name](file)
                 except (KeyError, ValueError, TypeError, RuntimeError, OSError, AttributeError):
-                    pass  # an earlier change has taken what this one is done to
+                    pass  # an earlier change has removed the target of this one
 
         results.harm(f"{k} of seed {seed}: {names}, {about_folder}, {flips}", chosen.choice((2, 3)), change,
                      FOLDER.get(about_folder), flips, [chosen.choice((plot, report))])

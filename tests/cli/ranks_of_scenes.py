@@ -38,7 +38,7 @@ def state(program, ranks, *arguments):
 
 
 def middle(output):
-    """A time half-way through a run, by the rows of its history; None if there are none between."""
+    """A time half-way through a run, from the rows of its history; None if there is no row in between."""
     with (output / "history.csv").open() as file:
         times = [row[0] for row in csv.reader(line for line in file if line[0] not in "#\"t")]
     return times[len(times) // 2] if len(times) > 2 else None

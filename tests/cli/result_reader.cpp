@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads a file with every reader of the program, for hostile_files.py:
 //   result_reader FILE
-// Prints a line for each reader: its name, and "read" or the reason for refusal. A refusal has to
-// be a FileError.
+// Prints a line for each reader: its name, and "read" or the reason for refusal. Only a FileError
+// counts as a refusal.
 #include "io/checkpoint.hpp"
 #include "io/info.hpp"
 #include "meniscus/error.hpp"

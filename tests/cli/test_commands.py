@@ -27,7 +27,8 @@ COMMANDS = ["run", "check", "keys", "info", "study", "plot", "report", "help", "
 @unittest.skipUnless(platform.machine() == "x86_64" and shutil.which("objdump"), "reads the code of x86-64")
 class Code(ProgramTest):
     def test_loops_over_stress_points_fetch_ahead(self):
-        """A compiler may drop calls that it takes for ones without effect: forces then take twice as long."""
+        """Compilers may drop calls that seem to have no effect, here of prefetch. Forces would then take twice
+        as long."""
         code = subprocess.run(["objdump", "-d", "--no-show-raw-insn", program.PROGRAM],
                               capture_output=True, text=True, check=True, errors="replace").stdout
         loops = [f for f in code.split("\n\n")
@@ -56,7 +57,7 @@ class Help(ProgramTest):
 
 class New(ProgramTest):
     def test_every_scene_of_the_gallery(self):
-        """It says the same as the scene, with comments, without the lines for tests."""
+        """A new scene from the gallery means the same as the original. It has comments and no lines for tests."""
         for path in SCENES:
             self.call("new", path.stem, "--like", path.stem)
             text = (self.directory / path.name).read_text()
@@ -112,7 +113,7 @@ class Sweep(ProgramTest):
             for column, values in history.items():
                 self.assertEqual(float(row[column]), values[-1])
             self.assertAlmostEqual(float(row["expect.rest"]), history["kinetic_energy"][-1], delta=1e-12)
-        # Once more: nothing is left to do. With another value: only that.
+        # A second call runs nothing. With another value, only the runs with this value are made.
         before = (self.directory / "results/scene-sweep/sweep.csv").read_text()
         self.assertEqual(self.call(*call).stdout.count("done before"), 4)
         self.assertEqual((self.directory / "results/scene-sweep/sweep.csv").read_text(), before)
@@ -126,10 +127,10 @@ class Sweep(ProgramTest):
                          "--set", "time.end=0.02, -1", "--output", "out", code=None)
         rows, _ = self.table("out/sweep.csv")
         self.assertEqual([row["exit_code"] for row in rows], ["0", "3", "7", "3", "4", "3"])
-        self.assertEqual(done.returncode, 3)  # the gravest
+        self.assertEqual(done.returncode, 3)  # the most severe exit code
         self.assertIn("time.end", done.stderr)
         self.assertEqual(rows[1]["kinetic_energy"], "")
-        # What was wrong input is tried again, what would end the same way is not.
+        # Runs with wrong input are tried again. Runs that would fail in the same way are not.
         again = self.call("sweep", scene, "--set", "body_force[0].acceleration=[0,0,0],[1,0,0],[\"1e9*x\",0,0]",
                           "--set", "time.end=0.02, -1", "--output", "out", code=3)
         self.assertEqual(again.stdout.count("done before"), 3)
@@ -150,7 +151,7 @@ class Sweep(ProgramTest):
         self.call(*call, "--output", "part")
         whole, part = (self.table(f"{name}/sweep.csv")[0] for name in ("whole", "part"))
         self.assertEqual(whole, part)
-        # A table that was lost with the program is found again from the runs.
+        # If the table is lost, it is rebuilt from the directories of the runs.
         (self.directory / "part" / "sweep.csv").unlink()
         self.call(*call, "--output", "part")
         self.assertEqual(self.table("part/sweep.csv")[0], whole)
@@ -187,7 +188,7 @@ class Pictures(ProgramTest):
 
 class CommandLine(ProgramTest):
     def completed(self, *words):
-        """What bash offers for the last of the words."""
+        """The completions that bash offers for the last word."""
         (self.directory / "meniscus.bash").write_text(self.call("completion").stdout)
         script = f"""source ./meniscus.bash
 COMP_WORDS=(meniscus {' '.join(f"'{word}'" for word in words)}) COMP_CWORD={len(words)}
@@ -227,14 +228,14 @@ class LibrarySettings(ProgramTest):
     VARIABLES = ("GLIBC_TUNABLES", "GOMP_SPINCOUNT", "OMP_WAIT_POLICY")
 
     def settings_of_a_run(self, **given):
-        """Name of the process and VARIABLES of a run that is started with the given ones."""
+        """Name of the process and environment variables of a run that is started with the given variables."""
         environment = {key: value for key, value in program.ENVIRONMENT.items() if key not in self.VARIABLES} | given
         results = Path(tempfile.mkdtemp(dir=self.directory)) / "results"
         process = subprocess.Popen([program.PROGRAM, "run", self.scene(BLOCK), "--set", "time.end=1e9", "--output", results],
                                    cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment)
         self.addCleanup(process.__exit__, None, None, None)
         self.addCleanup(process.kill)
-        for _ in range(1000):  # until it computes
+        for _ in range(1000):  # until the run makes steps
             if (results / "run.h5").exists():
                 break
             time.sleep(0.02)

@@ -91,7 +91,7 @@ class ResultsTable(ProgramTest):
         self.assertIn(results_table.BEGIN + self.table() + results_table.END, text_of(GALLERY))
 
     def test_rows_are_renewed(self):
-        """Only rows that the run has reached are renewed."""
+        """Only rows of results that the run has reached are renewed."""
         scene = ROOT / "inputs" / "ellipsoid_drop.toml"
         self.call("run", scene, "--output", "out", "--until", "1 ps", "--quiet")
         before = self.table()

@@ -36,7 +36,7 @@ class Usage(ProgramTest):
         self.refused(["run", file, "--threads", "9999"], 2, "--threads", "<= 4096")
 
     def test_empty_values(self):
-        """What a shell makes of a variable that is not set does not mean something else."""
+        """An empty value, as from an unset shell variable, is refused."""
         file = self.scene(BLOCK)
         self.call("run", file, "--output", "out", "--until", "0.01")
         before = (self.directory / "out/history.csv").read_bytes()
@@ -88,7 +88,7 @@ class Scenes(ProgramTest):
         self.assertEqual(len(report.splitlines()), 5, report)  # viscosity is also missing
 
     def test_wrong_constant_alone(self):
-        """Nothing is said of what would follow from the number that stands in for it."""
+        """A wrong constant gives one message. Consequences of its stand-in are not reported."""
         ring = """
         dimension = 2
         [constants]
@@ -118,7 +118,7 @@ class Scenes(ProgramTest):
         self.assertEqual(len(report.splitlines()), 1, report)
 
     def test_long_lists_once(self):
-        """The names that are allowed stand in the first line about one that is not."""
+        """The first line about an unknown name lists the allowed names; later lines do not repeat them."""
         names = [f"drop.measure_{k}" for k in range(12)] + ["drop.volme"]
         text = re.sub("measures = .*", "measures = " + json.dumps(names), DROP)
         report = self.assert_refused(text, *names, "drop.volume",
@@ -161,7 +161,7 @@ class Scenes(ProgramTest):
     """
 
     def test_partners(self):
-        """Numbers of a partner that make no shape are refused at their key."""
+        """Numbers of a partner that make no shape are refused with their key."""
         for partner, *words in (
                 ('{ type = "half_space", point = [0, -2], normal = [0, 0] }', "partner.normal", "no direction"),
                 ('{ type = "frame", low = [2, -2], high = [-2, 2] }', "partner.high", "x: -2 is not above 2"),
@@ -173,14 +173,14 @@ class Scenes(ProgramTest):
             self.assertEqual(len(report.splitlines()), 1, report)
 
     def test_names_of_contacts(self):
-        """They become parts of names in the history, as those of bodies do."""
+        """Names of contacts become parts of names in the history, as names of bodies do."""
         partner = '{ type = "half_space", point = [0, -2], normal = [0, 1] }'
         for name in ("a/b", "a b", "a,b", "a.b"):
             text = self.CONTACT.replace("PARTNER", partner).replace("epsilon", f'name = "{name}"\nepsilon')
             self.assert_refused(text, "contact[0].name", "cannot be a name")
 
     def test_body_that_cannot_be_made(self):
-        """What else would be said of it is about its stand-in."""
+        """If a body cannot be made, problems that concern its stand-in are not reported."""
         shell = """
         dimension = 3
         time.end = 1
@@ -210,7 +210,7 @@ class Scenes(ProgramTest):
         self.assertEqual(len(report.splitlines()), 1, report)
 
     def test_two_laws_on_a_surface(self):
-        """Their measures would have equal names."""
+        """Two laws of one kind on a surface are refused, since their measures would have equal names."""
         self.assert_refused(DROP + '[[surface]]\nbody = "drop"\nlaw = { type = "tension", gamma = 1 }\n',
                             "surface", "the surface of 'drop' has a law already")
 
@@ -240,7 +240,7 @@ class Scenes(ProgramTest):
                             "scene.toml:16:1: profile", "[[profile]] is for bodies in 3 dimensions")
 
     def test_long_formulas_are_not_repeated(self):
-        """The beginning and the end of what was found, the place and the reason."""
+        """A message about a long formula has the begin and the end of the formula, the place and the reason."""
         long = "1 + " * 25000
         for value, reason in ((f'"{long}"', "it is longer than 20000 characters"), (f'"{long[:5000]}"', "ends too early"),
                               (f'"{long[:5000]}q"', "unknown name 'q'"), (f'"{"q" * 200000}"', "(200000 characters)")):
@@ -251,7 +251,7 @@ class Scenes(ProgramTest):
         self.assertLess(len(done.stderr), 4000)
 
     def test_texts_do_not_command_the_terminal(self):
-        """C1 controls, and characters that turn the direction of writing, of any text that is printed."""
+        """Printed texts have no C1 control characters and no characters that change the direction of writing."""
         evil, seen = "\x9b2J\u202egnp.\u2066\u200f", "?2J?gnp.??"
         title = self.scene(f"title = 'A{evil}'\n" + BLOCK)
         self.assertIn(f"A{seen}", self.call("check", title).stdout)
@@ -302,7 +302,7 @@ class Scenes(ProgramTest):
         self.assertEqual(len(report.splitlines()), 7, report)
 
     def test_names_of_expectations(self):
-        """They are words of tables: with others a column of sweep.csv could be lost or forged."""
+        """Names of expectations are plain words; other names could hide or forge a column of sweep.csv."""
         for name in ("a b", "a\\nb 1 1 1 met", "a,b", "", "=1+1", "a\\u202eb"):
             self.assert_refused(BLOCK + f'[expect."{name}"]\nof = "step"\nvalue = 1\nwithin = 1\n', "scene.toml:",
                                 "expect.", "cannot be a name; allowed are letters, digits, _, - and .")
@@ -344,7 +344,7 @@ class Scenes(ProgramTest):
 
     @staticmethod
     def area_of_ellipsoid(a, c):
-        """Prolate, semi-axes a, a, c."""
+        """Surface area of a prolate ellipsoid with the semi-axes a, a, c."""
         e = math.sqrt(1 - (a / c) ** 2)
         return 2 * math.pi * a * a * (1 + c / (a * e) * math.asin(e))
 
@@ -363,7 +363,7 @@ class Scenes(ProgramTest):
         self.assert_refused(text, "scene.toml:4:8: time.step", "stable step", "allowed is <=")
 
     def test_expectations_are_tables(self):
-        """Nothing that stands under [expect] is passed over."""
+        """Every entry under [expect] is checked."""
         for text, where in (("[expect]\ngap = 0.001\n", "expect.gap: is a decimal number"),
                             ('[expect]\ngap = "banana"\n', "expect.gap: is a text"),
                             ("[[expect.gap]]\nvalue = 1\n", "expect.gap: is an array"),
@@ -386,7 +386,7 @@ class Scenes(ProgramTest):
         self.assert_refused(self.change(BLOCK, ("end = 0.4", "end = 10 ms")), "scene.toml:4:", 'write "10 ms"')
 
     def test_start(self):
-        """What cannot begin is an error of the scene, with a place in it."""
+        """A state that cannot start is an error of the scene and has a place in it."""
         moved = '[[body]]\ninitial_displacement = ["-2*x", 0, 0]'
         self.assert_refused(self.change(BLOCK, ("[[body]]", moved)), "scene.toml:9:1: body[0]", "J = det F")
         self.assert_refused(self.change(BLOCK, ('"20*sin(40*t)*(1 + z)"', '"1/t"')),
@@ -410,14 +410,14 @@ class Scenes(ProgramTest):
         self.assertIn(done.stderr.strip().split(": ", 1)[1], (self.directory / "out/run.log").read_text())
 
     def test_memory(self):
-        """Asked for before it is taken."""
+        """Too large scenes are refused before their memory is allocated."""
         text = self.change(BLOCK, ("cells = [4, 4, 4]", "cells = [300, 300, 300]"))
         limits = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (3 << 30, 3 << 30))}
         done = self.call("check", self.scene(text), code=3, **limits)
         self.assertRegex(done.stderr, r"body\[0\].shape: .*2.7e\+07 cells.* GB of memory, 3\.\d* GB are there")
 
     def test_memory_of_all_bodies(self):
-        """Each may fit where all do not."""
+        """Each body may fit into the memory although all together do not."""
         big = self.change(BLOCK, ("cells = [4, 4, 4]", "cells = [50, 50, 50]"))
         body = big[big.index("[[body]]"):big.index("[[body_force]]")]
         text = big + body.replace('"block"', '"second"')
@@ -472,7 +472,7 @@ class Files(ProgramTest):
         self.call("run", self.file, "--restart", "out", "--frame", "1")
 
     def test_what_is_no_file(self):
-        """Devices and pipes, which would never end; names and links that the system refuses."""
+        """Refuses devices and pipes, which would never end, and names and links that the system refuses."""
         os.mkfifo(self.directory / "pipe")
         os.symlink("loop", self.directory / "loop")
         (self.directory / "mixed").mkdir()
@@ -493,7 +493,7 @@ class Files(ProgramTest):
         self.refused(["sweep", self.file, "--set", "time.end=0.01", "--output", "mixed"], 5, "sweep.csv")
 
     def test_nothing_is_written_through_links(self):
-        """Somebody else may have put them into the folder that is continued."""
+        """Somebody else may have put links into a folder in which a run continues."""
         precious = self.directory / "precious"
         precious.write_text("precious")
         for name in ("run.log", "history.csv", "run.h5", "run.vtkhdf"):
@@ -511,7 +511,7 @@ class Files(ProgramTest):
         self.call("run", self.file, "--restart", "out")
 
     def test_other_columns_or_fields(self):
-        """Refused before rows or frames are lost."""
+        """Other columns or fields are refused before rows or frames are deleted."""
         before = (self.directory / "out/history.csv").read_bytes()
         frames = len(self.frames("out"))
         for change in ('output.measures=["block.aspect"]', 'output.fields=["J"]'):
@@ -526,7 +526,7 @@ PUSHED = BLOCK.replace("[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]
 
 class Failures(ProgramTest):
     def assert_fails(self, text, *words):
-        """Exit code 4 with all of `words`; everything that was written is finite."""
+        """The run ends with exit code 4 and prints all of `words`; every number that was written is finite."""
         file = self.scene(text)
         done = self.refused(["run", file, "--output", "out"], 4, *words)
         *warnings, error = done.stderr.strip().splitlines()
@@ -540,7 +540,7 @@ class Failures(ProgramTest):
         return done.stderr
 
     def test_inversion(self):
-        """A block that is pushed together far too fast for its step."""
+        """A block is compressed far too fast for its step."""
         text = PUSHED.replace("[time]", "[time]\nstep = 0.008")
         text = with_output(text, 'restartable = true\nfields = ["velocity", "J", "force"]')
         message = self.assert_fails(text, "body 'block', particle ", "reference position", "now (",
@@ -555,7 +555,7 @@ class Failures(ProgramTest):
             self.assertNotIn("state", file[f"steps/{len(frames) - 1}"])
 
     def test_collapse_of_the_step(self):
-        """Shorter steps follow the block until nothing resolves what is left of it: at once."""
+        """Shorter and shorter steps follow the block until the step has collapsed. The run then ends at once."""
         self.assert_fails(PUSHED.replace("-60*x", "-80*x"), "the stable time step has collapsed from",
                           " % of the stiffness is that of the internal force of 'block': ", "finer cells",
                           "body 'block', particle ", "reference position", "now (", "dt = ", "step ", "t = ")
@@ -578,7 +578,7 @@ class Failures(ProgramTest):
     """
 
     def test_ramps(self):
-        """What is wrong with one is said once; one after the end of the scene moves nothing."""
+        """A problem of a ramp is reported once. A ramp after the end of the scene has no effect."""
         for ramp, lines, *words in (("[1, 0.5]", 1, "held[1].ramp: the ramp ends before it begins"),
                                     ("[-2, -1]", 2, "held[1].ramp[0]: -2 s is out of range", "ramp[1]: -1 s"),
                                     ("[-0.5, 0.5]", 1, "held[1].ramp[0]: -0.5 s is out of range; allowed is >= 0")):
@@ -587,7 +587,8 @@ class Failures(ProgramTest):
         self.assertIn("the scene is in order", self.call("check", self.scene(self.GRIPPED.replace("RAMP", "[2, 3]"))).stdout)
 
     def test_loads_that_never_rest(self):
-        """What the solver relax cannot come to an end with is named, with the key that helps."""
+        """Loads that change forever are refused for the solver relax; the message names the load and the
+        helpful key."""
         text = BLOCK.replace("[time]", '[time]\nsolver = "relax"')
         grip = '[[held]]\nbody = "block"\nface = "z_min"\ndisplacement = [0, 0, DISPLACEMENT]\n'
         steady = text[:text.index("[[body_force]]")]
@@ -625,7 +626,7 @@ class Failures(ProgramTest):
                          "body force on 'sheet'", "no rest")
 
     def test_net_force(self):
-        """Nothing balances it: that is said, and not that there may be more time."""
+        """For an unbalanced net force, the message names the force and does not suggest a longer run."""
         text = SHEET.replace("end = 0.1", 'end = 0.1\nsolver = "relax"') + """
         [[body_force]]
         body = "sheet"
@@ -636,7 +637,8 @@ class Failures(ProgramTest):
         self.assertNotIn("more time", message)
 
     def test_unstable_rest(self):
-        """A straight strut far beyond Euler's load: relaxation stays straight, Newton's method leaves it and says so."""
+        """A straight strut far beyond Euler's load. Relaxation stays straight; Newton's method leaves this
+        state, with a note."""
         text = """
         dimension = 2
         [time]
@@ -665,7 +667,7 @@ class Failures(ProgramTest):
         self.assertIn("an equilibrium was found that is not stable", (self.directory / "newton/run.log").read_text())
 
     def test_body_in_another(self):
-        """The points of two surfaces miss each other, and what repels them is weak."""
+        """The points of two surfaces miss each other, and their repulsion is weak."""
         disk = """
         [[body]]
         name = "{}"
@@ -707,10 +709,10 @@ class Expectations(ProgramTest):
     def test_not_reached(self):
         done = self.call("run", self.scene(self.SCENE), "--until", "0.2")
         self.assertRegex(done.stdout, r"late .* not reached\nearly .* met")
-        # Elsewhere the beginning is missing.
+        # In another directory, the history lacks the begin of the run.
         done = self.call("run", self.scene(self.SCENE), "--restart", "results/scene", "--output", "b")
         self.assertRegex(done.stdout, r"late .* met\nearly .* not reached")
-        # In place the history is complete.
+        # In the same directory, the history is complete.
         done = self.call("run", self.scene(self.SCENE), "--restart", "results/scene")
         self.assertEqual(done.stdout.count(" met"), 2)
 

@@ -18,8 +18,8 @@ from program import BLOCK, ENVIRONMENT, SHEET, ProgramTest, with_output
 
 class FaultTest(ProgramTest):
     def code(self, *arguments, closed=(), full=(), limit=None, ignored=()):
-        """The exit code with some of the streams 0, 1, 2 closed or full and files of limited size;
-        keeps the text on stderr."""
+        """The exit code with some of the streams 0, 1, 2 closed or full and files of limited size. Stores the
+        text on stderr."""
         def prepare():
             for number in ignored:
                 signal.signal(number, signal.SIG_IGN)
@@ -43,7 +43,7 @@ class Streams(FaultTest):
         """Every combination of closed and full streams, for each kind of end."""
         good = self.scene(SHEET.replace("end = 0.1", "end = 0.02"))
         bad = self.scene(SHEET.replace("mu = 1e5", "mu = 0"), "bad")
-        # Compressed far too fast for its step.
+        # The compression is far too fast for the step.
         pushed = BLOCK.replace("[[body]]", '[[body]]\ninitial_velocity = ["-60*x", 0, 0]')
         broken = self.scene(pushed.replace("[time]", "[time]\nstep = 0.008"), "broken")
         missed = self.scene(SHEET.replace("end = 0.1", "end = 0.02") + "[expect.step]\nvalue = 0\nwithin = 0\n",
@@ -64,7 +64,7 @@ class Streams(FaultTest):
                 self.assertEqual(self.code("run", missed, "--overwrite", **how), 7)
 
     def test_messages_stay_out_of_files(self):
-        """With closed streams the files of a run get their numbers."""
+        """If standard streams are closed, files of the run may get their descriptors."""
         text = SHEET.replace("[[body]]", '[[body]]\nintegration = "nodal"\ngauss_points = 1')
         file = self.scene(text)
         self.code("run", file, "--output", "open")
@@ -173,7 +173,7 @@ class Signals(FaultTest):
                     time.sleep(0.001)
                 process.send_signal(number)
                 _, stderr = process.communicate()
-                if process.returncode != 0:  # the run may have been at its end
+                if process.returncode != 0:  # the run may have reached its end
                     self.assertEqual(process.returncode, 128 + number, stderr)
                 done = self.call("run", file, "--restart", output)
                 self.assertEqual(program.state_of(done), whole)
@@ -185,7 +185,7 @@ class Signals(FaultTest):
         while not (self.directory / "out/run.xdmf").exists():
             self.assertIsNone(process.poll())
         begin = time.monotonic()
-        while process.poll() is None and time.monotonic() - begin < 0.5:  # also while it ends
+        while process.poll() is None and time.monotonic() - begin < 0.5:  # signals continue while the program ends
             process.terminate()
             time.sleep(0.0005)
         _, stderr = process.communicate()

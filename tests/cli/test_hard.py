@@ -43,7 +43,7 @@ def disk(name, centre=(0, 0), radius=1.0, velocity=(0, 0), *more, material=STIFF
 
 
 def let_go(stretch, material, end, *time):
-    """A bar at a stretch, without a change of its volume."""
+    """A bar that is released from a stretch without change of volume."""
     across = stretch**-0.5 - 1
     return head(end, *time, "[output]", "history_every = 0.05", dimension=3) + box(
         material, f'initial_displacement = ["{stretch - 1}*x", "{across}*y", "{across}*z"]', cells=(12, 3, 3),
@@ -69,7 +69,7 @@ ROUND = 'shape = "disk"\nradius = 1\ncore = 4\nrings = 2'
 ELLIPSE = 'shape = "ellipse"\nsemi_axes = [0.8, 1.25]\ncore = 4\nrings = 2'
 BALL = 'shape = "ball"\nradius = 1\ncore = 3\nlayers = 1'
 SHELL = ('shape = "sphere_shell"\nradius = 1\nthickness = 0.5\nlayers = 4\nspacing = 0.8')
-# Of the volume of the unit sphere. At rest it is compressed by 2/K.
+# The ellipsoid has the volume of the unit sphere. At rest it is compressed by 2/K.
 LONG = 'shape = "ellipsoid"\nsemi_axes = [0.793701, 1.587401, 0.793701]\ncore = 4\nlayers = 2'
 LONG_DROP = """
 [expect]
@@ -123,14 +123,14 @@ displacement = ["10/max(0.28*t, 1e-6)*sin(max(0.28*t, 1e-6)) - 10",
                 "10/max(0.28*t, 1e-6)*(1 - cos(max(0.28*t, 1e-6)))"]
 """
 
-# name, scene, exit code, word of the output or the log
+# name, scene, exit code, word in the output or the log
 TABLE = [
     # Particles and rules
     ("jitter 40 %", head(2) + sheet(SOFT, "jitter = 0.4", SWIRL), 0, ""),
     ("jitter 60 %", head(2) + sheet(SOFT, "jitter = 0.6"), 3, "body[0].jitter"),
     ("bar let go at 0.6 of its length", let_go(0.6, SOFT, 12) + BALANCED, 0, ""),
     ("bar let go at half its length, Mooney-Rivlin", let_go(0.5, RUBBER, 12) + BALANCED, 0, ""),
-    # From about twice its length on such a bar folds or not by chance, with supports of any width.
+    # Beyond about twice its length, such a bar folds or not by chance, with supports of any width.
     ("bar let go at 1.7 of its length, fixed step", let_go(1.7, SOFT, 2, "step = 0.13"), 0, "energy balance is off by"),
     ("cells 10 : 1", head(1) + sheet(SOFT, SWIRL, size=(1, 0.1)), 0, ""),
     ("cells 100 : 1", head(0.1) + sheet(SOFT, SWIRL, size=(1, 0.01)), 0, ""),
@@ -225,7 +225,7 @@ TABLE = [
     ("contact of volumes", head(0.3) + LEFT + RIGHT + contact(["left", "right"], 'form = "volume"', epsilon=30), 0, ""),
     ("contact of the dissertation", head(0.3) + LEFT + RIGHT + contact(["left", "right"], 'form = "dissertation"', epsilon=30), 0,
      "not the gradient"),
-    # Surfaces that go through themselves or each other
+    # Surfaces that pass through themselves or each other
     ("drops without a contact", head(1.5) + DROPS, 4, "nothing keeps them apart: add a [[contact]] with bodies = "),
     ("blocks that overlap", head(1) + TARGET + disk("small", (1.1, 0), 0.4), 3, "move them farther apart"),
     ("hollow ball pressed flat", head(30, RELAX, dimension=3) + body(
@@ -262,7 +262,7 @@ def arrays(group):
 
 
 def not_numbers(out):
-    """Names of what is not finite in the files of a run."""
+    """Names of all values in the files of a run that are not finite."""
     wrong = []
     for path in [out / "run.h5", *out.glob("checkpoint-*.h5")]:
         with h5py.File(path) as file:
@@ -273,21 +273,21 @@ def not_numbers(out):
 
 
 def windings(facets, points):
-    """How often a closed curve goes around each of the points."""
+    """Winding number of a closed curve around each of the points."""
     a, b = facets[None, :, 0] - points[:, None], facets[None, :, 1] - points[:, None]
     angles = np.arctan2(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(-1))
     return angles.sum(1) / (2 * np.pi)
 
 
 def deep_inside(facets, points):
-    """Points inside of a curve and farther than a quarter of a facet from the middle of any."""
+    """Points inside a curve that are farther from the middle of each facet than 0.75 of its length."""
     edge = np.linalg.norm(facets[:, 1] - facets[:, 0], axis=1)
     away = np.linalg.norm(points[:, None] - facets.mean(1)[None], axis=2) > 0.75 * edge
     return (windings(facets, points) > 0.5) & away.all(1)
 
 
 def bodies_in_each_other(out):
-    """(body, other one, frame) of all bodies of the plane that are in another one in a frame."""
+    """(body, other body, frame) for all 2D bodies of which a part is inside another body."""
     found = []
     with h5py.File(out / "run.h5") as file:
         bodies = {name: (slice(group.attrs["first_particle"], group.attrs["first_particle"] + group.attrs["particles"]),

@@ -14,7 +14,7 @@ import program
 from program import DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of
 
 
-# A disk between two walls, of which one comes and goes.
+# A disk between two walls; one wall approaches and recedes.
 CONTACT = """
 dimension = 2
 [time]
@@ -56,7 +56,7 @@ FULL = os.environ.get("MENISCUS_VERIFY") == "full"
 
 class Kill(ProgramTest):
     def kill_and_continue(self, text, kills, *longer):
-        """Kills of one run, each continued from what the last one left; in the full form of five."""
+        """Kills one run several times and continues it after each kill; in the full form, does this five times."""
         for seed in range(SEED, SEED + (5 if FULL else 1)):
             with self.subTest(seed=seed):
                 self.kill_one_run(seed, text, kills, *longer)
@@ -75,8 +75,8 @@ class Kill(ProgramTest):
             process = self.start("run", file, "--output", "out", *longer, *options)
             while not all((self.directory / "out" / name).exists() for name in ("history.csv", "run.h5")):
                 self.assertIsNone(process.poll())
-            # After some more rows than before the last kill, however fast it runs; all kills come
-            # before the end.
+            # Kills after some more rows than at the last kill, however fast the run is. All kills
+            # come before the end.
             history = self.directory / "out/history.csv"
             enough = max(enough, history.stat().st_size) + random.uniform(0, 0.5 * size / kills)
             while process.poll() is None and history.stat().st_size < enough:
@@ -90,7 +90,7 @@ class Kill(ProgramTest):
             has_checkpoint = any((self.directory / "out").glob("checkpoint-?.h5"))
             options = ["--restart", "out"] if has_checkpoint else []
             if not has_checkpoint:
-                shutil.rmtree(self.directory / "out")  # of which the next run is not to see the files
+                shutil.rmtree(self.directory / "out")  # the next run starts afresh
         self.assertIn("--restart", options)
         done = self.call("run", file, "--output", "out", *longer, *options)
         self.assertEqual(state_of(done), whole)
@@ -111,7 +111,7 @@ class Kill(ProgramTest):
         self.kill_and_continue(CONTACT, 6)
 
     def test_relaxation(self):
-        # The sheet goes back to its reference: 1e-8 would be round-off.
+        # The tolerances are above round-off, to which the sheet would return in the end.
         self.kill_and_continue(RELAXING_SHEET, 6, "--set", "time.shape_tolerance=1e-8",
                                "--set", "time.force_tolerance=1e-7")
 

@@ -35,7 +35,7 @@ def text_stl(triangles):
     return "solid ball\n" + "".join(facets) + "endsolid ball\n"
 
 
-# Two hexahedra on each other, each a set of its own.
+# Two hexahedra, one on top of the other, each in its own element set.
 INP = """*NODE
 1, 0, 0, 0
 2, 1, 0, 0
@@ -86,7 +86,7 @@ class MeshTool(ProgramTest):
         return self.call("check", self.scene(SCENE.format(file))).stdout
 
     def volume_of(self, name, *arguments):
-        """Of the ball that the program reads from what the tool makes of NAME.stl."""
+        """Volume of the ball that the program reads from the mesh made from NAME.stl."""
         done = self.mesh(f"{name}.stl", "--spacing", "0.45", *arguments)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         volume = float(re.search(r"closed, volume ([\d.]+)", done.stdout)[1])
@@ -95,7 +95,8 @@ class MeshTool(ProgramTest):
         return float(re.search(r"tetrahedra of a mesh, surface closed.* of the cells ([\d.]+)", said)[1])
 
     def test_closed_surfaces(self):
-        """Binary, as text, turned inside out; .msh and .vtu."""
+        """Surfaces in binary and text files, with normals to the outside and to the inside; output as .msh and
+        .vtu."""
         (self.directory / "text.stl").write_text(text_stl(self.triangles))
         (self.directory / "turned.stl").write_text(text_stl(self.triangles[:, ::-1]))
         for arguments in (["ball"], ["text"], ["turned"], ["ball", "--out", "ball.vtu"]):
@@ -103,14 +104,14 @@ class MeshTool(ProgramTest):
             self.assertLess(abs(volume / (4 * np.pi / 3) - 1), 0.05, arguments)
 
     def test_small_units(self):
-        """CGAL measures some things absolutely; a ball of radius 1e-15 had no end."""
+        """CGAL compares some lengths with absolute numbers; a ball of radius 1e-15 took for ever."""
         (self.directory / "tiny.stl").write_text(text_stl(1e-15 * self.triangles.astype(float)))
         done = self.mesh("tiny.stl", "--spacing", "6e-16")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertLess(abs(float(re.search(r"tetrahedra, volume (\S+)", done.stdout)[1]) / 4.19e-45 - 1), 0.1)
 
     def test_shells(self):
-        """A shell within another one is the wall of a cavity; other ways round and crossings are refused."""
+        """An inner surface of opposite orientation bounds a cavity. The same orientation and crossings are refused."""
         inner = 0.5 * self.triangles
         for name, parts, words in (
             ("nested", [self.triangles, inner], "lies within another one and goes round the same way"),
@@ -139,7 +140,7 @@ class MeshTool(ProgramTest):
         self.assertIn("tetrahedra of a mesh, surface closed", self.check("cube.msh"))
 
     def test_files_with_cells(self):
-        """Cells are written as they are, sets of them as groups."""
+        """Cells of a file are written unchanged, and element sets as groups."""
         (self.directory / "two.inp").write_text(INP)
         (self.directory / "one.vtk").write_text(VTK)
         done = self.mesh("two.inp")

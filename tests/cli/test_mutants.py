@@ -39,7 +39,7 @@ value = 0
 within = 1e-5
 """
 
-# Two disks and a wall that moves.
+# Two disks and a moving wall.
 CONTACT = """
 title = "disks"
 dimension = 2
@@ -93,7 +93,7 @@ normal = [1, 0]
 displacement = ["0.01*t", 0]
 """
 
-# A shell around a volume that shrinks.
+# A shell around a shrinking volume.
 SHELL = """
 dimension = 3
 [time]
@@ -124,7 +124,7 @@ r = [0, 1]
 z = [0.5, 0]
 """
 
-# A block of a law that the place enters.
+# A block whose law depends on the position.
 BLOCK = """
 dimension = 3
 [time]
@@ -160,7 +160,7 @@ VALUES = {
 
 
 def mutants_of(line):
-    """{name: text that takes the place of the line}."""
+    """{name: text that replaces the line}."""
     mutants = {"deleted": "", "twice": f"{line}\n{line}", "open": line.replace('"', "", 1) + "]"}
     key, equals, value = line.partition(" = ")
     if equals:
@@ -175,7 +175,7 @@ def mutants_of(line):
 
 
 def all_mutants():
-    """(base, line, mutation, scene) of each."""
+    """(base, line, mutation, scene) of each mutant."""
     for base, text in BASES.items():
         lines = text.split("\n")
         for i, line in enumerate(lines):
@@ -199,7 +199,7 @@ def pair_mutants(count, seed):
 
 
 def verdict(program, directory, number, scene):
-    """"accepted", "refused", or what is wrong with the program."""
+    """"accepted", "refused", or a description of the error of the program."""
     file = directory / f"m{number}.toml"
     file.write_text(scene)
     done = subprocess.run([program, "check", file.name, "--threads", "1"], cwd=directory, text=True,
@@ -217,7 +217,7 @@ def verdict(program, directory, number, scene):
 
 
 def listed():
-    """{(base, line number): names of accepted mutations} of the list."""
+    """The list of accepted mutants, as {(base, line number): names of mutations}."""
     accepted = defaultdict(set)
     for entry in LIST.read_text().splitlines():
         if not entry.startswith("#"):
@@ -228,12 +228,12 @@ def listed():
 
 
 def is_known(known, base, lines, names):
-    """Whether each change of a scene leaves it in order by itself."""
+    """True if each single change of a pair leaves the scene in order."""
     return all(name in known.get((base, i), ()) for i, name in zip(lines, names))
 
 
 def check_pairs(program, count, seed):
-    """What is in order with both changes is so with each: no mistake hides another."""
+    """A scene that is accepted with two changes is accepted with each of them: no mistake hides another."""
     known, mutants, wrong, in_order = listed(), list(pair_mutants(count, seed)), [], 0
     with tempfile.TemporaryDirectory() as name, ThreadPoolExecutor(2) as pool:
         verdicts = pool.map(lambda m: verdict(program, Path(name), m[0], m[1][3]), enumerate(mutants))

@@ -148,7 +148,7 @@ points = 2
 
 
 def blocks(count, gap, y=0, cells=4, speed=10):
-    """Small viscous bodies one behind the other, of which the first one flies."""
+    """Small viscous bodies in a row. The first one moves."""
     body = SHORT_BLOCK[SHORT_BLOCK.index("[[body]]"):SHORT_BLOCK.index("[[body_force]]")]
     return "".join(
         body.replace('"block"', f'"block{k}"').replace("[4, 4, 4]", f"[{cells}, {cells}, {cells}]").replace(
@@ -159,7 +159,7 @@ viscosity = 10""") for k in range(count))
 
 
 def drops(count):
-    """Small drops one beside the other, in steps that solve for the velocity."""
+    """Small drops side by side, with implicit viscosity."""
     start = SHORT_DROP.index("[[body]]")
     return SHORT_DROP[:start].replace("[time]", '[time]\nviscosity = "implicit"').replace(
         "drop.", "drop0.") + "".join(
@@ -180,7 +180,7 @@ points = 4
 
 
 def beside_partner(number, more):
-    """A wall below a block: keys of the contact, and of the wall."""
+    """A wall below a block, with keys of the contact and of the wall."""
     keys, of_partner = more
     return f"""
 [[contact]]
@@ -233,7 +233,7 @@ class RanksTest(ProgramTest):
         return [*MPIRUN, str(ranks), program.PROGRAM, *map(str, arguments)]
 
     def ranks(self, ranks, *arguments, code=0):
-        """Runs the program on so many ranks."""
+        """Runs the program on `ranks` ranks."""
         done = subprocess.run(self.command(ranks, *arguments), cwd=self.directory, text=True,
                               capture_output=True, env=RANKS_ENVIRONMENT, timeout=100)
         self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}\n{done.stderr}")
@@ -274,7 +274,7 @@ class SameBits(RanksTest):
                 self.assertTrue((frame[name] == other[name]).all(), name)
 
     def test_rows(self):
-        """Also of what reads rows of all ranks: fields and measures."""
+        """Results have the same bits, also fields and measures, which read rows of all ranks."""
         for name, scene in ROWS.items():
             with self.subTest(name):
                 self.directory = self.directory / name.split()[-1]
@@ -284,7 +284,7 @@ class SameBits(RanksTest):
                 self.directory = self.directory.parent
 
     def test_own_rows(self):
-        """A rank has the rows of its part only."""
+        """A rank has only the rows of its part."""
         scene = self.scene(SHORT_BLOCK.replace("[4, 4, 4]", "[12, 12, 12]"))
         megabytes = {}
         for count in (1, 4):
@@ -295,8 +295,7 @@ class SameBits(RanksTest):
         self.assertRegex(log, r"at most \d+ MB of memory")
 
     def test_ghosts(self):
-        """Ranks make steps where their rows and sums read the motion, and do not know it elsewhere: it
-        is not a number there."""
+        """Ranks make steps with their own and ghost particles. The motion of all other particles is NaN."""
         for name, scene in LONG.items():
             with self.subTest(name):
                 self.directory = self.directory / name.replace(" ", "_")
@@ -306,7 +305,7 @@ class SameBits(RanksTest):
                 self.directory = self.directory.parent
 
     def test_estimates_in_the_halo(self):
-        """The stable step is looked for without any vector over all particles being sent."""
+        """The search for the stable step sends no vector over all particles."""
         scene = self.scene(SHORT_BLOCK.replace("[1, 1, 1]", "[11, 1, 1]").replace(
             "[4, 4, 4]", "[63, 4, 4]").replace("check_every = 30", "check_every = 1").replace(
                 "history_every = 0.01", "history_every = 1").replace("frames_every = 0.04",
@@ -341,7 +340,7 @@ class SameBits(RanksTest):
                 self.directory = self.directory.parent
 
     def test_small_bodies(self):
-        """They are whole on one rank, if that leaves none with much more than the others."""
+        """Small bodies lie on one rank each, if no rank then has much more than the others."""
         for name, scene in WHOLE.items():
             with self.subTest(name):
                 self.directory = self.directory / name.replace(" ", "_")
@@ -371,7 +370,7 @@ class SameBits(RanksTest):
                              (self.directory / "whole/history.csv").read_text())
 
     def test_failure_in_a_small_body(self):
-        """It is said by all, which do not have its rows."""
+        """A failure on one rank is reported by all, although they do not have its rows."""
         folding = WHOLE["apart"].replace("initial_velocity = [10, 0, 0]",
                                          'initial_velocity = ["-600*x", 0, 0]')
         # Of the wall of a body of the second rank.
@@ -384,13 +383,13 @@ class SameBits(RanksTest):
             self.assertEqual(*words)
 
     def test_parts_that_meet(self):
-        """Of surfaces in contact ranks follow what is near the other one, which comes to be more in
-        the middle of steps: those are made again."""
+        """Ranks follow the parts of surfaces that are near the other surface. If more parts are needed in the
+        middle of a step, the step is made again."""
         self.assert_same_bits((4,), self.scene(MEETING_BARS))
         self.assert_follows_a_part("ranks4")
 
     def test_failures_in_the_halo(self):
-        """They are said with the place of the particle, which not all ranks know."""
+        """Failures have the position of the particle, which not all ranks know."""
         thrown = MOST["a wall"].replace("[[body]]", "[[body]]\ninitial_velocity = [0, 0, -300]")
         for scene in (PUSHED.replace("[4, 4, 4]", "[15, 2, 2]"), thrown):
             path = self.scene(scene)
@@ -400,7 +399,7 @@ class SameBits(RanksTest):
             self.assertEqual(*words)
 
     def test_doubtful_law(self):
-        """What the law of one rank warns of is said once, with the words of a run that is alone."""
+        """A warning of a law on one rank is printed once, with the same words as in a run alone."""
         scene = self.scene(PRESSED)
         self.call("run", scene, "--output", "alone")
         self.ranks(3, "run", scene, "--output", "ranks3")
@@ -420,7 +419,7 @@ class SameBits(RanksTest):
         self.assert_same_bits((2,), self.scene(BENT_SHEET))
 
     def test_contact_without_some_ranks(self):
-        """Beside a rigid partner a rank knows its own points only, also where it has none."""
+        """Beside a rigid partner, a rank knows only its own points, and may have none."""
         self.assert_same_bits((3,), INPUTS / "adhesion_cycle.toml", "--until", "0.75")
         self.assert_same_bits((3,), INPUTS / "droplet_friction.toml", "--until", "0.5", "--overwrite")
 
@@ -433,7 +432,7 @@ class SameBits(RanksTest):
                 self.directory = self.directory.parent
 
     def test_one_rank(self):
-        """mpirun -n 1 starts the program as it is."""
+        """With mpirun -n 1, the program runs as without mpirun."""
         scene = self.scene(SHORT_BLOCK)
         self.ranks(1, "run", scene, "--output", "one")
         self.assertNotIn("ranks", self.log("one"))
@@ -463,7 +462,7 @@ class Failures(RanksTest):
         self.assert_said_once(self.ranks(2, "check", scene, code=3), "several ranks")
 
     def test_ranks_that_mpi_does_not_know(self):
-        """As of a launcher that speaks another interface: none becomes a run of its own."""
+        """A launcher with another interface: its processes do not become runs of their own."""
         scene = self.scene(SHORT_BLOCK)
         for names in (("PMIX_RANK", "SLURM_STEP_NUM_TASKS"), ("PMI_RANK", "PMI_SIZE")):
             started = {**RANKS_ENVIRONMENT, **dict(zip(names, ("0", "2")))}
@@ -475,13 +474,13 @@ class Failures(RanksTest):
             self.assertFalse((self.directory / "out").exists())
 
     def test_existing_output(self):
-        """Files are refused by the first rank, which has them."""
+        """Existing output is refused by the first rank, which writes the files."""
         scene = self.scene(SHORT_BLOCK)
         self.call("run", scene, "--output", "out", "--until", "0.01")
         self.assert_said_once(self.ranks(2, "run", scene, "--output", "out", code=5), "already holds")
 
     def test_failing_run(self):
-        """It fails at the same step, with the same words, once, whichever rank has the rows."""
+        """The run fails at the same step with the same message, printed once, whichever rank has the rows."""
         scene = self.scene(PUSHED)
         alone = self.call("run", scene, "--output", "alone", code=4)
         words = re.search(r"error: (step.*)", alone.stderr)[1]
@@ -490,7 +489,7 @@ class Failures(RanksTest):
             self.assert_said_once(done, words)
 
     def in_two_directories(self, *arguments, code=0):
-        """Runs the program on two ranks, each in a directory of its own, as on machines that share none."""
+        """Runs the program on two ranks in different directories, as on machines without a common disk."""
         rank = [program.PROGRAM, *map(str, arguments)]
         command = [*MPIRUN, "1", "--wdir", self.directory / "a", *rank, ":", "-n", "1", "--wdir",
                    self.directory / "b", *rank]
@@ -500,7 +499,7 @@ class Failures(RanksTest):
         return done
 
     def test_ranks_that_see_different_directories(self):
-        """Whether a run is continued in place is for the first rank to say; what all read has to be alike."""
+        """The first rank decides whether a run is continued in place. All ranks must read the same files."""
         (self.directory / "a").mkdir()
         scene = self.scene(SHORT_BLOCK, "a/scene")
         self.call("run", scene, "--output", "a/out", "--until", "0.02")
@@ -522,7 +521,7 @@ class Failures(RanksTest):
         self.assert_said_once(self.in_two_directories(*run, code=5), "cannot read the scene")
 
     def test_full_disk(self):
-        """The first rank cannot write: all end, by the exit code of files."""
+        """If the first rank cannot write, all ranks end with the exit code for files."""
         scene = self.scene(BLOCK.replace("end = 0.4", "end = 40"))
         # The limit is not that of mpirun, nor of memory that ranks share as a file.
         limited = ["bash", "-c", 'ulimit -f 100; exec "$@"', "bash"]
@@ -579,7 +578,8 @@ class Failures(RanksTest):
                     file.unlink()
 
     def test_signal_to_one_rank(self):
-        """All stop after the same step, with a checkpoint from which the run goes on."""
+        """A signal to one rank stops all ranks after the same step, with a checkpoint from which the run
+        continues."""
         process, ranks = self.long_run()
         os.kill(ranks[1], signal.SIGUSR1)
         output, errors = process.communicate(timeout=60)
@@ -590,7 +590,7 @@ class Failures(RanksTest):
         self.assertIn(f"continuing from step {step}", self.log("out"))
 
     def test_output_of_another_version(self):
-        """It is said once, and continued."""
+        """Output of another version is reported once, and continued."""
         scene = self.scene(with_output(SHORT_BLOCK, "restartable = true"))
         self.call("run", scene, "--output", "out", "--until", "0.05")
         with h5py.File(self.directory / "out/run.h5", "r+") as results:

@@ -51,7 +51,7 @@ class Reader(ProgramTest):
             references.add(id(drop))
             np.testing.assert_array_equal(run.points(k, "drop"), frame["position"])
             np.testing.assert_array_equal(run.field(k, "J", drop), frame["J"])
-            # In each epoch the cells around the points of this frame fill the drop.
+            # In each epoch, the cells with the positions of this frame fill the drop.
             corners = run.points(k, "drop")[drop.cells]
             edges = corners[:, [1, 3, 4]] - corners[:, :1]
             self.assertTrue((np.linalg.det(edges) > 0).all())
@@ -106,7 +106,7 @@ class Probes(ProgramTest):
         self.assertEqual((units["distance"], units["velocity_x"]), ("m", "m/s"))
         np.testing.assert_array_equal(np.unique(axis["time"]), run.times)
         np.testing.assert_allclose(axis["distance"], np.tile(np.linspace(0, 1, 5), len(run.times)))
-        # Three of its points are particles.
+        # Three of the five points of the line are particles.
         bottom = np.argmin(np.linalg.norm(last.X - [0, 0, -0.5], axis=1))
         displacement = run.field(-1, "position", "block")[bottom] - last.X[bottom]
         self.assertAlmostEqual(axis["displacement_x"][-5], displacement[0], delta=1e-13)

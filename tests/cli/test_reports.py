@@ -23,7 +23,7 @@ ALL = "fields = [" + ", ".join(f'"{name}"' for name in FIELDS) + "]"
 
 
 def violations(schema, value, place=""):
-    """Where a value does not follow a schema of those words that ours is made of."""
+    """Places at which a value violates a schema, for the keywords of JSON Schema that our schema uses."""
     known = {"type", "enum", "properties", "required", "additionalProperties", "items", "minItems", "maxItems",
              "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "anyOf", "description", "title", "$schema"}
     assert schema.keys() <= known, schema.keys() - known
@@ -84,7 +84,7 @@ class Results(ProgramTest):
         self.assertFalse(np.array_equal(self.frames("out")[0]["position"], last["position"]))
 
     def test_cells(self):
-        """What viewers draw: the cells of the body, right-handed, and its volume."""
+        """The cells that viewers draw are the right-handed cells of the body and have its volume."""
         for text, volume in ((BLOCK, 1), (SHEET, 2)):
             self.call("run", self.scene(text), "--output", "out", "--overwrite")
             with h5py.File(self.directory / "out/run.vtkhdf") as file:
@@ -156,7 +156,7 @@ class Results(ProgramTest):
         self.assertIn("brick", self.call("info", "out").stdout)
 
     def test_small_files(self):
-        """float32, compressed, without states."""
+        """Output in float32, compressed and without states."""
         text = with_output(BLOCK, 'precision = "float32"\ncompression = 6')
         self.call("run", self.scene(with_output(BLOCK, "restartable = true")), "--output", "full")
         self.call("run", self.scene(text), "--output", "small")
@@ -172,7 +172,7 @@ class Results(ProgramTest):
                      "output.restartable = true")
 
     def test_units(self):
-        """The same drop in other units."""
+        """The same drop in other units gives the same results."""
         self.call("run", self.scene(DROP), "--output", "si")
         self.call("run", self.scene('units.system = "nm-ps-ag"\n' + DROP.replace(
             "density = 1000", 'density = "1 g/cm^3"')), "--output", "nm")
@@ -183,7 +183,8 @@ class Results(ProgramTest):
             self.assertEqual(file["steps/0/velocity"].attrs["units"], b"nm/ps")
 
     def test_named_numbers(self):
-        """A scene of constants has the bits of one of numbers, also when --set changes one of them."""
+        """A scene with named constants has the same bits as a scene with numbers, also if --set changes a
+        constant."""
         text = DROP + ('[constants]\nR = "5 nm"\nlong = "R + R/2"\ngamma = "72.8 mN/m"\nmu = "gamma/v"\n'
                        'v = "1 m/s"\nn = 2\n')
         for old, new in (('["5 nm", "7.5 nm", "5 nm"]', '["R", "long", "R"]'), ("layers = 2", 'layers = "n"'),
@@ -200,7 +201,7 @@ class Results(ProgramTest):
         self.refused(["run", file, "--restart", "named121", "--set", "constants.v=2 m/s"], 3, "constants.v")
 
     def test_moduli(self):
-        """Young's modulus and Poisson's ratio stand for a law's own numbers, on a graded body, too."""
+        """Young's modulus and Poisson's ratio replace the parameters of a law, on a graded body, too."""
         own = BLOCK.replace("mu = 1e5\nlambda = 1e5", 'mu = "(6e5*(1 + x))/(2*(1 + (0.25)))"\n'
                             'lambda = "(6e5*(1 + x))*(0.25)/((1 + (0.25))*(1 - 2*(0.25)))"')
         moduli = BLOCK.replace("mu = 1e5\nlambda = 1e5",
@@ -220,7 +221,7 @@ class Results(ProgramTest):
         self.assertEqual(state_of(a), state_of(c))
 
     def test_until_a_multiple_of_the_step(self):
-        """25 steps of 0.1 ms are 2.4999999999999996 ms: they end there, not at 2.6 ms."""
+        """25 steps of 0.1 ms are 2.4999999999999996 ms in floating point. The run ends there, not at 2.6 ms."""
         self.assertLess(sum(25 * [1e-4]), 0.0025)
         text = SHEET.replace("end = 0.1", "end = 0.003\nstep = 1e-4")
         self.call("run", self.scene(text), "--output", "out", "--until", "0.0025")
@@ -229,7 +230,7 @@ class Results(ProgramTest):
         self.assertEqual(state_of(self.call("run", self.scene(text), "--restart", "out")), state_of(whole))
 
     def test_a_load_without_face_is_on_the_whole_surface(self):
-        """As `meniscus keys` says."""
+        """A load without `face` acts on the whole surface, as `meniscus keys` describes."""
         loads = ("", '[[traction]]\nbody = "sheet"\npressure = 100\n', '[[spring]]\nbody = "sheet"\nstiffness = 100\n')
         states = [state_of(self.call("run", self.scene(SHEET.replace("[[body]]", "[[body]]\ninitial_velocity = [0, '0.1*y']")
                                                        + load + more), "--output", "out", "--overwrite"))
@@ -238,7 +239,7 @@ class Results(ProgramTest):
         self.assertEqual(len(set(states)), 3)
 
     def test_expectations_with_units(self):
-        """The same as in the unit of the column, also where that is not SI."""
+        """A value with a unit means the same as a number in the unit of the column, in any unit system."""
         expect = '[expect]\nheight = {{ of = "drop.extent_y", at = 0.0, value = {}, within = {} }}\n'
         text = DROP.replace('end = "60 ps"', 'end = "3 ps"')
         for value, within, code in (('"15 nm"', '"10 pm"', 0), (15e-9, 1e-11, 0), ('"0.015 um"', '"10 pm"', 0),
@@ -252,8 +253,8 @@ class Results(ProgramTest):
 
 
 class Nodal(ProgramTest):
-    """Integration at the particles alone has modes without energy, which the area at Gauss points
-    excites: that must not look fine."""
+    """Integration at the particles alone has modes without energy, which the measured area excites. A warning
+    must appear."""
 
     def test_drop(self):
         text = DROP.replace("core = 3\nlayers = 2", 'core = 6\nlayers = 3\nintegration = "nodal"')
@@ -295,7 +296,8 @@ class Reports(ProgramTest):
         self.assertFalse((self.directory / "results").exists())
 
     def test_no_cap_between_plates(self):
-        """A drop between two plates is no cap: its angle is not measured, and the log says why."""
+        """A drop between two plates is no spherical cap. Its contact angle is not measured, and the log gives
+        the reason."""
         text = """
         dimension = 2
         time.end = 0.01
@@ -328,7 +330,7 @@ class Reports(ProgramTest):
                      "'upper.contact_angle' is not measured: body 'drop' has 2 contacts", "output.measures")
 
     def test_times_to_rest(self):
-        """The number of steps that check expects of relax is one, and about right; ramps may shorten steps."""
+        """`check` estimates the number of steps of relax to within a factor of two. Ramps may shorten steps."""
         text = self.scene(RELAXING_SHEET.replace("end = 20", "end = 2000"))
         expected = self.call("check", text).stdout
         steps = int(re.search(r"relax: about (\d+) steps", expected)[1])
@@ -338,7 +340,8 @@ class Reports(ProgramTest):
         self.assertLess(max(steps / made, made / steps), 2)
 
     def test_numbers_of_drops(self):
-        """Ohnesorge and Bond number and times of a drop by hand; softer ones take as many steps as is said."""
+        """Ohnesorge and Bond numbers and times of a drop, by hand. Softer drops take the number of steps that
+        is printed."""
         R = 50e-6
         text = DROP.replace('["5 nm", "7.5 nm", "5 nm"]', '["50 um", "50 um", "50 um"]').replace("60 ps", "60 us")
         text += '[[body_force]]\nbody = "drop"\nacceleration = [0, "3 m/s2", "-4 m/s2"]\n'
@@ -355,7 +358,8 @@ class Reports(ProgramTest):
                                 r"times .*?R/c (\S+), .*?gamma\) (\S+), .*?mu (\S+) s$", report, re.M).groups()
             expected = (R, 6e-4 / (1000 * 0.0728 * R)**0.5, 1000 * 5 * R**2 / 0.0728, R / 2.2e6**0.5,
                         (1000 * R**3 / 0.0728)**0.5, 1000 * R**2 / 6e-4)
-            # Of the cells, which are inscribed, and of the mass; printed with three digits.
+            # The radius follows from the inscribed cells and from the mass, printed with three
+            # digits.
             np.testing.assert_allclose([float(x) for x in numbers], expected, rtol=0.03)
             modulus, fewer = re.search(r"^bulk_modulus (\S+) Pa of 'drop' .* in (\S+) times fewer steps$", report,
                                        re.M).groups()
@@ -364,14 +368,14 @@ class Reports(ProgramTest):
             self.assertNotIn("times fewer", softer)
             steps = [float(re.search(r"^(\d+) steps", output, re.M).group(1)) for output in (report, softer)]
             self.assertAlmostEqual(steps[0] / steps[1] / float(fewer), 1, delta=0.05)
-        # A fast one is pressed by its speed; a given step does not become longer.
+        # A fast drop is compressed by its speed. A fixed step does not become longer.
         fast = self.scene(text.replace("core = 3", 'core = 3\ninitial_velocity = ["30 m/s", 0]'))
         self.assertIn("bulk_modulus 9e+07 Pa", self.call("check", fast).stdout)
         self.assertNotIn("times fewer", self.call("check", file, "--set", "time.step=1 ns").stdout)
         self.assertNotIn("times fewer", self.call("check", self.scene(DROP)).stdout)
 
     def test_contact_by_its_adhesion(self):
-        """An adhesion, with a range or with sigma0, is the one that bodies and rigid partners have."""
+        """An adhesion given with a range or with sigma0 is reached between bodies and with rigid partners."""
         second = BLOCK[BLOCK.index("[[body]]"):BLOCK.index("[[body_force]]")].replace("block", "twin")
         second = second.replace("cells", "centre = [0, 0, 1.4]\ncells")
         wall = '[contact.partner]\ntype = "half_space"\npoint = [0, 0, -0.9]\nnormal = [0, 0, 1]\n'
@@ -382,7 +386,8 @@ class Reports(ProgramTest):
                               self.call("check", self.scene(scene)).stdout)
 
     def test_functions_are_their_formulas(self):
-        """A scene of functions has the bits of one of formulas, its complete input too, and goes on."""
+        """A scene with functions has the bits of one with formulas, and so has its complete input; the run
+        continues."""
         plain = with_output(BLOCK, "restartable = true").replace("end = 0.4", "end = 0.08")
         named = plain.replace('"20*sin(40*t)*(1 + z)"', '"shake(40, 20)*(1 + z)"').replace(
             '"5*y*cos(11*t)"', '"push"')
@@ -400,7 +405,7 @@ class Reports(ProgramTest):
                       "functions.push=6*y"], 3, "body_force[0].acceleration[1] differs")
 
     def test_numbers_of_contact(self):
-        """Impact pressure rho c v and elastocapillary number W/(mu R) by hand, of a block of 1 m^3."""
+        """Impact pressure rho c v and elastocapillary number W/(mu R) of a block of 1 m^3, by hand."""
         text = BLOCK.replace('name = "block"', 'name = "block"\ninitial_velocity = [0, 0, "-SPEED"]')
         text += ('[[contact]]\nname = "wall"\nbodies = ["block"]\nadhesion = ADHESION\nrange = 0.2\noffset = 0.1\n'
                  '[contact.partner]\ntype = "half_space"\npoint = [0, 0, -0.9]\nnormal = [0, 0, 1]\n')
@@ -413,7 +418,7 @@ class Reports(ProgramTest):
             impact = re.search(r"'block' moves at (\S+) m/s, so .* = (\S+) Pa; the contact holds (\S+) Pa", said.stdout)
             self.assertEqual(impact is None, speed == 0)
             if impact:
-                expected = (speed, 1000 * c * speed, 500 * 100 * 0.375**2 / 0.2)  # least gap: a quarter of offset
+                expected = (speed, 1000 * c * speed, 500 * 100 * 0.375**2 / 0.2)  # the least gap is a quarter of `offset`
                 np.testing.assert_allclose([float(x) for x in impact.groups()], expected, rtol=0.006)
             warnings = [line for line in said.stdout.splitlines() if line.startswith("warning:")]
             self.assertEqual([word for word in ("impact", "W/(mu R)") if any(word in w for w in warnings)],
@@ -423,8 +428,9 @@ class Reports(ProgramTest):
             '[contact.partner]\ntype = "half_space"\npoint = [0, 0, -0.9]\nnormal = [0, 0, 1]\n')
 
     def test_speed_of_an_impact(self):
-        """It counts what gravity adds over the gap, and the partner at its fastest, along the way to each other."""
-        fall = 0.4 - 0.1  # to the gap at which the surface rests
+        """The speed contains what gravity adds over the gap, and the largest speed of the partner towards the
+        body."""
+        fall = 0.4 - 0.1  # way to the gap at which the surface rests
         for change, speed in ((('["20*sin(40*t)*(1 + z)", "5*y*cos(11*t)", 0]', '[3, 0, -200]'), (2 * 200 * fall)**0.5),
                               (("normal = [0, 0, 1]\n", 'normal = [0, 0, 1]\ndisplacement = [0, "t", "5*t^2"]\n'), 4)):
             text = BLOCK + self.WALL
@@ -436,7 +442,7 @@ class Reports(ProgramTest):
         self.assertNotIn("presses", self.call("check", self.scene(BLOCK + self.WALL)).stdout)
 
     def test_tabor_number(self):
-        """(R W^2/(E*^2 g^3))^(1/3) of a Lennard-Jones contact, by the half spaces' peak traction 1.026 W/g."""
+        """(R W^2/(E*^2 g^3))^(1/3) of a Lennard-Jones contact, with the peak traction 1.026 W/g of half spaces."""
         law = self.WALL.replace("adhesion = 500\nrange = 0.2\noffset = 0.1", "adhesion = 500\nsigma0 = 0.4")
         said = self.call("check", self.scene(BLOCK + law)).stdout
         gap = float(re.search(r"equilibrium gap (\S+) m", said)[1])
@@ -446,7 +452,7 @@ class Reports(ProgramTest):
         self.assertAlmostEqual(found / (R * 500**2 / modulus**2 / gap**3)**(1 / 3), 1, delta=0.02)
 
     def test_drop_that_spreads_with_waves(self):
-        """Only where the viscosity is low, the way far, and the motion of interest."""
+        """The warning appears only if viscosity is low, the way is long, and bodies have inertia."""
         drop = """
         dimension = 2
         [time]
@@ -478,7 +484,7 @@ class Reports(ProgramTest):
             self.assertNotIn("has far to spread", self.call("check", self.scene(drop.replace(*change))).stdout)
 
     def test_solids_that_lock(self):
-        """One warning per body, from K/mu = 10 on, with what helps."""
+        """One warning per body with K/mu of 10 or more, which names the remedy."""
         for ratio, words in ((9.9, ()), (10.1, ("(locking), by up to 25 %", 'set volumetric = "cell_average"')),
                              (2000, ("(locking), by up to 5 %", "more cells across"))):
             text = BLOCK.replace("lambda = 1e5", f"lambda = {1e5 * (ratio - 2 / 3)}")
@@ -494,7 +500,7 @@ class Reports(ProgramTest):
         self.assertNotIn("\nunits:", self.call("check", self.scene(DROP)).stdout)
 
     def test_turning_director(self):
-        """One director per cell is told to be too few where it turns by much."""
+        """A warning appears if the director turns so much that one director per cell is too coarse."""
         text = """
         dimension = 3
         time.end = 1
@@ -517,7 +523,7 @@ class Reports(ProgramTest):
         self.assertNotIn("turns", self.call("check", self.scene(text.format(0.9))).stdout)
 
     def test_overlap(self):
-        """Bodies that share space are refused; those beside each other are named, without a warning."""
+        """Bodies that overlap are refused. Bodies beside each other are named without a warning."""
         second = BLOCK[BLOCK.index("[[body]]"):BLOCK.index("[[body_force]]")].replace("block", "twin")
         for shift in 0, 0.5:
             moved = second.replace("[body.material]", f"move = [{shift}, 0, 0]\n[body.material]")
@@ -529,7 +535,7 @@ class Reports(ProgramTest):
         self.assertNotIn("warning", said)
 
     def test_contact_that_nothing_reaches(self):
-        """A drop at rest beyond the reach of its wall stays there for ever."""
+        """A drop at rest beyond the range of its wall stays there for ever, which gives a warning."""
         wall = """
         [[contact]]
         name = "wall"
@@ -596,7 +602,7 @@ class Reports(ProgramTest):
             self.assertIn(f'[body.material] type = "{law}"', text)
 
     def test_keys_of_a_word(self):
-        """A table, a key, or what meanings mention."""
+        """`keys WORD` finds tables, keys, and words in meanings."""
         def headings(*arguments):
             return [line for line in self.call("keys", *arguments).stdout.splitlines() if line[:1].strip()]
 
@@ -630,7 +636,7 @@ class Reports(ProgramTest):
         self.assertIn("## `[time]`", self.call("keys", "time", "--markdown").stdout)
 
     def test_schema(self):
-        """Every scene of inputs/ follows the schema; misspelt keys, wrong types and signs do not."""
+        """Every scene of inputs/ satisfies the schema. Misspelt keys, wrong types and wrong signs violate it."""
         schema = json.loads(self.call("keys", "--json").stdout)
         for path in sorted((Path(__file__).resolve().parents[2] / "inputs").glob("*.toml")):
             self.assertEqual(list(violations(schema, tomllib.loads(path.read_text()))), [], path.name)
@@ -660,20 +666,21 @@ class Reports(ProgramTest):
             self.assertIn(word, text)
 
     def test_progress(self):
-        """On a terminal one line that is written over again; nothing of it in a file."""
+        """On a terminal, progress is one line that is overwritten. Nothing of it is written to a file."""
         file = self.scene(DROP)
         self.assertNotIn("\r", self.call("run", file, "--output", "a").stdout)
         more = ["--set", "time.end='1 ms'", "--max-walltime", "3"]
         text = self.on_terminal("run", file, "--output", "b", *more)
         for word in ("\r\033[Kstep ", ", t = ", " of 0.001 s (0.0 %)", " dt = ", " steps/s", " left", "kinetic", "surface"):
             self.assertIn(word, text)
-        # The line is gone before anything else is said.
+        # The progress line is cleared before other output.
         self.assertRegex(text, r"steps/s[^\n]*\r\033\[K(warning: [^\n]*\n\r\033\[K)?"
                                r"\d+ steps in [^\n]*\n(.*\n)*warning: stopped")
         self.assertNotIn("\r\033", self.on_terminal("run", file, "--output", "c", "--quiet", *more))
 
     def test_warnings_come_again_at_the_end(self):
-        """Together and once each, where much was said after them; with --quiet in the log alone."""
+        """Warnings are repeated together at the end, each once, if other output followed them; with --quiet
+        only in the log."""
         file = self.scene(BLOCK.replace("[body.material]", 'integration = "nodal"\n[body.material]'))
         for options in ([], ["--quiet"]):
             done = self.call("run", file, "--output", "out", "--overwrite", "--until", "0.01", *options)
@@ -694,7 +701,7 @@ class Reports(ProgramTest):
         while select.select([ours], [], [], 60)[0]:
             try:
                 text += os.read(ours, 65536)
-            except OSError:  # the other side has ended
+            except OSError:  # the program has ended
                 break
         process.wait()
         os.close(ours)

@@ -17,13 +17,13 @@ import program
 from hostile_files import sign
 from program import BLOCK, DROP, RELAXING_SHEET, REMAPPED_DROP, ProgramTest, state_of, with_output
 
-# One thread by default: two threads take half as long again for such small bodies, beside other
-# tests.
+# One thread by default. Beside other tests, two threads would take 1.5 times as long for such small
+# bodies.
 program.ENVIRONMENT["OMP_NUM_THREADS"] = "1"
 
 
 class Restart(ProgramTest):
-    kept = {}  # [scene] a copy of the uninterrupted run, and its hash
+    kept = {}  # [scene] copy of the uninterrupted run, and its hash
 
     def reference(self, text):
         """The uninterrupted run: scene, hash, history and frames, each with the state. Each scene is
@@ -81,7 +81,7 @@ class EveryWay:
         self.assert_same(self.go_on("part", "--restart", checkpoint), "part")
 
     def test_elsewhere(self):
-        """Another directory contains only the rows and frames after the stop."""
+        """In another directory, there are only the rows and frames after the stop."""
         self.reference(self.SCENE)
         self.stop_at(self.TIME, "part")
         rows = len((self.directory / "part/history.csv").read_text().splitlines())
@@ -132,7 +132,7 @@ class EveryWay:
         self.assert_same(self.go_on("part", "--restart", "part"), "part")
 
     def test_longer(self):
-        """A finished run continues, from a frame before its end as if it had been longer."""
+        """A finished run can be continued with a later end time, from a frame before its end."""
         self.reference(self.SCENE)
         shorter = ["--set", f"time.end={self.TIME!r}"]
         self.call("run", self.file, "--output", "part", *shorter)
@@ -283,12 +283,12 @@ class RelaxingPlate(EveryWay, Restart):
         '["0.1*y^2", "0.05*y"]', '[0, 0, "0.1*y^2"]').replace(
         "check_every = 40", "force_tolerance = 0.07\nshape_tolerance = 2e-3")
     TIME, LATER = "0.2", "0.35"
-    test_longer = None  # its end is not that of the scene
+    test_longer = None  # the run ends before the end time of the scene
 
 
 class RelaxingSheet(EveryWay, Restart):
     SCENE, TIME, LATER = RELAXING_SHEET, "0.2", "0.35"
-    test_longer = None  # its end is not that of the scene
+    test_longer = None  # the run ends before the end time of the scene
 
     def test_ends_by_itself(self):
         self.reference(self.SCENE)
@@ -303,7 +303,7 @@ class RelaxingSheet(EveryWay, Restart):
         self.assert_same(self.call("run", self.file, "--restart", "whole"), "whole")
 
     def test_relaxing_what_moved(self):
-        """Relaxation begins at the end of dynamics."""
+        """Relaxation can continue from the end of a dynamic run."""
         moving = self.SCENE.replace('"relax"', '"dynamics"').replace("end = 20", "end = 0.2")
         self.call("run", self.scene(moving, "moving"), "--output", "moving")
         self.call("run", self.scene(self.SCENE), "--restart", "moving", "--output", "rest")
@@ -351,7 +351,7 @@ class OtherScene(ProgramTest):
             self.refused(["run", file, "--restart", "out", "--set", change], 3, "another scene")
 
     def test_nor_may_a_mesh(self):
-        """A drop of a mesh continues bit for bit; another file of the same name is refused."""
+        """A drop from a mesh file continues bit for bit. Another file with the same name is refused."""
         self.call("new", "drop", "--like", "mesh_drop")
         scene, mesh = self.directory / "drop.toml", self.directory / "meshes/ball_tetrahedra.msh"
         scene.write_text(scene.read_text().partition("[expect]")[0])

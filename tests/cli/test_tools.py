@@ -12,7 +12,7 @@ TOOLS = Path(__file__).resolve().parents[2] / "tools"
 SCRIPTS = sorted(file for file in TOOLS.iterdir() if file.is_file() and os.access(file, os.X_OK))
 
 
-# What would run the content of a file that somebody else may have written.
+# Functions and modules that can execute the content of a file which somebody else may have written.
 RUNNERS = {"eval", "exec", "compile", "__import__", "system", "popen", "getoutput", "getstatusoutput"}
 LOADERS = {"pickle", "cPickle", "marshal", "shelve", "dill", "joblib", "yaml", "code"}
 ALLOWED = {("re", "compile")}
@@ -25,14 +25,14 @@ def python_sources():
 
 
 def runs_content(source):
-    """Lines of a Python source, and what they do that may run the content of a file."""
+    """Lines of a Python source that may execute the content of a file, with the name of the function."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
             yield from ((node.lineno, a.name) for a in node.names if a.name.split(".")[0] in LOADERS)
         elif isinstance(node, ast.ImportFrom):
             names = {(node.module or "").split(".")[0]} & LOADERS or {a.name for a in node.names} & RUNNERS
             yield from ((node.lineno, name) for name in names)
-        elif isinstance(node, ast.Name) and node.id in RUNNERS:  # called or given another name
+        elif isinstance(node, ast.Name) and node.id in RUNNERS:  # called, or bound to another name
             yield node.lineno, node.id
         elif isinstance(node, ast.Attribute) and node.attr in RUNNERS:
             owner = node.value.id if isinstance(node.value, ast.Name) else ""
@@ -64,7 +64,7 @@ class ToolsTest(unittest.TestCase):
 
     def test_unknown_arguments_are_refused(self):
         for script in SCRIPTS:
-            if script.name != "run":  # its arguments are those of the program, which it builds first
+            if script.name != "run":  # it builds the program first and passes the arguments on
                 with self.subTest(script.name):
                     done = call(script, "--nonsense")
                     self.assertEqual((done.returncode, done.stdout), (2, ""))

@@ -32,7 +32,7 @@ def disc(r, a):
 class Ball:
     def __init__(self, tabor, gap, rings, paraboloid):
         self.gap, self.W = gap, (tabor * gap) ** 1.5
-        contact = (9 * np.pi * self.W / 8) ** (1 / 3)  # of soft balls at their largest pull
+        contact = (9 * np.pi * self.W / 8) ** (1 / 3)  # contact radius of soft balls at the largest pull
         even = max(1.9 * contact, 2 * np.sqrt(gap))
         far = min(0.99, max(12 * np.sqrt(gap), 5 * contact))
         edges = np.concatenate([np.linspace(0, even, rings),

@@ -131,7 +131,7 @@ class Contact:
         u, du, ddu = pair(r, cutoff)
         k, both = way / r[..., None], V[0] @ V[1].T
         self.energy = (u * both).sum()
-        # Pressure on points of the first body: - sum psi (y2 - y1).V2 = the energy per volume there.
+        # Pressure on points of the first body: - sum psi (y2 - y1).V2, their energy per volume.
         self.pressure = np.einsum("ij,ijk,jk->i", du, k, V[1])
         self.force = []
         for b, sign, other in ((0, 1, 1), (1, -1, 0)):
@@ -216,7 +216,7 @@ class System:
                 return x
             K = K[self.free][:, self.free]
             step = splu(K).solve(r)
-            if r @ step < 0:  # downhill all the same
+            if r @ step < 0:  # the direction is still downhill
                 step = splu(K + 0.3 * abs(K.diagonal()).mean() * sparse.identity(r.size)).solve(r)
             a = min(1, 0.03 / np.abs(step).max())
             while True:

@@ -25,7 +25,7 @@ def main(run, printed, picture):
     lines = [line.split() for line in open(printed, encoding="utf-8") if line[0] != "#"]
     curve = np.array([line for line in lines if line[0] != "pressure"], float)
     profile = np.array([line[1:] for line in lines if line[0] == "pressure"], float)
-    # The mean of each element: pressures of contact wave from point to point.
+    # Plots the mean over each element, since contact pressures oscillate from point to point.
     profile = profile[profile[:, 0] == DEPTH]
     cut = len(profile) % 5 // 2  # parts of elements at both ends
     profile = profile[cut : len(profile) - cut].reshape(-1, 5, 3).mean(1)

@@ -22,10 +22,11 @@ def level(x, ball):
 
 
 def triangles(size, ball):
-    """Corner places [triangle, corner, axis] of triangles oriented outward."""
+    """Corner positions [triangle, corner, axis] of triangles oriented outward."""
     counts = np.ceil(np.array([2.3, 2.3, 2.3 if ball else 1.1]) / size).astype(int)
     lattice = np.stack(np.meshgrid(*[np.arange(n + 1) for n in counts], indexing="ij"), -1)
-    # Off the planes of symmetry, on which many places of the surface would be lattice points.
+    # Shifts the lattice off the planes of symmetry, where many of its points would lie on the
+    # surface.
     x = (lattice - counts / 2 + [0.013, 0.021, 0.037]) * size
     f = level(x, ball)
     found = []
@@ -46,7 +47,7 @@ def cut(X, F):
     low, high = np.flatnonzero(F < 0), np.flatnonzero(F >= 0)
 
     def between(i, j):
-        i, j = (i, j) if tuple(X[i]) < tuple(X[j]) else (j, i)  # the same from all sides
+        i, j = (i, j) if tuple(X[i]) < tuple(X[j]) else (j, i)  # same order of ends for all neighbours
         return X[i] + F[i] / (F[i] - F[j]) * (X[j] - X[i])
 
     if len(low) == 2:

@@ -26,8 +26,8 @@ std::string nematic_drop(int D) {
   return example_heading(D) + example_ball(D, "drop") + moving(D) + example_nematic(D);
 }
 
-/// Variants for items that need more than one example, or whose forces satisfy more than those of
-/// loads in general.
+/// Variants for items that need more than one example, or whose forces have more properties than
+/// the forces of other loads.
 std::vector<Case> variants(int D) {
   const Claims all{true, true}, none;
   std::vector<Case> cases;

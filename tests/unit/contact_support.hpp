@@ -51,7 +51,7 @@ Geometry<D> round(const Vec<D>& centre, int core = 4) {
   }
 }
 
-/// Two bodies of radius 1 along a skew line, `gap` apart.
+/// Two bodies of radius 1 whose centres lie on an oblique line; their surfaces are `gap` apart.
 template <int D>
 Pair<D> round_pair(Real gap, int core = 4) {
   Vec<D> axis = Vec<D>::Constant(0.3);

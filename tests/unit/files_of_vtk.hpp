@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A square of two quadrilaterals as VTK's own writer writes it: as text, in place, and appended;
-// the latter two compressed by zlib.
+// A square of two quadrilaterals as VTK's own writer writes it: as text, with inline data, and with
+// appended data. Inline and appended data are compressed by zlib.
 #pragma once
 #include <string>
 

@@ -10,14 +10,15 @@
 
 namespace meniscus::test {
 
-/// Numbers of a nematic beside its fluid.
+/// Parameters of a nematic drop.
 struct NematicDrop {
   Real K = 0.2, eps = 0.2, gamma_1 = 0.5, lambda = 1, nu2 = 0, mu = 0.5;
-  std::string anchoring = "";  ///< lines of the law
+  std::string anchoring = "";  ///< lines of the anchoring law
   std::string director = "", more = "";
   bool tension = true;
 
-  /// In its Laplace pressure, or without tension in its reference.
+  /// The scene of a drop. With tension, the drop starts at its Laplace pressure; otherwise in its
+  /// reference.
   std::string scene(int D, int core, int layers, const std::string& time) const {
     constexpr Real bulk_modulus = 200;
     const Real J = tension ? 1 - (D - 1) / bulk_modulus : 1, scale = std::pow(J, 1.0 / D);
@@ -49,7 +50,7 @@ inline NodalVectors& director_of(State& state) {
   return state.fields.front().x;
 }
 
-/// Its energies from `from` on: those that depend on the director.
+/// Sum of the energies that depend on the director.
 template <int D>
 Real director_energy(const Scene<D>& scene, const Motion& motion) {
   Real sum = 0;
@@ -59,8 +60,8 @@ Real director_energy(const Scene<D>& scene, const Motion& motion) {
   return sum;
 }
 
-/// The director relaxes where the places of the scene stand still, until its energy falls by less
-/// than 1e-7 of it per unit of time.
+/// Relaxes the director at the fixed initial positions, until its energy falls by less than a share
+/// of 1e-7 per unit of time.
 template <int D>
 State relaxed_director(Scene<D>& scene) {
   State state = scene.initial;
@@ -80,9 +81,9 @@ State relaxed_director(Scene<D>& scene) {
   return state;
 }
 
-/// Errors of the radial director h = f(r) e_r of a row of "hedgehog".
+/// Errors of the radial director h = f(r) e_r against a row of "hedgehog".
 struct Radial {
-  Real energy, profile;  ///< errors: relative, greatest
+  Real energy, profile;  ///< relative error, largest error
 };
 template <int D>
 Radial radial(const nlohmann::json& row, int core, int layers) {
@@ -136,12 +137,14 @@ NodalVectors coefficients_of(const Body<D>& body, const NodalVectors& values) {
   return coefficients;
 }
 
-/// The torsion of the radial director in a free drop, of a row of "torsion": greatest errors of the
-/// velocity at the surface and of the twist of the director at half the radius, from t = 0.1 on;
-/// where there should be no velocity at all, it is in parts of the twist. The greatest error of the
-/// twist is also given in parts of its greatest value, as it falls to a seventieth in a ball. The
-/// values of the twist at the start are those of the series, as those of a scene's formulas are;
-/// with its coefficients instead, the velocity of the ball is 4.5 % off at t = 0.1 (cells note 6).
+/// Errors of the torsion of the radial director in a free drop, against a row of "torsion", from t
+/// = 0.1 on. `velocity` is the largest error of the velocity at the surface, and `twist` the
+/// largest error of the twist of the director at half the radius. Both are relative to the exact
+/// value; a velocity that should be zero is relative to the twist. `twist_of_greatest` is relative
+/// to the largest twist so far, since the twist falls to a seventieth in a ball.
+///
+/// The series gives the values of the initial twist, as a formula of a scene does. If it gave the
+/// coefficients instead, the velocity of the ball would be 4.5 % off at t = 0.1 (cells note 6).
 struct Torsion {
   Real velocity = 0, twist = 0, twist_of_greatest = 0, angular_momentum = 0, balance = 0;
 };
@@ -168,7 +171,7 @@ Torsion torsion(const nlohmann::json& row, int core, int layers) {
     return twist;
   });
   director_of(scene.initial) = sum_of(director_of(scene.initial), 1, coefficients_of(body, twists));
-  // Mean over the equator of the component along it.
+  // Mean over a circle in the equator of the component along the circle.
   const auto along_equator = [&](Real r) {
     constexpr int around = 24;
     std::vector<Vec<D>> places;
@@ -226,7 +229,7 @@ Torsion torsion(const nlohmann::json& row, int core, int layers) {
   return errors;
 }
 
-/// At rest, with a uniform director along x that is held: extent along it over that across.
+/// Aspect ratio, along over across, of a drop at rest with a fixed uniform director along x.
 template <int D>
 Real aspect_of_uniform_director(Real W, const std::string& sense, int core, int layers) {
   NematicDrop drop;
@@ -244,8 +247,8 @@ Real aspect_of_uniform_director(Real W, const std::string& sense, int core, int 
          measured(scene, simulation.state(), "b.extent_y");
 }
 
-/// What the radial director of a drop at rest, K = 0.2, W = 2, eps = 0.2, adds to the pressure 2/R
-/// (2D: 1/R), over what it should.
+/// Ratio of measured to exact excess pressure of a drop at rest with a radial director (K = 0.2, W
+/// = 2, eps = 0.2). The excess is the mean pressure minus 2/R (2D: 1/R).
 template <int D>
 Real excess_pressure(int core, int layers) {
   NematicDrop drop;

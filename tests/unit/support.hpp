@@ -113,8 +113,8 @@ struct Balance {
 template <int D>
 Balance balance_of(const Body<D>& body, const NodalVectors& u, const NodalVectors& force);
 
-/// -dE/dt along u + t direction by central differences of two widths, extrapolated, against force .
-/// direction: relative difference.
+/// Relative difference between force . direction and -dE/dt along u + t direction, by extrapolated
+/// central differences of two widths.
 Real gradient_error(ForceTerm& term, const NodalVectors& u, const NodalVectors& direction,
                     Real step);
 

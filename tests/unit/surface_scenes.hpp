@@ -19,7 +19,8 @@ Real measured(const Scene<D>& scene, const State& state, const std::string& name
   throw std::runtime_error("no measure " + name);
 }
 
-/// core and layers (2D: rings) of a ball (disk): 6, 3 are 997 particles, 4, 2 are 321.
+/// The lines of a ball (disk) with these numbers of core and layers (2D: rings). 6, 3 are 997
+/// particles; 4, 2 are 321.
 inline std::string ball_of(int D, int core, int layers, Real radius = 1) {
   return fmt::format(
       "[[body]]\nname = \"b\"\nshape = \"{}\"\nradius = {:.17g}\ncore = {}\n{} = {}\n",
@@ -30,7 +31,7 @@ inline std::string law_of(const std::string& type, const std::string& numbers) {
   return "[[surface]]\nbody = \"b\"\n[surface.law]\ntype = \"" + type + "\"\n" + numbers;
 }
 
-/// The stretch v at which the forces do no work in a change of v, by the secant method.
+/// The stretch v at which the forces do no work in a change of v; found by the secant method.
 template <int D>
 Real stretch_without_power(Scene<D>& scene) {
   const Body<D>& body = scene.system.bodies.front();
@@ -68,7 +69,7 @@ inline std::string radial_scene(const nlohmann::json& row, int core, int layers)
   return text;
 }
 
-/// The stretch of the ball or disk at rest; the pressure of its surroundings is an energy.
+/// The stretch of the ball or disk at rest. The pressure of the surroundings is given as an energy.
 template <int D>
 Real radial_stretch(const nlohmann::json& row, int core, int layers) {
   std::string text = radial_scene(row, core, layers);
@@ -114,7 +115,8 @@ inline Real tidal_error(const nlohmann::json& row, int core, int layers) {
           "[[body_force]]\nbody = \"b\"\nacceleration = [\"-{0}*x\", \"-{0}*y\", "
           "\"2*{0}*z\"]\n",
           beta) +
-      // Forces that press a free body let it turn over: springs hold it, which change it by 1e-4.
+      // A free body under pressing forces would turn over. Springs hold it and change the result by
+      // 1e-4.
       "[[spring]]\nbody = \"b\"\nstiffness = 1e-4\n" +
       "[[exact]]\nbody = \"b\"\nrate = 1\ndisplacement = [" + exact + "]\nvelocity = [0, 0, 0]\n";
   Scene<3> scene = scene_of<3>(text);
@@ -124,7 +126,7 @@ inline Real tidal_error(const nlohmann::json& row, int core, int layers) {
   return measured(scene, simulation.state(), "b.state_error");
 }
 
-/// A drop (2D: disk) of fluid in its Laplace pressure (D - 1) = K (1 - J), a ball of present radius
+/// A fluid drop (2D: disk) at its Laplace pressure (D - 1) = K (1 - J), with the current radius
 /// one.
 inline std::string resting_drop(int D, int core, int layers, Real viscosity,
                                 const std::string& velocity, Real skin = 0) {
@@ -142,8 +144,8 @@ inline std::string resting_drop(int D, int core, int layers, Real viscosity,
              displacement, velocity, J, bulk_modulus, viscosity, 1 - pull);
 }
 
-/// sigma of samples that vary as exp(sigma k dt) and its conjugate, by the recursion with the best
-/// fit.
+/// The rate sigma of samples that vary as exp(sigma k dt) and its conjugate, from the recursion
+/// that fits them best.
 inline Complex rate_of(const std::vector<Real>& x, Real dt) {
   Real aa = 0, ab = 0, bb = 0, ay = 0, by = 0;
   for (std::size_t k = 1; k + 1 < x.size(); ++k) {
@@ -158,8 +160,8 @@ inline Complex rate_of(const std::vector<Real>& x, Real dt) {
   return std::log(p / 2 + std::sqrt(Complex(p * p / 4 + q))) / dt;
 }
 
-/// Complex frequencies of the second mode of a drop that starts with its potential flow: of the run
-/// and of the exact initial-value problem.
+/// Complex frequencies of the second mode of a drop that starts with the potential flow of this
+/// mode: from the run, and from the exact initial-value problem.
 struct Oscillation {
   Complex found, exact;
   Real error() const { return std::abs(found - exact) / std::abs(exact); }
@@ -210,9 +212,9 @@ struct MarangoniCase {
   std::string of = "place";
   Real g = 1e-2;
 };
-/// Amplitude A of the flow from rest, its component along the exact flow over the exact amplitude,
-/// against time; at the end the velocity beside the exact flow, the shape and the error of the
-/// energy.
+/// Amplitude A of the flow from rest against time: its component along the exact flow, divided by
+/// the exact amplitude. At the end also the velocity that is not along the exact flow, the shape,
+/// and the error of the energy.
 struct Marangoni {
   std::vector<Real> time, amplitude;
   Real beside = 0, shape = 0, balance = 0;

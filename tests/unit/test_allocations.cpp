@@ -51,8 +51,9 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
 namespace meniscus::test_allocations {
 namespace {
 
-/// Allocations in 50 steps after `warm_up` others, including new estimates of the stable step. A
-/// rejected step, possible at the start of a drop, allocates its message; warm_up lies beyond it.
+/// Number of allocations in 50 steps after `warm_up` steps, including new estimates of the stable
+/// step. A rejected step, which is possible at the start of a drop, allocates its message;
+/// `warm_up` is chosen longer.
 template <int D>
 long allocations_of(const std::string& text, int warm_up = 20) {
   const SceneInput input = SceneInput::from_text(text);

@@ -89,8 +89,8 @@ TEST(Archive, NamesWhatIsAbsentOrOfAnotherSize) {
   EXPECT_FALSE(Archive::reading(s).has("par"));
 }
 
-/// A load with history: a force -k x on the coefficients along x. Its centre stays within 0.05 of
-/// the farthest place so far.
+/// A load with a history: a force -k (x - centre) on the coefficients along x. The centre stays
+/// within 0.05 of the farthest position so far.
 class Ratchet final : public ForceTerm {
  public:
   explicit Ratchet(Index size) : centre_(static_cast<std::size_t>(size), 0.0) {}
@@ -193,7 +193,7 @@ TEST(Archive, ARelaxationGoesOnInTheMiddle) {
       " }\n[[cavity]]\nbody = \"cell\"\nvolume_target = 0.9\npenalty = 10\nramp = [0, 0.5]\n");
 }
 
-/// A relaxation may continue a motion.
+/// A state that dynamics has saved can be continued by relaxation.
 TEST(Archive, AMotionMayGoOnAsARelaxation) {
   const std::string drop = body(2, "one", 0, liquid);
   Trial<2> motion(heading(2) + drop), relaxed(heading(2, "solver = \"relax\"\n") + drop);

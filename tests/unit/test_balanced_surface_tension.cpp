@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface and pressure of one closed surface: patches, the fluid about its enclosed volume, damping
-// of coefficients, and measures of drops.
+// Surface tension and pressure on the same closed surface: patches, the fluid with its enclosed
+// volume, damping of coefficients, and measures of drops.
 #include "body/surface/surface_patches.hpp"
 #include "measure/drop_measures.hpp"
 #include "meniscus/error.hpp"
@@ -153,7 +153,7 @@ TEST(EnclosedFluid, InsideIsFreeOfForceWhereThePressureIsUniform) {
   }
 }
 
-/// The enclosed form changes the forces of the pressure, not its value.
+/// The enclosed form changes the forces of the pressure but not the pressure itself.
 TEST(EnclosedFluid, EnergyAndPressureAreThoseOfTheLawWhereTheVolumeChangeIsUniform) {
   const auto body = test::body_of<3>(test::ball(4, 2));
   const auto pressure = [&](ForceTerm& term, const NodalVectors& u) {
@@ -268,7 +268,7 @@ TEST(DropMeasures, OfAStretchedBallThatTurns) {
   const NodalVectors moving =
       test::field_on<3>(*body, [](const Vec<3>&) { return Vec<3>(0, 3, 0); });
   EXPECT_NEAR(measure(measures, "kinetic_at_places", u, moving), 4.5 * mass, 1e-3 * mass);
-  // The square of 3 cancels up to rounding; the bound is its root.
+  // The square cancels numbers of order 3 up to rounding; the bound is the root of this rounding.
   EXPECT_LT(measure(measures, "ca", u, moving),
             0.5 / 0.25 * 3 * std::sqrt(16 * std::numeric_limits<Real>::epsilon()));
   const NodalVectors spinning =
@@ -331,7 +331,8 @@ TEST(Simulation, StopsADropWhoseAreaIsImpossible) {
   }
 }
 
-/// Weight on patches: net force M g, net moment c x M g, gradient of M g . c.
+/// The force of the weight on patches has the net force M g and the net moment c x M g, and is the
+/// gradient of M g . c.
 template <int D>
 void expect_weight_of_centroid(Geometry<D> geometry) {
   const auto body = test::body_of<D>(std::move(geometry));
@@ -385,8 +386,9 @@ TEST(WeightOnPatches, PullsAtTheCentroid) {
   expect_weight_of_centroid<3>(cylinder<3>());
 }
 
-/// A body force does the work of the density times the displacement, as an independent quadrature
-/// has it, also at corners, where the masses of the step are raised.
+/// The work of a body force is density times displacement times acceleration, compared with an
+/// independent quadrature. This holds at corners, too, where the masses of the time step are
+/// raised.
 TEST(BodyForce, ActsOnTheIntegralsOfTheDensity) {
   const auto body = test::body_of<3>(test::brick<3>({4, 4, 4}));
   test::internal_force<3>(*body, "neo_hookean");

@@ -128,7 +128,7 @@ TEST(Cavity, PressureFollowsTheRamp) {
   EXPECT_NEAR(measure(*term, "cavity_pressure", u, 0.5), 0, 1e-13);
   EXPECT_NEAR(measure(*term, "cavity_pressure", u, 2), -10 * 0.15, 1e-12);
   EXPECT_NEAR(measure(*term, "cavity_pressure", u, 9), -10 * 0.3, 1e-12);
-  // The work of the ramp is the change of the energy at fixed places.
+  // The work of the ramp is the change of the energy at a fixed motion.
   const Motion early{1.9, u, u}, late{2.1, u, u}, middle{2.0, u, u};
   NodalVectors force = u;
   const Real power = term->add_force(middle, force).external_power;

@@ -34,7 +34,7 @@ void expect_free_fall() {
     EXPECT_LT((vector_at<D>(one.state.u, A) - u).norm(), 1e-11);
     EXPECT_LT((vector_at<D>(one.state.v, A) - v).norm(), 1e-11);
   }
-  // The trapezoidal rule is exact for a power linear in time.
+  // The trapezoidal rule is exact for a power that is linear in time.
   EXPECT_NEAR(one.state.books.external_work, mass * a.dot(u), 1e-11 * mass);
   EXPECT_NEAR(take_ledger(one.system, one.state).kinetic, 0.5 * mass * v.squaredNorm(),
               1e-10 * mass);
@@ -150,7 +150,7 @@ TEST(CentralDifference, AFailedStepPutsThePlacesBack) {
   EXPECT_EQ(one.state.step, 0);
 }
 
-/// A force that is not a number beyond x = 1.5.
+/// A force that is NaN beyond x = 1.5.
 class NoNumber final : public ForceTerm {
  public:
   explicit NoNumber(const Body<2>& body) : body_(body) {}

@@ -137,7 +137,7 @@ TEST(Constants, AFormulaOfAnotherDimensionIsRefused) {
             "s.toml:1:7: key: formula 'radius' is a length (m), expected a plain number");
 }
 
-/// A formula reads 30 deg as 0.52; a contact angle would read this number as half a degree.
+/// A formula reads 30 deg as 0.52 radians; a contact angle would read 0.52 as half a degree.
 TEST(Constants, AnglesAreNoDegrees) {
   using namespace dimension;
   EXPECT_EQ(real("'20*ratio'", degrees), 30);

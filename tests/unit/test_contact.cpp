@@ -94,7 +94,8 @@ TEST(Contact, DissertationFormConservesNothing) {
   EXPECT_GT(balance.force, 1e-6);
   const auto pair = test::round_pair<3>(0.35);
   const auto term = test::contact_of<3>(pair, test::law<3>(), ContactForm::dissertation);
-  // The direction spreads the surfaces; along a translation the form would be right.
+  // The direction spreads the surfaces apart. Along a translation the form would have the right
+  // work.
   const NodalVectors u = test::zeros(pair.random(1, 1));
   const NodalVectors spread =
       pair.field([](const Vec<3>& X) { return Vec<3>(-X[0], 0.5 * X[1], 0.5 * X[2]); });
@@ -141,7 +142,7 @@ TEST(Contact, RigidPartnersActByTheGradientOfTheEnergy) {
   expect_rigid_gradients<3>();
 }
 
-/// A list that was built at other places gives the same bits at the same places.
+/// A list that was built at other positions gives the same bits.
 template <int D>
 void expect_same_bits_after(Real detour) {
   const auto pair = test::round_pair<D>(0.35);
@@ -190,7 +191,7 @@ void expect_same_demand_after(Real detour, Real gap) {
 }
 
 TEST(Contact, DemandsDoNotDependOnWhenTheListWasBuilt) {
-  // Detours lie within the skin of 0.2. The gaps are near, just within the reach of 2, and beyond
+  // Detours stay within the skin of 0.2. The gaps are small, just within the reach of 2, and beyond
   // it.
   for (const Real detour : {-0.12, -0.05, 0.05, 0.12})
     for (const Real gap : {0.35, 1.95, 2.1}) {

@@ -122,8 +122,8 @@ TEST(ContactList, IsEmptyWhenTheCloudsAreApart) {
   EXPECT_TRUE(list.of_first().active.empty());
 }
 
-/// Each rank finds the partners of its own clusters, among the clusters of the other cloud near
-/// them.
+/// Each rank finds the partners of its own clusters. It searches only clusters of the other cloud
+/// that are near them.
 TEST(ContactList, OfRanksTogetherIsThatOfOne) {
   std::mt19937_64 generator(2);
   const Cloud a = random_cloud<3>(200, 3, 0.1, generator);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two half spaces: derived numbers of an interaction, closed and with a cut-off.
+// The contact of two half spaces: its characteristic numbers, in closed form and with a cut-off.
 #include "contact_reference.hpp"
 #include "meniscus/error.hpp"
 #include "physics/contact/contact_numbers.hpp"
@@ -89,7 +89,7 @@ TEST(ContactNumbers, HoldForTheLeastCutoff) {
   }
 }
 
-/// Whatever the size of its numbers, an interaction has finite numbers or is refused.
+/// An interaction with parameters of any size has finite numbers or is refused.
 TEST(ContactNumbers, AreFiniteOrRefused) {
   int refused = 0;
   for (const Real epsilon : {5e-324, 1e-200, 1.0, 1e200, 1e308})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points per facet. With the estimated number of points balls slide on each other, with fewer they
-// do not. Far from a rigid partner fewer points give the same forces.
+// Number of contact points per facet. With the estimated number, balls slide on each other; with
+// fewer points they do not. Far from a rigid partner, fewer points give the same forces.
 #include "contact_support.hpp"
 #include "physics/contact/contact_numbers.hpp"
 #include "physics/contact/pair/contact_forms.hpp"
@@ -21,7 +21,7 @@ ContactLaw law() {
   return test::law<D>(D == 3 ? PairKernel::space : PairKernel::integrated, sigma0);
 }
 
-/// Rotates X about `centre` by an angle, in the plane of the first axes and slightly out of it.
+/// Rotates X about `centre` by an angle. The rotation is mostly in the plane of the first two axes.
 template <int D>
 Vec<D> turned(const Vec<D>& X, const Vec<D>& centre, Real angle) {
   const Vec<D> arm = X - centre;
@@ -37,7 +37,7 @@ Vec<D> turned(const Vec<D>& X, const Vec<D>& centre, Real angle) {
   return y + centre - X;
 }
 
-/// Largest tangential over normal force of two rotated balls (2D: disks) with a gap.
+/// Largest ratio of tangential to normal force between two rotated balls (2D: disks) with a gap.
 template <int D>
 Real friction(int points, Real gap) {
   const auto pair = test::round_pair<D>(gap);
@@ -100,7 +100,7 @@ TEST(ContactResolution, FollowsGapAndFacet) {
   EXPECT_FALSE(coarse.unfelt(1));
 }
 
-/// An interaction that gives no power of its decay: all points are used at any distance.
+/// An interaction without far_power(), so that all points are used at any distance.
 class AllPoints final : public Interaction {
  public:
   explicit AllPoints(const ContactLaw& law) : law_(law, 1.2 * 0.7) {}

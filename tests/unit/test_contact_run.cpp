@@ -75,7 +75,7 @@ TEST(ContactRun, CollisionConservesEnergyAndMomenta) {
   EXPECT_LT(worst_energy, 5e-4);
 }
 
-/// The time step causes the error of the energy, which falls to a quarter when the step is halved.
+/// The error of the energy comes from the time step: it falls to a quarter when the step is halved.
 TEST(ContactRun, EnergyErrorIsOfSecondOrderInTheStep) {
   const auto error_with = [](Real step) {
     SceneRun run(collision());
@@ -105,7 +105,7 @@ TEST(ContactRun, WorkOfAMovingPlateIsBooked) {
   EXPECT_LT(std::abs(run.simulation.audit().balance_error(ledger)), 5e-4);
 }
 
-/// The order also holds in the step in which the plate starts and its power jumps.
+/// The error is of second order even in the step in which the plate starts and its power jumps.
 TEST(ContactRun, EnergyErrorIsOfSecondOrderWhereAPlateSetsOff) {
   const auto error_with = [](Real step) {
     SceneRun run("dimension = 2\n[time]\nend = 100\n" + disk("left", "") +
@@ -171,8 +171,8 @@ TEST(ContactRun, SameBitsForAnyThreadsAndAfterARestart) {
   EXPECT_EQ(state_after(1, 203), expected);
 }
 
-/// With a guard above the smallest gap of the collision, steps are halved. The run then ends at a
-/// complete state and names the contact.
+/// With a guard above the smallest gap of the collision, steps are halved. Then the run ends with a
+/// complete state, and the message names the contact.
 TEST(ContactRun, OverlapHalvesTheStepAndThenStops) {
   SceneRun run(collision("least_gap = 0.55"));
   run.simulation.begin();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies inside each other: found at the start and in runs, but not where they only touch.
+// Bodies inside each other are detected at the start and during runs; bodies that only touch are
+// not.
 #include "contact_support.hpp"
 #include "meniscus/error.hpp"
 #include "physics/contact/points/containment.hpp"
@@ -76,7 +77,7 @@ TEST(Containment, OverlappingBallsAreFoundAndTouchingOnesAreNot) {
   expect_balls_found<3>();
 }
 
-/// Flat simplices of the cavity reach into the ball that fills it.
+/// The ball fills the cavity exactly, but flat simplices of the cavity reach into the ball.
 TEST(Containment, ABallMayFillACavity) {
   auto hollow = shell<SphereShell>(1.4, 0.4);
   auto ball = test::with_mass<3>(test::ball(4, 2), hollow->size());
@@ -139,7 +140,7 @@ TEST(Containment, PointsThatMissEachOtherAreRefused) {
              {"refused: ", "contact[0]", "'one' and 'two'", "unfelt", "allowed are distances"});
 }
 
-/// A repulsion that is much too weak, between points that do not meet.
+/// The repulsion is far too weak and acts between points that miss each other.
 TEST(Containment, ABodyThatWentThroughTheSurfaceIsStopped) {
   expect_end(end_of(disk("one", 1, "centre = [-1.2, 0]\ninitial_velocity = [1.5, 0]", 6) +
                         disk("two", 1, "centre = [1.2, 0.3]\ninitial_velocity = [-1.5, 0]", 6),

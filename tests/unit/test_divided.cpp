@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows of a rank, and their equality with the rows of one process.
+// The rows that a rank computes equal the rows of a run with one process.
 #include "body/body.hpp"
 #include "meniscus/error.hpp"
 #include "parallel/divided.hpp"
@@ -132,7 +132,7 @@ TEST(Divided, ItemsAreBroughtFromTheirRanks) {
   });
 }
 
-/// Each rank computes its own rows of a list, also if it has none or all of them.
+/// Each rank computes its own rows of a list, even if these are none or all rows.
 TEST(Divided, ListedRowsAreOfTheRanksThatHaveThem) {
   const std::vector<Index> listed{1, 14, 15, 33, 46, 47};
   as_each_of<OneOf>(3, [&](int rank) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inertia of thin bodies in relaxation: symmetric and positive, with long steps, leading to
-// known states.
+// The artificial inertia of thin bodies in relaxation is symmetric and positive, allows long steps,
+// and leads to known states.
 #include "run/simulation.hpp"
 #include "solve/step/elastic_inertia.hpp"
 #include "solve/step/relaxation.hpp"
@@ -151,7 +151,7 @@ TEST(ElasticInertia, ActivePlateReachesItsStretches) {
 }
 
 /// Bending is the slowest motion of a plate. The residual is not small relative to the forces
-/// before they cancel, since these vanish as well.
+/// before they cancel, since these vanish, too.
 TEST(ElasticInertia, BentPlateBecomesFlat) {
   std::string text = plate(rubber, "initial_displacement = [0, 0, \"0.05*x^2 - 0.03*x*y\"]\n");
   text.replace(text.find("1e-8"), 4, "0.02");

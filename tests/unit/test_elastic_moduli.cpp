@@ -89,7 +89,7 @@ TEST(ElasticModuli, CompleteInputReadsBackTheSame) {
   EXPECT_EQ(p_wave(SceneInput::from_text(complete)), M);
 }
 
-/// If a graded modulus gives a derived number outside its range, the message names the modulus.
+/// If a graded modulus makes a derived parameter leave its range, the message names the modulus.
 TEST(ElasticModuli, AGradedModulusIsNamedWhereItIsBad) {
   std::string said;
   try {

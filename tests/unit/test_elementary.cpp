@@ -42,7 +42,7 @@ std::vector<Real> arguments(Real low, Real high) {
   return all;
 }
 
-/// log(1 + x) - x, or e^x - 1 - x: by the sum over k >= 2 where the difference would cancel.
+/// log(1 + x) - x, or e^x - 1 - x. Where the difference would cancel, by the sum over k >= 2.
 long double log1p_remainder_exact(long double x) {
   if (std::abs(x) > 0.1L) return std::log1p(x) - x;
   long double sum = 0, power = -x;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The step resolves the exchange of energy after a sudden release; smooth motion keeps its stable
-// step.
+// After a sudden release, the step resolves the exchange of energy. In smooth motion the step is
+// the stable step.
 #include "meniscus/error.hpp"
 #include "run/simulation.hpp"
 #include "solve/step/energy_resolution.hpp"
@@ -66,7 +66,7 @@ TEST(EnergyResolution, LeavesSmoothMotionItsStableStep) {
 }
 
 TEST(EnergyResolution, KnowsWhatASwirlWillExchangeBeforeItDoes) {
-  // Nothing is strained at the start, where S = 0: a step limited by S alone leaves an error of
+  // Nothing is strained at the start, so S = 0. A step limited by S alone would leave an error of
   // 1.1e-2.
   const Outcome outcome =
       run(bar("jitter = 0.4\ninitial_velocity = [\"0.02*sin(pi*x)*cos(pi*y)\", "
@@ -85,7 +85,7 @@ struct Oscillator {
     system.mass = {m};
     state.u = state.v = state.force = NodalVectors(1, Lanes::zero());
   }
-  /// x = a sin(phase) at the time of that phase.
+  /// Sets x = a sin(phase) at the time of this phase.
   void at_phase(Real phase) {
     const Real w = std::sqrt(k / m);
     state.time = phase / w;
@@ -96,7 +96,7 @@ struct Oscillator {
 };
 
 TEST(EnergyResolution, IsThatOfAnOscillator) {
-  // S + v.Kv = k^2 a^2/m at any time: half of it is the bound as long as S is less.
+  // S + v.Kv = k^2 a^2/m at any time. Half of it is the bound while S is smaller.
   constexpr Real eta = 5e-3, k = Oscillator::k, m = Oscillator::m, a = Oscillator::a;
   const Real E = k * a * a / 2, half = k * k * a * a / m / 2, step = std::sqrt(8 * eta * E / half);
   Oscillator oscillator;

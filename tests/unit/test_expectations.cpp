@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers from a history, compared with the expectations of a scene.
+// Numbers computed from a history and compared with the expectations of a scene.
 #include "scene/expectations.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace meniscus::test_expectations {
 namespace {
 
-/// Rows at t = 0, 0.5, ..., 10 of 2 exp(-0.3 t), of t - 4, and of an oscillating -exp(-0.3 t).
+/// Columns 2 exp(-0.3 t), t - 4, and an oscillating -exp(-0.3 t), with rows at t = 0, 0.5, ..., 10.
 class Expectations : public ::testing::Test {
  protected:
   Expectations() {

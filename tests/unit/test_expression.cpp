@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formulas: values, syntax, sharing between threads, and the words of the messages.
+// Formulas: values, syntax, sharing between threads, and exact messages.
 #include "input/expression.hpp"
 #include "meniscus/error.hpp"
 

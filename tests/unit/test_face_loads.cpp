@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tractions, springs and viscosity of solids: states at rest to round-off, closed solutions.
+// Tractions, springs and viscosity of solids: states at rest to round-off, and exact solutions.
 #include "body/particle_values.hpp"
 #include "cases.hpp"
 #include "kernel/row_sums.hpp"
@@ -49,15 +49,15 @@ void expect_rest(const std::string& text) {
   EXPECT_LT(most, 1e-12);
 }
 
-/// Pressure that makes a body smaller by the factor s: P = mu (F - F^-T) + lambda (J - 1) cof F
-/// with F = s I.
+/// Pressure that scales a body by the factor s < 1: P = mu (F - F^-T) + lambda (J - 1) cof F with F
+/// = s I.
 Real pressure_of_size(int D, Real s) {
   constexpr Real mu = 1, lambda = 1.5;
   return -(mu * (s - 1 / s) / std::pow(s, D - 1) + lambda * (std::pow(s, D) - 1));
 }
 
-/// Root mean square of the distances of the places of particles from s X, of a body that newton has
-/// brought to rest under that pressure on its whole surface.
+/// Puts that pressure on the whole surface of a body and finds its equilibrium by newton. Returns
+/// the root mean square distance of the particles from s X.
 template <int D>
 Real error_of_size(const std::string& shape) {
   constexpr Real s = 0.9;
@@ -86,7 +86,8 @@ TEST(Traction, PressureAllAroundCompressesEvenly) {
   EXPECT_LT(error_of_size<3>("shape = \"ball\"\nradius = 1\ncore = 4\nlayers = 2\n"), 8e-4);
 }
 
-/// Of a deformed body: no net force, no net moment, and the gradient of the enclosed volume.
+/// A uniform pressure on the whole surface of a deformed body has no net force and no net moment,
+/// and is the gradient of p times the enclosed volume.
 template <int D>
 void expect_even_pressure_balanced(const std::string& shape) {
   Scene<D> scene = test::scene_of<D>(block(D, "", "end = 100", shape) +
@@ -104,7 +105,7 @@ void expect_even_pressure_balanced(const std::string& shape) {
     const NodalVectors moved = test::sum_of(u, h, w);
     return *term.potential({0, moved, rest});
   };
-  // The volume is a polynomial of third degree.
+  // The volume is a polynomial of third degree, for which this difference is exact.
   constexpr Real h = 0.01;
   const Real slope =
       (8 * (potential(h) - potential(-h)) - (potential(2 * h) - potential(-2 * h))) / (12 * h);
@@ -118,8 +119,9 @@ TEST(Traction, EvenPressureOnAClosedFaceIsTheGradientOfTheVolume) {
   expect_even_pressure_balanced<3>("shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2\n");
 }
 
-/// On an open face the net force of an even pressure is that of its edge: - p/2 oint x cross dx
-/// along the quadratic curves through the places of corners and middles of edges; 2D: of the ends.
+/// The net force of a uniform pressure on an open face depends on the edge of the face only: - p/2
+/// oint x cross dx along quadratic curves through the current positions of corners and middles of
+/// edges. In 2D it depends on the ends of the face.
 TEST(Traction, EvenPressureOnAnOpenFaceIsThatOfItsEdge) {
   constexpr Real p = 0.7;
   const std::string load = "[[traction]]\nbody = \"block\"\nface = \"x_max\"\npressure = 0.7\n";
@@ -151,21 +153,21 @@ TEST(Traction, EvenPressureOnAnOpenFaceIsThatOfItsEdge) {
     x.push_back(at(X, q) + Vec<3>(moved[0], moved[1], moved[2]));
   }
   Vec<3> area = Vec<3>::Zero();
-  for (std::size_t k = 0; k < x.size(); k += 2) {  // over an edge: 4/3, -1/3, 4/3 of half products
+  for (std::size_t k = 0; k < x.size(); k += 2) {  // per edge: 4/3, -1/3, 4/3 of a x b / 2
     const Vec<3>&a = x[k], &b = x[k + 1], &c = x[(k + 2) % x.size()];
     area += 0.5 * (4.0 / 3 * a.cross(b) - 1.0 / 3 * a.cross(c) + 4.0 / 3 * b.cross(c));
   }
   const Report report = test::report_of(*scene.system.terms.back(), u);
   EXPECT_LT((report.outside.force + p * area).norm(), 1e-14);
-  // What acts is what is reported.
+  // The sum of the forces equals the reported net force.
   const NodalVectors force = test::force_of(*scene.system.terms.back(), u);
   Vec<3> net = Vec<3>::Zero();
   for (const Lanes& f : force) net += Vec<3>(f[0], f[1], f[2]);
   EXPECT_LT((net - report.outside.force).norm(), 1e-14);
 }
 
-/// A column without Poisson's ratio sinks by rho g H^2/(2 E) under its weight, and the load does
-/// the work rho^2 g^2 A H^3/(3 E) on the way. Its corners have masses that are raised.
+/// A column with Poisson's ratio 0 sinks by rho g H^2/(2 E) under its weight, and the weight does
+/// the work rho^2 g^2 A H^3/(3 E). The masses of the time step at the corners are raised.
 TEST(BodyForce, AColumnSinksUnderItsWeight) {
   Scene<2> scene = test::scene_of<2>(
       "dimension = 2\n[time]\nsolver = \"newton\"\nend = 1\nstep = 1\n[[body]]\nname = "
@@ -181,7 +183,7 @@ TEST(BodyForce, AColumnSinksUnderItsWeight) {
   EXPECT_NEAR(state.books.external_work, 0.5 / 3e4, 1e-3 * 0.5 / 3e4);
 }
 
-/// Dead tractions of simple shear on all four sides.
+/// Dead tractions on all four sides balance a uniform stress of simple shear.
 TEST(Traction, DeadForcesBalanceAUniformStress) {
   // F = [1.2 0.3; 0 1], J = 1.2, cof F = [1 0; -0.3 1.2]
   constexpr Real mu = 1, lambda = 1.5, J = 1.2, c = lambda * (J - 1) - mu / J;
@@ -265,9 +267,10 @@ TEST(SolidViscosity, WavesDecay) {
   EXPECT_NEAR(ledger.balance(), begin, 2e-3 * begin);
 }
 
-/// Rate at which the energy of a bar held at x = 0 falls. The bar begins with v = sin(pi x/2 L) in
-/// its slowest wave and rings for 7 periods. The rate is minus the slope of the line through
-/// ln(kinetic + strain), which falls in waves, fastest where the bar is fast.
+/// Rate at which the energy of a bar held at x = 0 decays. The bar starts with v = sin(pi x/2 L),
+/// its slowest wave, and rings for 7 periods. The rate is minus the slope of a line fitted to
+/// ln(kinetic + strain). This function of time is wavy, since the decay is fastest when the bar is
+/// fastest.
 template <int D>
 Real rate_of_decay(const std::string& shape, Real length, Real modulus, const std::string& more,
                    const std::string& viscosity) {
@@ -294,11 +297,11 @@ Real rate_of_decay(const std::string& shape, Real length, Real modulus, const st
   return -(n * ty - t * y) / (n * tt - t * t);
 }
 
-/// The decay of a ringing bar in 7 periods against c k^2/rho. Viscosity changes the modulus M of
-/// the bar to M + c d/dt. Between rollers M = lambda + 2 mu, c = 2 eta + zeta. With free sides c =
-/// eta dM/dmu + zeta dM/dlambda, where M = 4 mu (lambda + mu)/(lambda + 2 mu) in plane strain and M
-/// = E = mu (3 lambda + 2 mu)/(lambda + mu) in 3D. The elastic constants alone determine the
-/// contraction of the bar: c is 2.36 eta here, not 2 (1 + nu) eta = 2.6 eta.
+/// The decay of a ringing bar in 7 periods, compared with c k^2/rho. Viscosity changes the modulus
+/// M of the bar to M + c d/dt. Between rollers, M = lambda + 2 mu and c = 2 eta + zeta. With free
+/// sides, c = eta dM/dmu + zeta dM/dlambda; in plane strain M = 4 mu (lambda + mu)/(lambda + 2 mu),
+/// and in 3D M = E = mu (3 lambda + 2 mu)/(lambda + mu). The elastic constants alone determine the
+/// contraction of the bar. So c is 2.36 eta here, not 2 (1 + nu) eta = 2.6 eta.
 TEST(SolidViscosity, ABarRingsWithItsExactDecrement) {
   constexpr Real k = std::numbers::pi / 2, M = 20.0 / 7;
   const std::string between_rollers =
@@ -335,8 +338,8 @@ TEST(SolidViscosity, IsAnOptionOfEveryMaterialThatIsNoFluid) {
 }
 
 /// A strip between rollers whose end is moved: a plane wave of constant form. Until the wave
-/// returns, the force on the grip is rho c times its velocity. Returns the largest error after the
-/// first steps over the largest force.
+/// returns, the force on the grip is rho c times its velocity. Returns the largest error of this
+/// force after the first steps, relative to the largest force.
 Real error_of_a_wave(int cells) {
   const Real c = std::sqrt(3.5), end = 3.2 / c;
   Scene<2> scene = test::scene_of<2>(

@@ -99,7 +99,7 @@ TEST(ImplicitEuler, ResistsByAPotentialOfTheIncrement) {
   expect_resistance<3>();
 }
 
-/// The radius at rest under the pressure of the surface: kappa ln J = - (D - 1) gamma / R.
+/// The radius at rest under surface tension: kappa ln J = - (D - 1) gamma / R.
 Real radius_at_rest(int D, Real reference) {
   Real R = reference;
   for (int k = 0; k < 20; ++k) R = reference * std::exp(-(D - 1) * gamma / (R * bulk_modulus * D));
@@ -134,8 +134,9 @@ TEST(FlowToRest, TakesADropToTheSphere) {
   EXPECT_LT(std::abs(run.balance_error()), 1e-3);
 }
 
-/// A viscous plane drop that is nearly round: its second mode decays with gamma / (2 mu R) n, n = 2
-/// (Lamb 1932, without inertia), by 1/(1 + tau rate) in each step of implicit Euler.
+/// A viscous plane drop that is nearly round. Its second mode decays at the rate gamma / (2 mu R) n
+/// with n = 2 (Lamb 1932, without inertia); a step of implicit Euler multiplies it by 1/(1 + tau
+/// rate).
 TEST(FlowToRest, FlowsAtTheRateOfViscosity) {
   constexpr Real viscosity = 100;
   std::string text = drop(2, "end = 1e5\n", viscosity);
@@ -151,8 +152,8 @@ TEST(FlowToRest, FlowsAtTheRateOfViscosity) {
   EXPECT_LT(run.p2.back(), 0.7 * run.p2.front());
 }
 
-/// A load that grows: the steps of the drop are not longer than those of the load, and the supplied
-/// energy is work.
+/// While a load grows, the steps of the drop are at most the load step, and the supplied energy is
+/// booked as work.
 TEST(FlowToRest, FollowsLoadsThatChange) {
   Flow<2> run(drop(2, "end = 2\nstep = 0.25\n", 0.5,
                    "[[body_force]]\nbody = \"drop\"\nacceleration = [0, \"0.5*y*min(t, 2)\"]\n"));
@@ -218,8 +219,8 @@ TEST(FlowToRest, TakesSolidsAlong) {
   EXPECT_LT(run.ledger().stored.at("contact"), -0.1);
 }
 
-/// A force that pulls both sides of a fluid disk apart starts from an unstable equilibrium, which
-/// the disk leaves.
+/// A fluid disk starts in an unstable equilibrium under a force that pulls its two sides apart. It
+/// leaves this equilibrium.
 TEST(FlowToRest, LeavesWhatIsUnstable) {
   std::string text =
       drop(2, "end = 30\n", 1, "[[body_force]]\nbody = \"drop\"\nacceleration = [0, \"4*y\"]\n");

@@ -46,7 +46,8 @@ TEST(ForcePrediction, DampsWhatRings) {
   EXPECT_LT(error(ringing, 8), 1e-6 * test::norm(a));
 }
 
-/// The prediction extrapolates neither a jump, nor forces before it, nor forces of longer steps.
+/// The prediction uses neither a jump, nor forces before a jump, nor forces of steps of another
+/// length.
 TEST(ForcePrediction, EndsAtAJump) {
   const NodalVectors a = random(1), b = random(2), jump = random(3);
   const auto jumping = [&](int n) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces of rows are added up chunk by chunk: the same bits for any number of threads, no remainder
-// of failed rows, and in spatial order chunks touch few particles of other chunks.
+// Forces of rows are added up chunk by chunk. Bits do not depend on the number of threads, failed
+// rows leave nothing behind, and chunks in spatial order touch few particles of other chunks.
 #include "body/grid/ordering.hpp"
 #include "parallel/force_windows.hpp"
 
@@ -14,7 +14,7 @@
 namespace meniscus::test_force_windows {
 namespace {
 
-/// Rows that touch some particles near their own number and some random particles.
+/// Rows that touch some particles with numbers near their own and some random particles.
 struct Rows {
   std::vector<Offset> start{0};
   std::vector<Index> particle;

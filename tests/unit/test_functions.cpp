@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Named formulas of a scene: what calls of them are, and messages.
+// Named formulas ([functions]) of a scene: values of their calls, and messages.
 #include "input/input.hpp"
 #include "input_scene.hpp"
 #include "meniscus/error.hpp"
@@ -52,7 +52,7 @@ TEST(Functions, CallsAreTheirFormulas) {
   EXPECT_DOUBLE_EQ(value_of("wave()*wave", 0.3), std::pow(0.1 * std::sin(0.6), 2));
   EXPECT_DOUBLE_EQ(value_of("bump(sqrt(x^2 + y^2), 0.5)", 0.3),
                    std::exp(-(0.3 * 0.3 + 0.25 * 0.25) / 0.25));
-  // Precedence is that of brackets; arguments may be calls, with commas and brackets of their own.
+  // A call has the precedence of brackets. Arguments may contain calls, with commas and brackets.
   EXPECT_DOUBLE_EQ(value_of("-twice(1 + x)^2/2", 0.3), -std::pow(2 * 1.3, 2) / 2);
   EXPECT_DOUBLE_EQ(value_of("twice(max(twice(x), min(1, 2)))", 0.3), 2);
   EXPECT_DOUBLE_EQ(value_of("bump (twice( x ), half)", 0.3), std::exp(-std::pow(0.6 / 0.5, 2)));
@@ -62,7 +62,7 @@ TEST(Functions, CallsAreTheirFormulas) {
 TEST(Functions, NamesMeanTheSameEverywhere) {
   EXPECT_DOUBLE_EQ(value_of("twice(y)", 0.3), 0.5);
   EXPECT_DOUBLE_EQ(value_of("shifted(y)", 0.3), 0.25 + 0.3);
-  // The x of shifted is the place, also where it is called from a function with an argument x.
+  // In `shifted`, x is the position, even if `shifted` is called by a function with an argument x.
   EXPECT_DOUBLE_EQ(value_of("both(y)", 0.3), 0.5 + 0.25 + 0.3);
 }
 
@@ -73,10 +73,10 @@ TEST(Functions, NumbersAndConstantsMayCallThem) {
   EXPECT_DOUBLE_EQ(input.root().real("b", dimension::length, range::any, {}), 1e-8);
   EXPECT_EQ(input.root().integer("n", range::any, {}), 6);
   input.check();
-  // The complete input says what they are, and needs none of them.
+  // The complete input contains values instead of calls, and no functions.
   const std::string complete = input.complete();
   EXPECT_EQ(complete.find("twice"), std::string::npos);
-  // A dimension is checked as without them.
+  // Dimensions are checked as in formulas without calls.
   const std::string other = report("key = 'depth'" + functions, [](const Block& root) {
     root.real("key", dimension::time, range::any, {});
   });
@@ -85,13 +85,13 @@ TEST(Functions, NumbersAndConstantsMayCallThem) {
       << other;
 }
 
-/// Each of 60 functions calls the one before it twice: 2^60 calls.
+/// Each of 60 functions calls the previous one twice, which would be 2^60 calls.
 TEST(Functions, CallsAreCounted) {
   std::string lines = "'f0(a)' = 'a'\n";
   for (int k = 1; k < 60; ++k) lines += fmt::format("'f{}(a)' = 'f{}(f{}(a))'\n", k, k - 1, k - 1);
   const std::string said = wrong(lines, "f59(x)");
   EXPECT_NE(said.find("calls functions more than 10000 times"), std::string::npos) << said;
-  // Where each is called once, all is well.
+  // If each function calls the previous one once, there is no problem.
   lines = "'f0(a)' = 'a'\n";
   for (int k = 1; k < 60; ++k) lines += fmt::format("'f{}(a)' = '1 + f{}(a)'\n", k, k - 1);
   EXPECT_EQ(wrong(lines, "f59(x)"), "");

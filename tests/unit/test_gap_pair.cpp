@@ -88,8 +88,8 @@ Real integral(F&& f) {
   return sum;
 }
 
-/// The small face and the opposite part of the large face have half of area times e(gap) each. The
-/// rest of the large face and the sides of the small block are farther away.
+/// The small face and the opposite part of the large face have half of area times e(gap) each. All
+/// other parts of the surfaces are out of range.
 template <int D>
 void expect_flat() {
   const Real gap = 0.4, area = D == 3 ? 4 : 2;

@@ -40,7 +40,7 @@ TEST(Ordering, HalvesAreCutAcrossTheLongestEdge) {
   EXPECT_LE(highest, lowest + 1e-5);
 }
 
-/// Layers with rounding errors in their coordinates are cut like those of a perfect lattice.
+/// Layers with rounding errors in their coordinates have the same order as a perfect lattice.
 TEST(Ordering, RoundingOfCoordinatesChangesNothing) {
   std::vector<Vec<2>> points, rounded;
   for (int k = 0; k < 35 * 35; ++k) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Held faces: patch tests, closed-form stresses, exact motion, stable step, work, and what is
-// refused.
+// Held faces: patch tests, exact stresses, exact motion, stable step, work, and refused scenes.
 #include "cases.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/physics/law_registry.hpp"
@@ -46,7 +45,7 @@ Real measured(const Scene<D>& scene, const State& state, const std::string& name
   return 0;
 }
 
-/// The scene begins where it is at rest: no force is left, and 40 steps do not move it.
+/// The scene starts at rest: the forces vanish, and 40 steps do not move it.
 template <int D>
 void expect_rest(Scene<D>& scene, Simulation<D>& simulation, Real within) {
   simulation.begin();
@@ -67,13 +66,13 @@ void expect_linear_field_at_rest(const std::string& field, Real within) {
 
 TEST(Held, LinearFieldsAreAtRestWithAllFacesHeld) {
   expect_linear_field_at_rest<2>("[\"0.1*x + 0.2*y + 0.3\", \"-0.15*x + 0.05*y - 0.1\"]\n", 1e-12);
-  // S has a condition of 1e8 by its edges and corners.
+  // S has a condition number of 1e8 because of edges and corners.
   expect_linear_field_at_rest<3>(
       "[\"0.1*x + 0.2*y - 0.1*z\", \"-0.15*x + 0.05*y + 0.1*z\", \"0.05*x + 0.1*y - 0.1*z\"]\n",
       1e-11);
 }
 
-/// Stretches across a bar that is pulled by 1.3, and its stress.
+/// Stretches of a bar across its axis, and its stress, if it is pulled to the stretch 1.3.
 struct Tension {
   Real across, stress;
 };
@@ -96,7 +95,7 @@ Tension tension(const std::string& material, int D) {
   return {low, P(low)(0, 0)};
 }
 
-/// Clamped by both ends at the places of uniaxial tension.
+/// A body that is clamped at both ends in the deformation of uniaxial tension.
 template <int D>
 void expect_tension(const std::string& material, const std::string& integration = "") {
   SCOPED_TRACE(material);
@@ -127,7 +126,7 @@ TEST(Held, TensionHasTheStressOfEachLaw) {
       "2, reference_director = [1, 0, 0]");
 }
 
-/// By interlacing, what is held can only lower the largest frequency.
+/// Constraints can only lower the largest frequency (interlacing of eigenvalues).
 TEST(Held, StableStepIsNeverShorter) {
   const auto stable = [](const std::string& more) {
     Scene<2> scene = test::scene_of<2>(block(2) + more);
@@ -142,7 +141,8 @@ TEST(Held, StableStepIsNeverShorter) {
   EXPECT_GT(all, 1.2 * free);
 }
 
-/// What a smooth motion of a grip leaves: of C u = g at all steps, and of the balance at the end.
+/// Errors in a smooth motion of a grip: the largest C u - g of any step, and the balance of energy
+/// at the end.
 struct Errors {
   Real place = 0, balance = 0;
 };

@@ -77,8 +77,8 @@ TEST(HeldEquilibria, FindLinearFieldsExactlyOnJitteredClouds) {
             1e-11);  // S has a condition number of 1e8 (edges, corners)
 }
 
-/// Uniform stress in a graded octant: forces act only on its planes, along their normals, on all
-/// particles whose supports do not reach the round face.
+/// Uniform stress in a graded octant: there are forces only on its planes, along their normals, for
+/// all particles whose supports do not reach the round face.
 TEST(HeldEquilibria, AGradedOctantOnRollersFeelsUniformStressOnItsPlanesOnly) {
   Scene<3> scene = test::scene_of<3>(
       "dimension = 3\n[time]\nend = 1\n[[body]]\nname = \"block\"\nshape = \"octant\"\nradius = "
@@ -92,7 +92,7 @@ TEST(HeldEquilibria, AGradedOctantOnRollersFeelsUniformStressOnItsPlanesOnly) {
   Index inside = 0;
   for (Index A = 0; A < scene.system.size(); ++A) {
     const Vec<3>& X = at(particles.X(), A);
-    // Excludes particles that share a cell with such a particle as well.
+    // Also excludes particles that share a cell with such a particle.
     if (X.norm() + 2 * at(particles.support(), A) > 1) continue;
     for (int i = 0; i < 3; ++i) {
       const Real f = std::abs(at(state.force, A)[i]);
@@ -140,14 +140,16 @@ TEST(HeldEquilibria, FindUniaxialStressExactlyBetweenTwoFaces) {
   expect_uniaxial<3>();
 }
 
-/// A wall from the radius a = 1/2 to 1 with the pressure p inside: present radii of both faces.
+/// A thick wall between the radii 1/2 and 1 with the pressure p inside: current radii of both
+/// faces.
 struct Wall {
   Real inner, outer;
 };
 
 /// Solves dP_r/dR + (D - 1) (P_r - P_t)/R = 0 with P_r = - p (r/R)^(D-1) inside and 0 outside. The
-/// law is P_k = mu (s_k - 1/s_k) + lambda (J - 1) J/s_k of the stretches s. Uses the classical
-/// Runge-Kutta method of fourth order from inside, and bisection of the inner radius.
+/// law is P_k = mu (s_k - 1/s_k) + lambda (J - 1) J/s_k for the stretches s. Integrates from the
+/// inside by the classical Runge-Kutta method of fourth order, and finds the inner radius by
+/// bisection.
 Wall exact_wall(int D, Real p) {
   constexpr Real mu = 1, lambda = 1.5, a = 0.5, b = 1;
   constexpr int steps = 400;

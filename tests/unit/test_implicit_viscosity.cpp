@@ -69,7 +69,7 @@ TEST(ImplicitViscosity, IsRefusedWhereItHasNoMeaning) {
   EXPECT_THROW_WITH(Simulation<2>{inviscid}, InputError, "this has none");
 }
 
-/// The note about the choice of `time`, and the run with it.
+/// The note about the chosen viscosity with the keys `time`, and the run.
 struct Chosen : Flight {
   std::string note;
   Chosen(const std::string& time, Real viscosity) : Flight(drop(time, viscosity), 0) {
@@ -109,8 +109,8 @@ TEST(ImplicitViscosity, IsChosenForAFixedStepThatIsTooLongWithout) {
   EXPECT_EQ(inviscid.note, "viscosity is explicit: nothing is viscous");
 }
 
-/// A restored run keeps its choice, although a later state would lead to another one, and keeps the
-/// forces of past steps.
+/// A restored run keeps the viscosity that was chosen at its start, although its later state would
+/// lead to another choice. It also keeps the forces of past steps.
 TEST(ImplicitViscosity, ARestoredRunGoesOnAsItWasChosen) {
   for (const Real viscosity : {30.0, 0.01}) {
     Chosen run("viscosity = \"automatic\"\n", viscosity);
@@ -191,8 +191,8 @@ TEST(ImplicitViscosity, HeldBodiesTakeStepsBeyondTheViscousLimitAndARestartGoesO
   expect_same_motion(run.simulation, again);
 }
 
-/// A crease in every cell leaves stress points less than 0.001 of their volume. This happens at the
-/// rim of a drop that spreads far on its first reference.
+/// A crease in every cell leaves stress points with less than 0.001 of their volume. This happens
+/// at the rim of a drop that spreads far without a remap.
 TEST(ImplicitViscosity, FindsTheVelocityOfCellsThatNearlyFold) {
   Scene<2> scene = test::scene_of<2>(
       "dimension = 2\n[time]\nend = 1\nviscosity = \"implicit\"\n[[body]]\nname = \"drop\"\nshape "
@@ -206,7 +206,8 @@ TEST(ImplicitViscosity, FindsTheVelocityOfCellsThatNearlyFold) {
   EXPECT_GT(viscosity.mean_iterations(), 300);
 }
 
-/// A force perpendicular to the velocity; with long steps conjugate gradients do not converge.
+/// A force perpendicular to the velocity, for which conjugate gradients do not converge in long
+/// steps.
 class Gyroscope final : public ForceTerm {
  public:
   std::string name() const override { return "gyroscope"; }

@@ -9,7 +9,7 @@
 namespace meniscus::test_interrupted_steps {
 namespace {
 
-/// Interrupts each step after 1, 10 and 100 queries, then completes it.
+/// Interrupts each step after 1, 10 and 100 queries of the stop function, then completes it.
 void expect_no_trace(const std::string& text, int steps) {
   Scene<2> scene = test::scene_of<2>(text), same = test::scene_of<2>(text);
   Simulation<2> undisturbed(scene), disturbed(same);
@@ -43,7 +43,7 @@ void expect_no_trace(const std::string& text, int steps) {
   EXPECT_EQ(disturbed.take_notes(), undisturbed.take_notes());
 }
 
-/// An adhesive lid jumps onto a soft disk: the step is divided, and the jump is noted.
+/// An adhesive lid jumps onto a soft disk: the load step is divided, and the jump is noted.
 TEST(InterruptedSteps, LeaveNoTraceOfALoadStep) {
   expect_no_trace(
       "dimension = 2\n[time]\nsolver = \"newton\"\nend = 4\nstep = 0.5\n"

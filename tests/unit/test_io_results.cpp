@@ -179,7 +179,7 @@ TEST_F(Results, StateOfAFrameIsReadBackBitForBit) {
       open(directory, {.precision = ResultOptions::Precision::float32, .compression = 9});
   write(file, 0);
   write(file, 4, &state(4));
-  // The file is still open for writing, and readable all the same.
+  // The file is still open for writing, but it is readable.
   const ReadCheckpoint read = read_checkpoint(directory.result_file(), 1);
   EXPECT_EQ(read.checkpoint.state.hash(), state(4).hash());
   EXPECT_EQ(read.checkpoint.input, input_);

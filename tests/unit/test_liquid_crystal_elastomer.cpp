@@ -34,7 +34,7 @@ Vector vector(const nlohmann::json& x) {
   return {x.at(0).get<Real>(), x.at(1).get<Real>(), x.at(2).get<Real>()};
 }
 
-/// The elastomer with a director h that is independent of F (constitutive note 4.1, 4.3).
+/// The elastomer with a director h that is an independent variable (constitutive note 4.1, 4.3).
 struct FreeDirector {
   Real mu, s, lambda;
 
@@ -90,7 +90,7 @@ TEST_F(LiquidCrystalElastomer, ModelOfTheFreeDirectorHasTheReferenceValues) {
     EXPECT_LT((sigma - matrix(r["sigma"])).norm(), 1e-12 * mu);
     const Vector g = free.director_force(F, h0, h), s = g / F.determinant();
     EXPECT_LT((g - vector(r["dW_dh"])).norm(), 1e-12 * mu);
-    // Without the reaction stress of the director, Cauchy's stress is not symmetric.
+    // Without the reaction stress of the director, the Cauchy stress is not symmetric.
     const Real aligning = 0.625;
     const Matrix hs = h * s.transpose();
     const Matrix reaction = aligning / 2 * (hs + hs.transpose()) - 0.5 * (hs - hs.transpose());
@@ -112,7 +112,7 @@ TEST_F(LiquidCrystalElastomer, IsTheFreeDirectorMovedWithTheDeformation) {
       const Vector h0 = vector(c["director"]).normalized();
       const Vector h =
           (rule == "normal" ? Vector(over_F.transpose() * h0) : Vector(F * h0)).normalized();
-      // dh = -(I - h h) F^-T dF^T h for the normal, (I - h h) dF F^-1 h for the line
+      // For the normal, dh = -(I - h h) F^-T dF^T h; for the line, dh = (I - h h) dF F^-1 h.
       const Vector g = free.director_force(F, h0, h), across = g - h * h.dot(g);
       const Matrix chain = rule == "normal" ? Matrix(-h * (over_F * across).transpose())
                                             : Matrix(across * (over_F * h).transpose());
@@ -120,8 +120,8 @@ TEST_F(LiquidCrystalElastomer, IsTheFreeDirectorMovedWithTheDeformation) {
       EXPECT_NEAR(material->energy_density(H), free.energy(F, h0, h), 1e-12 * mu);
       EXPECT_LT((matrix(material->stress(H)) - free.stress(F, h0, h) - chain).norm(), 1e-12 * mu);
 
-      // The active Kirchhoff stress is -zeta h h. The reference values have the Cauchy stress -zeta
-      // h h, which is larger by the factor J.
+      // The active Kirchhoff stress of the law is -zeta h h. The reference values use the Cauchy
+      // stress -zeta h h, which is larger by the factor J.
       const auto active = law("activity = 0.4375\ndirector = \"" + rule +
                               "\"\nreference_director = " + c["director"].dump());
       const Matrix Pa = -0.4375 * h * (over_F * h).transpose();
@@ -144,7 +144,7 @@ TEST_F(LiquidCrystalElastomer, HasTheReferenceValues) {
         const Matrix F = matrix(c["F"]);
         const Tensor<Real> H = tensor(F - Matrix::Identity());
         const Matrix P = matrix(r["P"]);
-        // At small strains the residual error is relative to the stress itself.
+        // At small strains, round-off is relative to the stress itself.
         const Real scale = label == "B_near_identity" ? std::min(mu, P.norm()) : mu;
         EXPECT_NEAR(material->energy_density(H), r["W"].get<Real>(), 1e-12 * scale);
         EXPECT_LT((matrix(material->stress(H)) - P).norm(), 1e-12 * scale);
@@ -165,8 +165,7 @@ TEST_F(LiquidCrystalElastomer, FreeBarsAreInEquilibrium) {
       const Tensor<Real> H = tensor(Matrix(stretch.asDiagonal()) - Matrix::Identity());
       EXPECT_LT(matrix(material->stress(H)).norm(), 1e-12 * mu) << bar.dump();
     }
-  // If the activity is constant as a Cauchy stress, it is larger by the factor J as a Kirchhoff
-  // stress.
+  // A constant active Cauchy stress is a Kirchhoff stress that is larger by the factor J.
   const auto& fixed = data["bars"]["fixed_cauchy"];
   const Real t = fixed["t"], v = fixed["v"], zeta = fixed["zeta_cauchy"];
   EXPECT_NEAR(v, 1.12223, 5e-6);
@@ -322,7 +321,7 @@ TEST(LiquidCrystalElastomerBody, ReportsFrankElasticity) {
 }
 
 /// Ramped activity in a body that spins and turns over: the error of the energy is of second order
-/// in the step, momenta are exact.
+/// in the step, and momenta are exact.
 TEST(LiquidCrystalElastomerBody, KeepsEnergyAndMomenta) {
   const auto balance_error = [](const std::string& rule, int steps) {
     test::OneBody<3> one(

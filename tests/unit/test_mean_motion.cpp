@@ -45,7 +45,8 @@ TEST(MeanMotion, ARigidBodyThatFliesAndTurns) {
   EXPECT_NEAR(run.measure("block.kinetic_energy"), energy, 1e-10);
 }
 
-/// A box of side L has the same second moment L^2/12 as an ellipsoid with the axis L sqrt(5/3).
+/// A box of side L has the same second moment L^2/12 as an ellipsoid with the full axis L
+/// sqrt(5/3).
 TEST(MeanMotion, PrincipalExtentsTurnWithTheBody) {
   const double factor = std::sqrt(5.0 / 3);
   // The body is rotated by 0.7 about z and moved; then stretched by 1.5 along x.
@@ -97,7 +98,7 @@ TEST(MeanMotion, IsThatOfTheAuditAndStaysWhereNothingActs) {
   EXPECT_GT(std::abs(run.measure("sheet.kinetic_energy") - energy), 1e-6);  // it also deforms
 }
 
-/// The motion continues after a remap, up to the difference between new and old cells.
+/// The measures continue after a remap, up to the difference between new and old cells.
 TEST(MeanMotion, OfADropThatIsReferredAnew) {
   meniscus::Run run = meniscus::Run::from_text(R"toml(
 dimension = 2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of mesh files: nodal cells, surfaces, patch tests and an exact motion, for every kind of
+// Bodies from mesh files: nodal cells, surfaces, patch tests and an exact motion, for every kind of
 // cell.
 #include "body/grid/simplex.hpp"
 #include "body/surface/face_cells.hpp"
@@ -42,7 +42,8 @@ Grid<D> round_body(int n) {
   return body.grid;
 }
 
-/// Calls f(simplices) for both kinds of cells.
+/// Calls f(simplices) for both kinds of cells: f(false) for hexahedra (2D: quadrilaterals), f(true)
+/// for simplices.
 template <class F>
 void for_both_kinds(F&& f) {
   for (const bool simplices : {false, true}) {
@@ -108,8 +109,8 @@ TEST(MeshBodies, PartsOfASimplexAreEqual) {
   for (Index A = 0; A < 3; ++A) EXPECT_NEAR(thirds.volume(A), volume(plane) / 3, 1e-15);
 }
 
-/// Linear displacements have the right gradient at every stress point, and the mass is that of the
-/// volume.
+/// Linear displacements have the exact gradient at every stress point, and the total mass is
+/// density times volume.
 template <int D>
 void expect_patch_test(const Geometry<D>& geometry) {
   const auto body = test::body_of<D>(geometry);
@@ -340,7 +341,7 @@ TEST(MeshBodies, HaveThePressureOfYoungAndLaplace) {
   expect_young_laplace<3>(4);
 }
 
-/// Row sums of tetrahedra from tools/mesh: few particles, if any, need the floor of the masses.
+/// Row sums of tetrahedra made by tools/mesh: few or no particles need the floor of the masses.
 TEST(MeshBodies, OfCgalHaveRowSumsNearTheirCells) {
   for (const auto& [name, least] : {std::pair("ball_tetrahedra", 0.2), {"red_cell", 0.3}}) {
     const auto body = test::body_of<3>(test::geometry_of_file<3>(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes whose cells do not fill a body once are refused; facets that would fold a cell stay
-// straight.
+// Refuses meshes whose cells overlap or do not form one body. Facets whose curvature would fold a
+// cell stay straight.
 #include "body/grid/straightened_facets.hpp"
 #include "body/surface/surface_points.hpp"
 #include "meniscus/error.hpp"
@@ -42,7 +42,7 @@ void expect_words(const std::string& found, const std::string& words) {
   EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 0) << found;
 }
 
-/// A tetrahedron more, of new nodes or old ones.
+/// An additional tetrahedron, made of new or existing nodes, overlaps with the block.
 TEST(MeshChecks, OverlappingCellsAreRefused) {
   Grid<3> grid = block<3>(2);
   const test::CellList cells = test::simplices_of(grid);
@@ -57,17 +57,18 @@ TEST(MeshChecks, OverlappingCellsAreRefused) {
     return problem_of<3>(other, more);
   };
   EXPECT_EQ(problem_of<3>(grid, cells), "none");
-  // Alone, inside of a cell.
+  // A separate tetrahedron inside a cell.
   const auto tetrahedron = [](const Vec<3>& x, Real size) {
     return std::vector<Vec<3>>{x, x + size * Vec<3>::Unit(0), x + size * Vec<3>::Unit(1),
                                x + size * Vec<3>::Unit(2)};
   };
   expect_words(with(tetrahedron({0.11, 0.12, 0.13}, 0.05), {}), "cells overlap");
-  // Alone, with its corners outside: around the corner of the block, and through it.
+  // Separate tetrahedra with corners outside: one around a corner of the block, one through the
+  // block.
   expect_words(with(tetrahedron({-0.5, -0.5, -0.5}, 9), {}), "overlap");
   expect_words(with({{0.3, 0.4, -3}, {0.35, 0.41, -3}, {0.31, 0.45, -3}, {0.3, 0.4, 3}}, {}),
                "the surface goes through itself");
-  // On a facet of the surface, on the inside; and a copy of a cell.
+  // A tetrahedron on a surface facet that points inwards; and a copy of a cell.
   Grid<3> one = block<3>(1);
   const test::CellList of_one = test::simplices_of(one);
   test::CellList twice = of_one;
@@ -102,7 +103,7 @@ TEST(MeshChecks, OverlappingQuadrilateralsAreRefused) {
   expect_words(problem_of<2>(grid, cells), "the surface goes through itself");
 }
 
-/// Two blocks that have an edge or a corner in common.
+/// Two blocks that share only an edge or a corner are refused.
 TEST(MeshChecks, PartsThatMeetInAnEdgeOrACornerAreRefused) {
   for (const bool corner : {false, true}) {
     Grid<3> grid = block<3>(2);
@@ -126,7 +127,7 @@ TEST(MeshChecks, PartsThatMeetInAnEdgeOrACornerAreRefused) {
   expect_words(problem_of<2>(grid, cells), "parts of the body meet in a corner only");
 }
 
-/// Parts that do not meet are one body, as they were.
+/// Separate parts that do not touch are accepted as one body, without a change.
 TEST(MeshChecks, PartsApartAreNoOverlap) {
   Grid<2> grid = block<2>(3);
   test::CellList cells = test::cells_of(grid);
@@ -138,8 +139,8 @@ TEST(MeshChecks, PartsApartAreNoOverlap) {
   EXPECT_EQ(problem_of<2>(grid, cells), "none");
 }
 
-/// A square with rounded corners: two facets on an arc of radius 0.02, both of one cell, and two on
-/// a side.
+/// A square with rounded corners. Each corner is an arc of radius 0.02 with two facets, which
+/// belong to the same cell. Each side has two facets.
 std::string rounded_square() {
   std::vector<Vec<2>> X;
   const Real r = 0.02;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh files: both formats, orders, orientation, units, and what is refused.
+// Mesh files: both formats, orders, orientation, units, and refused files.
 #include "body/mesh/mesh_file.hpp"
 #include "body/surface/face_cells.hpp"
 #include "body/surface/surface_points.hpp"
@@ -157,7 +157,7 @@ TEST(MeshFiles, EveryFormatIsTheSameSquare) {
   }
 }
 
-/// A ball of second order: the corners of a coarse one with middles on the sphere.
+/// A ball with second-order cells: a coarse ball whose middle nodes lie on the sphere.
 std::string ball_of_second_order(int n, bool simplices, bool as_vtu) {
   Grid<3> grid = test::ball(n, n / 2).grid;
   std::set<Index> surface;
@@ -172,7 +172,8 @@ std::string ball_of_second_order(int n, bool simplices, bool as_vtu) {
                                                   {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}
                : std::vector<std::pair<int, int>>{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
                                                   {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
-  // Edges of the surface bulge; others through the inside of a coarse ball may join its nodes, too.
+  // Only edges of the surface bulge. An edge through the inside may join two surface nodes of a
+  // coarse ball, too.
   std::set<std::pair<Index, Index>> outside;
   find_boundary(grid);
   for (const auto& facet : grid.facets)
@@ -183,7 +184,7 @@ std::string ball_of_second_order(int n, bool simplices, bool as_vtu) {
   std::size_t written = 0;
   for (std::size_t e = 0; e < corners.size(); ++e) {
     std::vector<Index> nodes = corners[e];
-    // Simplices of the test may be left-handed, which the file may be as well.
+    // Simplices of the test grid may be left-handed; mesh files may contain such cells.
     for (const auto& [i, k] : edges) {
       const Index a = at(corners[e], i), b = at(corners[e], k);
       const auto [found, is_new] =
@@ -321,7 +322,7 @@ TEST(MeshFiles, SayWhatIsWrongAndWhere) {
   expect(problem_of("bad.msh", test::msh_of<2>(twice, cells)), "are at the same place");
 }
 
-/// What is wrong with a shape does not make keys of its place unknown.
+/// After a problem with the shape, the keys of placement are not reported as unknown.
 TEST(MeshFiles, OneThatIsMissingIsTheOnlyProblem) {
   const SceneInput scene = SceneInput::from_text(
       "[body]\nshape = 'mesh'\nfile = 'nowhere.msh'\nmove = [1, 0]\nrotate = 30\n");
@@ -338,7 +339,7 @@ TEST(MeshFiles, OneThatIsMissingIsTheOnlyProblem) {
   }
 }
 
-/// Files cut off or changed anywhere are refused or read, and nothing else.
+/// A file that is cut off or changed at any place is read or refused with an InputError.
 TEST(MeshFiles, HarmfulOnesAreRefused) {
   std::mt19937 random(4);
   const std::vector<std::pair<std::string, std::string>> files{{"x.msh", square_41},

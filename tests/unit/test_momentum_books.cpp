@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Momentum and angular momentum against the impulses from outside: exact whatever acts, and what is
-// not accounted for is seen.
+// The balances of momentum and angular momentum with the impulses from outside. They are exact for
+// all loads, and a force that is not reported is detected.
 #include "cases.hpp"
 #include "run/epochs.hpp"
 #include "support.hpp"
@@ -60,7 +60,8 @@ TEST(MomentumBooks, ADeadTractionMovesABlock) {
   run.expect_exact();
 }
 
-/// A block with corners, whose masses are those of the step and of the body, and a drop.
+/// A block with corners, where the masses of the time step differ from the integrals of the
+/// density; and a drop.
 TEST(MomentumBooks, BodiesFallFreely) {
   const Course<2> block(solid(2, "initial_velocity = [\"-0.3*y\", \"0.3*x\"]") +
                             "[[body_force]]\nbody = \"block\"\nacceleration = [0, -1.5]\n",
@@ -118,7 +119,7 @@ TEST(MomentumBooks, GripsMoveAndTurn) {
   run.expect_exact();
 }
 
-/// Damping multiplies the momenta; what is prescribed is not braked.
+/// Damping multiplies the momenta, but does not slow down prescribed motions.
 TEST(MomentumBooks, RelaxationTakesMomentum) {
   const Course<2> run(solid(2, "", "end = 100\nsolver = \"relax\"\n") +
                           "[[held]]\nbody = \"block\"\nface = \"x_min\"\ndisplacement = [0.1, "
@@ -147,7 +148,7 @@ TEST(MomentumBooks, ARemapKeepsThem) {
   EXPECT_LT(epochs.simulation().audit().angular_momentum_error(ledger), 1e-12);
 }
 
-/// A force on one particle that nobody reports.
+/// A force on one particle that is missing in the report.
 class Ghost final : public ForceTerm {
  public:
   std::string name() const override { return "ghost"; }

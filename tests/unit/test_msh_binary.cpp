@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binary files of Gmsh, partitioned ones, and nodes with parameters.
+// Binary files of Gmsh, partitioned meshes, and nodes with parameters.
 #include "body/mesh/mesh_file.hpp"
 #include "body/surface/face_cells.hpp"
 #include "meniscus/error.hpp"
@@ -37,7 +37,7 @@ class Bytes {
 const std::string names =
     "$PhysicalNames\n2\n1 7 \"wet side\"\n2 9 \"inside\"\n$EndPhysicalNames\n";
 
-/// Two quadrilaterals and a named line; coordinates have bytes that are white space.
+/// Two quadrilaterals and a named line. The bytes of the coordinates contain white space.
 std::string square_41() {
   Bytes b;
   b.text("$MeshFormat\n4.1 1 8\n").ints({1}).text("\n$EndMeshFormat\n" + names);
@@ -79,7 +79,8 @@ std::string square_22(bool parametric) {
   return b.all();
 }
 
-/// As Gmsh 4.8 writes nodes with -parametric: one parameter on curves, two on surfaces.
+/// A file that Gmsh 4.8 writes with -parametric: nodes have one parameter on curves, two on
+/// surfaces.
 const std::string parametric_22 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names +
                                   R"($ParametricNodes
 6

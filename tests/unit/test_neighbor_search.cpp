@@ -37,7 +37,7 @@ TYPED_TEST(NeighborSearchTest, FindsWhatBruteForceFinds) {
   constexpr int D = TypeParam::value;
   std::mt19937_64 generator(5);
   auto points = random_cloud<D>(400, generator);
-  for (std::size_t i = 0; i < 60; ++i) points.push_back(points[i]);  // places taken twice
+  for (std::size_t i = 0; i < 60; ++i) points.push_back(points[i]);  // duplicates
   const NeighborSearch<D> search(points);
   std::uniform_real_distribution<Real> size(0, 1.2);
   std::vector<Index> found{1, 2, 3};
@@ -114,7 +114,7 @@ TYPED_TEST(NeighborSearchTest, FollowsAMovedCloud) {
   }
 }
 
-/// A lattice in blocks of `per_block` points that follow each other.
+/// A lattice in blocks of `per_block` consecutive points.
 template <int D>
 std::vector<Vec<D>> lattice_of_blocks(int blocks, int per_side) {
   std::vector<Vec<D>> points;
@@ -133,7 +133,7 @@ std::vector<Vec<D>> lattice_of_blocks(int blocks, int per_side) {
 TYPED_TEST(NeighborSearchTest, FindsTheSameInManyTreesAsInOne) {
   constexpr int D = TypeParam::value;
   std::mt19937_64 generator(9);
-  // Without an order in space, with places taken twice, and a last tree of few points.
+  // An unordered cloud with duplicate points, whose last tree has few points.
   std::vector<Vec<D>> points = random_cloud<D>(400, generator);
   for (std::size_t i = 0; i < 60; ++i) points.push_back(points[i]);
   const NeighborSearch<D> one(points);
@@ -173,7 +173,7 @@ TYPED_TEST(NeighborSearchTest, HasTreesWhereItWasAsked) {
   EXPECT_EQ(search.trees(), 1);
   search.distance_of_nearest(points.back(), 2);
   EXPECT_EQ(search.trees(), 2);
-  search.within(points.back(), 0.7, found);  // reaches the block before
+  search.within(points.back(), 0.7, found);  // reaches the previous block
   EXPECT_EQ(search.trees(), 3);
   search.within(Vec<D>::Constant(1e3), 1, found);
   EXPECT_EQ(search.trees(), 3);

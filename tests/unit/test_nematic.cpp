@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nematics: exact gradients, reaction and torque, transport, exact flows and shapes, and the books
-// of a step.
+// Nematics: exact gradients, reaction and torque, transport, exact flows and shapes, and the energy
+// balance of a step.
 #include "meniscus/error.hpp"
 #include "nematic_scenes.hpp"
 #include "numbers/dense.hpp"
@@ -17,7 +17,7 @@ namespace {
 using test::director_of;
 using test::NematicDrop;
 
-/// A drop without any symmetry: a disturbed cloud, random displacements and directors.
+/// A drop without any symmetry: a disordered cloud with random displacements and directors.
 template <int D>
 struct Disturbed {
   Scene<D> scene;
@@ -51,7 +51,8 @@ struct Disturbed {
     fields.front().x = h;
     return test::director_energy(scene, {0, u, test::zeros(u), fields});
   }
-  /// Forces of the energies of the director on u, and with `reaction` also that.
+  /// Forces of the energies of the director on u; with `reaction`, the reaction of the director is
+  /// added.
   NodalVectors force(bool reaction) {
     NodalVectors f = test::zeros(state.u);
     Unknown& field = state.fields.front();
@@ -71,7 +72,7 @@ struct Disturbed {
 const std::vector<std::string> anchorings{"", "strength = 1.3\nsense = \"polar\"\n",
                                           "strength = 1.3\nsense = \"apolar\"\n"};
 
-/// By central differences of the eighth order.
+/// Derivative by central differences of the eighth order.
 template <class F>
 Real slope(F&& f, Real h) {
   return (4.0 / 5 * (f(h) - f(-h)) - 1.0 / 5 * (f(2 * h) - f(-2 * h)) +
@@ -104,7 +105,7 @@ TEST(Nematic, ForcesAreTheGradientOfTheEnergyInPlacesAndDirectors) {
   expect_gradients<3>();
 }
 
-/// T h = dh/dt where the places move with `v`.
+/// T h = dh/dt if particles have the velocity coefficients `v`.
 template <int D>
 NodalVectors carried_rate(const Body<D>& body, const NodalVectors& u, const NodalVectors& v,
                           const NodalVectors& h, Real lambda, Real nu2) {
@@ -128,9 +129,9 @@ NodalVectors carried_rate(const Body<D>& body, const NodalVectors& u, const Noda
   return rate;
 }
 
-/// The reaction has the power -S.T h of the forces that the director feels, and with it, but not
-/// without, their torque vanishes. Without anchoring there is none: energies in one constant do not
-/// change where all directors turn.
+/// The reaction does the power -S.T h of the forces on the director. Only with the reaction does
+/// the net torque vanish. Without anchoring the torque is zero in any case, since energies with one
+/// constant do not change if all directors rotate together.
 template <int D>
 void expect_reaction() {
   for (const std::string& anchoring : anchorings)
@@ -154,7 +155,7 @@ void expect_reaction() {
         EXPECT_LT(none.torque, 1e-13);
       else
         EXPECT_GT(none.torque, 1e-3);
-      // sum h x S is the torque of the other forces.
+      // The sum of h x S is the torque of the other forces.
       Eigen::Vector3d couple = Eigen::Vector3d::Zero(), torque = couple;
       for (Index A = 0; A < body.size(); ++A) {
         couple -= cross(spatial(at(h, A)), spatial(at(minus_S, A)));
@@ -181,7 +182,7 @@ TEST(Nematic, ItsTransportGoesBackTheWayItCame) {
   EXPECT_LT(test::norm(test::sum_of(x, -1, h)), 1e-13 * test::norm(h));
 }
 
-/// The motion x = A(t) X of all particles.
+/// Displacements of the motion x = A X of all particles.
 template <int D>
 NodalVectors moved(const Body<D>& body, const Mat<D>& A) {
   return test::field_on<D>(body, [&](const Vec<D>& X) { return Vec<D>(A * X - X); });
@@ -192,7 +193,8 @@ Mat<2> sheared(Real t) {
   return A;
 }
 
-/// Without relaxation: the exact solutions of the shear flow v = (y, 0), and Jeffery's period.
+/// Transport without relaxation: exact solutions in the shear flow v = (y, 0), and Jeffery's
+/// period.
 TEST(Nematic, TurnsInAShearFlowAsJefferySays) {
   for (const auto& row : test::cells_reference().at("nematic").at("shear").at("rows")) {
     Disturbed<2> drop("", row.at("lam"), 0);
@@ -217,8 +219,8 @@ TEST(Nematic, TurnsInAShearFlowAsJefferySays) {
   }
 }
 
-/// With relaxation |lambda| > 1 aligns at the Leslie angle, with the length that the penalty
-/// leaves.
+/// With relaxation and |lambda| > 1, the director aligns at the Leslie angle. Its length follows
+/// from the penalty.
 TEST(Nematic, AlignsInAShearFlowAtTheLeslieAngle) {
   const auto& exact = test::cells_reference().at("nematic").at("aligned");
   NematicDrop numbers;
@@ -231,7 +233,7 @@ TEST(Nematic, AlignsInAShearFlowAtTheLeslieAngle) {
   Scene<2> scene = test::scene_of<2>(numbers.scene(2, 4, 2, "end = 1"));
   const Body<2>& body = scene.system.bodies.front();
   CarriedField& director = *scene.system.carried.front();
-  director.set_limit(5e-3);  // both steps in two stages
+  director.set_limit(5e-3);  // so that both steps have two stages
   const auto after = [&](Real dt) {
     NodalVectors h = director_of(scene.initial);
     for (int k = 0; k * dt < 2.999; ++k) {
@@ -249,9 +251,9 @@ TEST(Nematic, AlignsInAShearFlowAtTheLeslieAngle) {
   EXPECT_NEAR(std::atan(fine[1] / fine[0]), exact.at("theta").get<Real>(), 1e-6);
 }
 
-/// A hundred revolutions: the director goes round with the body, without heat. Half-way through a
-/// step of the angle b a body whose particles go straight on is smaller by cos(b/2): |h| is one
-/// there, and 1 + lambda b^2/8 at the ends of the step.
+/// In a hundred revolutions the director follows the body without heat. The middle of a step by the
+/// angle b lies on straight lines between the particle positions, so the body is smaller there by
+/// cos(b/2). The length |h| is one in the middle, and 1 + lambda b^2/8 at the ends of the step.
 TEST(Nematic, GoesRoundWithABodyThatTurns) {
   Disturbed<3> drop("", -1.7, 0);
   const Body<3>& body = drop.scene.system.bodies.front();
@@ -279,7 +281,7 @@ TEST(Nematic, GoesRoundWithABodyThatTurns) {
   EXPECT_LT(heat, 1e-5 * test::director_energy(drop.scene, drop.scene.initial.motion()));
 }
 
-/// The twisted disk of the note, free, with strong coupling.
+/// The free twisted disk of the note, with strong coupling.
 NematicDrop twisted(Real lambda, Real gamma_1 = 0.5) {
   NematicDrop drop;
   drop.lambda = lambda;
@@ -293,7 +295,7 @@ NematicDrop twisted(Real lambda, Real gamma_1 = 0.5) {
   return drop;
 }
 
-/// What the balance is off by in size at most until t = 0.4, and the change of angular momentum.
+/// The largest errors of the balance of energy and of the angular momentum until t = 0.4.
 struct Books {
   Real balance = 0, angular_momentum = 0, exchanged = 0;
   int stages = 0;
@@ -317,8 +319,9 @@ Books books_of(const NematicDrop& drop, const std::string& step) {
   return books;
 }
 
-/// Second order in the step, with as many stages as the director asks for; angular momentum stays.
-/// By default steps are as short as the beginning asks for.
+/// The error of the balance is of second order in the step, with the number of stages that the
+/// director needs. Angular momentum is constant. The default step is short enough for the start of
+/// the motion.
 TEST(Nematic, KeepsTheBooks) {
   for (const auto& drop : {twisted(1), twisted(-2.5), twisted(-1.5, 0.5 / 30)}) {
     const Books coarse = books_of(drop, "step = 1e-3"), fine = books_of(drop, "step = 5e-4"),
@@ -345,8 +348,9 @@ TEST(Nematic, FindsTheRadialDirectorOfADiskAndABall) {
   }
 }
 
-/// Only an estimate in which the director goes along sees the stiffness that it gives to the
-/// places: at K = 20 a uniform director with lambda = -2.5 makes the limit several times shorter.
+/// The director makes the motion stiffer; an estimate of the stable step detects this only if the
+/// director moves in trial displacements. At K = 20, a uniform director with lambda = -2.5 makes
+/// the limit several times shorter.
 TEST(Nematic, TheStableStepTakesTheDirectorAlong) {
   const auto limit = [](Real lambda) {
     NematicDrop drop;
@@ -379,7 +383,7 @@ TEST(Nematic, TheStableStepTakesTheDirectorAlong) {
   EXPECT_LT(limit(-2.5), 0.6 * limit(0));
 }
 
-/// The number of stages grows with the square root of the step over the limit of the field.
+/// The number of stages grows with the square root of step / limit of the field.
 TEST(Nematic, RelaxesInABoundedNumberOfStages) {
   Disturbed<2> drop("");
   CarriedField& field = *drop.scene.system.carried.front();
@@ -398,7 +402,7 @@ TEST(Nematic, RelaxesInABoundedNumberOfStages) {
   }
 }
 
-/// The greatest error of the values of a twisted radial director at the particles.
+/// Largest error of a twisted radial director at the particles.
 template <int D>
 Real error_of_start(int core, int layers) {
   NematicDrop drop;
@@ -424,7 +428,7 @@ Real error_of_start(int core, int layers) {
   return error;
 }
 
-/// With coefficients equal to the formulas the errors are 0.012 and 0.031.
+/// If the formulas gave the coefficients, the errors would be 0.012 and 0.031.
 TEST(Nematic, StartsWithTheValuesOfItsFormulas) {
   EXPECT_LT(error_of_start<2>(4, 2), 2e-3);
   EXPECT_LT(error_of_start<3>(4, 2), 2e-3);
@@ -465,8 +469,8 @@ TEST(Nematic, RefusesWhatCannotBe) {
   }
 }
 
-/// The director of a hedgehog in an axisymmetric flow stays in planes through the axis, so that its
-/// couple h x s is about it.
+/// In an axisymmetric flow, the director of a hedgehog stays in planes through the axis. Its couple
+/// h x s is therefore azimuthal.
 TEST(Nematic, CouplesOfAnAxisymmetricFlowAreAzimuthal) {
   NematicDrop drop;
   drop.lambda = -2;
@@ -485,7 +489,7 @@ TEST(Nematic, CouplesOfAnAxisymmetricFlowAreAzimuthal) {
   for (const BodyField& field : scene.fields)
     if (field.source.name == "director_couple")
       field.source.compute(simulation.state().motion(), m);
-  const auto& x = body.particles.X();  // a flow about the axis leaves them in their planes
+  const auto& x = body.particles.X();  // a flow along the axis keeps directors in their planes
   Real azimuthal = 0, rest = 0;
   for (Index A = 0; A < body.size(); ++A) {
     const Vec<3> couple(at(m, 3 * A), at(m, 3 * A + 1), at(m, 3 * A + 2)),
@@ -498,7 +502,8 @@ TEST(Nematic, CouplesOfAnAxisymmetricFlowAreAzimuthal) {
   EXPECT_LT(std::sqrt(rest / azimuthal), 0.05);
 }
 
-/// h x s is there while the flow turns the director away from its rest, and ends with it.
+/// The couple h x s exists while a flow turns the director away from its equilibrium, and vanishes
+/// with the flow.
 TEST(Nematic, CouplesEndWithTheFlow) {
   NematicDrop drop;
   drop.lambda = -2;

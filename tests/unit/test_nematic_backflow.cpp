@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plane modes of a uniform director and the flow that it drives, with the reaction of the flow.
+// Plane modes of a uniform director with the flow that it drives, including the reaction of the
+// flow.
 #include "cases.hpp"
 #include "cells_reference.hpp"
 #include "kernel/row_sums.hpp"
@@ -17,10 +18,10 @@
 namespace meniscus::test_nematic_backflow {
 namespace {
 
-/// A film between plates x = 0 and x = pi/k that hold the liquid and leave its director free, from
-/// a row of "backflow". The director along x (bend) or y (splay) is tilted by phi cos(kx), and the
-/// velocity is v sin(kx) along y. Both keep this form for any length of the film along y: its ends
-/// may move along y, not along x, and then have no traction.
+/// A film between the plates x = 0 and x = pi/k, from a row of "backflow". The plates hold the
+/// liquid but leave its director free. The director is along x (bend) or y (splay), tilted by phi
+/// cos(kx); the velocity is v sin(kx) along y. Both keep this form for any length of the film along
+/// y. The ends of the film may move along y but not along x, so that they have no traction.
 std::string film(const nlohmann::json& row, int cells, Real phi, Real v) {
   const Real k = row.at("k"), width = std::numbers::pi / k;
   const std::string tilt = fmt::format("\"{}*cos({}*x)\"", phi, k),
@@ -84,7 +85,7 @@ Map map_over(const nlohmann::json& row, int cells, Real end) {
   return map;
 }
 
-/// The greatest error of the rates of a row, over the greatest rate.
+/// Largest error of the rates of a row, relative to the largest rate.
 Real error_of_rates(const nlohmann::json& row, int cells) {
   std::array<std::complex<Real>, 2> exact;
   for (int i = 0; i < 2; ++i)

@@ -27,7 +27,7 @@ TEST(Chunks, FollowFromTheSizeAlone) {
   }
 }
 
-/// A sum so large that it has more than the least number of chunks.
+/// A sum with more rows than the smallest number of chunks covers.
 TEST(Chunks, SumsHaveTheSameBitsForAnyThreads) {
   constexpr Index n = 50 * 2048 + 77;
   const auto sum = [&] {
@@ -52,7 +52,7 @@ std::vector<Index> taken_by_one(Index parts) {
   return taken;
 }
 
-/// Outside of parallel loops the caller is the first thread, and the only one that takes shares.
+/// Outside parallel loops, the caller is the first thread and the only one.
 TEST(LoopShares, GiveAThreadItsOwnPartsFirstAndThenTheEndsOfOthers) {
   const int before = omp_get_max_threads();
   omp_set_num_threads(3);

@@ -136,7 +136,7 @@ TEST(ParticleSet, ParticlesInAPlaneAreRefused) {
   }
 }
 
-/// One layer of cells, of any direction: no support is large enough.
+/// One layer of cells in any direction: no support is large enough for quadratic shape functions.
 TEST(ParticleSet, ParticlesInTwoPlanesAreToldThatTheyNeedAThird) {
   const Vec<3> e = Vec<3>(1, 2, 2) / 3, f = Vec<3>(2, 1, -2) / 3, g = Vec<3>(2, -2, 1) / 3;
   for (const int layers : {2, 3}) {
@@ -165,7 +165,7 @@ TEST(ParticleSet, TwoParticlesInOnePlaceAreNoHarm) {
 }
 
 }  // namespace
-/// For any number of candidates, and after any number before.
+/// The selection is right for any number of candidates, also after calls with other numbers.
 TEST(NearCandidates, AreThoseThatReachOneOfFourPoints) {
   std::mt19937 random(3);
   std::uniform_real_distribution<Real> anywhere(-1, 1), support(0.2, 0.8);

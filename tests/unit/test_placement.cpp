@@ -81,7 +81,7 @@ TEST(Placement, FormulasAreTheMapsOfTheStudies) {
   for (int i = 0; i < 3; ++i) EXPECT_LT((at(found.G, i) - at(expected.G, i)).norm(), 1e-13);
 }
 
-/// Compares places, normals and curvatures of corresponding surface points of two bodies.
+/// Compares positions, normals and curvatures of corresponding surface points of two bodies.
 template <int D>
 void expect_same_surface(const Geometry<D>& a, const Geometry<D>& b) {
   const SurfacePoints<D> p = surface_points(a, 3), q = surface_points(b, 3);

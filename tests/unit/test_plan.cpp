@@ -30,7 +30,7 @@ struct Outcome {
   std::uint64_t snapshot, state, next;
 };
 
-/// The present references of the bodies of a scene.
+/// The references of the bodies of a scene, as a map for build().
 template <int D>
 References<D> references_of(const Scene<D>& scene) {
   References<D> references;
@@ -83,7 +83,7 @@ Real default_support(const std::string& shape, const std::string& material,
   return settings_of<D>(shape, material, more).support_factor.value();
 }
 
-/// Defaults of performance note 3.1.
+/// Default supports of performance note 3.1.
 TEST(Plan, SupportsAreAsWideAsTheirUseAsksFor) {
   const std::string solid = example_solid(),
                     cube = "shape = \"box\"\ncells = [4, 4, 4]\nsize = [1, 1, 1]",
@@ -107,7 +107,7 @@ TEST(Plan, SupportsOfSolidsInSpaceDoNotGrowAtFaces) {
             "neighbours");
 }
 
-/// Default of cells note 6.
+/// Default supports of cells note 6.
 TEST(Plan, SupportsOfNematicsInThePlaneDoNotGrowAtTheSurface) {
   const std::string nematic =
                         "[body.material]\ntype = \"nematic\"\ndensity = 1\nbulk_modulus = 100\n"
@@ -124,7 +124,8 @@ TEST(Plan, SupportsOfNematicsInThePlaneDoNotGrowAtTheSurface) {
   EXPECT_EQ(settings_of<3>(ball + "support_by = \"cells\"\n", example_solid()).support_by, "cells");
 }
 
-/// Supports of a scene are the given multiples, at the surface as well as inside.
+/// Supports of a scene are the given multiples of the diagonals of cells, at the surface and
+/// inside.
 TEST(Plan, SupportsByCellsAreMultiplesOfTheirDiagonals) {
   const SceneInput input = SceneInput::from_text(
       "dimension = 3\n[time]\nend = 1\n[[body]]\nname = \"body\"\nshape = \"box\"\ncells = [3, 3, "

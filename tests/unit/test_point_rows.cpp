@@ -13,8 +13,8 @@ namespace {
 
 constexpr RowContent everything{.value = true, .gradient = true, .hessian = true};
 
-/// Largest errors of value, gradient and Hessian over all monomials up to degree 2 about the point
-/// itself, in units of the spacing h, in which fields are of order one.
+/// Largest errors of value, gradient and Hessian over all monomials up to degree 2 about the point,
+/// in units of the spacing h.
 struct Errors {
   Real value = 0, gradient = 0, hessian = 0;
 };

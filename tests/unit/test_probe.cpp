@@ -85,7 +85,7 @@ fields = ["velocity", "demo_stretch"]
   }
 }
 
-/// Probes at points are columns of the history by default, lines are not.
+/// Probes at points are columns of the history by default; probes along lines are not.
 TEST(Probe, IsInTheHistory) {
   const auto scene = test::scene_of<2>("dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
                                        "[[probe]]\nname = \"p\"\nbody = \"other\"\nat = [2.2, 0]\n"
@@ -96,7 +96,7 @@ TEST(Probe, IsInTheHistory) {
   EXPECT_EQ(scene.lines.front().compute(scene.initial.motion()).size(), 50u);
 }
 
-/// The probe belongs to the body on which it lies, not to the other one.
+/// The probe belongs to the body that contains it, not to the other body.
 TEST(Probe, MovesWithItsBody) {
   meniscus::Run run =
       meniscus::Run::from_text("dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2) +
@@ -108,7 +108,7 @@ TEST(Probe, MovesWithItsBody) {
   EXPECT_EQ(run.measure("q.displacement_x"), 0);
 }
 
-/// A drop that flies and turns: the probe keeps its material point through two remaps.
+/// A drop that flies and rotates: the probe stays at its material point through two remaps.
 TEST(Probe, StaysWhereItIsWhenTheBodyIsReferredAnew) {
   const std::string scene = R"toml(
 dimension = 2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quasi-statics: the preconditioner, equilibria that are known, books, jumps, what is refused.
+// Quasi-statics: the preconditioner, known equilibria, energy balance, jumps, and refused scenes.
 #include "cases.hpp"
 #include "kernel/row_sums.hpp"
 #include "meniscus/error.hpp"
@@ -149,7 +149,8 @@ class DeadLoad final : public ForceTerm {
   NodalVectors load_;
 };
 
-/// The load that holds a body at given displacements brings it there.
+/// Applies the load that is in equilibrium at given displacements, and compares the equilibrium
+/// found.
 template <int D>
 void expect_loaded_brick(const std::string& law) {
   test::OneBody<D> one(D == 3 ? test::brick<D>({4, 2, 3}) : test::brick<D>({6, 4}), law);
@@ -169,7 +170,7 @@ void expect_loaded_brick(const std::string& law) {
   EXPECT_LE(newton.method().iterations(), 10) << law;
   EXPECT_GT(newton.method().stability(), 0.1);
   EXPECT_EQ(newton.jumps(), 0);
-  // Places but for the translation, which is free; where the middle of the target is.
+  // Compares positions up to a translation, which is free.
   Lanes drift = Lanes::zero();
   NodalVectors off(target.size());
   for (Index A = 0; A < one.body().size(); ++A) {
@@ -180,8 +181,9 @@ void expect_loaded_brick(const std::string& law) {
   Real largest = 0;
   for (const NodalVector& w : off)
     largest = std::max(largest, std::sqrt(sum((w - drift) * (w - drift))));
-  // It stops before an iteration that would release 1e-9 of the energy, and what is left then is
-  // the square of a way; iterations converge faster and faster, so that most of it is gone.
+  // Newton's method stops before an iteration that would release less than 1e-9 of the energy. The
+  // remaining energy is the square of the remaining distance. Iterations converge faster and
+  // faster, so that even less is left.
   constexpr Real left = 1e-9;
   const auto potential = [&](const NodalVectors& u) {
     State state = one.state;
@@ -200,7 +202,7 @@ TEST(QuasiStatics, FindsTheStateThatALoadHolds) {
   }
 }
 
-/// A scene in motion.
+/// A scene that has been run to its end.
 template <int D>
 struct Found {
   Scene<D> scene;
@@ -236,8 +238,8 @@ std::string sheet(const std::string& time, const std::string& more) {
 
 const std::string pull = "[[body_force]]\nbody = \"it\"\nacceleration = [\"0.3*x*min(t, 1)\", 0]\n";
 
-/// The work of a dead load that grows is the energy that is stored, the better the shorter the load
-/// steps: to third order.
+/// The booked work of a growing dead load equals the stored energy. The error is of third order in
+/// the load step.
 TEST(QuasiStatics, BooksTheWorkOfLoads) {
   std::vector<Real> errors;
   for (const std::string step : {"0.0625", "0.03125"}) {
@@ -252,7 +254,7 @@ TEST(QuasiStatics, BooksTheWorkOfLoads) {
   EXPECT_NEAR(errors[0] / errors[1], 8, 1.5);
 }
 
-/// Where it comes to does not depend on the way, and is where relaxation comes to.
+/// The equilibrium does not depend on the path: Newton's method and relaxation find the same.
 TEST(QuasiStatics, FindsWhatRelaxationFinds) {
   const std::string steady =
       "[[body_force]]\nbody = \"it\"\nacceleration = [\"0.3*x\", \"-0.1*y\"]\n";
@@ -265,8 +267,8 @@ TEST(QuasiStatics, FindsWhatRelaxationFinds) {
   EXPECT_NEAR(newton.ledger().stored.at("strain") / relaxed.ledger().stored.at("strain"), 1, 1e-6);
 }
 
-/// A soft disk on an adhesive floor, and an adhesive lid that comes near and goes away again. The
-/// disk is guided: a free one rolls to one of several places of rest, which jump at other times.
+/// A soft disk on an adhesive floor, and an adhesive lid that approaches and recedes. The disk is
+/// guided, since a free disk would roll to one of several equilibria, which jump at other times.
 std::string under_a_lid(const std::string& way) {
   return "dimension = 2\n[time]\nsolver = \"newton\"\nend = 4\nstep = 0.25\n"
          "[[body]]\nname = \"it\"\nshape = \"disk\"\nradius = 1\ncore = 4\nrings = 3\n"
@@ -281,9 +283,9 @@ std::string under_a_lid(const std::string& way) {
          "components = [\"x\"]\n";
 }
 
-/// The lid jumps into contact and is pulled off later than it came: the cycle costs work, and the
-/// ledger closes with what both jumps release. Where it does not come so near there is no jump, and
-/// the way back is the way there.
+/// The lid jumps into contact, and is pulled off later than it came. So the cycle costs work, which
+/// equals the energy that both jumps release. If the lid does not come that near, there is no jump,
+/// and the way back equals the way there.
 TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
   Found<2> jumps(under_a_lid("0.42"));
   EXPECT_EQ(jumps.newton().jumps(), 2);
@@ -295,7 +297,8 @@ TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
   Found<2> none(under_a_lid("0.3"));
   EXPECT_EQ(none.newton().jumps(), 0);
   const Ledger with = jumps.ledger(), without = none.ledger();
-  // What both release at the beginning is the same; what the jumps release was supplied by the lid.
+  // Both runs release the same energy at the start. The energy of the jumps was supplied by the
+  // lid.
   const Real released = with.dissipated - without.dissipated;
   EXPECT_NEAR(released, 0.0193, 0.0015);  // with load steps of 0.01
   EXPECT_NEAR(with.external_work, released, 5e-4);
@@ -304,8 +307,9 @@ TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
   EXPECT_GT(jumps.newton().method().stability(), 0);
 }
 
-/// A bar between held ends is stretched: the stress of uniform plane strain, to round-off of what
-/// is left, whatever the grid; the reactions are those of the faces, and their work is the energy.
+/// A bar between held ends is stretched. The stress is the stress of uniform plane strain to the
+/// tolerance, on any grid. The reactions are the forces on the faces, and their work is the stored
+/// energy.
 TEST(QuasiStatics, StretchesAHeldBarUniformly) {
   const auto bar = [](const std::string& step) {
     return Found<2>(
@@ -332,8 +336,8 @@ TEST(QuasiStatics, StretchesAHeldBarUniformly) {
   EXPECT_NEAR(error / finer, 8, 1.5);
 }
 
-/// A strut between clamped ends that are moved together by 1.7 times what it buckles at. All is
-/// perfectly straight, so that no force ever points out of the axis.
+/// A strut between clamped ends that approach each other. The strut is exactly straight, so that
+/// forces never have a component across the axis.
 std::string straight_strut(const std::string& time, const std::string& way) {
   return "dimension = 2\n[time]\n" + time +
          "[[body]]\nname = \"strut\"\nshape = \"rectangle\"\nsize = [10, 0.5]\ncells = [40, 2]\n"
@@ -343,8 +347,8 @@ std::string straight_strut(const std::string& time, const std::string& way) {
          way;
 }
 
-/// Load at which it buckles: Euler's P = E I (2 pi/L)^2, lowered by its shear to P/(1 + P/(5/6 G
-/// A)) (Engesser); and the shortening there.
+/// The buckling load: Euler's P = E I (2 pi/L)^2, lowered by shear to P/(1 + P/(5/6 G A))
+/// (Engesser). buckling_way() is the shortening at this load.
 Real buckling_load() {
   const Real euler = std::pow(2 * std::acos(-1.0) / 10, 2) * std::pow(0.5, 3) / 12;
   return euler / (1 + euler / (5.0 / 6 * 0.5 * 0.5));
@@ -353,9 +357,9 @@ Real buckling_way() {
   return buckling_load() * 10 / 0.5;
 }
 
-/// Beyond it the straight strut is not stable, which iterations from forces along the axis do not
-/// see. The bent one keeps about this load and is deflected by a, (pi a)^2/(4 L) = the shortening
-/// since.
+/// At 1.7 times the buckling shortening, the straight strut is unstable, which iterations with
+/// axial forces do not detect. The bent strut carries about the buckling load. Its deflection a
+/// follows from (pi a)^2/(4 L) = shortening beyond buckling.
 TEST(QuasiStatics, AStraightStrutBuckles) {
   const Real deflection = 2 * std::sqrt(10 * (0.14 - buckling_way())) / std::acos(-1.0);
   Found<2> run(straight_strut("solver = \"newton\"\nend = 1\nstep = 0.125\n",
@@ -371,9 +375,9 @@ TEST(QuasiStatics, AStraightStrutBuckles) {
             run.newton().method().stability());
 }
 
-/// Below it the straight one is stable, and its least stiffness relative to that without a load is
-/// about 1 - P/P_buckling. Newton's method and relaxation, which stays straight beyond it, too, see
-/// the same.
+/// Below the buckling load P_b the straight strut is stable. Its smallest stiffness, relative to
+/// the stiffness without load, is about 1 - P/P_b. Newton's method and relaxation agree. Relaxation
+/// stays straight beyond the buckling load.
 TEST(QuasiStatics, KnowsHowFarAStrutIsFromBuckling) {
   for (const Real share : {0.7, 0.9, 1.7}) {
     const std::string way = "displacement = [" + std::to_string(-buckling_way() * share) + ", 0]\n";
@@ -386,7 +390,7 @@ TEST(QuasiStatics, KnowsHowFarAStrutIsFromBuckling) {
       if (share < 1)
         EXPECT_NEAR(least, 1 - share, 0.05);
       else
-        EXPECT_LT(least, -0.05);  // how far it is below zero is not looked for
+        EXPECT_LT(least, -0.05);  // negative; its exact value is not computed
       EXPECT_NEAR(run.measure("strut.extent_y"), 0.5, 1e-6);
       EXPECT_TRUE(run.notes.empty());
     }
@@ -405,7 +409,7 @@ std::string refusal(const std::string& text) {
 
 TEST(QuasiStatics, RefusesByNameWhatHasNoLeastEnergy) {
   const std::string heading = "dimension = 2\n[time]\nend = 1\nsolver = \"newton\"\n";
-  EXPECT_EQ(refusal(heading + test::one_drop(2)), "");  // it flows
+  EXPECT_EQ(refusal(heading + test::one_drop(2)), "");  // a fluid
   const std::string contact =
       "[[contact]]\nname = \"floor\"\nbodies = [\"it\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\n"
       "partner = { type = \"half_space\", point = [0, -1], normal = [0, 1] }\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fails on one rank fails on all.
+// An exception on one rank is thrown on all ranks.
 #include "meniscus/error.hpp"
 #include "parallel/ranks.hpp"
 #include "some_ranks.hpp"
@@ -13,7 +13,8 @@
 namespace meniscus::test_ranks {
 namespace {
 
-/// Rank 0, which comes first, leaves what it hands out for rank 1.
+/// Ranks run one after the other. Rank 0 stores the values that it hands out, and rank 1 reads
+/// them.
 class Broadcast final : public OneOfRanks {
  public:
   static inline std::deque<std::string> sent;
@@ -29,7 +30,7 @@ class Broadcast final : public OneOfRanks {
   }
 };
 
-/// Both ranks throw `Expected`, with the words of the first, where the first one throws `error`.
+/// Throws `error` on the first rank. Both ranks must throw `Expected` with the words of the first.
 template <class Expected, class Error>
 void expect_on_both(const Error& error, const std::string& words) {
   as_each_of<Broadcast>(2, [&](int rank) {

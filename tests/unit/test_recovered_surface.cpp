@@ -33,7 +33,7 @@ Geometry<D> ellipsoid(int core) {
   }
 }
 
-/// Root mean square errors of places, normals and curvatures, and the error of the area.
+/// Root mean square errors of positions, normals and curvatures, and the error of the area.
 struct Errors {
   Real place = 0, normal = 0, curvature = 0, area = 0;
 };
@@ -49,7 +49,7 @@ Errors errors(int core) {
     const Real w = at(a.area, q);
     total += w;
     other += at(b.area, q);
-    // Distances along the normal count; points may be shifted along the surface.
+    // Only distances along the normal count, since points may be shifted along the surface.
     e.place += w * std::pow(at(a.N, q).dot(at(a.X, q) - at(b.X, q)), 2);
     e.normal += w * (at(a.N, q) - at(b.N, q)).squaredNorm();
     e.curvature += w * std::pow(at(a.grad_N, q).trace() - at(b.grad_N, q).trace(), 2);

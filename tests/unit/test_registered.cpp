@@ -135,8 +135,8 @@ TEST(Registered, TangentsAreTheChangeOfForces) {
   expect_tangents<3>();
 }
 
-/// C v equals the change of the force by the velocity. - C is symmetric and positive. The diagonal
-/// used is at most 1.2 times the exact one.
+/// C v equals the change of the force by the velocity, and C is symmetric and positive. The
+/// diagonal in use is at most 1.2 times the exact one.
 template <int D>
 void expect_viscosity() {
   for_all<D>([](const Case&, Scene<D>& scene) {
@@ -328,7 +328,8 @@ TEST(Registered, SurfaceTensionIsTheSurfaceLawTension) {
   EXPECT_EQ(std::memcmp(one.data(), other.data(), one.size() * sizeof(Lanes)), 0);
 }
 
-/// The field is zero on bodies without it, and adds up if one body has two of the same name.
+/// A field is zero on bodies that have none of this name. Fields of one body with the same name are
+/// added.
 TEST(Registered, FieldsMayBeOfSomeBodiesOnly) {
   const std::string springs = "[[demo_springs]]\nbody = \"other\"\nstiffness = 2\n";
   const std::string bodies = "dimension = 2\ntime = { end = 1 }\n" + test::two_drops(2);

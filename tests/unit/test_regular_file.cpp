@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files without an end are not opened.
+// Files without an end (pipes, devices) are not opened.
 #include "body/mesh/mesh_file.hpp"
 #include "input/regular_file.hpp"
 #include "meniscus/error.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 const std::string content = "what stands in a file";
 
-/// A FIFO without a writer would block for ever, /dev/zero has no end.
+/// A FIFO without a writer would block for ever; /dev/zero has no end.
 TEST(RegularFile, OthersAreRefused) {
   const std::filesystem::path folder =
       std::filesystem::path(test::written("real.msh", content)).parent_path();

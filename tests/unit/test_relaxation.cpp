@@ -14,7 +14,7 @@
 namespace meniscus::test_relaxation {
 namespace {
 
-/// A scene in motion.
+/// A scene and its simulation.
 template <int D>
 struct Relaxed {
   Scene<D> scene;
@@ -64,9 +64,9 @@ class DeadLoad final : public ForceTerm {
   NodalVectors load_;
 };
 
-/// The load that holds a body at given displacements brings it there from rest. The displacements
-/// are symmetric about the planes of the brick, so that no torque acts, and pull in all directions:
-/// bodies compressed by dead loads turn over.
+/// Applies the load that is in equilibrium at given displacements to a body at rest, and compares
+/// the state found. The displacements are symmetric about the planes of the brick, so that there is
+/// no torque. They pull in all directions, since bodies under compressive dead loads turn over.
 template <int D>
 void expect_loaded_brick(const std::string& law) {
   test::OneBody<D> one(D == 3 ? test::brick<D>({4, 2, 3}) : test::brick<D>({6, 4}), law);
@@ -101,9 +101,7 @@ void expect_loaded_brick(const std::string& law) {
   }
   const Ledger last = take_ledger(one.system, one.state);
   EXPECT_GT(last.dissipated, 0.3 * last.external_work);
-  // The load acts at once, with an error of the balance of dt^2/8
-  // f
-  // ^2/m.
+  // The load acts suddenly, which causes an error of the balance of dt^2/8 |f|^2/m.
   EXPECT_LT(std::abs(audit.balance_error(last)), 0.03);
 }
 
@@ -127,8 +125,8 @@ TEST(Relaxation, BodiesWithoutLoadAreAtRestAtOnce) {
   EXPECT_LT(run.simulation.state().step, 100);
 }
 
-/// A drifting body has a constant shape, and the run ends. Under an unbalanced force the run names
-/// the net force.
+/// A body that drifts keeps its shape, so that the run ends. Under an unbalanced force, the run
+/// ends with a message about the net force.
 TEST(Relaxation, RigidDriftIsNoChangeOfShape) {
   const std::string drifting = sheet + "[[body_force]]\nbody = \"it\"\nacceleration = ";
   std::string text = sheet;
@@ -149,7 +147,8 @@ TEST(Relaxation, RigidDriftIsNoChangeOfShape) {
   EXPECT_LT(pulled.simulation.state().step, 2000);
 }
 
-/// No force returns the particles of a fluid to their initial places.
+/// A fluid at rest has its exact shape, although no force returns particles to their initial
+/// positions.
 template <int D>
 void expect_drop_at_rest(const std::string& shape) {
   Relaxed<D> run("dimension = " + std::to_string(D) +
@@ -171,9 +170,9 @@ TEST(Relaxation, DropsComeToRest) {
   expect_drop_at_rest<3>("shape = \"ellipsoid\"\nsemi_axes = [1, 1.2, 1]\ncore = 4\nlayers = 2\n");
 }
 
-/// A drop on a wall that it hardly wets swings for long, and hangs in the air at each turn: nothing
-/// moves then, but the wall bears a force. At rest it bears none, and the drop is as high as by
-/// implicit Euler, which does not swing.
+/// A drop on a wall that it hardly wets swings for long. At each turning point it does not move,
+/// but the wall exerts a force; this is not rest. At rest the wall exerts no force, and the height
+/// equals the result of implicit Euler, which does not swing.
 TEST(Relaxation, DropsDoNotRestWhereTheyTurn) {
   const auto drop = [](const std::string& time) {
     return "dimension = 2\n[time]\n" + time +

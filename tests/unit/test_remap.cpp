@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that are referred anew: what stays to the last bit, to round-off, or with which order.
+// Remaps of bodies: quantities that stay exactly the same, that stay to round-off, and the order of
+// the other errors.
 #include "cases.hpp"
 #include "meniscus/error.hpp"
 #include "nematic_scenes.hpp"
@@ -59,7 +60,7 @@ const char* no_displacement(int D) {
 const char* shear_and_stretch(int D) {
   return D == 3 ? "'0.3*x - y + 0.1*y*z', 'x*y - 0.2*y', 'sin(2*z)'" : "'0.3*x - y', 'x*y - 0.2*y'";
 }
-/// Not affine, and with J between 0.8 and 1.2.
+/// A displacement that is not affine, with J between 0.8 and 1.2.
 const char* bend(int D) {
   return D == 3 ? "'0.1*sin(2*y)', '0.08*cos(2*x)*y', '0.07*x*z'"
                 : "'0.1*sin(2*y)', '0.08*cos(2*x)*y'";
@@ -90,7 +91,7 @@ void expect_equal_energies(const Ledger& a, const Ledger& b, Real tolerance) {
         << kind;
 }
 
-/// A body at u = 0, in motion, is where its reference is.
+/// A remap of a moving body at u = 0 changes nothing.
 template <int D>
 void expect_identity() {
   Epochs<D> epochs = begun<D>(drop<D>(4, no_displacement(D), shear_and_stretch(D)));
@@ -111,7 +112,7 @@ TEST(Remap, OntoTheOwnReferenceIsTheIdentity) {
   expect_identity<3>();
 }
 
-/// A place that is not a number is refused wherever its neighbours are searched.
+/// A position that is NaN or infinite is refused by every search of neighbours.
 template <int D>
 void expect_finite_places() {
   Epochs<D> epochs = begun<D>(drop<D>(4, bend(D), no_displacement(D)));
@@ -137,8 +138,8 @@ TEST(Remap, RefusesPlacesThatAreNotNumbers) {
   expect_finite_places<3>();
 }
 
-/// A rotation and a dilatation, then again: the second time J_0 is not 1, and the surface is one
-/// recovered from facets.
+/// Two remaps of a body that is rotated and dilated. In the second remap J_0 differs from 1, and
+/// the surface is recovered from facets.
 TEST(Remap, OntoThePresentConfigurationOfABodyThatIsOnlyTurnedAndLarger) {
   const char* turned = "'1.1*(0.8*x - 0.6*y) - x', '1.1*(0.6*x + 0.8*y) - y'";
   Epochs<2> epochs = begun<2>(drop<2>(6, turned, shear_and_stretch(2)));
@@ -155,7 +156,7 @@ TEST(Remap, OntoThePresentConfigurationOfABodyThatIsOnlyTurnedAndLarger) {
   EXPECT_LT(std::abs(after.books.remapped - before.books.remapped), 1e-12 * ledger.kinetic);
 }
 
-/// Relative errors of a remap of a bent drop: of energies, and of velocities at material points.
+/// Relative errors of a remap of a bent drop: energies, and velocities at material points.
 struct Errors {
   Real stored, surface, kinetic, velocity;
 };
@@ -198,7 +199,7 @@ Errors errors(int n) {
   return e;
 }
 
-/// The order of an error between two grids, whose spacings have that ratio; it is told.
+/// Prints and returns the order of an error between two grids with this ratio of spacings.
 Real order(const std::string& of, Real ratio, Real coarse, Real fine) {
   const Real p = std::log(coarse / fine) / std::log(ratio);
   fmt::print("remap of a bent drop, {}: {:.2e}, {:.2e}, order {:.2f}\n", of, coarse, fine, p);
@@ -231,7 +232,7 @@ Real energy_along(Epochs<D>& epochs, const NodalVectors& w, Real s) {
   return energy;
 }
 
-/// J_0 differs from cell to cell, and the pressure works on the volume that the surface encloses.
+/// The reference has a different J_0 in each cell, and the pressure works on the enclosed volume.
 TEST(Remap, LeavesForcesThatAreTheGradientOfTheEnergyAndTheStableStep) {
   Epochs<3> epochs = begun<3>(drop<3>(4, bend(3), no_displacement(3)));
   const Real step = epochs.simulation().controller().stable().dt;
@@ -267,7 +268,8 @@ TEST(Remap, ThatFoldsIsRefusedAndTheOldEpochGoesOn) {
   epochs.advance();
 }
 
-/// From a state of each of three epochs on, and back to them.
+/// Restarts from a state of each of three epochs give the same bits; so does a return to earlier
+/// states.
 void expect_same_bits(const std::string& text, Real end) {
   Epochs<2> epochs = begun<2>(text);
   std::vector<Snapshot> states;
@@ -298,7 +300,7 @@ TEST(Remap, GoesOnWithTheSameBitsFromAStateOfAnyEpoch) {
       0.2);
 }
 
-/// A nematic drop with polar anchoring, its director at rest nowhere, in motion.
+/// A moving nematic drop with polar anchoring, whose director is nowhere in equilibrium.
 std::string nematic(int n, const std::string& displacement, const std::string& more = "") {
   test::NematicDrop drop;
   drop.tension = false;
@@ -310,15 +312,16 @@ std::string nematic(int n, const std::string& displacement, const std::string& m
          more;
 }
 
-/// Relative errors of a remap of a bent nematic drop: of its director at material points, and of
-/// the energies of the director.
+/// Relative errors of a remap of a bent nematic drop: the director at material points, and the
+/// energies of the director.
 struct DirectorErrors {
   Real value, energy;
 };
 DirectorErrors director_errors(int n, const std::string& displacement, Real shift) {
   Epochs<2> epochs = begun<2>(nematic(n, displacement));
   const Body<2>& old = epochs.scene().system.bodies.front();
-  // The formulas of the scene as coefficients, which are smoother than those that have its values.
+  // Uses the formulas of the scene as coefficients. These are smoother than the coefficients with
+  // which the field has the values of the formulas.
   std::vector<Real> formulas;
   for (const Vec<2>& X : old.particles.X()) {
     formulas.push_back(0.9 + 0.2 * X[1]);
@@ -360,7 +363,7 @@ TEST(Remap, CarriesTheDirector) {
   EXPECT_GT(order("energy of the director", 2, coarse.energy, fine.energy), 2);
 }
 
-/// The size of cores and the resistance of the director are those of the first reference.
+/// The core length and the resistance of the director still refer to the first reference.
 TEST(Remap, LeavesTheNumbersOfANematic) {
   std::string text = nematic(6, "'0.1*x', '0.1*y'");
   text.replace(text.find("core_length = 0.2"), 17, "core_length = 0.0");
@@ -380,7 +383,7 @@ TEST(Remap, ANematicGoesOnWithTheSameBits) {
   expect_same_bits(nematic(6, bend(2), "[[remap]]\nbody = \"b\"\nat = [0.02, 0.04]\n"), 0.06);
 }
 
-/// The places of a body far from the origin are known to round-off of the distance, not of the
+/// The positions of a body far from the origin have the round-off of this distance, not of a
 /// spacing.
 TEST(Remap, ABodyFarFromTheOriginIsReferredAnew) {
   const std::string far = drop<2>(6, bend(2), shear_and_stretch(2), "");
@@ -390,8 +393,8 @@ TEST(Remap, ABodyFarFromTheOriginIsReferredAnew) {
   EXPECT_EQ(epochs.simulation().state().epoch, 1);
 }
 
-/// A remap in the middle of a motion that is large or small for its particles: what it changes of
-/// the energy, in parts of what was exchanged until then, and the warnings of the run.
+/// A remap in the middle of a motion that is large or small for the particles. `share` is the
+/// change of the energy relative to the energy exchanged before; `warnings` are those of the run.
 struct Remapping {
   Real share;
   std::vector<std::string> warnings;

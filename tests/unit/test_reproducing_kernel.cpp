@@ -13,8 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-/// The reference has a weight w_A in front of each window. Weights are multiples of 0.01; 100 w_A
-/// particles in one place have the same effect, since a common factor cancels.
+/// The reference has a factor w_A in front of each kernel, which is a multiple of 0.01. Placing 100
+/// w_A particles at one position has the same effect, since a common factor cancels.
 template <int D>
 struct Weighted {
   std::vector<Candidate<D>> candidates;
@@ -112,7 +112,8 @@ TEST(ReproducingKernel, LanesDoNotSeeEachOther) {
   expect_equal_lanes<3>();
 }
 
-/// Central differences of values and gradients, at a particle and beside one.
+/// Compares derivatives with central differences of values and gradients, at a particle and beside
+/// one.
 template <int D, int Degree>
 void expect_derivatives() {
   const auto candidates = lattice<D>(5, Degree == 3 ? 3.6 : 2.7);
@@ -144,7 +145,7 @@ TEST(ReproducingKernel, DerivativesAreThoseOfTheValues) {
 }
 
 TEST(ReproducingKernel, QualityIsZeroOrWorseWhereNothingIsDetermined) {
-  // All particles lie in a plane: fields of z cannot be reproduced.
+  // All particles lie in a plane, so that functions of z cannot be reproduced.
   std::vector<Candidate<3>> flat;
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Even places for nodes in a deformed body: patches, volume, the contact line, energy, distortion.
+// Reseeding of a deformed body: patches, volume, contact line, energy, distortion.
 #include "body/surface/quadratic_surface.hpp"
 #include "body/surface/surface_points.hpp"
 #include "remap/distortion.hpp"
@@ -35,7 +35,7 @@ Geometry<D> ellipsoid(int core) {
   }
 }
 
-/// The same body, its surface patches through exact points.
+/// A body with the same cells, whose surface patches go through exact points.
 template <int D>
 Geometry<D> patched(const Geometry<D>& exact) {
   const PatchNodes<D> numbered(exact.grid);
@@ -47,7 +47,7 @@ Geometry<D> patched(const Geometry<D>& exact) {
   return quadratic_geometry<D>(exact.grid, points);
 }
 
-/// Root mean square errors of places, normals and curvatures, and the error of the area.
+/// Root mean square errors of positions, normals and curvatures, and the error of the area.
 struct Errors {
   Real place = 0, normal = 0, curvature = 0, area = 0;
 };
@@ -151,20 +151,20 @@ Epochs<D> begun(const std::string& text) {
   return epochs;
 }
 
-/// Stretched by 2 and 1/2 (3D: by 1.6 and, twice, 0.79), and bent.
+/// Displacements that stretch a drop by 2 and 1/2 (3D: by 1.6 and, twice, 0.79) and bend it.
 template <int D>
 std::string stretched() {
   return D == 3 ? "'0.6*x', '-0.21*y', '-0.21*z + 0.1*x^2'" : "'x', '-0.5*y + 0.1*x^2'";
 }
 
-/// Of what is known of a drop before it is referred anew.
+/// New node positions of a drop in its present configuration.
 template <int D>
 Seeds<D> seeds_of(const Epochs<D>& epochs, const std::optional<ContactLine<D>>& line = {}) {
   const Body<D>& body = epochs.scene().system.bodies.front();
   return reseeded(body, epochs.simulation().state().u.data(), body.geometry.grid, line, 0);
 }
 
-/// Largest over least area of the facets.
+/// Ratio of the largest to the smallest area of facets.
 template <int D>
 Real unevenness(const Geometry<D>& geometry) {
   const SurfacePoints<D> points = surface_points(geometry, 3);
@@ -177,7 +177,7 @@ struct Jump {
   Real surface, kinetic;
 };
 
-/// What energies change by, relative to themselves, when a stretched drop is referred anew.
+/// Relative changes of energies by a remap of a stretched drop.
 template <int D>
 Jump jump(int n) {
   Epochs<D> epochs = begun<D>(drop<D>(n, stretched<D>()));
@@ -209,7 +209,7 @@ void expect_small_jumps(int n, int finer, Real least_order) {
       "reseeded drop, {}D: surface energy {:.2e}, {:.2e}, order {:.2f}; kinetic {:.2e}, {:.2e}\n",
       D, coarse.surface, fine.surface, order, coarse.kinetic, fine.kinetic);
   EXPECT_GT(order, least_order);
-  EXPECT_LT(std::max(coarse.kinetic, fine.kinetic), 1e-3);  // coefficients of rough velocities
+  EXPECT_LT(std::max(coarse.kinetic, fine.kinetic), 1e-3);  // velocity coefficients are rough
 }
 
 TEST(Reseed, KeepsVolumeAndMomentaAndEnergyWithHighOrder) {
@@ -217,7 +217,7 @@ TEST(Reseed, KeepsVolumeAndMomentaAndEnergyWithHighOrder) {
   expect_small_jumps<3>(4, 6, 2.5);
 }
 
-/// A ball that is wetted up to a height: one ring of nodes lies there, evenly.
+/// A ball that is wetted up to a given height: a ring of evenly spaced nodes lies at this height.
 TEST(Reseed, PutsARingOfNodesOnTheContactLine) {
   constexpr Real level = 0.3;
   const Epochs<3> epochs = begun<3>(drop<3>(6, "0, 0, 0"));
@@ -273,8 +273,8 @@ body = "drop"
                      D == 3 ? "'0.3*x', '0.3*y', '-0.4*z'" : "'0.4*x', '-0.28*y'", remap);
 }
 
-/// The flat face stays flat and its edge sharp, with the same nodes on it, and a restart builds the
-/// same body.
+/// The flat face stays flat and its edge sharp, with the same nodes. A restart builds the same
+/// body.
 template <int D>
 void expect_edge_kept(int n, const std::string& remap) {
   const std::string text = half_drop<D>(n, remap);
@@ -320,14 +320,14 @@ TEST(Reseed, KeepsTheEdgeOfAFlatFace) {
   expect_edge_kept<3>(4, "at = [1e-3]\nnodes = \"particles\"");
 }
 
-/// Stretches 2, 1/2 and 1, then a rotation by an angle with the cosine 0.8.
+/// The stretches are 2, 1/2 and 1, followed by a rotation by an angle with the cosine 0.8.
 TEST(Reseed, FindsTheConditionOfAHomogeneousDeformation) {
   const Epochs<3> epochs = begun<3>(drop<3>(4, "'1.6*x - 0.3*y - x', '1.2*x + 0.4*y - y', '0'"));
   const Body<3>& body = epochs.scene().system.bodies.front();
   EXPECT_NEAR(Distortion<3>(body).condition(epochs.simulation().state().u.data()), 4, 1e-9);
 }
 
-/// A drop that is drawn out is referred anew by itself, and from any state on with the same bits.
+/// A drop that is drawn out is remapped automatically. Restarts from any state give the same bits.
 TEST(Reseed, IsDoneWhenTheConditionIsReachedAndRestartsWithTheSameBits) {
   const std::string text =
       drop<2>(6, "'0.6*x', '-0.375*y'") + "[[remap]]\nbody = \"drop\"\ncondition = 2\n";

@@ -115,7 +115,7 @@ TEST(RigidPartner, RepelsPointsThatCameThrough) {
   expect_continuation<3>();
 }
 
-/// U grows along a path through the surface.
+/// U increases along a path through the surface.
 template <int D>
 void expect_growing(const RigidPartner<D>& partner, Vec<D> from, Vec<D> direction, Real sigma0) {
   Real before = 0;

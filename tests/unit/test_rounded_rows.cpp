@@ -53,8 +53,8 @@ TEST(RoundedRows, KeepTheGradientsOfQuadraticFields) {
   expect_polynomials<3>(test::brick<3>({7, 6, 7}, 0.3));
 }
 
-/// Stresses P with P F^T symmetric exert no force and no moment on a body that is far from its
-/// reference: bent, turned by a right angle and moved.
+/// Stresses P with symmetric P F^T have no net force and no net moment on a body that is far from
+/// its reference: bent, rotated by a right angle and moved.
 TEST(RoundedRows, KeepMomentumAndAngularMomentum) {
   const auto body = test::body_of<3>(test::brick<3>({7, 6, 7}, 0.3));
   const CellRule<3> rule = build_cell_rule(*body, RowPrecision::rounded).rule;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program as a library: names, units, errors, and the same numbers as a simulation in its own
-// dimension.
+// The program as a library: names, units, errors, and the same numbers as a Simulation.
 #include "meniscus/error.hpp"
 #include "meniscus/run.hpp"
 #include "run/simulation.hpp"
@@ -41,7 +40,7 @@ TEST(Run, FieldsHaveANumberForEveryParticleAndComponent) {
     const Field field = run.field("drop", name);
     EXPECT_EQ(field.values.size(), particles * static_cast<std::size_t>(field.components)) << name;
   }
-  // The body is at rest in its reference: no displacement, F = I, places within the ellipse.
+  // The body is at rest in its reference: no displacement, F = I, positions within the ellipse.
   for (const double u : run.field("drop", "displacement").values) EXPECT_EQ(u, 0);
   for (const double J : run.field("drop", "J").values) EXPECT_NEAR(J, 1, 1e-14);
   const auto x = run.field("drop", "position").values;

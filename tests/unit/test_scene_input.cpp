@@ -314,7 +314,7 @@ TEST(Scenes, AreComparedKeyByKey) {
       "title = \"a\"\n[units]\nsystem = \"SI\"\n[[body]]\nname = \"one\"\nsize = [1, 2]\n"
       "[body.material]\nmu = 1\n[[body]]\nname = \"two\"\n";
   EXPECT_TRUE(differing_keys(scene, scene).empty());
-  // Order, spelling of numbers, comments and white space do not count.
+  // The order of keys, the notation of numbers, comments and white space do not matter.
   EXPECT_TRUE(differing_keys(scene,
                              "# a copy\nbody = [{ material = { mu = 1.0 }, size = [1.0, 2e0], "
                              "name = 'one' }, { name = \"two\" }]\nunits.system = \"SI\"\n"

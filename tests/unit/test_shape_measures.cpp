@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extents of bodies that are turned by affine initial displacements, which are exact.
+// Extents of bodies that are rotated by affine initial displacements.
 #include "meniscus/run.hpp"
 
 #include <fmt/core.h>

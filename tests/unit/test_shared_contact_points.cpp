@@ -36,8 +36,8 @@ NodalVectors force_of(ForceTerm& contact, const NodalVectors& u) {
   return force;
 }
 
-/// Two contacts of the same bodies with different weights share points: each has the force that it
-/// has alone.
+/// Two contacts of the same bodies with different weights share their points. Each has the same
+/// force as without the other.
 template <int D>
 void expect_force_of_one_alone(ContactForm form) {
   const ContactLaw law = test::law<D>();
@@ -67,7 +67,7 @@ TEST(SharedContactPoints, GiveEachContactTheForceThatItHasAlone) {
   }
 }
 
-/// Each rank moves the points whose forces it adds up, with the same bits as if it moved all.
+/// Each rank moves the points whose forces it adds up. The bits are the same as if it moved all.
 TEST(ContactPoints, OfAListAreDividedBetweenRanks) {
   const auto pair = test::round_pair<3>(0.35);
   const NodalVectors u = pair.random(0.05, 3);
@@ -111,7 +111,7 @@ ContactPlaces<3> cloud(Real from, Real to, int count, std::mt19937& generator) {
   return places;
 }
 
-/// Clouds apart, side by side and overlapping.
+/// Tests clouds that are apart, side by side and overlapping.
 TEST(Gap, IsTheLeastDistanceOfAnyTwoPoints) {
   std::mt19937 generator(5);
   for (const Real away : {3.0, 1.0, 0.9, 0.3, 0.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Operations on four lanes that some processors have as instructions, and plain C++ elsewhere.
+// Operations on four lanes that use instructions of some processors, and plain C++ on others.
 #include "numbers/dense.hpp"
 #include "numbers/simd.hpp"
 

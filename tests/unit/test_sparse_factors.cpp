@@ -46,7 +46,8 @@ Grid<D> lattice(const std::array<Index, D>& cells) {
   return grid;
 }
 
-/// Nodes of a cell are connected by springs of different stiffness, and to the ground by weak ones.
+/// A matrix of springs: nodes of a cell are connected by springs of different stiffness, and all
+/// nodes to the ground by weak springs.
 template <int D>
 std::vector<MatrixEntry> springs(const Grid<D>& grid) {
   std::vector<MatrixEntry> entries;

@@ -7,7 +7,7 @@
 namespace meniscus::test_step_error {
 namespace {
 
-/// A body compressed so fast that it folds within the first step, even if halved six times.
+/// A body compressed so fast that it folds within the first step, even if this is halved six times.
 const char* pressed = R"toml(
 dimension = 2
 [time]

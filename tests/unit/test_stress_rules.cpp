@@ -34,8 +34,8 @@ TEST(CellRule, MatchesReferenceOnALattice) {
     SCOPED_TRACE(test.at("name").get<std::string>());
     const auto& value = test.at("value");
     const Index cell = number_at(test.at("inputs").at("node"));
-    // The reference has 5 x 5 points in each part of a facet. Where cells go on beyond the
-    // particle, we have 2 x 2 in all: BelongsToTheSamplesOfACube tests these to rounding.
+    // The reference has 5 x 5 points in each part of a facet. The rule has 2 x 2 points in all if
+    // cells continue beyond the particle; BelongsToTheSamplesOfACube tests these to rounding.
     const bool inside = at(body.particles.X(), cell) == Vec<3>(1, 1, 1);
     const Real tolerance_a = test.at("tolerance").at("a"),
                tolerance_B = test.at("tolerance").at("B").get<Real>() * (inside ? 4 : 1);
@@ -55,8 +55,8 @@ TEST(CellRule, MatchesReferenceOnALattice) {
   }
 }
 
-/// The cell inside a lattice is a cube: 2 x 2 Gauss points in its facets and the 14 points of
-/// Irons.
+/// The nodal cell inside a lattice is a cube. It has 2 x 2 Gauss points per facet and the 14 points
+/// of Irons.
 TEST(CellRule, BelongsToTheSamplesOfACube) {
   Brick<3> shape;
   shape.size = shape.cells = {4, 4, 4};
@@ -168,7 +168,7 @@ Real gather_error(const Rule& rule, const Body<D>& body, Place&& place) {
   return worst;
 }
 
-/// With the points of loads on the boundary and with few.
+/// Tests the rule with the boundary points of loads, and with few boundary points.
 template <int D>
 Real cell_rule_error(Geometry<D> geometry) {
   const auto body = test::body_of<D>(std::move(geometry));
@@ -246,7 +246,7 @@ void expect_moments(Geometry<D> geometry) {
 }
 
 /// In 2D a cell has three stress points. The fourth lane repeats one of them, so that it is folded
-/// or not finite only where a stress point is.
+/// or NaN only if a stress point is.
 TEST(CellRule, RepeatsAPointWhereALaneIsLeft) {
   const auto body = test::body_of<2>(test::disk(4, 2));
   const CellRule<2> rule = build_cell_rule(*body).rule;
@@ -327,8 +327,8 @@ std::vector<Vec<D>> boundary_fluxes(const Body<D>& body) {
   return flux;
 }
 
-/// A constant stress pulls at the boundary alone: f_A = -P oint N_A N dA, zero for particles that
-/// do not reach it.
+/// A constant stress has forces at the boundary only: f_A = -P oint N_A N dA, which is zero for
+/// particles whose supports do not reach the boundary.
 template <int D>
 void expect_linear_patch(Geometry<D> geometry) {
   const auto body = test::body_of<D>(std::move(geometry));

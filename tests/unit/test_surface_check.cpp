@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces that go through themselves or each other are found, with the place known by hand; those
-// that touch, enclose each other or bend are not.
+// Surfaces that pass through themselves or each other are detected, at a place known by hand.
+// Surfaces that touch, enclose each other or bend are accepted.
 #include "body/particle_values.hpp"
 #include "contact_support.hpp"
 #include "physics/surface/surface_check.hpp"
@@ -63,7 +63,7 @@ TEST(Crossings, OfTwoTriangles) {
   EXPECT_FALSE(crossing_of<3>(fan, {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, 2}}));
 }
 
-/// The search by boxes finds what a comparison of all pairs finds, wherever the surfaces have gone.
+/// The search by boxes finds the same crossings as a comparison of all pairs, for any positions.
 TEST(Crossings, BoxesMissNothing) {
   const auto ball = test::with_mass<3>(test::ball(4, 2));
   const auto simplices = triangulate_boundary(ball->geometry.grid);
@@ -93,7 +93,7 @@ std::optional<Failure> check(std::vector<const Body<D>*> bodies, const NodalVect
   return surfaces.find({0, u, v});
 }
 
-/// Coefficients whose places are x(X).
+/// Coefficients for which the material points have the positions x(X).
 template <int D, class Place>
 NodalVectors moved(const Body<D>& body, Place&& place) {
   const NodalVectors goal =
@@ -141,8 +141,8 @@ TEST(SurfaceCheck, ABallMayLieInACavityButNotInItsWall) {
   }
 }
 
-/// A bar bent to a circle, and a little more: its end goes into its beginning, half of its
-/// thickness farther out.
+/// A bar bent to a circle and a little more: its end runs into its beginning, half of its thickness
+/// farther out.
 TEST(SurfaceCheck, ABarBentBeyondACircle) {
   const auto bar = test::with_mass<2>(test::brick<2>({40, 2}));
   for (const Real turns : {0.5, 0.9, 0.96, 1.05, 1.3}) {
@@ -167,13 +167,13 @@ TEST(SurfaceCheck, AFaceThatIsTurnedInsideOut) {
   EXPECT_FALSE(check<2>({disk.get()}, moved<2>(*disk, [](const Vec<2>& X) {
                           return Vec<2>(-X[0], -X[1]);  // half a turn
                         })));
-  // Places that are not numbers enclose nothing.
+  // Positions that are NaN enclose nothing.
   NodalVectors u = moved<2>(*disk, [](const Vec<2>& X) { return X; });
   u[0] = Lanes(std::numeric_limits<Real>::quiet_NaN());
   EXPECT_TRUE(check<2>({disk.get()}, u));
 }
 
-/// The inner face of a ring, whose places go through the centre.
+/// The inner face of a ring is pushed through the centre.
 TEST(SurfaceCheck, ARingWhoseInnerFaceIsPushedThroughItself) {
   Ring shape;
   shape.radius = 1;
@@ -182,7 +182,7 @@ TEST(SurfaceCheck, ARingWhoseInnerFaceIsPushedThroughItself) {
   shape.around = 60;
   const auto ring = test::with_mass<2>(shape.geometry());
   for (const Real flat : {0.2, 0.02, -0.2}) {
-    // Squeezed between two sides, as by hands: the inner face is at +-flat in the middle.
+    // Squeezed between two sides: the inner face is at +-flat in the middle.
     const auto failure = check<2>({ring.get()}, moved<2>(*ring, [&](const Vec<2>& X) {
                                     const Real squeeze =
                                         std::exp(-std::pow(X[0] / 0.4, 2)) * (0.7 - flat);

@@ -72,7 +72,7 @@ TEST(SurfaceLaws, EnergiesAreThoseOfStrainAlone) {
 }
 
 /// The heat of a growing ball is 4 kappa area rate^2 (2D: (mu + kappa) length rate^2). A rotating
-/// body, deformed in any way, has no heat.
+/// body has no heat, however it is deformed.
 template <int D>
 void expect_viscosity() {
   const auto body = test::body_of<D>([] {
@@ -113,7 +113,8 @@ TEST(SurfaceLaws, ViscosityIsObjectiveAndHeats) {
   expect_viscosity<3>();
 }
 
-/// All rows of the disk; for the ball one row of every law. The verification tests the whole table.
+/// Tests all rows for the disk, and one row per law for the ball. The verification tests the whole
+/// table.
 TEST(SurfaceLaws, BallsAndDisksRestAtTheirExactRadius) {
   int balls = 0;
   for (const auto& row : test::cells_reference().at("surface").at("ball_radial").at("rows")) {
@@ -254,8 +255,8 @@ TEST(SurfaceLaws, UnstableSkinsNeedAStiffBody) {
   EXPECT_NE(with(liquid, "lambda = 1\nmu = -0.01\n"), "");
 }
 
-/// All tables together give the surface of a fluid a negative tension, which is refused; a solid
-/// holds it.
+/// The surface laws of a fluid together have a negative tension, which is refused. A solid can bear
+/// it.
 TEST(SurfaceLaws, TensionsOfFluidsAreNowhereNegative) {
   const std::string heading = "dimension = 3\n[time]\nend = 1\n" + test::ball_of(3, 2, 2),
                     liquid =

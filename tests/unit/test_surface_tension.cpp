@@ -105,7 +105,7 @@ TEST(SurfaceTension, AreasOfRoundBodies) {
   EXPECT_NEAR(measure(*tension<2>(*round, Form::weak), "area", still), 2 * M_PI, 1e-6);
 }
 
-/// Shape functions reproduce a map of degree 2, so that the force belongs to the exact curvature.
+/// Shape functions reproduce a map of degree 2, so that the force has the exact curvature.
 template <int D>
 void expect_exact_curvature(Geometry<D> geometry, Real tolerance) {
   const auto body = test::body_of<D>(std::move(geometry));

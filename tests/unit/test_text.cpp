@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts as terminals and people can read them.
+// Texts prepared for terminals and readers.
 #include "input/text.hpp"
 
 #include <gtest/gtest.h>

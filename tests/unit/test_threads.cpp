@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same bits for any number of threads: each force term, and a small run.
+// Each force term and a small run give the same bits for any number of threads.
 #include "physics/internal/coefficient_damping.hpp"
 #include "physics/loads/body_force.hpp"
 #include "physics/surface/surface_tension.hpp"
@@ -14,7 +14,7 @@
 namespace meniscus::test_threads {
 namespace {
 
-/// Runs f with that many threads.
+/// Runs f with the given number of threads.
 template <class F>
 auto with_threads(int threads, F&& f) {
   const int before = omp_get_max_threads();

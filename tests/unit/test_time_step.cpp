@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stable step against dense eigenvalues, and against what central differences really do.
+// The stable step against dense eigenvalues, and against the growth of actual runs.
 #include "meniscus/error.hpp"
 #include "one_body.hpp"
 #include "physics/internal/coefficient_damping.hpp"
@@ -106,7 +106,8 @@ TEST(StableStep, FollowsADeformedState) {
 }
 
 TEST(StableStep, DoesNotDependOnHowLongTheModeHasBecome) {
-  // Iterations lengthen the mode by a per cent or so: without bounds it overflows in a long run.
+  // Iterations lengthen the mode by about a per cent. Without normalisation it would overflow in a
+  // long run.
   OneBody<3> one(test::ball(2, 1), "neo_hookean");
   StableStepEstimator<3> estimator(one.system);
   const Real first = estimator.estimate(one.state).dt;
@@ -120,7 +121,7 @@ TEST(StableStep, DoesNotDependOnHowLongTheModeHasBecome) {
     for (const Real w : mode()) size = std::max(size, std::abs(w));
     return size;
   };
-  // Without its quotient the mode is looked for again.
+  // A mode_limit of 0 makes the estimator search the mode again.
   const auto begin_with = [&](const std::vector<Real>& start) {
     Snapshot kept;
     kept.add_reals("mode", start);
@@ -167,7 +168,7 @@ TEST(StableStep, IsLookedForAgainWhereItsModeHasChanged) {
   EXPECT_NEAR(pressed.dt, anew.dt, 0.01 * anew.dt);
 }
 
-/// Has no force, but knows how often it was asked.
+/// A term without a force that counts the calls of add_force().
 class Counter final : public ForceTerm {
  public:
   explicit Counter(int& calls) : calls_(calls) {}
@@ -183,8 +184,8 @@ class Counter final : public ForceTerm {
   int& calls_;
 };
 
-/// The steps up to `last` before which the stable step is estimated again, of a body that does not
-/// deform but at `pressed_at`.
+/// The steps up to `last` at which the stable step is estimated again. The body deforms only at the
+/// step `pressed_at`.
 std::vector<std::int64_t> steps_of_estimates(std::int64_t last, std::int64_t pressed_at) {
   OneBody<3> one(test::ball(3, 2), "neo_hookean", "density = 1\nmu = 1\nlambda = 1\n");
   int calls = 0;
@@ -208,11 +209,12 @@ std::vector<std::int64_t> steps_of_estimates(std::int64_t last, std::int64_t pre
 
 TEST(StepController, AsksTwiceAsFarApartWhereNothingChanges) {
   EXPECT_EQ(steps_of_estimates(400, -1), (std::vector<std::int64_t>{5, 15, 35, 75, 155, 255, 355}));
-  // A change that does not show in the limit: half as far again as before.
+  // After a change that does not affect the limit, the interval grows by the factor 1.5 instead of
+  // 2.
   EXPECT_EQ(steps_of_estimates(150, 12), (std::vector<std::int64_t>{5, 15, 30, 52, 85, 135}));
 }
 
-/// No number on particle 3 once it is broken.
+/// A force that is NaN on particle 3 when `broken` is true.
 class Brittle final : public ForceTerm {
  public:
   explicit Brittle(const bool& broken) : broken_(broken) {}
@@ -240,7 +242,7 @@ TEST(StableStep, IsNotThatOfBeforeWhereAResponseIsNoNumber) {
   EXPECT_THROW(estimator.estimate_again(one.state, found), SolveError);
 }
 
-/// A wedge of two slopes under each of two particles.
+/// A ridge between two slopes under each of two particles: the force jumps at u = 0.
 class Ridge final : public ForceTerm {
  public:
   std::string name() const override { return "ridge"; }
@@ -270,18 +272,18 @@ TEST(StableStep, IsNotThatOfAJumpOfTheForce) {
   start(one.system, one.state);
   const Real again = estimator.estimate_again(one.state, smooth).dt,
              anew = StableStepEstimator<3>(one.system).estimate(one.state).dt;
-  for (const Real found : {again, anew}) {  // what is left of the jump shortens it a little
+  for (const Real found : {again, anew}) {  // the jump still shortens the step a little
     EXPECT_LT(found, 1.01 * exact);
     EXPECT_GT(found, 0.95 * exact);
   }
-  // Of a term that does not say so all that is seen is its stiffness.
+  // A term can jump without announcing it. The jump then looks like a large stiffness.
   ridge.may_jump = false;
   EXPECT_LT(StableStepEstimator<3>(one.system).estimate(one.state).dt, 0.1 * exact);
 }
 
 TEST(StableStep, FindsAModeFarFromTheOneItHad) {
-  // A bar that is thinned at its left end, where its critical mode is, and then more and more at
-  // its right end. Far from the critical mode nothing of it is seen.
+  // The bar is first thinned at its left end, where its critical mode then is, and after that more
+  // and more at its right end. These changes are invisible near the old critical mode.
   OneBody<2> one(test::brick<2>({24, 4}, 0.2), "neo_hookean", "density = 1\nmu = 1\nlambda = 1\n");
   StableStepEstimator<2> estimator(one.system);
   const auto press = [&](Real right) {
@@ -304,9 +306,9 @@ TEST(StableStep, FindsAModeFarFromTheOneItHad) {
   EXPECT_LT(found.dt, 0.7 * first);
 }
 
-/// A brick without any irregularity is pressed across more and more, and along less and less: its
-/// critical mode comes to be one of another symmetry, of which the mode before has no part. The
-/// mode before has what round-off left in it, and the response that tells of the change is rough.
+/// A perfectly regular brick is pressed more and more across and less and less along. Its critical
+/// mode changes to one of another symmetry, which the old mode does not contain except for
+/// round-off. The change is detected by the response to a rough displacement.
 TEST(StableStep, FollowsAModeThatChangesItsSymmetry) {
   OneBody<2> one(test::brick<2>({12, 6}), "neo_hookean", "density = 1\nmu = 1\nlambda = 1\n");
   StableStepEstimator<2> estimator(one.system);
@@ -333,8 +335,8 @@ TEST(StableStep, CountsStiffSurfaces) {
   EXPECT_NEAR(StableStepEstimator<2>(one.system).estimate(one.state).dt, exact, 0.01 * exact);
 }
 
-/// Largest velocity in `steps` steps from tiny disturbances, in units of the first one; infinite if
-/// the run broke down. (A drop that has blown up may come to rest in another shape.)
+/// Largest velocity in `steps` steps from tiny disturbances, relative to the first velocity.
+/// Infinite if the run failed. (A drop that has blown up may come to rest in another shape.)
 template <int D>
 Real growth(OneBody<D> one, Real dt, int steps) {
   one.state.v = test::random_field<D>(one.system.size(), 1e-9, 5);
@@ -369,7 +371,7 @@ TEST(StableStep, IsWhereCentralDifferencesBlowUp) {
   expect_sharp_limit<3>(test::ball(2, 1), "mooney_rivlin", test::law_texts().at("mooney_rivlin"));
 }
 
-/// A fluid whose stable step is that of the damping of its coefficients.
+/// A fluid whose stable step is limited by the damping of its coefficients.
 template <int D>
 OneBody<D> damped(Geometry<D> geometry) {
   OneBody<D> one(std::move(geometry), "newtonian", mixed);
@@ -378,7 +380,8 @@ OneBody<D> damped(Geometry<D> geometry) {
   return one;
 }
 
-/// Moving bodies have the same step: that damping is no smooth function of u at u = 0, but at rest.
+/// Moving bodies have the same step. (At u = 0, the damping is a smooth function of u only if v =
+/// 0.)
 template <int D>
 void expect_step_of_damping(const Geometry<D>& geometry) {
   OneBody<D> undamped(geometry, "newtonian", mixed), one = damped<D>(geometry);
@@ -432,7 +435,7 @@ TEST(StepController, ArrivesExactlyAndRefusesAboveTheLimit) {
   }
   EXPECT_EQ(one.state.time, end);
   EXPECT_EQ(steps, 13);
-  EXPECT_GT(shortest, 0.35 * limit);  // no sliver at the end
+  EXPECT_GT(shortest, 0.35 * limit);  // the last steps are not tiny
 
   StepController<2> good(one.system, {0.95 * limit, 0.8, 100});
   EXPECT_NO_THROW(good.begin(one.state));

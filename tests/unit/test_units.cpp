@@ -77,7 +77,7 @@ TEST(Units, QuantitiesInSiAreTheNearestDoubles) {
   EXPECT_EQ(si.quantity("0.5", none), 0.5);
 }
 
-/// Angles are numbers of radians, but where degrees are expected; "2 rad/s" is a rate.
+/// Angles are in radians, except where degrees are expected; "2 rad/s" is a rate.
 TEST(Units, Angles) {
   const UnitSystem si, nano("nm-ps-ag");
   for (const UnitSystem* units : {&si, &nano}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of VTK: as its own writer makes them, appended bytes, compression, and what is refused.
+// VTK files: as written by VTK, with appended bytes, with compression, and refused files.
 #include "body/mesh/mesh_file.hpp"
 #include "files_of_vtk.hpp"
 #include "meniscus/error.hpp"
@@ -51,7 +51,8 @@ std::string bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// How an array is stored: its size as it is said, and blocks of `block` bytes, 0: not compressed.
+/// How an array is stored: with 64-bit sizes if `wide`, compressed in blocks of `block` bytes, or
+/// uncompressed if `block` is 0.
 struct Stored {
   bool wide = false;
   std::uint64_t block = 0;
@@ -87,7 +88,7 @@ std::string stored(const std::string& data, const Stored& how) {
   return header(numbers, how.wide) + blocks;
 }
 
-/// With its bytes appended as they are.
+/// A file with appended raw bytes.
 std::string raw_file(const std::string& points, const std::string& nodes, const std::string& ends,
                      const std::string& types, const Stored& how, const std::string& count = "6") {
   const auto array = [](const std::string& name, const std::string& type, std::size_t offset) {
@@ -157,12 +158,12 @@ TEST(VtuFiles, SayWhatIsWrong) {
   expect(problem_of(damaged), "a compressed block is damaged");
 }
 
-/// A small file that says, or is, far more than there is memory for.
+/// Small files that claim, or decompress to, more than the memory holds.
 TEST(VtuFiles, BombsAreRefused) {
   const std::string nodes = stored(bytes_of<std::int64_t>({0, 1, 4, 3, 1, 2, 5, 4}), {true, 64}),
                     ends = stored(bytes_of<std::int64_t>({4, 8}), {true, 64}),
                     types = stored(bytes_of<std::uint8_t>({9, 9}), {true, 64});
-  // 2.4e10 bytes in one block of a few.
+  // Claims 2.4e10 bytes in a block of a few bytes.
   const std::string block = compressed(std::string(1000, '\0'));
   const std::string claims = header({1, 24'000'000'000, 0, block.size()}, true) + block;
   EXPECT_NE(problem_of(raw_file(claims, nodes, ends, types, {true, 64}, "1000000000"))
@@ -181,7 +182,7 @@ TEST(VtuFiles, BombsAreRefused) {
             std::string::npos);
 }
 
-/// Twice as many elements take twice the time, not four times.
+/// Reading takes time proportional to the number of elements, not to its square.
 TEST(VtuFiles, AreReadInLinearTime) {
   std::string text = "<VTKFile><UnstructuredGrid><Piece NumberOfPoints='0' NumberOfCells='0'>";
   for (int k = 0; k < 200'000; ++k) text += "<DataArray/>\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Young's law as an interaction, and the cap with the shape of a drop on a wall.
+// Young's law as an interaction, and the contact angle of a cap from its volume and height.
 #include "input_scene.hpp"
 #include "io_helpers.hpp"
 #include "measure/wetting_measures.hpp"

@@ -140,11 +140,12 @@ Scene<D> on_ground(const std::string& lines) {
       lines);
 }
 
-/// An adhesion that varies with the reference of the ground and with time.
+/// An adhesion that depends on the position in the reference of the ground, and on time.
 const std::string graded =
     "adhesion = \"0.8 + 0.5*sin(2*x + t) + 0.3*y*z\"\nactin = \"t > 0.3 ? 0.5 : 0\"\n";
 
-/// A drop on ground: forces are balanced. Facets of the ground lie below the points in any motion.
+/// A drop on deformable ground: forces are balanced. Facets of the ground are found below the
+/// points in any motion.
 template <int D>
 void expect_gradient_on_ground() {
   const std::string up = D == 3 ? "up = [0.1, 0, 1]\n" : "up = [0.1, 1]\n";
@@ -219,7 +220,7 @@ TEST(SoftWetting, GroundThatFoldsOverIsAFailure) {
   EXPECT_GE(failure->particle, layer.first);
 }
 
-/// The booked external work and the change of the energy, with all particles held.
+/// External work booked, and change of the energy, while all particles are held.
 struct Supply {
   Real booked = 0, change = 0;
 };
@@ -270,7 +271,7 @@ TEST(WettingLaws, WorkOfAdhesionThatJumpsIsBooked) {
   }
 }
 
-/// The core repels a drop with the tension of its own surface, at any adhesion.
+/// The core is as strong as the tension of the drop, at any adhesion.
 TEST(WettingLaws, TheCoreIsOneWhereHardlyAnythingAdheres) {
   const auto push = [](const std::string& adhesion) {
     Scene<3> scene = on_wall<3>("adhesion = " + adhesion + "\n" + young);
@@ -286,8 +287,8 @@ TEST(WettingLaws, TheCoreIsOneWhereHardlyAnythingAdheres) {
   EXPECT_NEAR(weak, push("\"0.001*exp(-t)\"") / 2, 1e-2 * weak);
 }
 
-/// Two drops with hardly any adhesion are pressed together; the core of both tensions holds them
-/// apart.
+/// Two drops that hardly adhere are pressed together. The core, with the tensions of both, keeps
+/// them apart.
 TEST(WettingLaws, TheCoreBetweenTwoDropsBearsWhatPressesThem) {
   Scene<2> scene =
       between_drops<2>(young +
@@ -299,7 +300,7 @@ TEST(WettingLaws, TheCoreBetweenTwoDropsBearsWhatPressesThem) {
   EXPECT_GT(measure(scene, "wall.gap", simulation.state().motion()), 0.03);
 }
 
-/// Work between two bodies is booked, also in the core.
+/// Work between two bodies is booked, also for points in the core.
 TEST(WettingLaws, WorkOfActinBetweenBodiesIsBooked) {
   for (const std::string offset : {"0.05", "0.16"})
     for (const Real step : {0.02, 0.037}) {
@@ -316,7 +317,7 @@ TEST(WettingLaws, WorkOfActinBetweenBodiesIsBooked) {
   EXPECT_NEAR(ground.booked, ground.change, 1e-12);
 }
 
-/// The wetted area between two bodies does not depend on the adhesion, the energy does.
+/// The wetted area between two bodies is independent of the adhesion; the energy is not.
 TEST(WettingLaws, WettedAreaBetweenBodiesIsThatOfUnitAdhesion) {
   const Scene<2> scene = between_drops<2>(growing + young),
                  unit = between_drops<2>("adhesion = \"1 + 0*t\"\n" + young);
@@ -329,8 +330,8 @@ TEST(WettingLaws, WettedAreaBetweenBodiesIsThatOfUnitAdhesion) {
   EXPECT_NEAR(measure(scene, "wall.energy", {0, u, v}), -0.8 * area, 1e-3 * area);
 }
 
-/// The work of the contact in a cycle: a drop is widened far away, lowered, narrowed on the wall,
-/// raised.
+/// Work of the contact in a cycle: a drop is widened far from the wall, lowered, narrowed on the
+/// wall, and raised.
 struct Cycle {
   Real net = 0, done = 0, spared = 0;  // difference of the wetted areas
 };
@@ -462,8 +463,8 @@ TEST(SoftWetting, AGradedLayerAndItsMirrorImageDriveMirroredDrops) {
   EXPECT_NEAR(left, -right, 1e-8 * right);
 }
 
-/// The core is as strong as the tension of the drop. It does not count for the wetted area, in any
-/// units.
+/// The core is as strong as the tension of the drop. Points in the core do not count as wetted
+/// area, in any units.
 TEST(WettingLaws, TheWettedAreaOfVaryingAdhesionIsThatOfTheFilm) {
   const auto area = [](const char* tension) {
     std::string text = on_wall_text<2>(varied_in_core_of_plane);
@@ -526,7 +527,7 @@ TEST(WettingLaws, TheLineMovesAsTheBaseGrows) {
   EXPECT_EQ(measure(scene, "wall.line_speed", {0, u, u}), 0);
 }
 
-/// Hardly any traction: the tensions act alone.
+/// Hardly any traction, so that the surface tensions alone act.
 const std::string switched =
     "interaction = \"legacy_switch\"\ncontact_angle = 60\nadhesion = 1e-12\nsigma0 = 0.3\n"
     "switch_gap = 0.6\n";
@@ -552,8 +553,8 @@ TEST(WettingLaws, SwitchedTensionsAreTheGradientWhileNothingSwitches) {
   expect_switched_tensions<3>();
 }
 
-/// Lowering a drop onto the wall in one step loses W = gamma (1 + cos theta) times the area that
-/// becomes wet. Raising the drop returns this energy.
+/// Lowering a drop onto the wall in one step loses W = gamma (1 + cos theta) times the area that is
+/// wetted. Raising the drop returns this energy.
 TEST(WettingLaws, EnergyOfSwitchesIsCounted) {
   const Scene<3> scene = switching<3>();
   ForceTerm& term = *scene.system.terms.back();
@@ -615,7 +616,7 @@ TEST(WettingLaws, TheCompleteInputNamesTheLawThatActs) {
   EXPECT_EQ(contact(switched, "form"), "dissertation");
 }
 
-/// Few points suffice where the field of the partner is smooth.
+/// Few points suffice if the field of the partner is smooth.
 TEST(WettingLaws, UnresolvedGapsAreOfPartnersWithCorners) {
   const std::string few =
       "interaction = \"scaled_lennard_jones\"\nadhesion = 1\nsigma0 = 0.15\npoints = 1\n";
@@ -690,7 +691,8 @@ TEST(SoftWetting, MeasuresTheRidgeAndItsAngles) {
   EXPECT_GT(measure(scene, "line.wetted_area", motion), 0);
 }
 
-/// The contact takes half of the adhesion from the tension of the ground, which has to be larger.
+/// The contact takes half of the adhesion from the tension of the ground. A warning is given if the
+/// ground has less tension.
 TEST(SoftWetting, WarnsWhereTheGroundHasTooLittleTension) {
   const Scene<2> scene = over_ridge("");
   ASSERT_EQ(scene.warnings.size(), 2u);

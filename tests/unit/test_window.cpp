@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Window functions: reference values, and derivatives that belong to the function.
+// Kernel functions: reference values, and derivatives that belong to the function.
 #include "kernel/window.hpp"
 #include "rkpm_reference.hpp"
 #include "support.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The short form of verifications, and the full one, which tools/verify requests with
+// Verifications have a short and a full form. tools/verify selects the full form by
 // MENISCUS_VERIFY=full in the environment.
 #pragma once
 #include <cstdlib>

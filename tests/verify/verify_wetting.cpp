@@ -14,8 +14,8 @@
 namespace meniscus::verify_wetting {
 namespace {
 
-/// Half the outline of a plane drop against the depth below its top, until the surface is vertical:
-/// dx/ds = cos p, dz/ds = sin p, dp/ds = k0 + z (rho = g = gamma = 1).
+/// Half the outline of a plane drop at rest, as points (x, z) with the depth z below its top, until
+/// the surface is vertical: dx/ds = cos p, dz/ds = sin p, dp/ds = k0 + z (rho = g = gamma = 1).
 std::vector<Vec<2>> outline(Real k0) {
   const auto rate = [k0](const Vec<3>& y) {
     return Vec<3>(std::cos(y[2]), std::sin(y[2]), k0 + y[1]);
@@ -133,8 +133,8 @@ TEST(Spreading, IsLinearAtFirstWithAndWithoutMuchViscosity) {
 struct LinearLayer {
   Real mu, nu, tension;
 
-  /// Height of its surface at x = a under line forces 1 upward at x = -a, a and the pressure 1/a
-  /// between them (wetting note 10).
+  /// Height of the surface at x = a under line forces 1 upward at x = -a and x = a, and the
+  /// pressure 1/a between them (wetting note 10).
   Real ridge(Real a) const {
     constexpr Real dk = 0.005, most = 400;
     Real sum = 0;
@@ -151,8 +151,8 @@ struct LinearLayer {
   }
 };
 
-/// gamma/mu is the thickness of the layer, and 2.5 times the thickness. The tension of the layer is
-/// much larger than that of the drop, so that slopes are small.
+/// The length gamma/mu is 1 and 2.5 times the thickness of the layer. The layer has a much larger
+/// tension than the drop, so that slopes are small.
 TEST(SoftLayer, HasTheRidgeOfLineForcesOnALinearLayer) {
   for (const auto& layer : {LinearLayer{1, 0.45, 4}, LinearLayer{0.4, 0.45, 2}}) {
     const SceneInput input = SceneInput::from_file(

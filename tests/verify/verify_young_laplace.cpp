@@ -46,13 +46,8 @@ class YoungLaplace : public testing::Test {
     return force;
   }
 
-  /// Tests
-  /// p - 2
-  /// / 2 of the fitted pressure and
-  /// f_s + p f_n
-  /// /
-  /// f_s
-  /// .
+  /// Tests the relative error |p - 2| / 2 of the fitted pressure p, and the residual |f_s + p f_n|
+  /// / |f_s|.
   static void expect_jump(ForceTerm& term, int k, Real pressure_error, Real residual) {
     const NodalVectors tension = test::force_of(term, u_), normal = unit_pressure(k);
     const Real p = -test::dot(tension, normal) / test::dot(normal, normal);

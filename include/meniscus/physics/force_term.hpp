@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one interface of all physical effects. A scene's system is a list of terms; an effect that
-// the scene does not name is not in the list and costs nothing.
+// The interface of all physical effects. A system is a list of force terms. If an effect is not
+// named in the scene, it is not in the list and costs nothing.
 #pragma once
 #include "parallel/chunk_reports.hpp"
 #include "parallel/step_reads.hpp"
@@ -24,35 +24,38 @@ namespace meniscus {
 
 class ForceTerm;
 
-/// What forces depend on. Displacement and velocity coefficients of the particles of all bodies.
+/// The arguments of forces: time, and the displacement and velocity coefficients of the particles
+/// of all bodies.
 struct Motion {
   Real time;
   std::span<const NodalVector> u, v;
-  std::span<const Unknown> fields = {};  ///< by the numbers of System::add_field
-  const Reactions* reactions = nullptr;  ///< of the constraints; for measures only
+  std::span<const Unknown> fields = {};  ///< numbered as by System::add_field
+  const Reactions* reactions = nullptr;  ///< of the constraints; only measures use them
 };
 
-/// What ForceTerm::stored_energy() of a term would say.
+/// The value of stored_energy() of a term, when the term has computed it together with its force.
 struct StoredEnergy {
   const ForceTerm* term;
   Real value;
 };
 
-/// Forces on the coefficients of the displacement of all particles, and the fields that have forces
-/// of their own, Unknown::f.
+/// The forces on the displacement coefficients of all particles, and the fields, whose forces are
+/// in Unknown::f.
 struct Forces : std::span<NodalVector> {
   Forces(std::span<NodalVector> f, std::span<Unknown> unknowns = {})
       : std::span<NodalVector>(f), fields(unknowns) {}
   Forces(NodalVectors& f) : std::span<NodalVector>(f) {}
 
   std::span<Unknown> fields;
-  /// Where terms that have it at hand put their stored energy; none: it is not asked for.
+  /// Terms that get their stored energy as a by-product of the force add it here. Null if no
+  /// energies are needed.
   std::vector<StoredEnergy>* energies = nullptr;
-  /// Whether terms leave what they say per chunk of rows to Report::chunks.
+  /// If true, terms leave their results per chunk of rows in Report::chunks, and the system sums
+  /// them.
   bool leave_chunks = false;
 };
 
-/// Why a term could not compute a force that makes sense.
+/// Reason why a term could not compute a valid force.
 struct Failure {
   Index particle;         ///< global number of the particle nearest to the failure
   std::string cause;      ///< e.g. "J = -0.3 at a stress point; F = [...]"
@@ -60,10 +63,10 @@ struct Failure {
   std::string term = {};  ///< name of the term; the system fills it in
 };
 
-/// What the next step has to respect before the stable step is estimated again. Only terms whose
-/// stiffness grows by multiples within few steps have a demand.
+/// Limits for the next step until the stable step is estimated again. Only terms whose stiffness
+/// can grow by multiples within few steps set limits.
 struct StepDemand {
-  Real stiffness = 0;  ///< squared frequencies that the term adds at most within the step, 1/time^2
+  Real stiffness = 0;  ///< squared frequencies added within the step, at most, 1/time^2
   Real longest = std::numeric_limits<Real>::max();  ///< longest step
 
   StepDemand& operator+=(const StepDemand& other) {
@@ -73,28 +76,30 @@ struct StepDemand {
   }
 };
 
-/// What a force call says besides the forces, about the motion it was called with.
+/// Results of add_force() besides the forces, for the same motion.
 struct Report {
   Real heat = 0;  ///< power turned into heat
-  /// Power supplied from outside by what changes with time at fixed places:
-  /// ramps, partners that are moved. What a load does on the velocity is load_power().
+  /// Power supplied from outside by explicit dependence on time: ramps, and partners with a
+  /// prescribed motion. The power of a load on the velocity is load_power() instead.
   Real external_power = 0;
-  /// Work supplied since the last step that stands, of what may jump in time.
+  /// Work supplied from outside since the last accepted step by sources that may jump in time.
   Real external_work = 0;
-  /// Net force and moment of what acts from outside. A term whose forces are to balance each other
-  /// leaves it zero, so that the audit sees where they do not.
+  /// Net force and moment of loads from outside. A term whose forces should balance each other
+  /// leaves this zero, so that the audit of the momenta detects forces that do not balance.
   Resultant outside = {};
   StepDemand demand = {};
   std::optional<Failure> failure = {};
-  /// What is left to be brought to all ranks and added by ForceTerm::add_chunks().
+  /// Results per chunk of this rank. The system gathers the results of all ranks and passes them to
+  /// ForceTerm::add_chunks(). Null if there are none.
   ChunkReports* chunks = nullptr;
-  /// The rank that alone knows the above, which is left to be brought to all; none: all do.
+  /// The only rank that has the values above. The system then sends them to all ranks. Empty if all
+  /// ranks have them.
   std::optional<int> known_by = {};
-  /// What it would have thrown as SolveError, where others do not know it; it is thrown by all
-  /// then.
+  /// Message of a SolveError that only one rank found. The system throws it on all ranks. Empty if
+  /// there is none.
   std::string error = {};
 
-  /// Sums; the first failure stays.
+  /// Adds another report; keeps the first failure.
   Report& operator+=(Report other) {
     heat += other.heat;
     external_power += other.external_power;
@@ -131,97 +136,100 @@ class ForceTerm {
   /// Name in messages, timings and the audit: "internal force of 'drop'".
   virtual std::string name() const = 0;
 
-  /// force[A] += ... over all particles. Same bits for any thread count. Called for any motion,
-  /// also trial ones: the history of the term stays as it is.
+  /// force[A] += the force of the term on each particle A. The result has the same bits for any
+  /// number of threads. `motion` may also be a trial motion, so this does not change the history of
+  /// the term.
   virtual Report add_force(const Motion& motion, Forces force) = 0;
-  /// Adds to its report what all ranks have said in Report::chunks, which they know by now. All
-  /// ranks call this.
+  /// Adds the results per chunk in Report::chunks, gathered from all ranks, to `report`. All ranks
+  /// call this.
   void add_chunks(const Motion& motion, Forces force, Report& report) const;
-  /// force[A] += the derivative of the forces for a change of the motion by `change` (du, dv and
-  /// field changes; its time counts for nothing). Linear in `change`, which should be of the size
-  /// of a spacing: without an exact tangent it is the difference of the forces over a millionth of
-  /// it.
+  /// force[A] += derivative of the forces in the direction `change` (du, dv and changes of fields;
+  /// its time is ignored). The result is linear in `change`, whose size should be about one
+  /// spacing: terms without an exact tangent use the difference of the forces over a millionth of
+  /// `change`.
   virtual void add_tangent(const Motion& motion, const Motion& change, Forces force);
 
-  /// Of a run of several ranks: says of which particles this rank reads the motion in add_force(),
-  /// load_power() and commit(). While the halo that follows from it is entered, these are asked for
-  /// the forces on the particles that it follows, and know the motion of no other. False: it may be
-  /// that of all, whatever was said. All ranks call this.
+  /// For runs on several ranks: registers the particles whose motion this rank reads in
+  /// add_force(), load_power() and commit(). The halo follows from these reads. In a halo, the
+  /// three functions compute the forces on this rank's own and ghost particles only, and the motion
+  /// of all other particles is invalid. Returns false if the term may read any particle; the halo
+  /// is then switched off. All ranks call this.
   virtual bool tell_reads(StepReads&) { return false; }
-  /// Whether it would say something else by now: what is near to what has changed.
+  /// True if the reads registered by tell_reads() are out of date because neighbours have changed.
   virtual bool reads_changed() const { return false; }
-  /// Whether a term may come to need more than it said in the middle of a step, where it throws
-  /// HaloOutgrown on all ranks.
+  /// True if add_force() can need more particles than were registered, in the middle of a step. It
+  /// then throws HaloOutgrown on all ranks.
   virtual bool may_outgrow_halo() const { return false; }
 
-  /// The step to `motion` stands: a term with history makes this its past.
+  /// Called when the step to `motion` is accepted. A term with a history updates it.
   virtual void commit(const Motion&) {}
-  /// Keeps the history; without one, nothing.
+  /// Saves or restores the history of the term. Does nothing if there is none.
   virtual void archive(const Archive&) {}
-  /// After steps in a halo: brings all ranks the history that some of them have kept for all. All
-  /// ranks call this.
+  /// Called after steps in a halo: gathers on all ranks the history that only some of them have
+  /// updated. All ranks call this.
   virtual void complete_history() {}
 
-  /// Whether the force depends on the velocity, of which it is then a linear function.
+  /// True if the force depends on the velocity. It must then be linear in the velocity.
   virtual bool viscous() const { return false; }
-  /// For steps that solve for the velocity. What is linear in it is - C v with C symmetric and not
-  /// negative.
+  /// The next three functions are for steps that solve for the velocity. The part of the force that
+  /// is linear in the velocity is - C v, where C is symmetric and positive semidefinite.
   ///
-  /// Says that add_viscous() is going to be called after calls of add_force().
+  /// Announces that add_viscous() will be called after calls of add_force().
   virtual void expect_viscous_calls() {}
-  /// force[A] += - C v, at the displacement of the last add_force(); asked of viscous terms only.
-  /// Without a function of its own the difference of two forces, which takes memory.
+  /// force[A] += - C v at the displacement of the last add_force(). Called for viscous terms only.
+  /// The default is a difference of two forces, which allocates memory.
   virtual void add_viscous(const Motion& motion, Forces force);
-  /// diagonal[A] += the entries of C for the components of particle A, at the displacement of the
-  /// last add_force(). What a term leaves out costs iterations.
+  /// diagonal[A] += the diagonal entries of C for the components of particle A, at the displacement
+  /// of the last add_force(). Missing entries only cost iterations.
   virtual void add_viscous_diagonal(std::span<NodalVector>) {}
 
-  /// Stored energy and the column of the audit it belongs to ("strain", "surface"); none if the
-  /// force has no potential.
+  /// Stored energy. energy_kind() is the column of the audit to which it belongs ("strain",
+  /// "surface"). Empty if the force has no potential.
   virtual std::optional<Real> stored_energy(const Motion&) const { return std::nullopt; }
   virtual std::string_view energy_kind() const { return ""; }
-  /// What equilibria without motion make stationary: the force at zero velocity is minus its
-  /// gradient. That is the stored energy, or the potential of a load that the audit books as work;
-  /// none if there is no such function.
+  /// The function whose negative gradient is the force at zero velocity; equilibria are its
+  /// stationary points. By default the stored energy. For a load it is the potential of the load,
+  /// which the audit books as work. Empty if there is no such function.
   virtual std::optional<Real> potential(const Motion& motion) { return stored_energy(motion); }
 
-  /// Power f.v of a load from outside on the velocity of the motion. Apart from the report: forces
-  /// are computed with the velocity of the half step, the books kept with that of the whole step.
+  /// Power f.v of a load from outside. It is separate from the report, since forces are computed
+  /// with the velocity of the half step, but the books use the velocity of the whole step.
   virtual Real load_power(const Motion&) { return 0; }
 
-  /// Work from outside, of what changes with time at fixed places, on the way from one equilibrium
-  /// to another nearby, to second order: here the mean of what the change of time does to the
-  /// energy at both.
+  /// External work, by explicit dependence on time, between two nearby equilibria, to second order.
+  /// The default is the change of the energy when only the time changes, averaged over both
+  /// motions.
   virtual Real work_between(const Motion& before, const Motion& after) const;
 
-  /// From when on the force depends on time through the motion only: the end of the last ramp;
-  /// infinite for a load that never ceases to change.
+  /// The time after which the force depends on time through the motion only, such as the end of the
+  /// last ramp. Infinite for a load that changes forever.
   virtual Real steady_after() const { return 0; }
-  /// Whether bodies may drift to where the term stops them.
+  /// True if the term can stop bodies that drift.
   virtual bool stops_drift() const { return false; }
-  /// Sum over the particles of the size of the forces on each before they cancel, to measure a
-  /// residual by: integral of |P| / spacing for an internal force. Asked now and then only.
+  /// Sum over the particles of the size of the forces before they cancel, e.g. the integral of |P|
+  /// / spacing for an internal force. It is the scale of residuals and is computed rarely.
   virtual Real uncancelled_force(const Motion&) const { return 0; }
 
-  /// Whether a failure may be one `of_step`, so that the state before a step has to be kept.
+  /// True if the term may report a failure with `of_step`. The state before a step must then be
+  /// kept.
   virtual bool may_reject_steps() const { return false; }
 
-  /// Doubtful but possible states, looked for at output times; one sentence.
+  /// A warning of a doubtful but possible state, as one sentence; looked for at output times.
   virtual std::optional<std::string> warning(const Motion&) const { return std::nullopt; }
 
   virtual std::vector<FieldSource> fields() const { return {}; }
   virtual std::vector<MeasureSource> measures() const { return {}; }
 
-  /// Puts the failure of a row into words. All ranks call this.
+  /// Describes the failure of a row. All ranks call this.
   virtual std::optional<Failure> failure_of(Index, const Motion&) const { return std::nullopt; }
 
-  /// Bytes held for the time loop.
+  /// Bytes of memory that the term uses during the time loop.
   virtual std::size_t bytes() const = 0;
-  /// Pairs (evaluation point or cell, particle) visited by one add_force().
+  /// Number of pairs (evaluation point or cell, particle) that one add_force() visits.
   virtual Offset pairs() const = 0;
 
  protected:
-  /// The report of a term whose chunks of rows have said all.
+  /// Makes the report of a term from its results per chunk.
   Report report_of(ChunkReports& said, const Motion& motion, Forces force) const;
 };
 

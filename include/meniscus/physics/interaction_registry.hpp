@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The registry of the interactions of [[contact]].
 //
-// A law of the gap is a struct derived from Interaction in a file of its own in
-// src/physics/laws/interactions, with rows(), an example and, if needed, check(block) and
+// A law of the gap is a struct derived from Interaction in its own file in
+// src/physics/laws/interactions. It has rows(), an example and, if needed, check(block) and
 // fitted(surfaces). The file ends with
 //
-//   const bool registered = register_interaction<MyLaw>("my_law", "what it is");
+//   const bool registered = register_interaction<MyLaw>("my_law", "short description");
 //
 // The law then acts between two bodies, and between a body and rigid partners of any shape.
 // Interactions that need more than the gap implement ContactModel.

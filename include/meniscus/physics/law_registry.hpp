@@ -17,8 +17,8 @@
 
 namespace meniscus {
 
-/// A law with numbers, its type forgotten: for tests, wave speeds and other things that are not
-/// done at every step. H = F - I; meaning of the functions as in law.hpp.
+/// A law with its parameters, without its type as a template argument. For tests, wave speeds and
+/// other code outside the time loop. H = F - I; the functions are explained in law.hpp.
 class AnyLaw {
  public:
   virtual ~AnyLaw() = default;
@@ -31,19 +31,19 @@ class AnyLaw {
   virtual Tensor<Real> stress(const Tensor<Real>& H) const = 0;
   virtual Tensor<Lanes> stress(const Tensor<Lanes>& H) const = 0;
   virtual Tensor<Complex> stress(const Tensor<Complex>& H) const = 0;
-  /// Zero for laws that are not viscous.
+  /// Zero for laws without viscosity.
   virtual Tensor<Real> viscous_stress(const Tensor<Real>& H, const Tensor<Real>& F_rate) const = 0;
   virtual Tensor<Lanes> viscous_stress(const Tensor<Lanes>& H,
                                        const Tensor<Lanes>& F_rate) const = 0;
-  /// dW/dt at fixed deformation; zero for laws that do not change with time.
+  /// dW/dt at fixed deformation; zero for laws that are constant in time.
   virtual Lanes energy_rate(const Tensor<Lanes>& H) const = 0;
-  /// The law at a time.
+  /// The law with its parameters at a time.
   virtual std::unique_ptr<AnyLaw> at_time(Real time) const = 0;
   virtual std::optional<std::string> check() const = 0;
   virtual std::optional<std::string> warning(const Tensor<Real>& H) const = 0;
 };
 
-/// What the program knows of a law by its name.
+/// The entry of a law in the registry.
 struct LawEntry {
   static constexpr const char* kind = "material law";
   std::string_view name;
@@ -134,7 +134,7 @@ std::string typical_text() {
   return text;
 }
 
-/// Numbers that follow from those the scene gives.
+/// Supplies keys that follow from other keys of the scene.
 template <Law L>
 void supply_numbers([[maybe_unused]] const Block& block) {
   if constexpr (LawOfModuli<L>) supply_moduli(block, L::of_moduli);
@@ -179,7 +179,7 @@ LawEntry make_entry() {
   return entry;
 }
 
-/// Enters the law: the last line of every file in src/physics/laws/materials.
+/// Registers a law. This is the last line of every file in src/physics/laws/materials.
 template <Law L>
 bool register_law() {
   return register_entry(make_entry<L>());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shapes of rigid partners of a contact, and their registry.
 //
-// A shape is a struct in a file of its own in src/physics/laws/partners, with rows(), an example
-// near a ball of radius 1 about the origin and, if numbers can contradict each other, check(block).
-// The file ends with
+// A shape is a struct in its own file in src/physics/laws/partners. It has rows(), an example near
+// a ball of radius 1 about the origin and, if numbers can contradict each other, check(block). The
+// file ends with
 //
-//   const bool registered = register_partner<2, MyShape<2>>("my_shape", "what it is") && ...;
+//   const bool registered = register_partner<2, MyShape<2>>("my_shape", "meaning") && ...;
 #pragma once
 #include "input/key_table.hpp"
 #include "input/registry.hpp"

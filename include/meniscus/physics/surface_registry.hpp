@@ -43,7 +43,8 @@ class VariedTension {
 class AnchoredTerm {
  public:
   virtual ~AnchoredTerm() = default;
-  /// Adds this energy to those of `director`. Has to be called before everything else.
+  /// Adds the energy of this term to the energies of `director`. Call this before any other
+  /// function.
   virtual void anchor(CarriedField& director) = 0;
 };
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads: what acts on the bodies of a scene or is measured of them, one kind of table [[name]]
-// each.
+// Loads: force terms and measures of the bodies of a scene. Each kind of load has a table [[name]].
 //
-// A load lives in its own file in src/features, in an anonymous namespace: a struct MyLoad<D> with
+// A load has its own file in src/features, in an anonymous namespace. It is a struct MyLoad<D> with
 // the members that rows() reads, check(), build(), and an example. The file ends with
-//   const bool registered = register_load<MyLoad>("my_load", Stage::volume, "what it is");
-// Nothing else speaks of it by name.
+//   const bool registered = register_load<MyLoad>("my_load", Stage::volume, "short description");
+// No other code refers to the load by name.
 #pragma once
 #include "body/shapes/geometry.hpp"
 #include "input/key_table.hpp"
@@ -25,33 +24,34 @@ class Assembly;
 template <int D>
 class Material;
 
-/// A body as a scene describes it, before particles are made of it.
+/// A body as described in the scene, before its particles are made.
 template <int D>
 struct BodyPlan {
   BodySettings settings;
   Geometry<D> geometry;
   std::shared_ptr<const Material<D>> material;
-  bool in_order;              ///< a body that cannot be made has a stand-in for its geometry
-  bool enclosed = false;      ///< if it is a fluid: Integration::enclosed
-  bool curvature = false;     ///< of its surface, by second derivatives, is asked for
+  bool in_order;              ///< false if the body cannot be made; its geometry is then a stand-in
+  bool enclosed = false;      ///< Integration::enclosed, for fluids
+  bool curvature = false;     ///< a term needs the curvature of its surface (second derivatives)
   bool loaded_faces = false;  ///< Body::loaded_faces
-  SolidSettings solid = {};   ///< if it is none
+  SolidSettings solid = {};   ///< for solids
 };
 template <int D>
 using BodyPlans = std::vector<BodyPlan<D>>;
 
-/// Notes a problem if a name, which becomes part of names in run.h5 and history.csv, has other
-/// characters than letters, digits, _ and -.
+/// Notes a problem if a name has other characters than letters, digits, _ and -. For names that
+/// become part of names in run.h5 and history.csv.
 void require_plain_name(const Block& block, const std::string& name);
 
-/// The planned body of that name; null, and a problem noted at `key`, if there is none. Also null
-/// for a body that cannot be made: what else would be said of it is about its stand-in.
+/// The planned body with this name. Null if there is none; a problem is then noted at `key`. Also
+/// null for a body that cannot be made, since further problems would only concern its stand-in.
 template <int D>
 const BodyPlan<D>* require_body(const Block& block, const BodyPlans<D>& bodies,
                                 const std::string& name, std::string_view key = "body");
 
-/// Loads are built, and their forces added up, by stage, then by the name of the kind, then as they
-/// follow each other in the scene. A later stage can ask what an earlier one has said of a body.
+/// Order in which loads are built and their forces are added: by stage, then by the name of the
+/// kind, then by their order in the scene. A later stage can use data that an earlier stage has set
+/// for a body.
 enum class Stage { surface, volume, contact, measure };
 
 /// One table of a scene.
@@ -60,33 +60,36 @@ class Load {
  public:
   virtual ~Load() = default;
 
-  /// The key and its value that tell this load from others of its kind; none if there may be any
-  /// number of equal ones. Measures of two with equal ones would have equal names.
+  /// Key and value that distinguish a load from others of its kind. Two loads with the same
+  /// identity are refused, since their measures would have the same names. Empty if any number of
+  /// equal loads is allowed.
   struct Identity {
     std::string key, value;
   };
   virtual std::optional<Identity> identity() const { return std::nullopt; }
-  /// What only one load of any kind may have, e.g. "the surface of 'drop'"; empty if nothing.
+  /// A part of the scene that only one load of any kind may use, e.g. "the surface of 'drop'".
+  /// Empty if there is none.
   virtual std::string claim() const { return ""; }
-  /// Notes in the block what cannot be with these bodies.
+  /// Notes problems of the load with these bodies in the block.
   virtual void check(const Block& block, const BodyPlans<D>& bodies) const = 0;
-  /// Says in the plans what it asks of the bodies themselves.
+  /// Sets requirements of the load in the plans of the bodies.
   virtual void prepare(BodyPlans<D>&) const {}
-  /// Adds force terms and measures. Throws InputError for what shows only here.
+  /// Adds force terms and measures. Throws InputError for problems that are found only here.
   virtual void build(Assembly<D>& assembly) const = 0;
 
   std::string place;  ///< "file:line:column: table" to begin messages with
 };
 
-/// What the program knows of a kind of load by its name.
+/// The entry of a kind of load in the registry.
 template <int D>
 struct LoadEntry {
   static constexpr const char* kind = "load";
-  std::string_view name;  ///< of its tables: [[name]]
+  std::string_view name;  ///< name of its tables: [[name]]
   std::string_view example;
   Stage stage;
   std::vector<KeyTable> (*keys)();
-  std::unique_ptr<Load<D>> (*read)(const Block&);  ///< the keys of rows(); the rest is in check()
+  std::unique_ptr<Load<D>> (*read)(
+      const Block&);  ///< reads the keys of rows(); check() does the rest
 };
 
 /// The registry of the kinds of loads in D dimensions.
@@ -95,11 +98,11 @@ const Registry<LoadEntry<D>>& loads() {
   return Registry<LoadEntry<D>>::all();
 }
 
-/// Enters the load L of D dimensions. L::rows() are its keys; tables within its own, if it has
-/// some, are read by L::read_inner(block) and described by L::inner_tables().
+/// Registers the load L of D dimensions. L::rows() are its keys. If it has inner tables,
+/// L::read_inner(block) reads them and L::inner_tables() describes them.
 template <int D, class L>
 bool register_load_in(std::string_view name, Stage stage, std::string_view meaning) {
-  // Functions without captures need the texts where they can find them.
+  // Static, since functions without captures use them.
   static const std::string heading = "[[" + std::string(name) + "]]: " + std::string(meaning);
   static const std::string example =
       "[[" + std::string(name) + "]]\n" + std::string(example_of<L>());
@@ -120,7 +123,7 @@ bool register_load_in(std::string_view name, Stage stage, std::string_view meani
   return register_entry(std::move(entry));
 }
 
-/// Enters the load L<D> in both dimensions.
+/// Registers the load L<D> in 2D and 3D.
 template <template <int> class L>
 bool register_load(std::string_view name, Stage stage, std::string_view meaning) {
   return register_load_in<2, L<2>>(name, stage, meaning) &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steppers: the ways in which a state goes on from step to step. Each is one file that registers
-// itself under the name by which [time] solver chooses it.
+// Steppers: methods that advance a state step by step. Each is one file and registers itself under
+// its name in [time] solver.
 #pragma once
 #include "input/registry.hpp"
 #include "solve/system.hpp"
@@ -11,11 +11,11 @@
 
 namespace meniscus {
 
-/// How far a state is from what a stepper looks for.
+/// A measure of the distance of a state from the goal of a stepper.
 struct Residual {
   std::string meaning;  ///< e.g. "force residual"
   Real value;
-  std::optional<Real> allowed;  ///< none: it is not judged
+  std::optional<Real> allowed;  ///< empty: the residual is not judged
 };
 
 template <int D>
@@ -23,71 +23,74 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
 
-  /// A run begins, or a run of another stepper goes on, at `state`, which has its forces.
+  /// Called when a run begins, or continues from another stepper, at `state`, which has its forces.
   virtual void begin(const State&) {}
-  /// Takes the state at which a run begins to one that can be shown, at the same time. Throws as
+  /// Moves the first state of a run to a state that can be shown, at the same time. Throws like
   /// step().
   virtual void settle(State&) {}
   /// The longest step that is accurate enough, at a state that has its forces.
   virtual Real longest_step(const State&) { return unbounded; }
-  /// Whether no step is too long to be stable: longest_step() is then the step itself, and nobody
-  /// looks for the stable one.
+  /// True if steps of any length are stable. longest_step() is then the step itself, and the stable
+  /// step is not estimated.
   virtual bool implicit() const { return false; }
-  /// Whether longest_step() is the step itself, for this reason or since it finds a stable one.
+  /// True if longest_step() is the step itself, because the stepper is implicit or finds a stable
+  /// step.
   virtual bool chooses_step() const { return implicit(); }
-  /// From state.time to state.time + dt. Throws as advance().
+  /// Advances the state from state.time to state.time + dt. Throws like advance().
   virtual void step(State& state, Real dt) = 0;
-  /// The same, but throws a StepError `of_step` where a shorter step is called for. The state is
-  /// then to be taken back by the caller.
+  /// Like step(), but throws a StepError `of_step` if a shorter step is needed. The caller then
+  /// restores the state.
   virtual void try_step(State& state, Real dt) { step(state, dt); }
-  /// Whether try_step() may ask for a shorter step.
+  /// True if try_step() may reject a step.
   virtual bool may_reject_steps() const { return false; }
 
-  /// Of a run of several ranks: says what step() reads of the motion beside what forces and sums
-  /// over all particles read (System::share_steps()). False: it may be that of all particles.
+  /// For runs on several ranks: registers the particles that step() reads in addition to forces and
+  /// sums over all particles (System::share_steps()). Returns false if it may read any particle.
   virtual bool tell_reads(StepReads&) { return false; }
 
-  /// A step that takes long asks now and then whether to stop, and then throws Interrupted. What
-  /// the stepper knows of the past is then to be restored by the caller.
+  /// During a long step, the given function is called now and then. If it returns true, the step
+  /// throws Interrupted, and the caller restores the stepper.
   virtual void stop_when(const std::function<bool()>&) {}
 
-  /// Whether the state that the stepper looks for is reached, so that the run ends.
+  /// True if the goal of the stepper is reached; the run then ends.
   virtual bool arrived() const { return false; }
-  /// Of the present state, in the order of StepperEntry::residuals; none if it looks for nothing.
+  /// Residuals of the present state, in the order of StepperEntry::residuals. Empty if the stepper
+  /// has no goal.
   virtual std::vector<Residual> residuals(const State&) const { return {}; }
-  /// Whether it cannot be reached any more, so that the run ends; obstacle() says why.
+  /// True if the goal cannot be reached any more. The run then ends; obstacle() gives the reason.
   virtual bool blocked() const { return false; }
-  /// What may keep the stepper from arriving; empty if it sees nothing.
+  /// Description of an obstacle to reaching the goal; empty if there is none.
   virtual std::string obstacle(const State&) const { return ""; }
 
-  /// What the log should say of the steps since it was asked last.
+  /// Sentences for the log about the steps since the last call.
   virtual std::vector<std::string> take_notes() { return {}; }
-  /// What the steps took beside forces, for the end of the log; empty if nothing.
+  /// Effort of the steps besides forces, for the end of the log; may be empty.
   virtual std::string effort() const { return ""; }
 
-  /// Keeps what decides how the run goes on; `state` is that of the archive.
+  /// Saves or restores the values that determine how the run continues. `state` is the state in the
+  /// same archive.
   virtual void archive(const Archive&, const State&) {}
 
-  /// At the state at which the stepper has arrived: the least stiffness of the equilibrium relative
-  /// to that of linear elements, negative if it is not stable; none where that is not known.
+  /// Call this when the stepper has arrived. Smallest stiffness of the equilibrium, relative to
+  /// linear elements; negative if the equilibrium is unstable. Empty if it is not known.
   virtual std::optional<Real> stability(const State&) const { return {}; }
 };
 
-/// What a scene says to its stepper.
+/// Settings of a scene for its stepper.
 struct StepperChoice {
-  Real end = 0;                                   ///< of the run
+  Real end = 0;                                   ///< end time of the run
   Real force_tolerance = 0, shape_tolerance = 0;  ///< of Relaxation
-  std::vector<bool> fluid = {};                   ///< which bodies are fluids; empty: none
+  std::vector<bool> fluid = {};                   ///< [body] true for fluids; empty: none
   bool implicit_viscosity = false;                ///< of Dynamics
-  std::optional<Real> step = {};                  ///< given in the scene
-  std::string place = {};                         ///< of the choice, to begin a message with
+  std::optional<Real> step = {};                  ///< fixed step of the scene
+  std::string place = {};                         ///< place of `solver` in the scene, for messages
   Real safety = 0.9;                              ///< steps / the longest stable one
 
-  /// That given, or a twentieth of the run.
+  /// The fixed step, or a twentieth of the run.
   Real load_step() const { return step.value_or(end / 20); }
 };
 
-/// Whether a step from `time` meets `end`, but for round-off.
+/// True if a step from `time` reaches `end`, up to round-off.
 inline bool reaches(Real time, Real step, Real end) {
   return end - time <= step * (1 + 1e-9);
 }
@@ -95,8 +98,8 @@ inline bool reaches(Real time, Real step, Real end) {
 struct StepperEntry {
   static constexpr const char* kind = "solver";
   std::string name;
-  std::vector<std::string> residuals;  ///< their columns in the history
-  // Throw InputError if the stepper cannot do what the system asks.
+  std::vector<std::string> residuals;  ///< names of their columns in the history
+  // Make the stepper. Throw InputError if it cannot run this system.
   std::unique_ptr<Stepper<2>> (*make_2d)(System<2>&, const StepperChoice&);
   std::unique_ptr<Stepper<3>> (*make_3d)(System<3>&, const StepperChoice&);
 

@@ -174,9 +174,9 @@ template <int D>
 std::vector<Real> supports_by_cells(const Grid<D>& grid, const Mat<D>& stretch, Real factor);
 
 /// The mean stretch U of the cells: symmetric, det U = 1, U^2 proportional to the sum of J J^T at
-/// the centres of the cells. It equals the left stretch of a map A if the cells were isotropic on
-/// average before A, as those of a ball are. U = I is returned if U deviates from I by less than
-/// 1e-9.
+/// the centres of the cells. If a map A made this grid from cells that were isotropic on average,
+/// such as the cells of a ball, then U is the left stretch of A. Returns U = I if U deviates from I
+/// by less than 1e-9.
 template <int D>
 Mat<D> mean_stretch(const Grid<D>& grid);
 

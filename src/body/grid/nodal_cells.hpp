@@ -19,8 +19,8 @@ struct CellQuadrature {
   std::vector<Real> volume_w;    ///< weights; sum = volume of the nodal cell
   std::vector<Vec<D>> facet_X;   ///< points of the octant facets on the cell boundary
   std::vector<Vec<D>> facet_dA;  ///< outward normal times weight; sum = 0
-  /// The points before body_facets_begin lie between two nodal cells, the others on the boundary of
-  /// the body. Points between two nodal cells are bitwise the same for both, with opposite dA.
+  /// Index of the first point on the boundary of the body; the points before it lie between two
+  /// nodal cells. Both of these cells have bitwise the same points there, with opposite dA.
   std::size_t body_facets_begin = 0;
   /// A quarter (2D: half) of a facet of the body's boundary.
   struct BodyFacet {

@@ -145,8 +145,8 @@ BulgeFunctions<D> edge_functions(const Shares<D>& shares) {
   return functions;
 }
 
-/// The position and its derivatives at barycentric coordinates `shares`, with derivatives by the
-/// same parameters. `corners` are those of the collapsed cell.
+/// The position at the barycentric coordinates `shares`, and its derivatives by the parameters of
+/// `shares`. `corners` are the corners of the collapsed cell.
 template <int D>
 CellPoint<D, D> simplex_point(const std::array<Vec<D>, (1 << D)>& corners, const Bulge<D>* bulge,
                               const Shares<D>& shares) {

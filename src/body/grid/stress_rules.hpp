@@ -243,7 +243,8 @@ struct PointRule {
   }
 
  private:
-  // scatter() reads the gradients of a group from cache and prefetches those of the next group.
+  // scatter() reads the gradients of a group from cache, and prefetches the gradients of the next
+  // group.
   std::ptrdiff_t distance_to_next(Index group) const {
     const Index first = group * per_group;
     return (at(rows.start, first + count(group)) - at(rows.start, first)) * D;

@@ -33,11 +33,11 @@ struct MeshData {
 /// .msh or .vtu.
 std::string text_of_mesh_file(const std::string& path);
 
-/// Parses the text of a mesh file; the ending of `path` gives the format. Throws InputError: "FILE:
-/// line or cell: what was found; what is expected".
+/// Parses the text of a mesh file. The extension of `path` determines the format. Throws
+/// InputError: "FILE: line or cell: the problem; the expected content".
 MeshData read_mesh(std::string_view text, const std::string& path);
 
-/// Parse one format each; `name` begins messages.
+/// Parsers of the two formats. `name` is the begin of their messages.
 MeshData read_msh(std::string_view text, const std::string& name);
 MeshData read_vtu(std::string_view text, const std::string& name);
 

@@ -10,14 +10,14 @@
 
 namespace meniscus {
 
-/// Two simplices that go through each other.
+/// Two simplices that pass through each other.
 template <int D>
 struct Crossing {
-  /// Numbers of CrossingSearch::simplices(): an edge of the first pierces the second.
+  /// Numbers in CrossingSearch::simplices(): an edge of the first simplex pierces the second.
   Index first = -1, second = -1;
   Vec<D> place = Vec<D>::Zero();  ///< where the edge pierces
-  /// The least of the distances of the ends of the edge from the plane of `second`, and of `place`
-  /// from its rim: so far they overlap.
+  /// Depth of the overlap: the smallest of the distances of both ends of the edge from the plane of
+  /// `second`, and of `place` from the rim of `second`.
   Real depth = 0;
   Real share = 0;  ///< depth over the size of the simplices
 };
@@ -45,7 +45,7 @@ class CrossingSearch {
   /// that touch do not cross. Places that are not finite cross nothing.
   std::optional<Crossing<D>> deepest(const std::vector<Vec<D>>& x) const;
 
-  /// In an order of the tree; groups stay together and in their order.
+  /// The simplices in the order of the tree. Groups stay together and keep their order.
   const std::vector<Simplex>& simplices() const { return simplices_; }
   std::size_t bytes() const;
 

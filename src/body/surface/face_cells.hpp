@@ -11,27 +11,28 @@
 
 namespace meniscus {
 
-/// Facets of the boundary: of the face of that name (empty: of all), where the formula of the
-/// reference place, taken in the middle of their quarters, is not zero.
+/// Selects facets of the boundary. `face` is the name of a face; empty selects all faces. `where`
+/// is a formula of the reference position, evaluated in the middle of each quarter (2D: half) of a
+/// facet; quarters at which it is zero are left out.
 struct FaceChoice {
   std::string face;
   std::optional<Expression> where;
 };
 
-/// A face cell k is what the outer facets of a nodal cell have in common with a face; facets on
-/// different patches are different face cells. Its points are those that make the gradients of
-/// the integration rule "q_scni".
+/// Face cell k is the part of the boundary of one nodal cell that lies on a chosen face. Parts on
+/// different patches are different face cells. The points of face cells are the points that the
+/// integration rule "q_scni" uses on the boundary.
 template <int D>
 struct FaceCells {
-  std::vector<Index> cell;       ///< [k] number of the nodal cell, which is that of its particle
-  std::vector<Real> area;        ///< [k] in 2D length
-  std::vector<Vec<D>> normal;    ///< [k] mean outward normal; of unit length on a plane
-  std::vector<Vec<D>> centre;    ///< [k] mean place
+  std::vector<Index> cell;       ///< [k] number of the nodal cell and of its particle
+  std::vector<Real> area;        ///< [k] area (2D: length)
+  std::vector<Vec<D>> normal;    ///< [k] mean outward normal; a unit vector on a plane
+  std::vector<Vec<D>> centre;    ///< [k] mean position
   std::vector<Offset> begin{0};  ///< points of k: [begin[k], begin[k + 1])
-  std::vector<Vec<D>> X, N;      ///< [point] place, outward unit normal
-  std::vector<Real> share;       ///< [point] of the area of its face cell; they sum to one
-  PointRows<D> mean;             ///< [k] means of N_A
-  /// A quarter (2D: half) of a facet that is chosen: the one at a node of the grid.
+  std::vector<Vec<D>> X, N;      ///< [point] position, outward unit normal
+  std::vector<Real> share;       ///< [point] area divided by the area of its face cell
+  PointRows<D> mean;             ///< [k] means of the shape functions N_A
+  /// A chosen quarter (2D: half) of a facet: the quarter at grid node `node`.
   struct Part {
     Index facet, node;
   };
@@ -41,7 +42,8 @@ struct FaceCells {
   Real total_area() const;
 };
 
-/// Throws InputError if nothing is chosen, SolveError where shape functions cannot be determined.
+/// Computes the face cells of the chosen facets. Throws InputError if nothing is chosen, and
+/// SolveError where shape functions cannot be determined.
 template <int D>
 FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Means of formulas of place and time over face cells.
+// Means of formulas over face cells. The formulas depend on position and time.
 #pragma once
 #include "body/surface/face_cells.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// Evaluates formulas and keeps their means. Formulas without place are evaluated once per time,
-/// others at all points of the face cells.
+/// Evaluates formulas and stores their means. Formulas that do not depend on position are evaluated
+/// once per time, all others at all points of the face cells.
 template <int D>
 class FaceMeans {
  public:

@@ -28,7 +28,7 @@ struct SurfacePatch {
   Foot project(const Vec<D>& X) const;
   Real distance(const Vec<D>& X) const { return (project(X).X - X).norm(); }
   bool inner() const { return radius < 0; }
-  /// The same patch with a name.
+  /// Sets the name of the face that the patch belongs to.
   SurfacePatch named(std::string face) && {
     name = std::move(face);
     return std::move(*this);

@@ -9,13 +9,14 @@
 
 namespace meniscus {
 
-/// Every boundary facet is the Lagrange patch through its points; patches meet without a gap, at
-/// angles of the order of their size squared.
+/// A surface whose boundary facets are Lagrange patches through given points. Neighbouring patches
+/// meet without a gap; the angle between them is of the order of their size squared.
 template <int D>
 class QuadraticSurface final : public Surface<D> {
  public:
-  /// `points` by the numbers of PatchNodes(grid); those at corners are the nodes of the grid.
-  /// `inner`: of each patch of the facets, whether it is around a cavity; empty: there is none.
+  /// `points` are positions by the numbers of PatchNodes(grid); corner points are nodes of the
+  /// grid. `inner` [patch] is nonzero if the patch bounds a cavity; it is empty if there is no
+  /// cavity.
   QuadraticSurface(const Grid<D>& grid, const std::vector<Vec<D>>& points, bool smooth = true,
                    std::vector<char> inner = {});
 
@@ -29,7 +30,7 @@ class QuadraticSurface final : public Surface<D> {
 
  private:
   using Key = typename PatchNodes<D>::Key;
-  /// The same kind of surface through other points.
+  /// A quadratic surface with the same properties through other points.
   std::shared_ptr<const Surface<D>> through(std::map<Key, Vec<D>> point) const;
   /// The points of a facet.
   std::vector<Vec<D>> of(const Facet<D>& facet) const;
@@ -41,8 +42,8 @@ class QuadraticSurface final : public Surface<D> {
   std::vector<char> inner_;
 };
 
-/// The body of a grid (X and cells) with that surface, which has no edges if it is `smooth`. Throws
-/// InputError if a cell folds.
+/// The body of a grid (X and cells) with a quadratic surface through `points`. `smooth`: the
+/// surface has no edges. Throws InputError if a cell folds.
 template <int D>
 Geometry<D> quadratic_geometry(Grid<D> grid, const std::vector<Vec<D>>& points, bool smooth = true);
 

@@ -48,7 +48,7 @@ class Surface {
   /// True if there are no edges or corners. The normal is then continuous, which the curvature form
   /// of surface tension needs.
   virtual bool smooth() const = 0;
-  /// True if a part of it is inner.
+  /// True if a part of the surface is inner.
   virtual bool hollow() const = 0;
   /// The name of the face that a patch belongs to, or empty.
   virtual std::string face_name(int) const { return {}; }

@@ -12,8 +12,8 @@ template <int D>
 SurfacePoints<D> surface_points(const Geometry<D>& geometry, int k,
                                 SurfacePart part = SurfacePart::whole);
 
-/// The point of the surface at xi in [-1, 1]^(D-1) of a facet, which is the place that
-/// surface_points() gives to a Gauss point xi. On an edge between two patches it lies on both.
+/// The point of the surface at xi in [-1, 1]^(D-1) of a facet. surface_points() gives the same
+/// position to a Gauss point xi. On an edge between two patches the point lies on both.
 template <int D>
 Vec<D> surface_point(const Geometry<D>& geometry, const Facet<D>& facet, const Vec<D - 1>& xi);
 

@@ -12,7 +12,8 @@ namespace meniscus {
 struct AdhesionFormulas {
   std::optional<Expression> angle;     ///< contact angle in degrees
   std::optional<Expression> adhesion;  ///< energy per area that contact releases
-  std::optional<Expression> actin;     ///< added to the adhesion or to that of the angle
+  std::optional<Expression>
+      actin;  ///< added to the adhesion, or to the adhesion that follows from the angle
 
   /// True if no formula has a variable.
   bool constant() const;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pair interaction of two bodies: Lennard-Jones between their particles, spread over both
-// bodies, phi(r) = epsilon (x^2 - 2 x) with x = (sigma0/r)^6 (CGCM note 1).
+// The pair interaction of two bodies: the Lennard-Jones potential phi(r) = epsilon (x^2 - 2 x) with
+// x = (sigma0/r)^6, integrated over both bodies (CGCM note 1).
 //
 //   phi             energy of a pair of volume elements
 //   psi = r^-D INT_r^inf phi t^(D-1) dt,   div(r psi) = -phi    pair of surface elements, force
 //   u   = -INT_r^inf psi t dt,   u' = r psi, laplace u = -phi   pair of surface elements, energy
 //   chi = -INT_r^inf phi t dt,   grad chi = phi r
 //
-// All contain epsilon but not the densities beta of the particles. With a cut-off, u is switched
-// off: u_c = u Q, where Q falls from 1 to 0 between 3/4 r_c and r_c with two continuous
-// derivatives. psi, phi and chi are derived from u_c, so every identity stays exact (CGCM note 6).
+// All contain epsilon, but not the densities beta of the interaction sites. With a cut-off, u is
+// switched off: u_c = u Q, where Q falls from 1 to 0 between 3/4 r_c and r_c with two continuous
+// derivatives. psi, phi and chi are derived from u_c, so that every identity stays exact (CGCM note
+// 6).
 #pragma once
 #include "numbers/dual.hpp"
 #include "numbers/elementary.hpp"

@@ -10,8 +10,9 @@
 
 namespace meniscus {
 
-/// `beta_product`: beta1 beta2 of the two bodies. Closed form without a cut-off (CGCM note 3.1);
-/// with one all is exact to rounding, but softening_gap to half the digits.
+/// Characteristic numbers of the contact of two flat bodies. `beta_product` is beta1 beta2. Without
+/// a cut-off they have a closed form (CGCM note 3.1). With a cut-off they are exact to rounding,
+/// except softening_gap, which has half of the digits.
 PlaneContact plane_contact(const ContactLaw& law, Real beta_product);
 
 /// Throws InputError that begins with `place` if a number of the contact is infinite or not a
@@ -22,8 +23,9 @@ void require_finite(const PlaneContact& contact, const std::string& place);
 /// Two half spaces (half planes) at the gap g > 0. The kernel `planar` counts per length and depth.
 PlaneState plane_state(const ContactLaw& law, Real beta_product, Real gap);
 
-/// The law between bodies with `beta_product` = beta1 beta2 as an interaction of surfaces. States
-/// are those without a cut-off, in closed form: it adds little where the stiffness matters.
+/// The pair law between bodies with `beta_product` = beta1 beta2, as an interaction of surfaces.
+/// at() ignores the cut-off and uses the closed form, since the cut-off hardly changes the
+/// stiffness.
 class LennardJones final : public Interaction {
  public:
   LennardJones(const ContactLaw& law, Real beta_product)

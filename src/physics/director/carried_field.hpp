@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carried fields: unknowns that the material of a body takes along as it deforms, and that relax
-// towards their least energy where it is, such as the director of a nematic (cells note 5).
+// Carried fields: unknowns that are transported with the material of a body and relax towards their
+// lowest energy, such as the director of a nematic (cells note 5).
 #pragma once
 #include "meniscus/physics/force_term.hpp"
 
@@ -8,26 +8,28 @@
 
 namespace meniscus {
 
-/// An energy of a carried field, while places stand still. All arrays are those of one body.
+/// An energy of a carried field at fixed positions of the material. Arrays cover the particles of
+/// one body.
 class FieldEnergy {
  public:
   virtual ~FieldEnergy() = default;
 
-  /// From now on at the displacements `u`.
+  /// Fixes the positions at the displacements `u` for the calls below.
   virtual void hold_places(const NodalVector* u) = 0;
-  /// E of the values x of the field.
+  /// The energy E of the values x of the field.
   virtual Real held_energy(const NodalVector* x) const = 0;
   /// f -= dE/dx.
   virtual void add_held_force(const NodalVector* x, std::span<NodalVector> f) = 0;
 };
 
-/// A field of one body with c x' = f while places stand still. Within a step of dt the field is
-/// carried to half-way between the places of its beginning and of its end, relaxes there over dt,
-/// and is carried on: second order, with one force per step (cells note 5.4).
+/// A field of one body with c x' = f at fixed positions. A step of dt has three parts. The field is
+/// carried to half-way between the old and the new positions, relaxes there over dt, and is carried
+/// to the new positions. This is of second order with one force per step (cells note 5.4).
 class CarriedField {
  public:
-  /// `number` is that of System::add_field. The body has the particles from `first` on, with the
-  /// capacities c. `name` and `slower`, keys that make the field slower, are for messages.
+  /// `number` is the return value of System::add_field. The particles of the body begin at `first`;
+  /// `capacity` has their c. `name`, and `slower`, the keys that make the field slower, appear in
+  /// messages.
   CarriedField(std::size_t number, Index first, std::vector<Real> capacity, std::string name,
                std::string slower);
   virtual ~CarriedField() = default;
@@ -39,36 +41,37 @@ class CarriedField {
     return all.subspan(static_cast<std::size_t>(first_), capacity_.size());
   }
 
-  /// x, carried from the displacements `from` of the body to `to`.
+  /// Transports x from the displacements `from` of the body to the displacements `to`.
   virtual void carry(const NodalVector* from, const NodalVector* to,
                      std::span<NodalVector> x) const = 0;
-  /// What the forces on the field, which are all in `force` already, do to the places that carry
-  /// it. Nothing if `force` has no fields.
+  /// Adds the reaction of the field on the motion of the body, which follows from the forces on the
+  /// field. `force` must contain all forces on the field. Does nothing if `force` has no fields.
   virtual void add_reaction(const Motion& motion, Forces force) = 0;
 
-  /// All energies of the field; a term that is one outlives this.
+  /// Adds an energy of the field. `energy` must outlive this object.
   void add(FieldEnergy& energy) { energies_.push_back(&energy); }
   void hold_places(const NodalVector* u);
-  /// Of all energies at the places held.
+  /// Sum of all energies at the fixed positions.
   Real held_energy(const NodalVector* x) const;
   void held_force(const NodalVector* x, std::span<NodalVector> f) const;
 
-  /// A step begins at the displacements `u` of all particles.
+  /// Begins a step at the displacements `u` of all particles.
   void depart(std::span<const NodalVector> u);
-  /// It ends at `u`, after dt: takes `x` of all particles there and returns the heat.
+  /// Ends the step at the displacements `u` after dt: transports and relaxes `x` of all particles.
+  /// Returns the heat.
   Real arrive(std::span<const NodalVector> u, Real dt, std::span<NodalVector> x);
 
-  /// The longest step of explicit Euler, dx' = f/c, from which the number of stages follows.
+  /// Sets the longest stable step of explicit Euler, dx' = f/c. It determines the number of stages.
   void set_limit(Real limit) { limit_ = limit; }
-  /// Number of stages in which the field relaxes over dt, by super time steps of second order
-  /// (RKL2). Throws SolveError if they are more than 10,000.
+  /// Number of stages with which the field relaxes over dt, by super time steps of second order
+  /// (RKL2). Throws SolveError if more than 10,000 are needed.
   int stages(Real dt) const;
   virtual void archive(const Archive& a);
 
   virtual std::size_t bytes() const;
 
  private:
-  /// At the places held.
+  /// Relaxes x over dt at the fixed positions.
   void relax(Real dt, std::span<NodalVector> x);
 
   std::size_t number_;
@@ -77,7 +80,7 @@ class CarriedField {
   std::string name_, slower_;
   std::vector<FieldEnergy*> energies_;
   Real limit_ = 0;
-  NodalVectors from_, middle_;                        // places
+  NodalVectors from_, middle_;                        // displacements
   NodalVectors start_, first_rate_, before_, force_;  // of the stages
 };
 

@@ -8,10 +8,10 @@
 
 namespace meniscus {
 
-/// With F_A the deformation gradient at particle A and l = F_A' F_A^-1 = d + w, the field is
-/// carried by h' = T h, T = w + lambda d - nu2 tr(d) I. Forces -S on the field have the power -S .
-/// T h. The reaction is the stress Y = lambda/2 (h S + S h) - 1/2 (h S - S h) - nu2 (S . h) I at
-/// the particle, which gives
+/// With the deformation gradient F_A at particle A and l = F_A' F_A^-1 = d + w (symmetric and skew
+/// parts), the field is carried by h' = T h, T = w + lambda d - nu2 tr(d) I. A force -S on the
+/// field does the power -S . T h. Its reaction on the body is the stress Y = lambda/2 (h S + S h) -
+/// 1/2 (h S - S h) - nu2 (S . h) I at the particle, which gives
 ///
 ///   f_B = - sum_A Y_A F_A^-T dF_A/du_B.
 template <int D>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of a nematic beside those of its fluid.
+// Parameters of a nematic in addition to the parameters of its fluid.
 #pragma once
 #include "body/grid/stress_rules.hpp"
 

@@ -21,8 +21,8 @@ Dual<Lanes> cell_mean(const Dual<Lanes>& x) {
   return {cell_mean<D>(x.v), cell_mean<D>(x.d)};
 }
 
-/// A law for the D + 1 quadrature points of a nodal cell together. Each point has its deformation
-/// gradient, scaled to the mean volume change of the cell:
+/// Applies a law to the D + 1 quadrature points of a nodal cell together. Each point has its own
+/// deformation gradient, scaled to the mean volume change of the cell:
 ///
 ///   F* = s F,  s^3 = Jm / J,  Jm = mean of J over the points (current / reference volume).
 ///
@@ -32,7 +32,7 @@ Dual<Lanes> cell_mean(const Dual<Lanes>& x) {
 ///   P = s P* + (mean p / Jm - p / J) cof F.
 ///
 /// The viscous stress uses F itself. In linear elasticity this averages the dilatation and keeps
-/// the deviator of each point. If J is constant in a cell, the energy is that of the law.
+/// the deviator of each point. If J is constant in a cell, the energy is the energy of the law.
 template <int D, Law L>
 class CellAverage {
  public:

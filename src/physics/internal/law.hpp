@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Material laws: plain structs of numbers with pure functions of the deformation.
+// Material laws: plain structs of parameters with pure functions of the deformation.
 //
-// A law lives in its own file in src/physics/laws/materials, in an anonymous namespace, and ends
-// with
+// A law has its own file in src/physics/laws/materials, in an anonymous namespace, which ends with
 //   const bool registered = register_law<MyLaw>();
-// It always sees three dimensions (2D is plane strain) and H = F - I, never F, because everything
-// near the reference state has to be computed without cancellation: volume_change, green_strain,
-// log1p, expm1 and their remainders are made for that.
+// Its functions always work in three dimensions (2D is plane strain). Their argument is H = F - I,
+// not F, so that nothing cancels near the reference state. volume_change, green_strain, log1p,
+// expm1 and their remainders help to avoid cancellation.
 //
-// The functions are templates of the scalar T: Real, Lanes (four stress points at once, the time
-// loop), Complex (complex-step derivatives) and Dual (exact tangents). Hence the rules for law
-// code:
+// The functions are templates of the scalar T. T is Real, Lanes (four stress points at once, in the
+// time loop), Complex (complex-step derivatives) or Dual (exact tangents). Hence these rules:
+//
 //   - no comparison, abs, min or max of anything that depends on the argument;
 //   - transpose never conjugates; no norm; sqrt only where its argument cannot vanish;
 //   - stress and viscous_stress are [[gnu::always_inline]]: as calls they take up to twice as long;
-//   - a choice that the whole body shares (an equation of state) may be a branch on a number of the
-//     law: inlined into the loop it costs nothing measurable;
-//   - laws are defined for J > 0 and do not test it: the caller stops the run at J <= 0.
+//   - a choice for the whole body, such as an equation of state, may be a branch on a parameter of
+//     the law: it costs nothing measurable;
+//   - laws are defined for J > 0 and do not test J: the caller stops the run if J <= 0.
 #pragma once
 #include "input/input.hpp"
 #include "numbers/elementary.hpp"
@@ -31,31 +30,32 @@
 
 namespace meniscus {
 
-/// L can be evaluated with the scalar T.
+/// The law L can be evaluated with the scalar T.
 template <class L, class T>
 concept ElasticIn = requires(const L law, const Tensor<T> H) {
   /// Energy W per reference volume; W(0) = 0.
   { law.energy_density(H) } -> std::same_as<T>;
-  /// First Piola stress P = dW/dF, P_iA: i force direction, A normal in the reference.
+  /// First Piola stress P = dW/dF, with P_iA: direction i of the force, reference normal A.
   { law.stress(H) } -> std::same_as<Tensor<T>>;
 };
 
 template <class L, class T>
 concept ViscousIn = requires(const L law, const Tensor<T> H, const Tensor<T> F_rate) {
-  /// First Piola stress, linear in F_rate = dF/dt, added to stress(H); viscous_stress : F_rate >= 0
-  /// is the power turned into heat per reference volume.
+  /// First Piola stress, linear in F_rate = dF/dt. It is added to stress(H). viscous_stress :
+  /// F_rate >= 0 is the power turned into heat per reference volume.
   { law.viscous_stress(H, F_rate) } -> std::same_as<Tensor<T>>;
 };
 
-/// A law with viscous stress; it says `static constexpr bool viscous = true`, and inviscid() if its
-/// numbers are such that this stress is always zero.
+/// A law with viscous stress. It has `static constexpr bool viscous = true`. inviscid() returns
+/// true if this stress is always zero with the parameters of the law.
 template <class L>
 concept ViscousLaw = L::viscous && ViscousIn<L, Real> && ViscousIn<L, Lanes> &&
     requires(const L law) {
   { law.inviscid() } -> std::same_as<bool>;
 };
 
-/// A viscous law, or what is made of one, where its viscosity is zero: without viscous stress.
+/// A viscous law, or a class that wraps one, without its viscous stress: for laws whose viscosity
+/// is zero.
 template <class L>
 struct WithoutViscosity : L {
   static constexpr bool viscous = false;
@@ -63,9 +63,9 @@ struct WithoutViscosity : L {
   explicit WithoutViscosity(const Argument& law) : L(law) {}
 };
 
-/// A material law. `density` is the mass per reference volume; p_wave_modulus() is rho c^2 of a
-/// plane compression wave at the reference state; rows() are its numbers in the scene, and
-/// `meaning` its energy W in the words of `meniscus keys`.
+/// A material law. `density` is the mass per reference volume. p_wave_modulus() is rho c^2 of a
+/// plane compression wave at the reference state. rows() are the parameters in a scene. `meaning`
+/// describes its energy W in `meniscus keys`.
 template <class L>
 concept Law = std::is_trivially_copyable_v<L> && ElasticIn<L, Real> && ElasticIn<L, Lanes> &&
               ElasticIn<L, Complex> &&(ViscousLaw<L> || !L::viscous) &&
@@ -77,8 +77,8 @@ concept Law = std::is_trivially_copyable_v<L> && ElasticIn<L, Real> && ElasticIn
   { law.p_wave_modulus() } -> std::same_as<Real>;
 };
 
-/// What is wrong with the numbers of `law` taken together (each alone is in its range already);
-/// nothing for laws without a member check().
+/// Describes a problem of the parameters taken together (each alone is in its range). Empty if
+/// there is none, or if the law has no member check().
 template <Law L>
 std::optional<std::string> check(const L& law) {
   if constexpr (requires {
@@ -89,7 +89,7 @@ std::optional<std::string> check(const L& law) {
     return {};
 }
 
-/// Bulk modulus / shear modulus at the reference state; nothing for laws without a member
+/// Bulk modulus / shear modulus at the reference state. Empty for laws without a member
 /// bulk_over_shear(), such as fluids.
 template <Law L>
 std::optional<Real> bulk_over_shear(const L& law) {
@@ -101,42 +101,43 @@ std::optional<Real> bulk_over_shear(const L& law) {
     return {};
 }
 
-/// Bulk modulus at the reference state; the modulus of p-waves for laws that do not tell it from
-/// that, which for fluids is the same.
+/// Bulk modulus at the reference state. Laws without bulk_over_shear() are fluids, whose bulk
+/// modulus is the p-wave modulus.
 template <Law L>
 Real bulk_modulus(const L& law) {
   const std::optional<Real> ratio = bulk_over_shear(law);
   return law.p_wave_modulus() * (ratio ? *ratio / (*ratio + 4.0 / 3.0) : 1);
 }
 
-/// A law with a member warning(H): why it should not be trusted at H = F - I, e.g. a loss of
-/// ellipticity. Asked at output times only.
+/// A law with a member warning(H). It returns the reason if the law is not reliable at H = F - I,
+/// e.g. a loss of ellipticity. Called at output times only.
 template <class L>
 concept WarningLaw = requires(const L law, const Tensor<Real> H) {
   { law.warning(H) } -> std::same_as<std::optional<std::string>>;
 };
 
-/// A law with a direction of its own. `director` is a unit vector of the reference, filled in by
-/// whoever applies the law to a body (reference_director.hpp); a law without a body has the one it
-/// was made with.
+/// A law with a direction of its own. `director` is a unit vector in the reference. Code that
+/// applies the law to a body sets it (reference_director.hpp); otherwise it keeps its initial
+/// value.
 template <class L>
 concept DirectedLaw = requires(L law) {
   { law.director } -> std::same_as<std::array<Real, 3>&>;
 };
 
-/// A law whose numbers change with time. As read from a scene it is that of the reference state.
+/// A law whose parameters change with time. As read from a scene, it is the law of the reference
+/// state.
 template <class L>
 concept RampedLaw = requires(const L law, const Tensor<Lanes> H) {
-  /// The law at a time.
+  /// The law with its parameters at a time.
   { law.at_time(Real{}) } -> std::same_as<L>;
-  /// dW/dt of at_time(t) at fixed deformation: what changing the numbers costs.
+  /// dW/dt of at_time(t) at fixed deformation: the power supplied by the change of the parameters.
   { law.energy_rate(H) } -> std::same_as<Lanes>;
-  /// From when on nothing changes any more.
+  /// The time after which the parameters are constant.
   { law.steady_after() } -> std::same_as<Real>;
 };
 
-/// A law with a member note(spacing): what a reader of the log should know of its numbers on a body
-/// of this mean spacing; one sentence.
+/// A law with a member note(spacing). It returns a sentence for the log about its parameters, for a
+/// body with this mean spacing.
 template <class L>
 concept NotingLaw = requires(const L law) {
   { law.note(Real{}) } -> std::same_as<std::optional<std::string>>;

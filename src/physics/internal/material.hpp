@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Materials: from the table of a scene to the internal force of a body. The template that joins law
-// and integration rule is instantiated once per law, at its registration.
+// Materials: make the internal force of a body from a table of the scene. The template that
+// combines a law with an integration rule is instantiated once per law, at its registration.
 #pragma once
 #include "body/grid/nodal_cells.hpp"
 #include "meniscus/error.hpp"
@@ -23,11 +23,11 @@ namespace meniscus {
 struct Integration {
   std::string rule = "q_scni";  ///< "q_scni", "gauss" or "nodal"
   int gauss_points = 3;         ///< per direction and cell, for "gauss"
-  /// "full", "cell_average" (with "q_scni" only) or "automatic": cell_average for "q_scni" where
-  /// the bulk modulus is at least 1000 shear moduli.
+  /// "full", "cell_average" (with "q_scni" only) or "automatic". Automatic is cell_average with
+  /// "q_scni" if the bulk modulus is at least 1000 shear moduli, else full.
   std::string volumetric = "automatic";
-  /// The pressure of a fluid works on the volume that the surface encloses: its discrete surface
-  /// tension is balanced. Then "automatic" is cell_average with "q_scni".
+  /// True if the pressure of a fluid works on the volume that its surface encloses, to balance a
+  /// `balanced` surface tension. "automatic" is then cell_average with "q_scni".
   bool enclosed = false;
   RowPrecision precision = RowPrecision::full;  ///< of the rows of "q_scni"
 };
@@ -42,26 +42,27 @@ class Material {
     MassReport mass;
     bool cell_average;                   ///< one volume change per nodal cell
     std::optional<std::string> note;     ///< for the log
-    std::optional<std::string> warning;  ///< for the log, of what is doubtful
+    std::optional<std::string> warning;  ///< for the log: doubtful choices
     std::vector<Real> viscosity;  ///< shear viscosity of a fluid, per particle; empty: a solid
-    Real bulk_modulus;            ///< the least of the body
-    Real bulk_over_shear = 0;     ///< the largest of a solid; 0: not known
+    Real bulk_modulus;            ///< smallest value in the body
+    Real bulk_over_shear = 0;     ///< largest value in a solid; 0: not known
     std::unique_ptr<NematicBody<D>> nematic = {};  ///< null: no director
   };
-  /// Sets body.mass and builds the internal force. Throws SolveError (shape functions) and
-  /// InputError (a formula leaves its range somewhere in the body).
+  /// Sets body.mass and builds the internal force. Throws SolveError where shape functions cannot
+  /// be determined, and InputError where a formula leaves its range.
   virtual Built build(Body<D>& body, const Integration& integration) const = 0;
-  /// No stress but a pressure at rest.
+  /// True if the material has no stress at rest except pressure.
   virtual bool fluid() const = 0;
-  /// A nematic, whose director is a second unknown.
+  /// True for a nematic, which has a director as a second unknown.
   virtual bool carries_director() const { return false; }
 };
 
-/// A material with the law L. What is done once is marked cold: it is compiled for every law.
+/// A material with the law L. Functions that run once are marked cold, since they are compiled for
+/// every law.
 template <int D, Law L>
 class MaterialOf final : public Material<D> {
  public:
-  /// `director` for a DirectedLaw.
+  /// `director` is needed for a DirectedLaw.
   MaterialOf(Varying<L> law, std::optional<ReferenceDirector> director)
       : law_(std::move(law)), director_(std::move(director)) {}
 
@@ -103,7 +104,7 @@ class MaterialOf final : public Material<D> {
     return law;
   }
 
-  /// One law for all groups of stress points, or one at the place of each if the material varies.
+  /// One law for all groups of stress points if the material is uniform, else one law for each.
   std::vector<L> laws_at(const std::vector<Vec<D>>& places, const Geometry<D>& geometry) const {
     std::vector<L> laws;
     for (const Vec<D>& X : places) {
@@ -165,7 +166,7 @@ class MaterialOf final : public Material<D> {
             largest_bulk_over_shear(laws)};
   }
 
-  /// A nodal cell has one law: the director of its centre.
+  /// A nodal cell has one law, with the director at its centre.
   static std::optional<std::string> doubt_of_turns(const Body<D>& body,
                                                    const std::vector<L>& laws) {
     std::vector<Eigen::Vector3d> directors;
@@ -173,7 +174,8 @@ class MaterialOf final : public Material<D> {
     return doubt_of_director(largest_turn(body.geometry.grid, directors));
   }
 
-  /// The law of a group of stress points is L itself or what is made of it.
+  /// Makes the internal force. A group of stress points uses the law L itself, or a class that
+  /// wraps L.
   template <class Rule>
   static std::unique_ptr<ForceTerm> force(const Body<D>& body, Rule rule,
                                           const std::vector<L>& laws, bool averaged,
@@ -220,7 +222,7 @@ class MaterialOf final : public Material<D> {
   std::optional<ReferenceDirector> director_;
 };
 
-/// Reads the numbers of the law L from a scene; problems are noted in the block.
+/// Reads the parameters of the law L from a scene. Problems are noted in the block.
 template <int D, Law L>
 std::unique_ptr<Material<D>> read_material(const Block& block) {
   Varying<L> law = read_varying<L>(block);

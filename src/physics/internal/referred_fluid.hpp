@@ -8,13 +8,13 @@
 
 namespace meniscus {
 
-/// F is the deformation from the new reference, in which a nodal cell has J_0 times its volume in
-/// the reference of the scene. The law is evaluated at J = J_0 det F. Per volume of the new
-/// reference
+/// The fluid after the update. F is the deformation from the new reference, in which a nodal cell
+/// has J_0 times its volume in the reference of the scene. The law is evaluated at J = J_0 det F.
+/// Per volume of the new reference,
 ///
 ///   W' = W(J) / J_0,  P' = dW/dJ cof F.
 ///
-/// The viscous stress depends on the current motion only and is that of the law. The surface
+/// The viscous stress does not change, since it depends on the current motion only. The surface
 /// encloses J_e0 times its volume ratio to the new reference, where J_e0 is the mean of J_0.
 template <int D, FluidLaw L, class E = Real>
 class ReferredFluid : FluidPoints<D, L, E> {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A force that comes from stresses at the points of an integration rule, whatever the law: energy,
-// failures, warnings, fields and measures of the internal force. Only the loop of the time step
-// itself, which has to know the law, is left to internal_force.hpp.
+// Force of the stresses at the points of an integration rule. This base class of the internal force
+// contains all that does not depend on the type of the law: energy, failures, warnings, fields and
+// measures. The loop of the time step is in internal_force.hpp.
 #pragma once
 #include "body/grid/stress_rules.hpp"
 #include "body/surface/surface_patches.hpp"
@@ -12,7 +12,8 @@
 
 namespace meniscus {
 
-/// Where the loop over groups of stress points leaves their H = F - I; nowhere without `all`.
+/// Stores H = F - I of each group of stress points in the array `all`. If `all` is null, stores
+/// nothing.
 class KeptDeformations {
  public:
   explicit KeptDeformations(Tensor<Lanes>* all)
@@ -29,7 +30,7 @@ class KeptDeformations {
   std::ptrdiff_t stride_;
 };
 
-/// `Rule` is CellRule<D> or PointRule<D>.
+/// The common part of internal forces. `Rule` is CellRule<D> or PointRule<D>.
 template <int D, class Rule>
 class StressPointForce : public ForceTerm {
  public:
@@ -72,12 +73,12 @@ class StressPointForce : public ForceTerm {
   PointLaws& laws() { return *laws_; }
   int chunks() const { return windows_.chunks(); }
   ChunkReports& said() { return said_; }
-  /// Sums of the forces of this body's particles out of `all`.
+  /// Adds the forces on the particles of this body to `all`; see ForceWindows::accumulate().
   template <class F>
   void accumulate(std::span<NodalVector> all, F&& work) {
     windows_.accumulate(body_.part(all), work);
   }
-  /// Of what the chunks of all ranks have left, where the rows are.
+  /// Sum of `left` [chunk] over the chunks of all ranks that have rows of this body.
   template <class T>
   T sum_of_chunks(PerChunk<T>& left) const {
     body_.division.complete_where_rows_are(chunks(), left.begin(), sizeof(T));
@@ -86,26 +87,26 @@ class StressPointForce : public ForceTerm {
     return sum;
   }
 
-  /// J_e - 1 of the surface at the displacements `u` of the body, whose gradient is remembered;
-  /// zero without a surface.
+  /// J_e - 1 of the surface at the displacements `u` of the body; stores its gradient for
+  /// pull_on_surface(). Zero without a surface.
   Real follow_enclosed(const NodalVector* u) {
     return surface_ ? surface_->follow(Size::volume, u) / surface_->reference(Size::volume) - 1 : 0;
   }
-  /// Forces of the energy whose derivative with respect to J_e is `slope`.
+  /// Adds the forces of an energy with the derivative `slope` with respect to J_e.
   void pull_on_surface(Real slope, std::span<NodalVector> all) {
     if (surface_)
       surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
 
-  /// From now on add_force leaves H of the groups of this rank in kept()[group].
+  /// From now on add_force() stores H of the groups of this rank in kept()[group].
   void keep_deformations() {
     keeps_ = true;
     kept_.resize(static_cast<std::size_t>(own_.end - own_.begin));
   }
   Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data() - own_.begin; }
 
-  /// The first of these groups with a point where J <= 0 or not a number; ChunkReport::nowhere if
-  /// there is none. `u` is that of the body.
+  /// The first group in the range with a point where J <= 0 or J is NaN. ChunkReport::nowhere if
+  /// there is none. `u` has the displacement coefficients of the body.
   Index first_folded(Index begin, Index end, const NodalVector* u) const;
 
  private:
@@ -117,7 +118,7 @@ class StressPointForce : public ForceTerm {
   Tensor<Dual<Lanes>> gradients(Index group, const NodalVector* u, const NodalVector* du) const {
     return dual(gradients(group, u), gradients(group, du));
   }
-  /// Of the groups of this rank; empty if there is nothing to say.
+  /// The warning of this rank's groups of stress points; empty if there is none.
   std::string own_warning(const Motion& motion) const;
   void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
   VisitStressPoints visitor() const;

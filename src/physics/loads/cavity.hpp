@@ -9,17 +9,19 @@
 
 namespace meniscus {
 
-/// At most one of `pressure` and `volume_target`; with neither the cavity is vented.
+/// How a cavity is filled. At most one of `pressure` and `volume_target` is set; without both, the
+/// cavity is open.
 struct CavityFilling {
-  std::optional<Real> pressure;       ///< inside above outside
-  std::optional<Real> volume_target;  ///< of the volume V0 enclosed in the reference
+  std::optional<Real> pressure;       ///< inside minus outside
+  std::optional<Real> volume_target;  ///< relative to the volume V0 enclosed in the reference
   Real penalty = 0;                   ///< pressure per relative deviation from the target
   Ramp ramp;                          ///< from pressure 0 or target 1
 };
 
-/// Pressure: stored energy E = -p (V - V0). Content: E = penalty V0 (V/V0 - target)^2 / 2, that is
-/// p = -penalty (V/V0 - target). The force is p dV/dd, the exact gradient; what changes with time
-/// is work of the outside world. When opposite places of an inner surface touch, that is a failure.
+/// The force of a filled cavity. With a pressure, the stored energy is E = -p (V - V0). With a
+/// content, E = penalty V0 (V/V0 - target)^2 / 2, so p = -penalty (V/V0 - target). The force p
+/// dV/dd is the exact gradient. Work due to the change of pressure or target with time is external
+/// work. Opposite parts of an inner surface that touch are a failure.
 template <int D>
 std::unique_ptr<ForceTerm> cavity(const Body<D>& body, SurfacePart part,
                                   const CavityFilling& filling, int points);

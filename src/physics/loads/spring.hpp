@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Springs and dampers between a body and places that are given.
+// Springs and dampers between a body and prescribed positions.
 #pragma once
 #include "body/body.hpp"
 #include "input/ramp.hpp"
@@ -9,14 +9,15 @@
 
 namespace meniscus {
 
-/// Springs k at the means of displacements u_k = sum_A C_kA u_A, E = sum K_k |u_k - g_k|^2 / 2 over
-/// the components that have springs, with dampers of the force - c_k u_k'.
+/// Springs on the mean displacements u_k = sum_A C_kA u_A, with the energy E = sum K_k |u_k -
+/// g_k|^2 / 2. The sum contains only the components that have springs. Dampers add the forces - c_k
+/// u_k'.
 template <int D>
 struct Springs {
   PointRows<D> mean;                     ///< [spring] C_kA
   std::vector<Real> stiffness, damping;  ///< [spring] K_k, c_k
   std::vector<Vec<D>> displacement;      ///< [spring] g_k at the end of the ramp
-  Vec<D> components = Vec<D>::Ones();    ///< 1 for those with springs, else 0
+  Vec<D> components = Vec<D>::Ones();    ///< 1 for components with springs, else 0
   Ramp ramp;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces that cannot be: bodies that go through themselves or through each other.
+// Detects impossible surfaces: bodies that pass through themselves or through each other.
 #pragma once
 #include "body/body.hpp"
 #include "body/surface/crossings.hpp"
@@ -12,22 +12,22 @@
 
 namespace meniscus {
 
-/// Watches the surfaces of all bodies, as flat simplices between the places of their boundary
-/// particles. A motion is impossible where a simplex goes through another one (CrossingSearch), or
-/// where a closed face is turned inside out: its enclosed volume, negative for the face around a
-/// cavity, has another sign than in the reference.
+/// Checks the surfaces of all bodies, as flat simplices between the positions of their boundary
+/// particles. A motion is impossible if a simplex crosses another one (CrossingSearch), or if a
+/// closed face is turned inside out. The enclosed volume of such a face has another sign than in
+/// the reference; it is negative for the face around a cavity.
 template <int D>
 class SurfaceCheck {
  public:
-  /// `bodies` must outlive the check. `remedy` of the numbers of two bodies, which may be the same,
-  /// ends the message about their crossing.
+  /// `bodies` must outlive the check. remedy(i, j) returns the end of the message about a crossing
+  /// of bodies i and j, which may be the same body.
   SurfaceCheck(std::vector<const Body<D>*> bodies,
                std::function<std::string(std::size_t, std::size_t)> remedy);
 
-  /// The deepest crossing; if there is none, a face that is turned inside out. All ranks call this
-  /// and find the same.
+  /// The deepest crossing. If there is none, a face that is turned inside out. All ranks call this
+  /// and get the same result.
   std::optional<Failure> find(const Motion& motion) const;
-  /// The deepest crossing alone.
+  /// Like find(), but does not look for faces that are turned inside out.
   std::optional<Failure> crossing(const Motion& motion) const {
     return crossing_at(places(motion));
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surface laws: structs of parameters with pure functions of the deformation of a surface. A law
-// gives the surface of a body an energy per area, or resists the rate of its deformation.
+// either gives the surface of a body an energy per area, or resists the rate of its deformation.
 //
 // A law has a file of its own in src/physics/laws/surfaces, in an anonymous namespace, which ends
 // with
 //
-//   const bool registered = register_surface_law<MyLaw>("what it is");
+//   const bool registered = register_surface_law<MyLaw>("short description");
 //
 // Its functions are templates of the scalar; the rules of material laws (law.hpp) hold.
 #pragma once
@@ -60,8 +60,8 @@ concept ModuliSurfaceLaw = requires(const L law) {
   { law.unstable_modulus() } -> std::same_as<std::optional<Real>>;
 };
 
-/// e = (I - n n) F^-T = (cof F - m (m . cof F)/Js^2)/J: the current tangents dual to those of the
-/// reference, e^T F = I - N N.
+/// The current tangents e that are dual to the tangents of the reference, e^T F = I - N N: e = (I -
+/// n n) F^-T = (cof F - m (m . cof F)/Js^2)/J.
 template <class T>
 [[gnu::always_inline]] inline Tensor<T> dual_tangents(const SurfaceState<T>& s) {
   const T over_J = 1.0 / (1.0 + volume_change(s.H)), over_square = 1.0 / (s.stretch * s.stretch);

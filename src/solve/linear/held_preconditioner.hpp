@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The preconditioner of a system whose places are held in part.
+// The preconditioner of a system with prescribed displacements.
 #pragma once
 #include "solve/linear/element_preconditioner.hpp"
 
@@ -7,22 +7,22 @@
 
 namespace meniscus {
 
-/// (quasi-statics note 4) With C u = g(t) what the constraints of the system prescribe,
-///   z = P^-1 r - Y (C Y)^-1 C P^-1 r,   Y = P^-1 C^t,
-/// the inverse of P among the displacements that they leave free: C z = 0, and forces C^t lambda
-/// count for nothing. Without constraints P^-1.
+/// The inverse of P on the displacements that the constraints C u = g(t) leave free (quasi-statics
+/// note 4):
+///   z = P^-1 r - Y (C Y)^-1 C P^-1 r,   Y = P^-1 C^t.
+/// Hence C z = 0, and forces C^t lambda have no effect. Without constraints it is P^-1.
 template <int D>
 class HeldPreconditioner {
  public:
-  /// Throws as ElementPreconditioner.
+  /// Throws like ElementPreconditioner.
   explicit HeldPreconditioner(System<D>& system, const ImplicitEuler<D>* step = nullptr);
 
-  /// For another step.
+  /// Computes the preconditioner again for another step.
   void renew(System<D>& system, const ImplicitEuler<D>* step);
 
-  /// z of r; returns r . z.
+  /// Sets z for the residual r; returns r . z.
   Real apply(const NodalVectors& r, NodalVectors& z) const;
-  /// Moves u to where it is prescribed at a time, as little as possible in the norm of P.
+  /// Moves u to its prescribed values at a time, with the smallest change in the norm of P.
   void meet(Real time, NodalVectors& u) const;
   const ElementPreconditioner<D>& elements() const { return elements_; }
 
@@ -32,7 +32,7 @@ class HeldPreconditioner {
   void add_response(std::vector<Real>& b, NodalVectors& u) const;
 
   ElementPreconditioner<D> elements_;
-  const Constraints* constraints_;  // null: there are none
+  const Constraints* constraints_;  // null without constraints
   Index particles_;
   NodalVectors Y_;  // [particle][row]
   Eigen::LDLT<Eigen::MatrixXd> factors_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Order in which sparse factors of a body's grid stay small.
+// An ordering of the nodes of a grid for which sparse factors stay small.
 #pragma once
 #include "body/grid/grid.hpp"
 
@@ -7,10 +7,11 @@
 
 namespace meniscus {
 
-/// The nodes of a grid (order[new] = old): those of one half, those of the other, and last those of
-/// the first half that share a cell with the second; the halves likewise. Halves are cut across the
-/// longest extent of their nodes (George, SIAM J. Numer. Anal. 10 (1973) 345, by places instead of
-/// the numbers of a square grid). Depends on nothing but the grid.
+/// Nested dissection of the nodes of a grid, order[new] = old (George, SIAM J. Numer. Anal. 10
+/// (1973) 345, by positions instead of the numbers of a square grid). The nodes are cut in half
+/// across their longest extent. The order is: first half, second half, and last the nodes of the
+/// first half that share a cell with the second half. Each half is ordered in the same way. The
+/// order depends on the grid only.
 template <int D>
 std::vector<Index> nested_dissection(const Grid<D>& grid);
 

@@ -14,25 +14,25 @@ struct MatrixEntry {
   Real value;
 };
 
-/// L D L^T of a symmetric positive matrix, with the same bits for any number of threads.
+/// Factors L D L^T of a symmetric positive matrix. The bits do not depend on the number of threads.
 class SparseCholesky {
  public:
-  /// Of the n x n matrix with the sums of `entries`, both triangles given. Its diagonal is scaled
-  /// to one first. Rows are eliminated in `order` (order[new] = old), but for rows that do not
-  /// depend on each other; by minimum degree if empty.
+  /// Factorises the n x n matrix with the sums of `entries`; both triangles must be given. The
+  /// diagonal is first scaled to one. Rows are eliminated in `order` (order[new] = old);
+  /// independent rows may be exchanged. If `order` is empty, minimum degree is used.
   SparseCholesky(Index n, std::span<const MatrixEntry> entries, std::vector<Index> order = {});
   ~SparseCholesky();
 
-  /// The smallest pivot of the scaled matrix and its row: about round-off if that row depends on
-  /// others, then solve() means nothing.
+  /// The smallest pivot of the scaled matrix, and its row. A pivot near round-off means that the
+  /// row depends on others; solve() is then meaningless.
   struct Pivot {
     Real value;
     Index row;
   };
   Pivot smallest_pivot() const;
-  /// b becomes the solution x of A x = b.
+  /// Replaces b by the solution x of A x = b.
   void solve(std::vector<Real>& b) const;
-  /// The same for all components of n vectors at once.
+  /// Solves for each component of the n vectors b.
   void solve(std::span<NodalVector> b) const;
   std::size_t bytes() const;
 
@@ -41,16 +41,16 @@ class SparseCholesky {
   std::unique_ptr<Factors> factors_;
 };
 
-/// L U of a square matrix.
+/// Factors L U of a square matrix.
 class SparseLU {
  public:
-  /// Of the n x n matrix with the sums of `entries`.
+  /// Factorises the n x n matrix with the sums of `entries`.
   SparseLU(Index n, const std::vector<MatrixEntry>& entries);
   ~SparseLU();
 
-  /// Whether the matrix has an inverse.
+  /// True if the matrix has an inverse.
   bool exists() const;
-  /// b becomes the solution of A x = b, or of A^t x = b.
+  /// Replace b by the solution of A x = b, or of A^t x = b.
   void solve(Eigen::VectorXd& b) const;
   void solve_transposed(Eigen::VectorXd& b) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work from outside between states at rest.
+// External work between states at rest.
 #pragma once
 #include "solve/system.hpp"
 
@@ -7,34 +7,33 @@
 
 namespace meniscus {
 
-/// (quasi-statics note 2) Takes a state from equilibrium to equilibrium and books what held faces
-/// and all else from outside do on the way: by the mean of the forces before and after, which two
-/// pieces of the way together correct to third order in their length.
+/// Moves a state from equilibrium to equilibrium and books the work of held faces and loads on the
+/// way (quasi-statics note 2). The work uses the mean of the forces before and after. Two
+/// consecutive pieces of the way together correct it to third order in their length.
 template <int D>
 class OuterWork {
  public:
   explicit OuterWork(System<D>& system);
 
-  /// In a piece of the way.
+  /// Energies of one piece of the way.
   struct Exchange {
     Real work = 0, stored = 0;
     Real released() const { return work - stored; }
     Real size() const { return std::abs(work) + std::abs(stored); }
   };
   struct Piece {
-    Real dt = 0;  ///< 0: nothing is known of it
+    Real dt = 0;  ///< 0: unknown
     NodalVectors du;
-    std::vector<Real> work;    ///< of each held face and, last, of all else from outside
-    std::vector<Real> lambda;  ///< of the constraints, at its beginning
+    std::vector<Real> work;    ///< by each held face and, as last entry, by all loads
+    std::vector<Real> lambda;  ///< of the constraints, at the begin of the piece
   };
 
-  /// Moves the state to u at `time`, with its forces and reactions, and books the work.
+  /// Moves the state to u at `time`, computes forces and reactions, and books the work.
   Exchange move(State& state, Real time, const NodalVectors& u);
-  /// After a move to `state`, for both this piece and the last: what the means of the forces leave
-  /// After a move from `before` to `state`, what the means of the forces over this piece and the
-  /// last leave out.
+  /// Call this after a move from `before` to `state`. Books the error of the mean forces over this
+  /// piece and the last piece, as estimated from both pieces together.
   void book_bend(const State& before, State& state);
-  /// The piece moved becomes the last; after a jump nothing can be told from it.
+  /// Makes the piece just moved the last piece. After a jump, the last piece is forgotten.
   void go_on(bool jump);
   void forget() { last_.dt = 0; }
   const Piece& last() const { return last_; }
@@ -42,7 +41,7 @@ class OuterWork {
   void archive(const Archive& a);
 
  private:
-  /// Where work is counted from, or to.
+  /// The begin or the end of a way along which work is computed.
   struct End {
     Real time;
     const NodalVectors& u;
@@ -56,7 +55,7 @@ class OuterWork {
   std::vector<Real> way_of_rows_;
 };
 
-/// Of all terms.
+/// Sum of the stored energies of all terms.
 template <int D>
 Real stored_energy(const System<D>& system, const Motion& motion);
 

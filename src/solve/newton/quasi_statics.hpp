@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quasi-statics: equilibria from load step to load step.
+// Quasi-statics: a sequence of equilibria, one per load step.
 #pragma once
 #include "meniscus/solve/stepper.hpp"
 #include "solve/newton/newton_method.hpp"
@@ -7,29 +7,32 @@
 
 namespace meniscus {
 
-/// (quasi-statics note 2) Each load step looks for the minimum of the potential at its time,
-/// downhill from the equilibrium before. A step that does not find it is halved.
+/// Each load step finds the minimum of the potential at its time, downhill from the previous
+/// equilibrium (quasi-statics note 2). A load step that fails is halved.
 ///
-/// A body that snaps from one equilibrium to another releases energy that no outer work accounts
-/// for. That is booked as dissipated, once pieces of the load step have shown that it does not
-/// vanish with them. So is what the first state has been away from equilibrium.
+/// A body that snaps from one equilibrium to another releases energy that no external work
+/// explains. This energy is booked as dissipated if it does not vanish when the load step is
+/// divided into pieces. The energy that the initial state releases on its way to equilibrium is
+/// also booked as dissipated.
 ///
-/// There is no motion: what kinetic energy a state has is dissipated by the first step.
+/// There is no motion: the first step dissipates the kinetic energy of the state.
 template <int D>
 class QuasiStatics final : public Stepper<D> {
  public:
-  /// Every term has a potential, there is no field beside the displacement, and no body is a fluid.
+  /// Requires that every term has a potential, that there are no fields beside the displacement,
+  /// and that no body is a fluid.
   QuasiStatics(System<D>& system, const StepperChoice& choice);
 
   bool implicit() const override { return true; }
   void begin(const State& state) override;
-  /// From wherever a run begins to the equilibrium at that time.
+  /// Moves the first state of a run to the equilibrium at its time.
   void settle(State& state) override;
-  /// The load step: that of the scene, or a twentieth of its time; less to meet the end of a ramp.
+  /// The load step: the step of the scene, or a twentieth of the run. Shorter if a ramp ends
+  /// before.
   Real longest_step(const State& state) override;
-  /// Throws SolveError where no equilibrium is found.
+  /// Makes a load step. Throws SolveError if no equilibrium is found.
   void step(State& state, Real dt) override;
-  /// At the equilibrium of the final loads, or at the end of loads that never cease to change.
+  /// True at the equilibrium of the final loads, or at the end time if loads change forever.
   bool arrived() const override { return arrived_; }
   std::vector<Residual> residuals(const State& state) const override;
   std::string obstacle(const State& state) const override;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inertia of thin bodies in dynamic relaxation: chosen for few steps, not that of their mass.
+// Artificial inertia for the dynamic relaxation of thin bodies, chosen so that few steps are
+// needed.
 #pragma once
 #include "solve/system.hpp"
 
@@ -8,20 +9,21 @@
 
 namespace meniscus {
 
-/// (quasi-statics note 9) With the masses m of the particles, their density rho and the Laplacian L
-/// of linear elements, for each component by itself,
+/// The artificial inertia (quasi-statics note 9). Let m be the masses of the particles, rho their
+/// density, and L the Laplacian of linear elements. For each component separately,
 ///   M^-1 = B [m/2 + rho L/(2 k^2)]^-1 B^t,   k = 2 pi/extent,
-/// where B is about the inverse of the transform to places: waves as long as the body move about as
-/// by their mass, and with sound of speed c no mode is much faster than sqrt(2) c k, however thin
-/// the wall. Neither sum M v nor sum M v x place comes into a body that has none. Symmetric,
-/// positive; the same bits for any number of threads.
+/// where B is an approximate inverse of the transform from coefficients to positions. Waves as long
+/// as the body move about as with their real mass. No mode is much faster than sqrt(2) c k, with
+/// the speed of sound c, however thin the wall is. A body without momentum and angular momentum
+/// keeps both at zero. M is symmetric and positive. The bits are the same for any number of
+/// threads.
 template <int D>
 class ElasticInertia {
  public:
   explicit ElasticInertia(const System<D>& system);
   ~ElasticInertia();
 
-  /// z = M^-1 r
+  /// z = M^-1 r, for all bodies.
   void solve(const NodalVectors& r, NodalVectors& z) const;
 
  private:
@@ -29,25 +31,25 @@ class ElasticInertia {
   std::vector<std::unique_ptr<OfBody>> bodies_;
 };
 
-/// The longest stable step of central differences with that inertia, by power iteration on
-/// differences of the force.
+/// The longest stable step of central differences with this inertia. It is found by power iteration
+/// on differences of the force.
 template <int D>
 class ElasticStep {
  public:
-  /// Steps are `safety` times the limit.
+  /// Steps are `safety` times the stable step.
   ElasticStep(System<D>& system, Real safety);
 
-  /// At a state that has its forces: found anew where the limit may have changed by 2 %.
+  /// The step at a state that has its forces. Computes it again if it may have changed by 2 %.
   Real at_state(const ElasticInertia<D>& inertia, const State& state);
-  /// Finds it anew before the next step.
+  /// Forces a new computation before the next step.
   void doubt() { next_ = 0; }
-  /// Forces that it took so far.
+  /// Number of force evaluations so far.
   std::int64_t evaluations() const { return evaluations_; }
 
   void archive(const Archive& a);
 
  private:
-  /// Iterates until the stiffness settles, `most` times at most.
+  /// Iterates until the stiffness has converged, at most `most` times.
   void iterate(const ElasticInertia<D>& inertia, const State& state, int most);
 
   System<D>& system_;
@@ -58,8 +60,8 @@ class ElasticStep {
   std::int64_t next_ = 0, evaluations_ = 0;
 };
 
-/// Whether relaxation gives a system that inertia: thin elastic bodies in space alone, with nothing
-/// that holds, touches or flows. (In the plane steps are cheap.)
+/// True if relaxation uses this inertia for a system: 3D, only thin elastic bodies, without held
+/// faces, contacts or fluids. (In 2D steps are cheap.)
 template <int D>
 bool is_thin_and_elastic(const System<D>& system, const std::vector<bool>& fluid);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The forces of the step to come, from those of the steps before.
+// Predicts the forces of the next step from the forces of earlier steps.
 #pragma once
 #include "parallel/step_reads.hpp"
 #include "state/archive.hpp"
@@ -9,19 +9,20 @@
 
 namespace meniscus {
 
-/// (performance note 4.1) With f_n and its differences of first and second order,
-///   f_n+1 = f_n + b_0 f_n + b_1 (f_n - f_n-1) + b_2 (f_n - 2 f_n-1 + f_n-2),
-/// the numbers b being those that would have predicted f_n best, by least squares of the
-/// accelerations: smooth motion is extrapolated (b = 0, 1, 1), what rings is damped. None where
-/// they predict f_n badly, as after a jump, or the length of steps has changed considerably.
+/// The prediction (performance note 4.1) from f_n and its first and second differences:
+///   f_n+1 = f_n + b_0 f_n + b_1 (f_n - f_n-1) + b_2 (f_n - 2 f_n-1 + f_n-2).
+/// The b are the coefficients that would have predicted f_n best, by least squares of the
+/// accelerations. Smooth motion is thus extrapolated (b = 0, 1, 1), and vibrations are damped. The
+/// prediction is f_n itself if f_n is predicted badly, as after a jump, or if the step has changed
+/// considerably.
 class ForcePrediction {
  public:
   explicit ForcePrediction(std::size_t particles);
 
   using SharedHalo = std::shared_ptr<const Halo>;
 
-  /// f_n+1, after a step of dt, to `next` by `now`, f_n, of the particles that are followed. This
-  /// becomes a force of the past with step_stands() only.
+  /// Predicts f_n+1 into `next`, from `now` = f_n after a step of dt, for the particles of the
+  /// halo. `now` is kept for later predictions only when step_stands() is called.
   void predict(const NodalVectors& now, Real dt, const std::vector<Real>& mass, NodalVectors& next,
                const SharedHalo& halo = {});
   void step_stands();
@@ -33,8 +34,8 @@ class ForcePrediction {
   Eigen::Vector3d best(const std::vector<Real>& mass, const SharedHalo& halo) const;
 
   std::array<NodalVectors, order + 1> f_;  // f_n, f_n-1, f_n-2, f_n-3
-  std::int64_t known_ = 0;                 // of those before f_n
-  Real dt_ = 0, tried_dt_ = 0;             // the last step that stands, and the last one
+  std::int64_t known_ = 0;                 // number of known forces before f_n
+  Real dt_ = 0, tried_dt_ = 0;             // last accepted step, last tried step
 };
 
 }  // namespace meniscus

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dynamic relaxation of thin bodies in a time of its own: with an inertia that is chosen for long
-// steps.
+// Dynamic relaxation of thin elastic bodies with an artificial inertia, which allows long steps.
 #pragma once
 #include "solve/step/elastic_inertia.hpp"
 #include "solve/step/relaxation.hpp"
 
 namespace meniscus {
 
-/// Relaxation with the inertia M of ElasticInertia. Bodies begin without motion. The kinetic energy
-/// v.M v/2 beyond that of the masses counts as dissipated.
+/// Relaxation with the inertia M of ElasticInertia. Bodies start at rest. The kinetic energy of
+/// this inertia beyond the energy of the real masses counts as dissipated.
 template <int D>
 class PseudoTime final : public Relaxation<D> {
  public:
-  /// Steps are `safety` times the longest stable one.
+  /// Steps are `safety` times the longest stable step.
   PseudoTime(System<D>& system, const typename Relaxation<D>::Tolerances& tolerances, Real safety);
 
   void begin(const State& state) override;
@@ -38,15 +37,15 @@ class PseudoTime final : public Relaxation<D> {
   void follow_brake(State& state, Real factor, Real omega_dt) override;
   Real fewest_steps() const override { return 8; }
   void begin_window() override;
-  /// Finds the acceleration of a state, and how much kinetic energy is beyond that of the masses.
+  /// Computes acceleration_ and beyond_ from a state and momentum_.
   void take_up(const State& state);
 
   ElasticInertia<D> inertia_;
   ElasticStep<D> step_;
   NodalVectors momentum_, acceleration_;   ///< M v, M^-1 f
-  NodalVectors impulse_, window_impulse_;  ///< M du of the last step, and since the window began
-  Real beyond_ = 0;                        ///< kinetic energy beyond that of the masses
-  bool starts_ = true;                     ///< with the next step, at rest
+  NodalVectors impulse_, window_impulse_;  ///< M du of the last step, and of the interval
+  Real beyond_ = 0;                        ///< kinetic energy minus that of the real masses
+  bool starts_ = true;                     ///< the next step is the first one and starts at rest
 };
 
 }  // namespace meniscus

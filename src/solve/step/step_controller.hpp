@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Step control: a fraction of the stable step, or the step that was asked for.
+// Step control: a fraction of the stable step, or the fixed step of the scene.
 #pragma once
 #include "solve/step/time_step.hpp"
 
@@ -7,47 +7,48 @@
 
 namespace meniscus {
 
-/// Between estimates of the stable step it follows what terms demand: stiffness beyond the one they
-/// had at the last estimate shortens the step at once (frequencies squared add up at most).
+/// Chooses the step. Between estimates of the stable step, it obeys the limits of the terms
+/// (StepDemand). Stiffness that was added since the last estimate shortens the step at once;
+/// squared frequencies add up at most.
 template <int D>
 class StepController {
  public:
   struct Choice {
-    std::optional<Real> fixed;        ///< step asked for
-    Real safety = 0.9;                ///< else this fraction of the stable step
-    int check_every = 100;            ///< most steps between estimates
-    std::string place = {};           ///< of the fixed step in the scene, to begin a message with
+    std::optional<Real> fixed;        ///< fixed step of the scene
+    Real safety = 0.9;                ///< otherwise this fraction of the stable step
+    int check_every = 100;            ///< largest number of steps between estimates
+    std::string place = {};           ///< place of the fixed step in the scene, for messages
     bool implicit_viscosity = false;  ///< viscosity does not limit the step
   };
 
   StepController(System<D>& system, Choice choice)
       : system_(system), estimator_(system, !choice.implicit_viscosity), choice_(choice) {}
 
-  /// Estimates the stable step at the start of a run. Throws InputError if a fixed step exceeds it.
-  /// All ranks know the state before and after.
+  /// Estimates the stable step at the start of a run. Throws InputError if the fixed step is
+  /// longer. The state is complete on all ranks before and after this call.
   void begin(State& state);
 
-  /// Of the estimates between steps.
+  /// Registers the particles that estimates between steps read.
   void tell_reads(StepReads& reads) { estimator_.tell_reads(reads); }
 
-  /// The next step: not longer than `accurate`, down to a tenth of what is stable (a thousandth
-  /// with implicit viscosity), unless it is
-  /// fixed. The last two are shortened to arrive at `end` exactly. Throws SolveError when the
-  /// stable step has collapsed to a millionth of the first.
+  /// The next step. Unless it is fixed, it is at most `accurate`, but at least a tenth of the
+  /// allowed step (a thousandth with implicit viscosity). The last two steps are shortened to end
+  /// exactly at `end`. Throws SolveError if the stable step has fallen to a millionth of the first
+  /// one.
   Real next(State& state, Real end, Real accurate = unbounded);
 
-  /// A step was rejected: the next ones are not longer than `dt`, until the next estimate.
+  /// Call this after a rejected step: the next steps are at most `dt`, until the next estimate.
   void shorten(Real dt) { step_ = std::min(step_, dt); }
 
   const StableStep& stable() const { return stable_; }
-  /// The step that stability and terms allow.
+  /// The step that stability and the terms allow.
   Real allowed() const { return step_; }
-  /// Returns once: that a fixed step has come close to the stable one, or that the stable step has
-  /// fallen to a hundredth of the first.
+  /// A warning, returned once: a fixed step is close to the stable step, or the stable step has
+  /// fallen to a hundredth of the first one.
   std::optional<std::string> take_warning() { return std::exchange(warning_, std::nullopt); }
 
-  /// A run goes on as before, or, if step or safety were chosen differently then, by the new
-  /// choice: throws as begin().
+  /// Saves or restores. If the step or the safety factor of a restored run differ, the new choice
+  /// is used; throws like begin().
   void archive(const Archive& a);
 
  private:
@@ -62,9 +63,9 @@ class StepController {
   Choice choice_;
   StableStep stable_;
   Real step_ = 0, first_limit_ = 0;
-  Real interval_ = 0;  ///< steps from one estimate to the next
+  Real interval_ = 0;  ///< number of steps between estimates
   std::int64_t next_check_ = 0, last_check_ = 0;
-  Real known_stiffness_ = 0;  ///< demanded when the stable step was estimated, so part of it
+  Real known_stiffness_ = 0;  ///< demand at the last estimate, which contains it
   bool warned_ = false;
   std::optional<std::string> warning_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The largest stable step of central differences, from the discretised operator itself.
+// The largest stable step of central differences, found from the discretised operator itself.
 #pragma once
 #include "meniscus/error.hpp"
 #include "solve/step/critical_mode.hpp"
@@ -7,49 +7,51 @@
 
 namespace meniscus {
 
-/// With K the stiffness, C the viscous matrix and M the lumped masses, central differences with a
-/// lagged viscous force are stable if dt^2/4 K + dt/2 C < M. For the mode w that is the first to
-/// break this, k = w.Kw / w.Mw and c = w.Cw / w.Mw give dt = 4 / (c + sqrt(c^2 + 4 k)).
+/// The stability limit. Let K be the stiffness, C the viscous matrix and M the lumped masses.
+/// Central differences with a lagged viscous force are stable if dt^2/4 K + dt/2 C < M. For the
+/// mode w that violates this first, k = w.Kw / w.Mw and c = w.Cw / w.Mw give dt = 4 / (c + sqrt(c^2
+/// + 4 k)).
 struct StableStep {
   Real dt = 0;          ///< the limit
   Real stiffness = 0;   ///< omega = sqrt(k) of the critical mode, 1/time
   Real viscosity = 0;   ///< c of the critical mode, 1/time
-  int evaluations = 0;  ///< force evaluations spent
-  bool steady = false;  ///< no response has changed by a tenth of what shows since it was found
-  Real of_fields = std::numeric_limits<Real>::max();  ///< the limit of the other unknown fields
+  int evaluations = 0;  ///< number of force evaluations
+  bool steady = false;  ///< the response has hardly changed since this limit was found
+  Real of_fields = std::numeric_limits<Real>::max();  ///< limit of the other unknown fields
 
   void archive(const Archive& a);
 };
 
-/// Finds the critical mode of the motion by conjugate gradients, and those of other unknowns by
-/// power iteration, on differences of the force, starting with the mode found before: a new
-/// estimate of a slowly changing body takes a few evaluations. Whether it changes is seen from the
-/// response to a rough displacement and velocity, which takes one. Forces that jump, as that of a
-/// contact point above the edge of two facets, are as stiff as the change of places is small, but
-/// do not make steps unstable: where a term may do so, a step that comes out short is looked for
-/// with changes so large that the jump does not count. In a halo all of this is done on the
-/// particles that each rank follows.
+/// Finds the critical mode of the motion by conjugate gradients, and the critical modes of other
+/// unknowns by power iteration, on differences of the force. The search starts with the mode found
+/// before, so that a slowly changing body needs few evaluations. A change is detected by the
+/// response to a rough displacement and velocity, which takes one evaluation.
+///
+/// Forces that jump, e.g. when a contact point passes the edge between two facets, look very stiff
+/// for small trial displacements, but do not make steps unstable. If a term may have such jumps and
+/// the step comes out short, the search is repeated with larger trial displacements. In a halo,
+/// each rank uses its own and ghost particles only.
 template <int D>
 class StableStepEstimator {
  public:
-  /// `viscous`: whether the viscous force, taken at the velocity of the half step before, counts;
-  /// without it the velocity is taken for zero.
+  /// `viscous`: the viscous force, at the velocity of the half step, limits the step. Otherwise the
+  /// velocity is taken as zero.
   explicit StableStepEstimator(System<D>& system, bool viscous = true);
 
-  /// Whether it can be asked in a halo: contacts may need more.
+  /// True if estimates can be made in a halo. Contacts may need more particles.
   bool keeps_to_halo() const { return keeps_to_halo_; }
-  /// Vectors that it keeps from estimate to estimate.
+  /// Registers the vectors that are kept between estimates.
   void tell_reads(StepReads& reads);
 
   /// Throws SolveError if no finite limit can be found.
   StableStep estimate(const State& state);
-  /// Of a state between steps, whose force is that of now, when `before` was found last: that again
-  /// if no particle responds in another way.
+  /// An estimate for a state between steps, which has its forces. `before` is the last estimate; it
+  /// is returned again if the response of all particles is unchanged.
   StableStep estimate_again(const State& state, const StableStep& before);
-  /// `cause` at the particle that the critical mode found last moves most.
+  /// A StepError with `cause`, at the particle that moves most in the last critical mode.
   StepError failure(std::string cause, const State& state) const;
 
-  /// Keeps the modes found last, from which later estimates start.
+  /// Saves or restores the last modes, with which later estimates start.
   void archive(const Archive& a);
 
  private:
@@ -75,20 +77,21 @@ class StableStepEstimator {
 
   System<D>& system_;
   bool viscous_counts_;
-  bool may_jump_;  ///< forces of some term
+  bool may_jump_;  ///< forces of a term may jump
   bool keeps_to_halo_;
   Real spacing_;     ///< smallest particle distance
-  Real trial_size_;  ///< of the trial displacements, part of the spacing
+  Real trial_size_;  ///< size of trial displacements / spacing
   CriticalMode critical_;
   NodalVectors mode_, start_;
   NodalScratch u_, v_, base_, trial_force_;
-  Real mode_limit_ = 0;  ///< by the quotient of mode_, when that was found; 0: not yet
-  // (dt^2/4 K + dt/2 C) p of a rough p, to be compared with M p: when the mode was looked for last,
-  // and after estimate_again() now or, where the mode was looked for, before.
+  Real mode_limit_ = 0;  ///< limit by the rates of mode_ when it was found; 0: not yet found
+  // Response (dt^2/4 K + dt/2 C) p to a rough p, for comparison with M p. known_response_ is the
+  // response at the last search of the mode. response_ is the response at the last
+  // estimate_again(), or before the search if the mode was searched again.
   NodalVectors known_response_;
   NodalScratch response_;
   Real response_step_ = 0;  ///< dt; 0: no response is known
-  // Of the unknown fields.
+  // For the other unknown fields.
   std::vector<NodalVectors> field_modes_, base_fields_;
   std::vector<Unknown> trial_;
 };

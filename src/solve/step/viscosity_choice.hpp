@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Explicit or implicit viscosity, by what the steps of both would be.
+// Chooses explicit or implicit viscosity by comparing their steps.
 #pragma once
 #include "solve/system.hpp"
 
@@ -13,9 +13,10 @@ struct ViscosityChoice {
   std::string reason;  ///< a sentence for the log
 };
 
-/// Implicit viscosity where it allows steps more than twice as long at `start`, which pays for its
-/// iterations (performance note 4.1); a fixed step decides by whether it is stable without.
-/// Explicit where nothing is viscous or faces are held. Throws as StableStepEstimator::estimate.
+/// Chooses implicit viscosity if it allows steps more than twice as long at `start`, which pays for
+/// its iterations (performance note 4.1). For a fixed step, chooses implicit viscosity if the step
+/// is unstable otherwise. Chooses explicit viscosity if nothing is viscous. Throws like
+/// StableStepEstimator::estimate.
 template <int D>
 ViscosityChoice choose_viscosity(System<D>& system, const State& start,
                                  const std::optional<Real>& fixed_step);

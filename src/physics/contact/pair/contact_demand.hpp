@@ -57,10 +57,11 @@ struct ContactInertia {
   int dimension;
 };
 
-/// The step closes at most 1/20 of the gap. The stiffness is that of two planes at the gap that it
-/// can reach (CGCM notes 3.1 and 8). It is multiplied by 1 + 2 (spacing/gap)^(D-1), since distant
-/// points of the other side act as single points. The step is at most half the stable step of this
-/// stiffness: springs whose stiffness changes by multiples heat up at longer steps.
+/// Limits of a contact on the time step. The step closes at most 1/20 of the gap. The stiffness is
+/// taken for two planes at the smallest gap within reach of the step (CGCM notes 3.1 and 8). It is
+/// multiplied by 1 + 2 (spacing/gap)^(D-1), since widely spaced points of the other side act as
+/// single points. The step is at most half the stable step of this stiffness: springs whose
+/// stiffness changes by multiples heat up at longer steps.
 StepDemand contact_demand(const ContactInertia& contact, Real gap, const ClosingSpeed& closing);
 
 /// A warning if the points are more than half a gap apart and the gap is in the strong part of

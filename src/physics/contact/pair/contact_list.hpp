@@ -62,10 +62,10 @@ class ContactList {
   Real reach_, skin_;
   std::int64_t builds_ = 0;
   AlignedVector<Lanes> built_first_, built_second_;  // positions at the last build
-  std::vector<Index> met_;                           // clusters of the second that may be near
-  std::vector<Vec<D>> centre_;                       // [k of met_] their centres
-  std::unique_ptr<NeighborSearch<D>> search_;        // searches these centres
-  struct Found {                                     // of a chunk of own clusters of the first
+  std::vector<Index> met_;                     // clusters of the second cloud that may be near
+  std::vector<Vec<D>> centre_;                 // [k of met_] their centres
+  std::unique_ptr<NeighborSearch<D>> search_;  // searches these centres
+  struct Found {                               // of a chunk of own clusters of the first
     std::vector<Index> candidates, partner;
   };
   std::vector<Found> found_;

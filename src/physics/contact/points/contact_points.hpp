@@ -135,7 +135,7 @@ class ContactPoints {
   /// The particle nearest to a point, numbered over all bodies.
   Index particle_at(Index point) const { return body_->first + at(made_->rule.point_owner, point); }
 
-  /// Has to be called before velocity() for these clusters; divided as in move().
+  /// Prepares velocity() for these clusters, divided as in move(). Call it before velocity().
   void prepare_velocities(std::span<const Index> clusters, const Motion& motion,
                           ContactPlaces<D>& places, const Division& division) const;
   /// The velocities of the points of a cluster.
@@ -179,8 +179,8 @@ class ContactPoints {
   void tell_reads(StepReads& reads);
   void tell_reads(StepReads& reads, const ItemRange& part);
   void tell_reads(StepReads& reads, std::span<const Index> clusters);
-  /// Registers reads for a contact that few ranks compute: this rank reads all points or none, and
-  /// ranks do not exchange how far points have moved.
+  /// Registers the reads of a contact that only a few ranks compute. This rank reads all points, or
+  /// none if `reads_all` is false. How far points have moved is not exchanged between ranks.
   void tell_reads_alone(StepReads& reads, bool reads_all);
 
   /// Memory of these points. Data shared between contacts are counted where they were made.

@@ -7,9 +7,9 @@
 
 namespace meniscus {
 
-/// Motion of a rigid partner by displacement(t) from where it was made: a point x of space is x -
-/// displacement(t) in its frame. The power supplied from outside is F.v, with the force F of the
-/// partner on the bodies and its velocity v.
+/// Motion of a rigid partner by displacement(t) from its initial position. A point x has the
+/// position x - displacement(t) in the frame of the partner. The power supplied from outside is
+/// F.v, with the force F of the partner on the bodies and its velocity v.
 template <int D>
 class RigidMotion {
  public:

@@ -60,9 +60,9 @@ class RigidPartner {
   virtual Lanes distances(const LanePlace<D>& x) const;
 };
 
-/// The functions below make partners. In 2D the kernel has to be `integrated` or `planar`, in 3D
-/// `space`. They throw InputError for other kernels, for sizes that are not positive and for a zero
-/// normal.
+/// The functions below make partners. The kernel must be `integrated` or `planar` in 2D, and
+/// `space` in 3D. They throw InputError for other kernels, for sizes that are not positive and for
+/// a zero normal.
 
 /// All points behind the plane through `point`. The normal, of any length, points out of the
 /// material.

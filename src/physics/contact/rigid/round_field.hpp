@@ -11,9 +11,9 @@ struct RadialField {
   Real U, tangent;
 };
 
-/// A ball (CGCM note 3.2). As for all round fields, a point may also be inside: there the field is
-/// minus that of all space around a cavity. The field is singular on the surface. Lengths are
-/// scaled by sigma0.
+/// The field of a ball (CGCM note 3.2). The point may also be inside, as for all round fields. The
+/// field there is minus the field of all space around a cavity. It is singular on the surface.
+/// Lengths are scaled by sigma0.
 class SphereField {
  public:
   SphereField(const ContactLaw& law, Real radius);
@@ -28,18 +28,18 @@ class SphereField {
   Real sigma0_, R_, unit_;
 };
 
-/// A cylinder normal to the plane (CGCM note 3.3).
+/// The field of a cylinder normal to the plane (CGCM note 3.3).
 ///
-/// r is the distance of the point from the circle. With the integrals I_p = INT_0^pi r^-p dt and
-/// J_p = INT_0^pi cos(t) r^-p dt, and the powers c r^-p of psi and phi (p = 12 and 6, less one if
-/// `integrated`),
+/// r is the distance of the point from a point of the circle. The integrals are I_p = INT_0^pi r^-p
+/// dt and J_p = INT_0^pi cos(t) r^-p dt. With the powers c r^-p of psi and phi (p = 12 and 6, less
+/// one if `integrated`),
 ///
-///   U       = sum c_psi ((a^2 - R^2) I_p - I_(p-2))
-///   S/a     = -sum c_psi 2 R J_(p-2)/((p - 2) a)
-///   dU/da   = -sum c_phi 2 R J_p
+///   U       = sum c_psi ((a^2 - R^2) I_p - I_(p-2));
+///   S/a     = -sum c_psi 2 R J_(p-2)/((p - 2) a);
+///   dU/da   = -sum c_phi 2 R J_p.
 ///
-/// These are the note's combinations of J0, J1, J2 without their cancellation near contact. Lengths
-/// are scaled by sigma0.
+/// These combinations equal those of J0, J1, J2 in the note, but do not cancel near contact.
+/// Lengths are scaled by sigma0.
 class CylinderField {
  public:
   CylinderField(const ContactLaw& law, Real radius);

@@ -11,7 +11,7 @@ struct SegmentField {
   Real u;        ///< INT u dl
   Vec<2> psi_r;  ///< INT psi (x - x2) dl = grad INT u dl: along the segment, along its normal
 };
-/// The same integrals for four points, one per lane.
+/// SegmentField at four points, one per lane.
 struct LaneSegmentField {
   Lanes u;
   std::array<Lanes, 2> psi_r;
