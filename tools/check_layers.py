@@ -42,7 +42,7 @@ COMMON = [pathlib.Path("include/meniscus/error.hpp")]
 # Folders of sources without headers: each source registers what it defines.
 LEAVES = ["src/parallel/mpi", "src/physics/laws"]
 
-# Library: (beginning of its headers' names, files that may see it; None: any one source).
+# Library: (beginning of the names of its headers, files that may include it; None: any one source).
 CONFINED = {
     "toml++": (r"toml\+\+/|toml\.hpp", None),
     "muParser": (r"muParser", "src/input/expression*"),

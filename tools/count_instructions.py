@@ -19,7 +19,7 @@ EFFECTS = {
     "patches": r"SurfacePatches<[23]>::",
     "coefficient damping": r"CoefficientDamping<|coefficient_damping<",
     "curvature": r"CurvatureSurfaceTension<|hessian_along|\(meniscus::Derivatives\)2",
-    # Its stress is inlined into the loop over stress points of a viscous law.
+    # The viscous stress is inlined into the loop over stress points of the viscous law.
     "viscosity": r"InternalForce<[23], (?!meniscus::WithoutViscosity).*Newtonian|viscous_stress",
     "implicit viscosity": r"ImplicitViscosity<|add_viscous",
     "cell average": r"InternalForce<[23], meniscus::CellAverage<",
@@ -48,7 +48,7 @@ PLATE = (
     'partner = { type = "half_space", point = [0, 0, -0.65], normal = [0, 0, 1] }\n'
 )
 
-# name of the scene: text, its effects
+# [name of the scene] its text and its effects
 SCENES = {
     "elastic cube": (CUBE + SPIN + SOLID, {"internal force"}),
     "elastic cube, cell average": (
@@ -98,7 +98,7 @@ def instructions(profile):
         elif line.startswith("calls="):
             is_call = True
         elif re.match(r"[0-9+*-]", line):
-            if not is_call:  # otherwise the count of the called function
+            if not is_call:  # otherwise the line counts the called function
                 count[function] += int(line.split()[1])
             is_call = False
     return count
@@ -110,7 +110,7 @@ def measure(program, text, folder):
     done = subprocess.run(
         ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}",
          program, "run", folder / "scene.toml", "--output", folder / "out", "--overwrite", "-q"],
-        # To set options of libraries the program would start itself again, which valgrind does not follow.
+        # With these options set, the program does not restart itself, which valgrind cannot follow.
         env=dict(os.environ, OMP_NUM_THREADS="1", GLIBC_TUNABLES="", OMP_WAIT_POLICY="passive"), capture_output=True, text=True,
     )  # fmt: skip
     if done.returncode:

@@ -22,8 +22,8 @@ import movies  # isort: skip
 from results import Results  # isort: skip
 from runlog import Log  # isort: skip
 
-DPI = 60  # 340 pixels
-COLOURS = 64  # of a palette: a third of the bytes
+DPI = 60  # gives pictures of 340 pixels
+COLOURS = 64  # size of the palette; files are a third as large
 
 
 def draw(folder, pictures):

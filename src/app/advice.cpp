@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the numbers of a scene mean, and what would save steps: printed by `meniscus check`.
+// Advice printed by `meniscus check`: dimensionless numbers of the scene, and changes that would
+// save time steps.
 #include "app/advice.hpp"
 
 #include "app/print.hpp"
@@ -19,18 +20,18 @@
 namespace meniscus {
 namespace {
 
-/// A drop as a ball, in the plane a disk, of its volume.
+/// A ball (2D: a disk) with the volume of a drop, for estimates.
 struct RoundDrop {
   Real radius, gamma, density, viscosity, bulk_modulus;
-  Real speed;                ///< the largest of its particles at the start
-  int principal_curvatures;  ///< 2, in the plane 1
+  Real speed;                ///< largest speed of a particle at the start
+  int principal_curvatures;  ///< 2 in 3D, 1 in 2D
 
   Real ohnesorge() const { return viscosity / std::sqrt(density * gamma * radius); }
   Real bond(Real acceleration) const { return density * acceleration * radius * radius / gamma; }
   Real time_of_sound() const { return radius / std::sqrt(bulk_modulus / density); }
   Real time_of_capillarity() const { return std::sqrt(density * radius * radius * radius / gamma); }
   Real time_of_viscosity() const { return density * radius * radius / viscosity; }
-  /// Of its surface tension and its speed.
+  /// The larger of the capillary pressure and the dynamic pressure.
   Real pressure() const {
     return std::max(principal_curvatures * gamma / radius, density * speed * speed);
   }
@@ -60,7 +61,8 @@ RoundDrop round_drop(const Scene<D>& scene, std::size_t number) {
           D - 1};
 }
 
-/// Of the body forces on a body together; nothing if there are none, or if they vary.
+/// Magnitude of the sum of all body forces on a body. Empty if the sum is zero or if a body force
+/// varies.
 template <int D>
 std::optional<Real> constant_acceleration(const SceneInput& input, const std::string& body) {
   Vec<D> sum = Vec<D>::Zero();
@@ -76,17 +78,17 @@ std::optional<Real> constant_acceleration(const SceneInput& input, const std::st
   return sum.norm() > 0 ? std::optional(sum.norm()) : std::nullopt;
 }
 
-/// Two digits that are not less.
+/// The value, rounded up to two significant digits.
 Real rounded_up(Real value) {
   const Real digit = std::pow(10, std::floor(std::log10(value)) - 1);
   return std::ceil(value / digit - 1e-9) * digit;
 }
 
-/// The stable step at the start; nothing if the scene cannot be built or begun.
+/// The stable step at the start. Empty if the scene cannot be built or its run cannot start.
 template <int D>
 std::optional<Real> stable_step(const SceneInput& input) {
   try {
-    scene_dimension(input);  // is read before all else
+    scene_dimension(input);  // must be read first
     Scene<D> scene = build_scene<D>(input);
     Simulation<D> simulation(scene);
     simulation.begin();
@@ -97,8 +99,8 @@ std::optional<Real> stable_step(const SceneInput& input) {
   return std::nullopt;
 }
 
-/// How far a body gets within the end time by its mean velocity and the net force of the start,
-/// over its size.
+/// Distance that a body travels until the end time with its mean velocity and the net force of the
+/// start, divided by the size of the body.
 template <int D>
 Real way_ahead(const Scene<D>& scene, const Body<D>& body, const State& state) {
   Vec<D> momentum = Vec<D>::Zero(), force = momentum;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dry run of a scene: everything short of running it.
+// Dry run of a scene: builds everything that a run needs, but makes no run.
 #include "app/advice.hpp"
 #include "app/commands.hpp"
 #include "app/mesh_report.hpp"
@@ -31,7 +31,8 @@ bool flows(const Scene<D>& scene) {
                      [](const SceneBody& body) { return body.is_fluid(); });
 }
 
-/// What the two ways to equilibrium are expected to take; none if that is not known.
+/// Expected cost of an equilibrium with `newton` and with `relax`. Empty if no estimate is
+/// possible.
 template <int D>
 std::optional<ExpectedEffort> effort_to_rest(Scene<D>& scene, const State& state, Real stable) {
   constexpr Real usual_steps = 20;
@@ -47,7 +48,7 @@ std::optional<ExpectedEffort> effort_to_rest(Scene<D>& scene, const State& state
                          stable, fluid);
 }
 
-/// Which of the two ways is expected to be faster, and by how much.
+/// Prints the expected cost of `newton` and of `relax`, which one is faster, and by which factor.
 void say_effort(const ExpectedEffort& effort, bool flows) {
   say("newton: {:.0f} {} of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: about "
       "{:.0f} steps at {:.2g} s, expected {:.2g} s\n",
@@ -59,7 +60,8 @@ void say_effort(const ExpectedEffort& effort, bool flows) {
       ratio > 1 ? "newton" : "relax", std::max(ratio, 1 / ratio));
 }
 
-/// The stable step is that of the bodies as they are at the start.
+/// Warns that the stable step, which is computed for the initial shape of the bodies, may shrink
+/// while loads or motions deform them.
 template <int D>
 void say_what_shortens_steps(const Scene<D>& scene) {
   const Real steady = scene.system.steady_after();
@@ -153,7 +155,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
   const bool relaxes = scene.time.solver == "relax";
   std::optional<ExpectedEffort> effort;
   if (relaxes) effort = effort_to_rest(scene, simulation.state(), dt / 0.9);
-  // In some of these steps the stable step is looked for, which later steps hardly ever do.
+  // The first steps include a search for the stable step, which later steps rarely repeat.
   constexpr std::size_t trial_steps = 10;
   std::vector<double> seconds;
   set_up(input, [&] {

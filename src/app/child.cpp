@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calling programs: signals are handed on, the output of this one is read through a pipe.
+// Child processes: signals are forwarded to the child, and its output is read through a pipe.
 #include "app/child.hpp"
 
 #include "meniscus/error.hpp"
@@ -31,7 +31,7 @@ void hand_signals_to(void (*handler)(int)) {
   for (const int signal : handed_on) {
     struct sigaction action {};
     sigaction(signal, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;  // as by nohup
+    if (action.sa_handler == SIG_IGN) continue;  // ignored by nohup, for example
     action.sa_handler = handler;
     sigaction(signal, &action, nullptr);
   }
@@ -51,7 +51,8 @@ std::string read_all(int file) {
   }
 }
 
-/// The process, and the end of the pipe that it writes to.
+/// Starts the program and returns its process id. `pipe_in` and `pipe_out` are the two ends of the
+/// pipe for its output.
 pid_t start(const std::vector<std::string>& arguments, int pipe_in, int pipe_out) {
   std::vector<char*> words{const_cast<char*>("meniscus")};
   for (const std::string& argument : arguments)
@@ -72,7 +73,7 @@ pid_t start(const std::vector<std::string>& arguments, int pipe_in, int pipe_out
 
 void hand_on_to(pid_t process) {
   running = process;
-  if (handed != 0) kill(process, handed);  // it came just before
+  if (handed != 0) kill(process, handed);  // the signal came before `running` was set
 }
 
 int status_at_end(pid_t process) {
@@ -91,7 +92,7 @@ Child::Child() {
 }
 
 Child::~Child() {
-  if (handed == 0) hand_signals_to(SIG_DFL);  // the same request may come again, see `timeout`
+  if (handed == 0) hand_signals_to(SIG_DFL);  // `timeout` may send the signal twice
 }
 
 ChildEnd Child::call(const std::vector<std::string>& arguments) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests of the command line: what their words mean.
+// Conversion of command-line values.
 #include "app/commands.hpp"
 
 #include "meniscus/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The guide and the scenes of inputs/, as the program prints them.
+// Prints the guide and the scenes of inputs/.
 #include "app/documents.hpp"
 
 #include "input/names.hpp"
@@ -13,7 +13,8 @@
 namespace meniscus {
 namespace {
 
-/// A line without the targets of links and without the signs of bold words; code stays as it is.
+/// A line of Markdown as plain text: without link targets and without the marks of bold words. Code
+/// between backticks is not changed.
 std::string without_signs(std::string_view line) {
   std::string plain;
   bool code = false;
@@ -45,7 +46,7 @@ std::string title_of(const Document& scene) {
   return std::string(scene.text.substr(begin, scene.text.find('"', begin) - begin));
 }
 
-/// Lines "  name  text".
+/// A list of the documents, one line "  name  text" for each.
 std::string listed(std::span<const Document> documents, std::string (*text)(const Document&)) {
   std::size_t width = 0;
   for (const Document& d : documents) width = std::max(width, d.name.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exit codes of what is thrown.
+// Prints an exception and returns the exit code that belongs to it.
 #include "app/commands.hpp"
 #include "app/print.hpp"
 #include "meniscus/error.hpp"

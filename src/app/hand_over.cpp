@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands that are programs of their own: studies, and the pictures of Python.
+// Commands that are programs of their own: the studies and the Python scripts that draw pictures.
 #include "app/hand_over.hpp"
 
 #include "app/documents.hpp"
@@ -30,8 +30,8 @@ void hand_over_to_studies(char** argv) {
 }
 
 void hand_over_to_python(const std::string& name, char** argv) {
-  constexpr const char* python =
-      "/usr/bin/python3";  // that of the packages numpy, h5py, matplotlib
+  // The Python for which numpy, h5py and matplotlib are installed.
+  constexpr const char* python = "/usr/bin/python3";
   const std::filesystem::path installed = own_directory().parent_path() / "share/meniscus/plotting",
                               sources = plotting_sources();
   std::error_code error;

@@ -37,12 +37,13 @@ Nanoseconds now() {
   return Nanoseconds{1'000'000'000} * time.tv_sec + time.tv_nsec;
 }
 
-/// A second signal is not waited for, unless it is the first one again: `timeout` sends it to the
-/// program, and then to its group.
+/// Signal handler. The first signal asks the run to stop; a later one ends the program at once. The
+/// same signal within a second counts once, because `timeout` sends its signal to the program and
+/// then to the process group.
 void note(int signal) {
   constexpr Nanoseconds same_request = 1'000'000'000;
   if (!caught) {
-    caught_at = now();  // first: another thread may be given the second one
+    caught_at = now();  // set first: another thread may get the next signal
     caught = signal;
   } else if (now() - caught_at > same_request) {
     handle_by(SIG_DFL);
@@ -50,7 +51,7 @@ void note(int signal) {
   }
 }
 
-/// Whether the text is one to `most` digits.
+/// True if the text consists of 1 to `most` decimal digits.
 bool digits(std::string_view text, std::size_t most) {
   return !text.empty() && text.size() <= most && text.find_first_not_of("0123456789") == text.npos;
 }
@@ -68,7 +69,7 @@ void Interruption::catch_signals() {
 }
 
 Interruption::~Interruption() {
-  if (!caught) handle_by(SIG_DFL);  // the same request may come again before the program is gone
+  if (!caught) handle_by(SIG_DFL);  // otherwise the signal may come again at the end
 }
 
 std::optional<int> Interruption::noticed() const {

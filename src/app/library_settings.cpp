@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings of libraries, measured in performance note 6. Small pages, which the system fills with
-// zeros one by one, are up to a third of the set-up. Threads that sleep at once make the steps of a
-// small body a quarter longer; those that wait for milliseconds, as by default, make two runs that
-// share the cores several times as slow.
+// Settings of glibc and OpenMP (measurements in performance note 6). Large memory pages shorten the
+// set-up by up to a third. Idle threads spin for a short time before they sleep: without spinning,
+// steps of a small body take a quarter longer; with the default of some milliseconds, two runs that
+// share the cores are several times slower.
 #include "app/library_settings.hpp"
 
 #include <unistd.h>
@@ -27,7 +27,8 @@ void begin_with_settings(char** argv) {
   if (!sets_memory && !sets_waiting) return;
   if (sets_memory) setenv(memory, "glibc.malloc.hugetlb=1", 1);
   if (sets_waiting) setenv(waiting, "5000", 1);
-  // By its name, which the system lists processes by. If this comes back, nothing is set.
+  // Restart the program with these settings, under its real name so that process lists show it. If
+  // the restart fails, the run continues without the settings.
   std::error_code error;
   execv(std::filesystem::read_symlink("/proc/self/exe", error).c_str(), argv);
 }

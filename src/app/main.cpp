@@ -40,7 +40,7 @@ std::string version_text() {
   return text;
 }
 
-/// What `meniscus keys` is asked for.
+/// Options of `meniscus keys`.
 struct KeysRequest {
   std::string wanted;
   bool markdown = false, json = false, measures = false;
@@ -187,7 +187,8 @@ void add_sweep_options(CLI::App& command, SweepRequest& request) {
                    "begin anew; without it runs that are done stay, and others go on");
 }
 
-/// What the command line knows about itself.
+/// Names, descriptions and options of all commands, for the manual page and the completion of the
+/// shell.
 std::vector<CommandText> texts_of(const CLI::App& app) {
   std::vector<CommandText> commands;
   for (const CLI::App* command : app.get_subcommands({})) {
@@ -220,7 +221,7 @@ void print_help(const std::string& topic, const CLI::App& app) {
   print_text(printed_topic(document_called(topic, guide_topics(), "topic")));
 }
 
-/// What is wrong with the first word if it is no command.
+/// The error message if the first argument is neither an option nor a known command.
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return std::nullopt;
   const std::string given = argv[1];
@@ -259,11 +260,11 @@ int dispatch(int argc, char** argv) {
   info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")
       ->required()
       ->check(not_empty());
-  // Its options, help included, are those of meniscus-study.
+  // meniscus-study parses the options of this command, including --help.
   CLI::App* study_command =
       app.add_subcommand("study", "error, observed order, time and memory of a family of methods");
   study_command->prefix_command()->set_help_flag();
-  // So are those of these two.
+  // Python scripts parse the options of `plot` and `report`.
   CLI::App* plot_command =
       app.add_subcommand("plot", "pictures or a movie of a run or study: meniscus plot DIR");
   plot_command->prefix_command()->set_help_flag();

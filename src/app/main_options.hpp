@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command lines of the programs have in common.
+// Parts of the command line that meniscus and meniscus-study share.
 #pragma once
 #include "app/commands.hpp"
 #include "app/print.hpp"
@@ -15,7 +15,7 @@
 
 namespace meniscus {
 
-/// What parsing ended with: help on stdout, or a complaint. Returns the exit code.
+/// Prints the help or the complaint with which parsing ended, and returns the exit code.
 inline int answered(const CLI::App& app, const CLI::ParseError& end) {
   std::ostringstream out, complaint;
   const bool well = app.exit(end, out, complaint) == 0;
@@ -26,7 +26,7 @@ inline int answered(const CLI::App& app, const CLI::ParseError& end) {
   return well ? exit_ok : exit_usage;
 }
 
-/// A value that is not empty: "" is what a shell makes of a variable that is not set.
+/// Refuses an empty value, which a shell passes for a variable that is not set.
 inline CLI::Validator not_empty() {
   return CLI::Validator(
       [](const std::string& text) {
@@ -36,7 +36,7 @@ inline CLI::Validator not_empty() {
       "");
 }
 
-/// An integer of a range, refused by a sentence.
+/// Accepts the integers of a range, and refuses others with a sentence.
 inline CLI::Validator integer_between(std::int64_t low, std::int64_t high) {
   return CLI::Validator(
       [=](const std::string& text) {

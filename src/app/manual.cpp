@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Completion of the shell and the manual page, from the options of the command line.
+// Prints the shell completion and the manual page, made from the options of the command line.
 #include "app/manual.hpp"
 
 #include "app/documents.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Names of tables and of their kinds, for `meniscus keys`.
+/// Names of all tables and their kinds, to complete `meniscus keys`.
 Words words_of_keys() {
   Words words;
   for (const KeyTable& table : key_tables()) {
@@ -27,7 +27,8 @@ Words words_of_keys() {
   return words;
 }
 
-/// What compgen is to list where a value of that name is expected; empty if anything is.
+/// Arguments of compgen that list the candidates for a value of this name. Empty if the value can
+/// be any text.
 std::string candidates(const std::string& value, const Words& commands) {
   const auto words = [](const Words& list) { return "-W '" + joined(list, " ") + "'"; };
   if (value == "SCENE") return "-o plusdirs -f -X '!*.toml'";
@@ -43,7 +44,7 @@ std::string candidates(const std::string& value, const Words& commands) {
   return "";
 }
 
-/// A branch of `case`: completion of one command.
+/// The branch of the shell's `case` that completes one command.
 std::string branch_of(const CommandText& command, const Words& commands) {
   Words names;
   std::string before, place;
@@ -64,7 +65,7 @@ std::string branch_of(const CommandText& command, const Words& commands) {
       command.name, before, place, joined(names, " "));
 }
 
-/// Text of a manual page: a leading point or quote and a backslash mean something there.
+/// Escapes text for roff: a backslash, and a point or quote at the beginning of a line.
 std::string roff(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that tell whether a mesh makes a good body.
+// Quality numbers of the meshes of a scene, printed by `meniscus check`.
 #include "app/mesh_report.hpp"
 
 #include "app/print.hpp"
@@ -22,14 +22,16 @@ const char* kind_of_cells(const Grid<D>& grid) {
   return simplices ? "triangles" : "quadrilaterals";
 }
 
-/// Edges (2D: nodes) of the surface that have not two facets.
+/// Number of surface edges (2D: surface nodes) that do not belong to exactly two facets. Zero for a
+/// closed surface.
 template <int D>
 Index open_edges(const Grid<D>& grid) {
   std::map<std::vector<Index>, int> facets;
   for (const Facet<D>& facet : grid.facets)
     for (std::size_t a = 0; a < facet.nodes.size(); ++a) {
       std::vector<Index> ends{at(facet.nodes, a)};
-      // Around the facet, whose nodes have tensor order; one edge of a triangle has no length.
+      // Neighbours around the facet, whose nodes are in tensor order. One edge of a triangle has no
+      // length.
       if (D == 3) ends.push_back(at(facet.nodes, at(std::array<int, 4>{1, 3, 0, 2}, a)));
       std::sort(ends.begin(), ends.end());
       if (D == 2 || ends.front() != ends.back()) ++facets[ends];

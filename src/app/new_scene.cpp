@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene to begin with: one of the gallery, its tables and keys explained by the reference.
+// `meniscus new`: copies a scene of the gallery and explains its tables and keys by comments.
 #include "app/documents.hpp"
 #include "scene/key_reference.hpp"
 
@@ -15,20 +15,20 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// A table of the file: its path, and its lines with the heading.
+/// A table of the scene file: its path and its lines, including the heading.
 struct Part {
   std::string path;
   Lines lines;
 };
 
-/// Of a line `[a.b]` or `[[a.b]]`; empty of any other.
+/// The path `a.b` of a heading `[a.b]` or `[[a.b]]`. Empty for any other line.
 std::string path_of_heading(const std::string& line) {
   if (!line.starts_with('[')) return "";
   const std::size_t begin = line.find_first_not_of('['), end = line.find(']');
   return end == std::string::npos ? "" : line.substr(begin, end - begin);
 }
 
-/// Of a line `key = value`; empty of any other.
+/// The key of a line `key = value`. Empty for any other line.
 std::string key_of_line(const std::string& line) {
   const std::size_t equals = line.find('='), end = line.find_first_of(" =");
   const bool assigns = equals != std::string::npos && line.find_first_not_of(' ', end) == equals;
@@ -55,8 +55,8 @@ std::string text_of_key(const Part& part, const std::string& key) {
   return "";
 }
 
-/// What the reference says of the tables that a part is of: those of any kind, and that of its
-/// kind.
+/// Explanations of one table of the scene file, from the entries of the key reference for its path.
+/// Entries for all kinds and for the kind of this table come first, then entries for other kinds.
 class Explanations {
  public:
   Explanations(const std::vector<KeyTable>& reference, const Part& part) {
@@ -69,7 +69,7 @@ class Explanations {
     }
   }
 
-  /// What the table is.
+  /// One sentence about the table.
   std::string of_table() const {
     for (const KeyTable* table : tables_) {
       const std::size_t colon = table->heading.rfind(": ");
@@ -79,7 +79,7 @@ class Explanations {
   }
 
   std::string of_key(const std::string& name) const {
-    for (const auto& tables : {tables_, others_})  // the kind may be that of a default
+    for (const auto& tables : {tables_, others_})  // a default may determine the kind
       for (const KeyTable* table : tables)
         for (const KeyText& key : table->keys)
           if (key.key == name) return key.meaning;
@@ -105,7 +105,8 @@ std::string comment_lines(const std::string& text) {
   return lines + line + "\n";
 }
 
-/// The line with an explanation behind it, or where it would become long, above it.
+/// The line with its explanation as a comment beside it, or above it if the line would become too
+/// long.
 std::string explained(const std::string& line, const std::string& meaning) {
   if (meaning.empty() || line.find('#') != std::string::npos) return line + "\n";
   const std::string beside = fmt::format("{:<34}  # {}", line, meaning);
@@ -120,7 +121,7 @@ bool is_for_tests(const std::string& line) {
 
 std::string commented_scene(const Document& scene) {
   const std::vector<KeyTable> reference = key_tables();
-  std::set<std::pair<std::string, std::string>> said;  // each once
+  std::set<std::pair<std::string, std::string>> said;  // each explanation is printed once
   std::string text = fmt::format(
       "# Begun as the scene '{}' of Meniscus. `meniscus keys TABLE` says what else a "
       "table may\n# have, `meniscus check` what the numbers mean.\n",

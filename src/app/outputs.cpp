@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of columns and fields, and the check of those a scene asks for.
+// Checks that the columns and fields requested by a scene exist.
 #include "app/outputs.hpp"
 
 #include "input/names.hpp"
@@ -19,7 +19,7 @@ bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Fields of the motion, and those that a body has.
+/// Names of the fields of the motion and of all bodies.
 template <int D>
 Names known_fields(const Scene<D>& scene) {
   Names names{"displacement", "velocity", "force"};
@@ -34,7 +34,7 @@ void require_known(const Block& block, const char* key, const Names& given, cons
       block.problem(key, fmt::format("'{}' is unknown; {}", name, allowed_names(name, known)));
 }
 
-/// Notes the numbers of an expectation with a unit of another dimension than that of its column.
+/// Reports numbers of an expectation whose unit does not fit the unit of the column.
 void require_unit_of_column(const Block& block, const std::string& name,
                             const std::vector<HistoryColumn>& columns) {
   const auto column = std::find_if(columns.begin(), columns.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of rigid partners: surfaces that are moved as a whole.
+// Result frames of rigid partners, which move without deforming.
 #include "app/partner_frames.hpp"
 
 #include <deque>

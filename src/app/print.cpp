@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standard streams that may be closed or full.
+// Printing to standard streams that may be closed or on a full disk.
 #include "app/print.hpp"
 
 #include "input/text.hpp"
@@ -22,7 +22,7 @@ int lost = 0;  ///< errno of the first text that could not be written to stdout
 std::string complaint;
 
 void write_out(std::string_view text) {
-  if (launch().rank > 0) return;  // the first rank speaks for all
+  if (launch().rank > 0) return;  // only rank 0 prints
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written && lost == 0) lost = errno;
 }
@@ -31,7 +31,7 @@ void write_out(std::string_view text) {
 
 void secure_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // the lowest free number: this one
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // the lowest free number: `stream`
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Progress on one line of a terminal, or in lines of a file.
+// Shows the progress of a run: on one line of a terminal, or as separate lines in a file.
 #include "app/progress.hpp"
 
 #include "app/print.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double seconds_on_terminal = 0.5, seconds_to_first_line = 10, seconds_of_line = 60;
 
-/// As people say it: "40 s", "3 min", "5.2 h".
+/// A duration for people: "40 s", "3 min", "5.2 h".
 std::string duration(double seconds) {
   constexpr double minute = 60, hour = 3600, day = 86400;
   if (seconds < 100) return fmt::format("{:.0f} s", seconds);
@@ -34,7 +34,7 @@ void Pace::add(double seconds, const State& state, Real dt) {
   last_step_seconds_ = seconds - now_.seconds;
   dt_ = dt;
   now_ = {seconds, state.time, state.step};
-  // A mark is forgotten if the next one is old enough, too.
+  // The oldest mark can go once the next one is old enough to measure the pace.
   while (marks_.size() > 1 && seconds - marks_[1].seconds >= seconds_of_memory &&
          state.step - marks_[1].step >= least_steps)
     marks_.pop_front();
@@ -116,7 +116,7 @@ void Progress::finish() {
 
 Progress::Shown Progress::for_stdout(bool quiet) {
   if (quiet) return Shown::in_log_only;
-  // mpirun reads what looks like a terminal to its ranks.
+  // With mpirun, the streams of the ranks look like terminals but are read by mpirun.
   return launch().size == 1 && isatty(STDOUT_FILENO) ? Shown::on_terminal : Shown::in_lines;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Becoming one of the ranks of a run, and watching over one.
+// Starts a rank of a run and watches over it.
 #include "app/rank_process.hpp"
 
 #include "app/child.hpp"
@@ -35,7 +35,7 @@ int watch_over_rank(char** argv) {
   const int status = rank.call(program.string(), argv);
   if (!WIFSIGNALED(status)) return WEXITSTATUS(status);
   if (rank.signal() == WTERMSIG(status)) return exit_signal + WTERMSIG(status);
-  // Not for the first rank to say, which knows nothing of it.
+  // print_complaint() prints on rank 0 only, but only this process has seen the end of its rank.
   fmt::print(stderr,
              "the run failed: rank {} of {} on {} was ended by signal {}; --restart continues from "
              "the newest checkpoint\n",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows, frames and checkpoints of a run.
+// Writes the history, the frames and the checkpoints of a run.
 #include "app/recorder.hpp"
 
 #include "app/outputs.hpp"
@@ -27,7 +27,7 @@ ResultOptions result_options(const Simulation<D>& simulation, bool continued) {
   return options;
 }
 
-/// Arrays of a body that do not change, and the storage behind them.
+/// Constant arrays of a body in the result file, with the memory they refer to.
 template <int D>
 struct ReferenceArrays {
   std::vector<Real> X, volume, support, mass;
@@ -39,7 +39,8 @@ struct ReferenceArrays {
       volume.push_back(body.cells.volume(A));
       support.push_back(at(body.particles.support(), A));
     }
-    // From tensor order to that of VTK: around the lower face, then around the upper.
+    // VTK numbers the corners of a cell around the lower face, then around the upper one; the grid
+    // numbers them in tensor order.
     for (const auto& cell : body.geometry.grid.cells)
       if (is_simplex<D>(cell))
         for (const int a : simplex_corners<D>()) cells.push_back(at(cell, a));
@@ -75,7 +76,7 @@ std::unique_ptr<ResultFile> make_result_file(const Simulation<D>& simulation,
                                       result_options(simulation, continued));
 }
 
-/// sum_B N_B(X_A) f_B for all particles, D numbers each.
+/// Values at the particles: sum_B N_B(X_A) f_B for each particle A, D numbers per particle.
 template <int D>
 std::vector<Real> at_places(const System<D>& system, const NodalVectors& field) {
   std::vector<Real> values(field.size() * D);
@@ -96,7 +97,7 @@ std::vector<Real> positions(const System<D>& system, const State& state) {
   return x;
 }
 
-/// A file for each line of points.
+/// One history file for each line of points.
 template <int D>
 std::vector<HistoryWriter> line_writers(const Scene<D>& scene, const RunDirectory& directory,
                                         std::optional<Real> continue_after) {
@@ -139,7 +140,7 @@ void Recorder<D>::begin_epoch(Simulation<D>& simulation) {
   simulation_ = &simulation;
   measures_ = chosen_measures(simulation.scene());
   on_first_rank([&] {
-    files_->results.reset();  // closes the file before
+    files_->results.reset();  // closes the old file first
     files_->results = make_result_file(simulation, directory_, provenance_, false);
   });
   write_frame(simulation.scene().output.restartable);

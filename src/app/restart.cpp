@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading a restart and comparing its scene with that of the run.
+// Reads a checkpoint to continue from, and compares the scene with the scene that wrote it.
 #include "app/restart.hpp"
 
 #include "input/input.hpp"
@@ -16,14 +16,14 @@
 namespace meniscus {
 namespace {
 
-/// Whether a key decides what is simulated.
+/// True if a key changes the simulated physics.
 bool is_physics(const std::string& key) {
   for (const std::string_view table : {"title", "time", "output", "expect"})
     if (key == table || key.starts_with(std::string(table) + ".")) return false;
   return true;
 }
 
-/// Whether a key decides what a frame consists of.
+/// True if a key changes the arrays that a frame contains.
 bool is_frame_layout(const std::string& key) {
   return key.starts_with("output.fields") || key == "output.precision";
 }
@@ -35,7 +35,7 @@ std::vector<std::string> filtered(const std::vector<std::string>& keys,
   return kept;
 }
 
-/// The directory that a file or directory of a run stands for.
+/// The run directory that a path names: the path itself, or the directory of a file.
 std::filesystem::path run_of(const std::filesystem::path& path) {
   if (is_directory_there(path)) return path;
   return path.has_parent_path() ? path.parent_path() : ".";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Running a scene: from the file to the last frame, and back to the shell with an exit code.
+// `meniscus run`: runs a scene from its file to the last frame and returns the exit code.
 #include "app/commands.hpp"
 #include "app/interruption.hpp"
 #include "app/outputs.hpp"
@@ -18,11 +18,11 @@
 #include <fmt/core.h>
 #include <omp.h>
 
-
 namespace meniscus {
 namespace {
 
-/// What the clocks of the ranks and signals to any of them ask for, the same on all.
+/// Requests to stop or to write a checkpoint, made by a signal to any rank or by its clock.
+/// Identical on all ranks.
 struct Asked {
   std::optional<int> signal;
   bool checkpoint;
@@ -33,16 +33,16 @@ Asked asked_anywhere(const Interruption& interruption, double next_checkpoint) {
   return {of_all > 1 ? std::optional(static_cast<int>(of_all / 2)) : std::nullopt, of_all % 2 == 1};
 }
 
-/// Steps until the end of the scene, the time to stop, or a request to; returns the signal of the
-/// request, if there was one. Only what the scene says decides the steps, so that a run that was
-/// stopped anywhere goes on as if it had not been.
+/// Makes steps until the end of the scene, the time to stop, or a signal. Returns the signal, if
+/// there was one. Steps depend on the scene alone, so that a run that was stopped anywhere
+/// continues with the same bits.
 template <int D>
 std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& log,
                              const Interruption& interruption, Progress& progress, Real stop) {
   const double checkpoint_seconds = 60 * epochs.scene().output.checkpoint_minutes;
   double next_checkpoint = interruption.elapsed_seconds() + checkpoint_seconds;
   const auto warn = [&](const std::string& sentence) {
-    progress.finish();  // the line is not to be written on
+    progress.finish();  // end the progress line before a warning
     log.warning(sentence);
   };
   Warnings<D> warnings(epochs.simulation(), warn);
@@ -75,14 +75,14 @@ std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& l
   return std::nullopt;
 }
 
-/// The run itself, once its directory is open.
+/// Makes the run and records it in its directory, which is already open.
 template <int D>
 int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance& origin,
                  const std::optional<Restart>& restart, const Interruption& interruption, Real stop,
                  const RunDirectory& directory, RunLog& log) {
   const bool in_place = restart && restart->in_place;
   const State& begin = epochs.simulation().state();
-  if (in_place) {  // before rows and frames are dropped that a later checkpoint would need
+  if (in_place) {  // write a checkpoint before later rows are removed
     const Snapshot snapshot = epochs.simulation().snapshot_of_first_rank();
     on_first_rank(
         [&] { CheckpointWriter(directory, origin).write(begin.step, begin.time, snapshot); });
@@ -111,7 +111,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   } catch (const SolveError& e) {
     progress.finish();
     log.error(e.what());
-    if (!ranks().all_come()) {  // nothing more that all have to do together
+    if (!ranks().all_come()) {  // no more collective calls from here on
       keep_complaint(e.what());
       return exit_numerical;
     }
@@ -143,7 +143,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   return exit_signal + *signal;
 }
 
-/// The first rank has the directory, as soon as all have read what they continue from.
+/// Opens the run directory on rank 0, after all ranks have read the checkpoint to continue from.
 std::unique_ptr<RunDirectory> opened_directory(const std::filesystem::path& path,
                                                ExistingRun existing) {
   std::unique_ptr<RunDirectory> directory;
@@ -159,7 +159,7 @@ RunLog opened_log(const RunDirectory& directory) {
   return log;
 }
 
-/// Of all nodes of all bodies: it tells whether all ranks have read the same meshes.
+/// Hash of the initial positions of all nodes, to detect ranks that have read different meshes.
 template <int D>
 std::string mark_of_places(const Plan<D>& plan) {
   Fnv1a hash;
@@ -186,7 +186,7 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
   require_known_outputs(input, epochs->scene());
   if (!restart) set_up(input, [&] { epochs->simulation().begin(); });
 
-  interruption.catch_signals();  // before this nothing is lost by ending at once
+  interruption.catch_signals();  // until here nothing is lost if the program ends at once
   const std::unique_ptr<RunDirectory> directory =
       opened_directory(output_directory(request), restart && restart->in_place ? ExistingRun::keep
                                                   : request.overwrite ? ExistingRun::replace

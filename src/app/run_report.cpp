@@ -18,8 +18,8 @@
 namespace meniscus {
 namespace {
 
-/// Of the state alone: the audit has scales of what was exchanged so far, as seen when rows of the
-/// history were written, and how often that is changes no result.
+/// Hash of the state without the audit. The audit remembers energies seen when rows of the history
+/// were written; how often rows are written must not change the hash.
 std::uint64_t hash_of_state(const Snapshot& snapshot) {
   Snapshot state;
   for (const auto& [name, array] : snapshot.arrays())
@@ -27,7 +27,7 @@ std::uint64_t hash_of_state(const Snapshot& snapshot) {
   return state.hash();
 }
 
-/// Says whether the state at which a run has arrived is stable; false if it is not.
+/// Logs whether the final state is stable. Returns false if it is unstable.
 template <int D>
 bool report_stability(Simulation<D>& simulation, const std::string& time, RunLog& log) {
   simulation.complete_state();
@@ -54,7 +54,7 @@ int report_expectations(const Simulation<D>& simulation, const RunDirectory& dir
   auto expectations = simulation.scene().expectations;
   if (expectations.empty()) return exit_ok;
   Real end = simulation.scene().time.end;
-  if (simulation.finished()) {  // what has come to rest stays as it is
+  if (simulation.finished()) {  // bodies at rest do not change any more
     end = simulation.state().time;
     for (auto& [name, e] : expectations)
       for (std::optional<Real>* time : {&e.at, &e.to})
@@ -90,7 +90,7 @@ void introduce(const Scene<D>& scene, const Provenance& origin,
     log.info(fmt::format("continuing from step {} of {}", restart->from.checkpoint.step,
                          restart->from.file.string()));
   }
-  if (stable.dt > 0)  // it was looked for
+  if (stable.dt > 0)  // the stable step was estimated
     log.info(fmt::format("stable step {:.6g} {}", stable.dt, scene.units.symbol(dimension::time)));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places in the scene for messages of bodies and contacts.
+// Adds the place in the scene file to messages about bodies and contacts.
 #include "app/set_up.hpp"
 
 #include <fmt/core.h>

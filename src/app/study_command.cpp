@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Running a study: its table as it grows, its checks, and its files.
+// Runs a study, prints its table row by row and its checks, and writes its files.
 #include "app/commands.hpp"
 #include "app/print.hpp"
 #include "input/text.hpp"

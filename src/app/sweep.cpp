@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene run with all combinations of values of some keys.
+// `meniscus sweep`: runs a scene with all combinations of values of some keys.
 #include "app/sweep.hpp"
 
 #include "app/child.hpp"
@@ -22,7 +22,7 @@ namespace {
 using Values = SweepTable::Values;
 using Columns = std::vector<std::array<std::string, 3>>;  ///< name, unit, number
 
-/// All combinations; the last key changes fastest.
+/// All combinations of the values; the last key varies fastest.
 std::vector<Values> combinations(const std::vector<SweptKey>& keys) {
   std::vector<Values> all(1);
   for (const SweptKey& key : keys) {
@@ -37,7 +37,8 @@ std::vector<Values> combinations(const std::vector<SweptKey>& keys) {
   return all;
 }
 
-/// "gamma" of "surface_tension.drop.gamma", unless another key ends so, too.
+/// The last part of a key, such as "gamma" of "surface_tension.drop.gamma". The whole key if
+/// another key ends with the same part.
 std::string short_name(const std::string& key, const std::vector<SweptKey>& keys) {
   const auto last = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
   const auto same = std::count_if(keys.begin(), keys.end(),
@@ -45,7 +46,8 @@ std::string short_name(const std::string& key, const std::vector<SweptKey>& keys
   return same == 1 ? last(key) : key;
 }
 
-/// "gamma=72.8mN/m" without what would not do in the name of a directory.
+/// Directory of a combination, such as "gamma=72.8mN_m", without characters that file names should
+/// not contain.
 std::string directory_name(const std::vector<SweptKey>& keys, const Values& values) {
   std::string name;
   for (std::size_t i = 0; i < keys.size(); ++i)
@@ -60,7 +62,7 @@ std::string directory_name(const std::vector<SweptKey>& keys, const Values& valu
 
 std::vector<std::string> directory_names(const std::vector<SweptKey>& keys,
                                          const std::vector<Values>& all) {
-  constexpr std::size_t longest = 255;  // of a name in a file system
+  constexpr std::size_t longest = 255;  // bytes of a file name
   std::vector<std::string> names;
   for (const Values& values : all) {
     names.push_back(directory_name(keys, values));
@@ -78,7 +80,7 @@ std::vector<std::string> directory_names(const std::vector<SweptKey>& keys,
   return names;
 }
 
-/// The last row of the history of a run; nothing if there is none.
+/// The last row of the history of a run. Empty if there is none.
 Columns last_row(const std::filesystem::path& history) {
   if (!is_there(history)) return {};
   std::istringstream lines(read_file(history));
@@ -96,7 +98,7 @@ Columns last_row(const std::filesystem::path& history) {
   return columns;
 }
 
-/// Of the table of expectations that a run prints: what it obtained.
+/// Obtained values of the table of expectations that a run has printed.
 Columns expectations(const std::string& printed) {
   Columns columns;
   std::istringstream lines(printed);
@@ -111,12 +113,12 @@ Columns expectations(const std::string& printed) {
   return columns;
 }
 
-/// Such a run would end so again.
+/// True if a run with this exit code need not be repeated, because it would end in the same way.
 bool is_done(int exit_code) {
   return exit_code == exit_ok || exit_code == exit_expectation || exit_code == exit_numerical;
 }
 
-/// The more, the graver.
+/// Rank of an exit code by severity; larger is worse.
 int gravity(int exit_code) {
   constexpr int rising[] = {exit_ok,    exit_expectation, exit_numerical,
                             exit_input, exit_file,        exit_internal};
@@ -172,7 +174,8 @@ class Sweep {
     return keys;
   }
 
-  /// The directory, with what was done before; a copy of the scene tells whether it was the same.
+  /// Opens the directory of the sweep and reads the results of earlier runs. Throws InputError if
+  /// these used another scene, of which a copy is kept.
   void open() {
     const std::filesystem::path copy = folder_ / "scene.toml", csv = folder_ / "sweep.csv";
     const std::string scene = read_file(request_.scene);
@@ -241,7 +244,7 @@ SweptKey swept_key(const std::string& setting) {
     const std::size_t first = value.find_first_not_of(' '), last = value.find_last_not_of(' ');
     if (first == std::string::npos)
       throw InputError(fmt::format("--set {}: a value is missing", setting));
-    if (value[first] == '=' || value[first] == '@')  // a table would compute it in sweep.csv
+    if (value[first] == '=' || value[first] == '@')  // a spreadsheet would evaluate it as a formula
       throw InputError(
           fmt::format("--set {}: a value begins with '{}'; allowed are numbers, texts "
                       "and formulas",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// sweep.csv: what the runs of a sweep ended with.
+// sweep.csv: the final values of each run of a sweep.
 #include "app/sweep.hpp"
 #include "input/text.hpp"
 #include "meniscus/error.hpp"
@@ -27,7 +27,7 @@ std::string line_of(const Cells& cells) {
   return joined(texts, ",") + "\n";
 }
 
-/// The cells of all lines; within quotes a quote is written twice.
+/// The cells of all lines of a CSV file. A quote within a quoted cell is written twice.
 std::vector<Cells> cells_of(const std::string& text) {
   std::vector<Cells> lines(1, Cells(1));
   bool quoted = false;
@@ -44,7 +44,7 @@ std::vector<Cells> cells_of(const std::string& text) {
     else
       lines.back().back() += c;
   }
-  lines.pop_back();  // behind the last end of a line
+  lines.pop_back();  // the empty line behind the last line break
   return lines;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Run-time warnings: doubtful states of a run.
+// Warnings during a run about doubtful states.
 #include "app/warnings.hpp"
 
 #include <fmt/core.h>
@@ -34,7 +34,7 @@ void Warnings<D>::follow(const Simulation<D>& simulation) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body<D>& body = scene.system.bodies[b];
     const SceneBody& own = scene.bodies[b];
-    if (own.is_drop() && !own.tension->inscribed()) continue;  // a run refuses smaller flaws
+    if (own.is_drop() && !own.tension->inscribed()) continue;  // a run refuses smaller errors
     const MeasureSource* area = find_measure(scene.measures, body.name + ".area");
     const MeasureSource* volume = find_measure(scene.measures, body.name + ".volume");
     if (area && volume) enclosures_.push_back({body.name, area, volume});
@@ -62,7 +62,7 @@ void Warnings<D>::doubtful_laws() {
 template <int D>
 void Warnings<D>::imbalance(const Ledger& ledger) {
   const Real error = simulation_->audit().balance_error(ledger);
-  // Where next to nothing is exchanged, the balance is that of rounding.
+  // If almost no energy is exchanged, the balance consists of rounding errors: no warning.
   Real size = ledger.kinetic + ledger.dissipated + std::abs(ledger.external_work);
   for (const auto& [kind, energy] : ledger.stored) size += std::abs(energy);
   const Real change = ledger.balance() - simulation_->audit().initial_balance;

@@ -15,14 +15,14 @@ namespace meniscus {
 
 namespace {
 
-/// displacement = amplitude cos(k . X + phase)
+/// A wave: displacement = amplitude cos(k . X + phase).
 template <int D>
 struct Wave {
   Vec<D> k, amplitude;
   Real phase;
 };
 
-/// A random direction, by rejection of points of a cube.
+/// A random direction: points of a cube are drawn until one lies inside the ball.
 template <int D>
 Vec<D> random_direction(std::mt19937_64& bits) {
   while (true) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lumped masses: row sums with a floor, and what the floor adds taken from other particles.
+// Lumped masses: row sums of the mass matrix with a lower bound. Neighbours give the mass that the
+// bound adds.
 #include "body/body.hpp"
 #include "kernel/monomials.hpp"
 #include "numbers/dense.hpp"
@@ -10,11 +11,11 @@
 namespace meniscus {
 namespace {
 
-/// Least mass of a particle, of the mass of its nodal cell.
+/// Least mass of a particle, as a fraction of the mass of its nodal cell.
 constexpr Real least_mass_share = 0.3;
 
-/// Monomials up to degree 2 of the reference position, from the middle of the body and in units of
-/// its size, so that systems of their moments are well conditioned.
+/// Monomials up to degree 2 of the reference position, relative to the centre of the body and in
+/// units of its size. This keeps systems of their moments well conditioned.
 template <int D>
 class QuadraticBasis {
  public:
@@ -41,9 +42,9 @@ class QuadraticBasis {
   Real scale_;
 };
 
-/// What each particle gives, so that all together give the moments `wanted` of degrees up to
-/// `degree`: the gifts with the least sum of squares over `margin`. Nothing if there are none that
-/// leave every particle its margin.
+/// Masses that the particles give away, with the prescribed moments `wanted` up to `degree` and the
+/// least sum of squares divided by `margin`. Empty if some particle would have to give more than
+/// its margin.
 template <int D>
 std::optional<std::vector<Real>> gifts(std::span<const Vec<D>> X, const std::vector<Real>& margin,
                                        const typename QuadraticBasis<D>::Values& wanted,
@@ -64,7 +65,7 @@ std::optional<std::vector<Real>> gifts(std::span<const Vec<D>> X, const std::vec
     if (!(gift[A] <= margin[A])) return std::nullopt;
     left -= gift[A] * p;
   }
-  // Too few particles give: the system has no solution.
+  // If the givers are too few, the system has no solution.
   if (!(left.cwiseAbs().maxCoeff() <= 1e-11 * wanted[0])) return std::nullopt;
   return gift;
 }
@@ -94,10 +95,10 @@ MassReport lump_mass(Body<D>& body, const std::vector<Real>& density,
   }
   if (report.raised == 0) return report;
 
-  // Givers are neighbours of the raised particles, or, where those cannot give enough, all.
+  // Neighbours of the raised particles give the mass. If they cannot give enough, all particles do.
   const QuadraticBasis<D> basis(X);
   typename QuadraticBasis<D>::Values wanted = QuadraticBasis<D>::Values::Zero();
-  std::vector<std::uint8_t> raised_near(n, 0);  // by the rows of this rank
+  std::vector<std::uint8_t> raised_near(n, 0);  // found in the rows of this rank
   for (Index A = 0; A < body.size(); ++A) {
     if (at(excess, A) == 0) continue;
     wanted += at(excess, A) * basis(at(X, A));

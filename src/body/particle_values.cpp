@@ -21,7 +21,7 @@ template <int D>
 NodalVectors values_at_particles(const Body<D>& body, const NodalVector* c,
                                  std::span<const Index> which) {
   NodalVectors values(which.size());
-  // The place in `which` at which the particles of a rank begin.
+  // The position in `which` at which the particles of a rank begin.
   const auto begin_of = [&](int rank) {
     return static_cast<Index>(
         std::lower_bound(which.begin(), which.end(), body.division.first_row(body.size(), rank)) -

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// References of bodies, and what is kept of them.
+// Reference configurations of bodies, and the part of them that checkpoints store.
 #include "body/reference.hpp"
 
 #include "body/grid/nodal_cells.hpp"

@@ -12,7 +12,7 @@ namespace meniscus {
 
 namespace {
 
-constexpr Real cosine_of_turn = -0.5;  // 120 degrees
+constexpr Real cosine_of_turn = -0.5;  // cosine of 120 degrees
 constexpr Real between_points = 0.98;  // the surface may be nearer than its sampled points
 constexpr Real largest_growth = 2.6;   // growth of supports in ParticleSet::ensure_quality
 
@@ -42,8 +42,8 @@ class PointsOfFacets {
  private:
   struct Facet {
     Index begin;
-    Vec<D> middle = Vec<D>::Zero(), normal = Vec<D>::Zero();  // means of its points
-    Real radius = 0, turn = 0;                                // largest deviations
+    Vec<D> middle = Vec<D>::Zero(), normal = Vec<D>::Zero();  // means over the points of the facet
+    Real radius = 0, turn = 0;                                // largest deviations from these means
   };
   static std::vector<Facet> facets_of(const SurfacePoints<D>& points) {
     std::vector<Facet> facets;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A force per mass as a formula of place and time.
+// A force per mass, given by a formula of position and time.
 #include "meniscus/scene/assembly.hpp"
 #include "physics/loads/body_force.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cavity load: what fills a closed surface.
+// Cavity: the filling inside a closed surface.
 #include "body/wall_supports.hpp"
 #include "input/optional_rows.hpp"
 #include "meniscus/scene/assembly.hpp"

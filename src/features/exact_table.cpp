@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A known motion that a body is compared with.
+// An exact motion with which a body is compared.
 #include "measure/shape_measures.hpp"
 #include "meniscus/scene/assembly.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A face that is held or moved: places in the mean over each of its nodal cells are prescribed.
+// A face that is held or moved: the mean displacement over each of its face cells is prescribed.
 #include "body/surface/face_means.hpp"
 #include "input/optional_rows.hpp"
 #include "input/ramp.hpp"
@@ -18,18 +18,18 @@
 namespace meniscus::held_load {
 namespace {
 
-/// The prescribed displacement of reference places: turned about an axis, then moved; both by the
-/// fraction of a ramp.
+/// The prescribed displacement of reference positions: a rotation about an axis and a translation,
+/// both multiplied by the fraction of a ramp.
 template <int D>
 struct Grip {
-  std::vector<Expression> displacement;  // empty: none
+  std::vector<Expression> displacement;  // empty if there is none
   Expression angle;
   Eigen::Vector3d axis, centre;
   Ramp ramp;
 
   bool turns() const { return !angle.constant() || angle({0, 0, 0}) != 0; }
 
-  /// R X - X about the centre, R by Rodrigues' formula.
+  /// Displacement R X - X by the rotation R about the centre, with Rodrigues' formula.
   Eigen::Vector3d turned(const Eigen::Vector3d& X, Real time) const {
     const Real by = ramp.fraction(time) * angle({0, 0, 0}, time);
     const Eigen::Vector3d arm = X - centre, across = cross(axis, arm);
@@ -38,7 +38,7 @@ struct Grip {
   }
 };
 
-/// Means over face cells of what a grip prescribes.
+/// Constraint that prescribes the mean displacement of each face cell.
 template <int D>
 class HeldFace final : public Constraint {
  public:
@@ -58,7 +58,7 @@ class HeldFace final : public Constraint {
       Eigen::Vector3d u = Eigen::Vector3d::Zero();
       if (!grip_.displacement.empty())
         for (int i = 0; i < D; ++i) u[i] = fraction * at(mean, row.place * D + i);
-      // A rotation is affine: its mean is that of the mean place.
+      // A rotation is affine, so its mean over a cell is its value at the mean position.
       if (turns) u += grip_.turned(at(rows.X, row.place), time);
       g[r] = row.direction.dot(u);
     }
@@ -76,7 +76,7 @@ class HeldFace final : public Constraint {
   Real moment_;
 };
 
-/// Sums over the rows of a constraint. `about`: the point that torques are about.
+/// Sums of the reactions of a constraint. `about`: the point to which torques refer.
 struct ReactionSums {
   const Constraint* of;
   Eigen::Vector3d about;
@@ -104,7 +104,7 @@ struct ReactionSums {
 
  private:
   Eigen::Vector3d row_force(const Motion& motion, Index r) const {
-    // Trial motions have none.
+    // Trial motions have no reactions.
     const Real lambda = motion.reactions ? at(motion.reactions->force, of->first + r) : 0;
     return lambda * at(of->rows.rows, r).direction;
   }

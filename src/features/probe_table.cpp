@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A probe: fields at a point of a body, in the history, or along a line of points, in a file of
-// their own.
+// Probes: fields at a point of a body, written to the history, or at a line of points, written to a
+// file of their own.
 #include "input/names.hpp"
 #include "kernel/row_sums.hpp"
 #include "meniscus/error.hpp"
@@ -16,7 +16,8 @@
 namespace meniscus::probe_load {
 namespace {
 
-/// Where a body referred anew has the points that were at X in the reference of its scene.
+/// Positions in the present reference of the points that were at X in the reference of the scene.
+/// They differ after a remap.
 template <int D>
 std::vector<Vec<D>> in_this_reference(const Body<D>& body, const std::vector<Vec<D>>& X) {
   if (!body.reference) return X;
@@ -27,12 +28,12 @@ std::vector<Vec<D>> in_this_reference(const Body<D>& body, const std::vector<Vec
   return pre_images<D>(body, coefficients_of(body, back, back).data(), X);
 }
 
-/// Points of a body and the shape functions there. What is given by particle is taken between
-/// particles by the same functions, which reproduce linear and quadratic fields exactly.
+/// Points of a body and the shape functions there. Values given per particle are interpolated with
+/// these functions, which reproduce linear and quadratic fields exactly.
 template <int D>
 class Points {
  public:
-  /// `X` in the reference of the scene.
+  /// `X`: positions in the reference of the scene.
   Points(const Body<D>& body, const std::vector<Vec<D>>& X)
       : body_(body), scene_X_(X), X_(in_this_reference(body, X)), rows_(rows(body, X_)) {}
 
@@ -40,7 +41,7 @@ class Points {
   /// Distance from the first point in the reference of the scene.
   Real distance(Index q) const { return (at(scene_X_, q) - scene_X_.front()).norm(); }
 
-  /// Fields of the motion [point][component], D numbers each.
+  /// Fields of the motion as [point][component], D components each.
   std::vector<Real> positions(const Motion& motion) const { return moved(motion, {}); }
   std::vector<Real> displacements(const Motion& motion) const { return moved(motion, scene_X_); }
   std::vector<Real> velocities(const Motion& motion) const {
@@ -48,7 +49,7 @@ class Points {
     for (Index q = 0; q < size(); ++q) append(value_at(rows_, q, own(motion.v)), values);
     return values;
   }
-  /// A field of a term, [point][component].
+  /// A field of a force term as [point][component].
   std::vector<Real> field(const FieldSource& source, const Motion& motion) const {
     const auto n = static_cast<Index>(source.components);
     std::vector<Real> given(static_cast<std::size_t>(body_.size() * n)), values;
@@ -73,7 +74,7 @@ class Points {
   static void append(const Lanes& vector, std::vector<Real>& values) {
     for (int i = 0; i < D; ++i) values.push_back(vector[i]);
   }
-  /// Places now, from `origin` if there is one. X - origin is 0 before the body is referred anew.
+  /// Present positions, minus `origin` if it is given. X - origin is 0 before the first remap.
   std::vector<Real> moved(const Motion& motion, std::span<const Vec<D>> origin) const {
     std::vector<Real> values;
     for (Index q = 0; q < size(); ++q) {
@@ -89,7 +90,7 @@ class Points {
   PointRows<D> rows_;
 };
 
-/// What a probe can read.
+/// A field that a probe can read.
 struct Readable {
   std::string name;
   Dimension dimension;
@@ -97,7 +98,7 @@ struct Readable {
   std::string meaning;
   std::function<std::vector<Real>(const Motion&)> values;  ///< [point][component]
 
-  /// "velocity_x", "F_xy", "pressure".
+  /// Column of component c: "velocity_x", "F_xy", "pressure".
   std::string column(int c) const {
     const auto axis = [](int i) { return "xyz"[i]; };
     if (components == 1) return name;
@@ -106,7 +107,7 @@ struct Readable {
   }
 };
 
-/// All fields of the frames but the forces on particles, which are no field between them.
+/// All fields of the frames except `force`, which has values at particles only.
 template <int D>
 std::vector<Readable> readable(std::shared_ptr<const Points<D>> points,
                                const std::vector<FieldSource>& sources) {
@@ -135,8 +136,8 @@ std::vector<Readable> readable(std::shared_ptr<const Points<D>> points,
   return all;
 }
 
-/// Whether a place is in the body, or outside by less than a quarter of a spacing: facets are flat
-/// where the surface is round.
+/// Tests whether a position is inside the body. Positions outside by less than a quarter of the
+/// spacing count as inside, because facets are flat where the surface is round.
 template <int D>
 class Inside {
  public:

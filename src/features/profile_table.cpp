@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A known profile that the shape of a shell is compared with.
+// A reference profile with which the shape of a shell is compared.
 #include "body/wall_supports.hpp"
 #include "measure/cell_measures.hpp"
 #include "meniscus/scene/assembly.hpp"

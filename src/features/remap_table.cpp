@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a body is referred anew to where it is.
+// The table [[remap]]: when the reference configuration of a body is updated.
 #include "body/grid/simplex.hpp"
 #include "meniscus/scene/assembly.hpp"
 #include "remap/distortion.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Viscosity of a solid (Kelvin and Voigt).
+// Viscosity of a solid (Kelvin-Voigt).
 #include "meniscus/scene/assembly.hpp"
 #include "physics/internal/solid_viscosity.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Springs and dampers on a face or at a place of a body.
+// Springs and dampers on a face or at a point of a body.
 #include "body/surface/face_means.hpp"
 #include "input/optional_rows.hpp"
 #include "meniscus/scene/assembly.hpp"

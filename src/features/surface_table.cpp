@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface laws on the whole surface of a body, a table for each.
+// Surface laws on the whole surface of a body, one table per law.
 #include "meniscus/physics/surface_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
 
@@ -47,7 +47,8 @@ template <int D>
 struct Surface final : Load<D>, Keys {
   static constexpr std::string_view example =
       "body = \"drop\"\n[surface.law]\ntype = \"tension\"\ngamma = 1\n";
-  /// A body has one tension, and beside it at most one law of every other type.
+  /// The resource that a table claims: a body can have one tension, and at most one law of every
+  /// other type.
   std::string claim() const override {
     const std::string surface = "the surface of '" + body + "'";
     return type == "tension" ? surface : "the " + type + " of " + surface;
@@ -55,7 +56,8 @@ struct Surface final : Load<D>, Keys {
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     require_body(block, bodies, body);
   }
-  /// Measures of the tension are those of the body, of other laws they have its type before them.
+  /// Adds the term with its measures. Measures of a tension are named after the body alone,
+  /// measures of other laws after the body and the type.
   void build(Assembly<D>& assembly) const override {
     require_stable(assembly);
     std::unique_ptr<ForceTerm> term = law->build(assembly.body(body), points);
@@ -78,7 +80,8 @@ struct Surface final : Load<D>, Keys {
         "material is \"nematic\"",
         this->place, type, body));
   }
-  /// The surface of a fluid that has all in all a negative tension would grow without bound.
+  /// Check of the state: the surface of a fluid would grow without bound if its mean tension were
+  /// negative.
   StateCheck negative_tension(const VariedTension& varied, const Assembly<D>& assembly) const {
     return [&varied, &own = assembly.of(body), first = assembly.body(body).first,
             symbol = assembly.units().symbol(dimension::tension)](
@@ -93,8 +96,9 @@ struct Surface final : Load<D>, Keys {
                                  all, symbol)};
     };
   }
-  /// Waves along a skin with the negative modulus m that are shorter than 2 pi |m|/mu are unstable
-  /// on a body with the shear modulus mu; the shortest on a grid is twice the spacing.
+  /// Warns or throws InputError if the surface is unstable. On a body with the shear modulus mu, a
+  /// skin with the negative modulus m is unstable for wavelengths below 2 pi |m|/mu; the shortest
+  /// wavelength on a grid is twice the spacing.
   void require_stable(Assembly<D>& assembly) const {
     const std::optional<Real> modulus = law->unstable_modulus();
     if (!modulus) return;

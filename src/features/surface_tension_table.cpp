@@ -16,7 +16,7 @@ struct Keys {
   std::string body, form;
   Real gamma = 0;
   int points = 3;
-  Real coefficient_damping = 0;  // in kinematic viscosity / spacing^2
+  Real coefficient_damping = 0;  // unit: kinematic viscosity / spacing^2
   static Rows<Keys> rows();
 };
 
@@ -54,7 +54,8 @@ struct SurfaceTension final : Load<D>, Keys {
                                         body));
   }
 
-  /// The pressure of a fluid works on the volume that a balanced surface encloses.
+  /// A balanced surface needs the volume that it encloses: the pressure of a fluid does work on
+  /// this volume.
   void prepare(BodyPlans<D>& bodies) const override {
     for (BodyPlan<D>& planned : bodies) {
       if (planned.settings.name != body) continue;
@@ -79,8 +80,9 @@ struct SurfaceTension final : Load<D>, Keys {
   }
 
  private:
-  /// A body under tension alone has the mean pressure (D - 1) gamma area / (D volume) (the virial
-  /// of its forces). What is much softer than that would collapse.
+  /// Throws InputError if the body is too soft. Surface tension alone compresses a body with the
+  /// mean pressure (D - 1) gamma area / (D volume) (virial theorem); a body much softer than this
+  /// collapses.
   void require_stiffness(const Assembly<D>& assembly) const {
     constexpr Real most = 2;
     if (!assembly.initial()) return;

@@ -117,7 +117,7 @@ Real Constants::value(const std::string& formula, Dimension expected) const {
 }
 
 /// True if the dimension of the formula is unknown because it uses a plain number. The NaN in
-/// numbers_[1 .. 3] alone do not show this: a comparison with NaN gives a number.
+/// numbers_[1 .. 3] are not sufficient to detect this: a comparison with NaN gives a number.
 bool Constants::plain_number_in(std::string_view formula) const {
   const std::vector<std::string> names = names_in(formula);
   return std::any_of(numbers_[1].begin(), numbers_[1].end(), [&](const auto& c) {

@@ -18,9 +18,9 @@ namespace meniscus {
 std::vector<std::string> names_in(std::string_view formula);
 
 /// Named numbers in units of the scene, with their dimensions. Each constant is stored four times:
-/// as it is, and with the unit of length, time or mass halved. The change of a formula between
-/// these sets gives its dimension. Plain numbers may have any dimension: in the other sets they are
-/// NaN, and so are the constants that depend on them.
+/// once in these units, and once each with the unit of length, time or mass halved. The change of a
+/// formula between these sets gives its dimension. Plain numbers may have any dimension: in the
+/// other sets they, and constants that depend on them, are NaN.
 class Constants {
  public:
   /// Adds a constant: a plain number without `Dimension`, else a number in units of the scene.

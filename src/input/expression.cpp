@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formulas in scenes.
+// Formulas in scenes, evaluated by muParser.
 #include "input/expression.hpp"
 
 #include "input/expression_jets.hpp"
@@ -20,7 +20,8 @@
 
 namespace meniscus {
 
-/// muParser keeps its stack and the variables in memory shared by all copies: hence the lock.
+/// A parsed formula. All copies share the stack and the variables of muParser, which the lock
+/// protects.
 struct Expression::Parsed {
   std::mutex lock;
   std::array<Real, 4> variables{};  ///< x, y, z, t
@@ -53,8 +54,8 @@ Real greatest(const Real* values, int count) {
   return *std::max_element(values, values + count);
 }
 
-/// Defines all functions here, so that the meaning of a scene does not depend on the muParser
-/// version.
+/// Defines all functions, constants and variables of formulas, so that results do not depend on the
+/// version of muParser.
 void define_language(mu::Parser& parser, std::array<Real, 4>& variables) {
   parser.ClearFun();
   parser.ClearConst();

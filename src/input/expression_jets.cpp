@@ -125,7 +125,7 @@ Real multiply(Real a, Real b) {
 }
 Real divide(Real a, Real b) {
   Number quotient = number(a) / number(b);
-  quotient.value = number(a).value / number(b).value;  // bitwise as for numbers
+  quotient.value = number(a).value / number(b).value;  // the same bits as for numbers
   return handle(quotient);
 }
 Real negative(Real a) {
@@ -157,7 +157,7 @@ Real angle(Real a, Real b) {
                       (y.value * y.value - x.value * x.value) / (r2 * r2), twist));
 }
 
-/// The smallest value with std::less, the largest with std::greater.
+/// The smallest value with std::less, or the largest with std::greater.
 template <class Before>
 Real first_by(const Real* values, int count) {
   return *std::min_element(values, values + count, [](Real a, Real b) {

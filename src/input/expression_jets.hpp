@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The derivatives of a formula with respect to the place.
+// The derivatives of a formula with respect to the position.
 #pragma once
 #include "input/expression.hpp"
 #include "numbers/jet.hpp"

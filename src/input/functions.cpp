@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls of named formulas, replaced by what they stand for.
+// Replaces calls of the functions of a scene by their formulas.
 #include "input/functions.hpp"
 
 #include "input/text.hpp"
@@ -23,7 +23,7 @@ bool continues_name(char c) {
   return begins_name(c) || (c >= '0' && c <= '9');
 }
 
-/// Behind the number that begins at `i`.
+/// Position behind the number that begins at `i`.
 std::size_t end_of_number(std::string_view text, std::size_t i) {
   while (i < text.size() && is_digit_or_point(text[i])) ++i;
   if (i == text.size() || (text[i] != 'e' && text[i] != 'E')) return i;
@@ -44,8 +44,8 @@ std::string trimmed(std::string_view text) {
   return begin == std::string_view::npos ? "" : std::string(text.substr(begin, end + 1 - begin));
 }
 
-/// What stands in the brackets that open at `open`, at its commas; `close` is behind them. Throws
-/// InputError if they do not close.
+/// Arguments of a call, separated at commas. `open` is the position of the opening bracket; `close`
+/// becomes the position behind the closing one. Throws InputError if that is missing.
 std::vector<std::string> arguments_at(std::string_view formula, std::size_t open,
                                       std::size_t& close) {
   std::vector<std::string> arguments(1);
@@ -88,12 +88,12 @@ std::vector<NamePlace> name_places(std::string_view formula) {
   return places;
 }
 
-/// One formula on its way.
+/// Expansion of one formula.
 class Functions::Expansion {
  public:
-  using Arguments = std::map<std::string, std::string, std::less<>>;  ///< by name, without calls
+  using Arguments = std::map<std::string, std::string, std::less<>>;  ///< [name] text without calls
 
-  /// `trail`: the functions of which this is a part.
+  /// `trail`: names of the functions that are being expanded, to detect recursion.
   explicit Expansion(const Functions& functions, std::vector<std::string> trail = {})
       : functions_(functions), trail_(std::move(trail)) {}
 
@@ -101,7 +101,7 @@ class Functions::Expansion {
     std::string text;
     std::size_t done = 0;
     for (const NamePlace& place : name_places(formula)) {
-      if (place.begin < done) continue;  // in the arguments of a call
+      if (place.begin < done) continue;  // part of a call that was already expanded
       text += formula.substr(done, place.begin - done);
       done = place.end;
       const std::string_view name = formula.substr(place.begin, place.end - place.begin);
@@ -120,7 +120,8 @@ class Functions::Expansion {
   }
 
  private:
-  /// `done` is behind the name, and then behind the call.
+  /// Expands one call. `done` is the position behind the name, and on return the position behind
+  /// the call.
   std::string call(const Function& function, std::string_view formula, std::size_t& done,
                    const Arguments& known) {
     constexpr int most_calls = 10'000;
@@ -150,7 +151,7 @@ class Functions::Expansion {
   }
 
   const Functions& functions_;
-  std::vector<std::string> trail_;  ///< each calls the next
+  std::vector<std::string> trail_;  ///< functions being expanded; each calls the next
   int calls_ = 0;
 };
 

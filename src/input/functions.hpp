@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Named formulas of a scene, the table [functions], and formulas in which they are called.
+// Named formulas of a scene (table [functions]), and formulas that call them.
 #pragma once
 #include <set>
 #include <string>
@@ -9,17 +9,18 @@
 
 namespace meniscus {
 
-/// Where a name stands in a formula.
+/// Position of a name in a formula.
 struct NamePlace {
   std::size_t begin, end;
 };
 
-/// Names in a formula, in their order, functions and variables included; not the e of 2e9.
+/// Positions of all names in a formula, in order, including functions and variables, but not the e
+/// of 2e9.
 std::vector<NamePlace> name_places(std::string_view formula);
 
-/// A function is put in the place of its calls, as a formula in brackets: what is made of formulas
-/// knows constants and variables alone. A name in a function is that of an argument, or else means
-/// what it means everywhere: an argument called x hides the place x in that function only.
+/// Expands calls of functions: each call is replaced by the formula of the function in brackets.
+/// Code behind this class sees only constants and variables. Within a function, the name of an
+/// argument hides a constant or variable of the same name, for example the position x.
 class Functions {
  public:
   struct Function {
@@ -28,20 +29,20 @@ class Functions {
     std::string formula;
   };
 
-  /// Of a key: "bump(r, a)", or "wave" of none. Throws InputError (without a place) if it is none.
+  /// Parses the key of a function: "bump(r, a)", or "wave" for a function without arguments. Throws
+  /// InputError (without a place) if the key is malformed.
   static Function signature(const std::string& key);
   void add(Function function) { functions_.push_back(std::move(function)); }
   bool empty() const { return functions_.empty(); }
   const Function* find(std::string_view name) const;
   std::vector<std::string> names() const;
-  /// A formula calls one of them.
+  /// True if a formula calls one of these functions.
   bool in(std::string_view formula) const;
 
-  /// The formula without calls. Throws InputError (without a place): a function that needs itself,
-  /// a wrong count of arguments, a bracket that does not close, a formula that becomes too long or
-  /// calls functions too often.
+  /// The formula with all calls expanded. Throws InputError (without a place) for recursion, a
+  /// wrong number of arguments, an open bracket, a result that is too long, or too many calls.
   std::string expanded(const std::string& formula) const;
-  /// The formula of a function without calls, its arguments as they are.
+  /// The formula of a function with all calls expanded; its own arguments remain names.
   std::string body(const Function& function) const;
 
  private:

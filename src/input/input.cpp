@@ -334,7 +334,7 @@ std::vector<std::pair<std::string, Block>> Block::named_tables() const {
 }
 
 void Block::problem(std::string_view key, const std::string& what) const {
-  if (node_->guessed) return;  // it may follow from the value that stands in
+  if (node_->guessed) return;  // the problem may be due to the replaced value
   const Entry* entry = node_->find(key);
   node_->note(entry == nullptr ? node_->place : entry->value.place,
               key.empty() ? path() : joined(path(), key), what);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of rows that do not depend on the struct: texts and units.
+// The parts of input rows that do not depend on the type of the struct: texts and units.
 #include "input/input.hpp"
 #include "meniscus/error.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From values of a scene to values of the program, and back to TOML for the complete input.
+// Converts values of a scene to values of the program, and back to TOML for the complete input.
 #include "input/input_values.hpp"
 
 #include "input/quantity.hpp"
@@ -14,7 +14,7 @@ using scene_tree::Value;
 
 namespace {
 
-/// A number that stands without quotes.
+/// The value, if it is a number without quotes.
 std::optional<Real> plain_number(const Value& value) {
   if (const Real* real = std::get_if<Real>(&value.data)) return *real;
   if (const auto* integer = std::get_if<std::int64_t>(&value.data))
@@ -76,7 +76,7 @@ std::int64_t integer_of_constants(const std::string& given, const Range& range,
   const std::string formula = constants.functions.expanded(given);
   if (constants.broken_in(formula)) return static_cast<std::int64_t>(harmless(range));
   const Real value = constants.value(formula, dimension::none);
-  constexpr Real largest = 9007199254740992;  // beyond, not every integer is a Real
+  constexpr Real largest = 9007199254740992;  // larger integers may not be exact as Real
   if (std::abs(value) <= largest && value == std::round(value))
     return static_cast<std::int64_t>(value);
   throw InputError(
@@ -106,7 +106,7 @@ std::optional<Dimension> own_dimension(const Value& value, const Constants& cons
     if (unit.dimension != dimension::none) return unit.dimension;
     return unit.angle == 0 ? std::nullopt : std::optional(dimension::degrees);
   } catch (const InputError&) {
-    return std::nullopt;  // as no number it is refused by whoever reads it
+    return std::nullopt;  // not a number: the reader of the key refuses it
   }
 }
 
@@ -151,7 +151,7 @@ void Number::refuse_radians(const std::string& text) const {
         text, name_of(dimension)));
 }
 
-/// The formula as given and as it was read, if those are not the same, to begin a message with.
+/// Begins a message with the formula as it was given, if functions were expanded in it.
 std::string origin(const std::string& given, const std::string& read) {
   return given == read ? "" : fmt::format("'{}' by [functions]: ", given);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From values of a scene to values of the program, and back to TOML for the complete input.
+// Converts values of a scene to values of the program, and back to TOML for the complete input.
 #pragma once
 #include "input/constants.hpp"
 #include "input/input.hpp"
@@ -31,14 +31,14 @@ std::string toml(const std::vector<T>& values) {
 /// Throws "is an integer; allowed is `allowed`".
 [[noreturn]] void refuse_kind(const scene_tree::Value& value, const std::string& allowed);
 
-/// The value as it stands. Throws InputError (without a place) if it is of another type.
+/// The value, if it has this type. Otherwise throws InputError (without a place).
 template <class T>
 T exactly(const scene_tree::Value& value, const std::string& allowed) {
   if (const T* found = std::get_if<T>(&value.data)) return *found;
   refuse_kind(value, allowed);
 }
 
-/// A text is a formula of constants.
+/// An integer of the range. A text is evaluated as a formula of constants.
 std::int64_t integer(const scene_tree::Value& value, const Range& range, const Constants&);
 /// "an integer, > 0".
 std::string allowed_integer(const Range& range);
@@ -46,24 +46,24 @@ std::string allowed_integer(const Range& range);
 /// The dimension of a text with a unit or of a formula of constants; nothing for other values.
 std::optional<Dimension> own_dimension(const scene_tree::Value& value, const Constants&);
 
-/// Some number of the range, to go on with after a problem.
+/// Some number of the range, to continue with after a problem.
 Real harmless(const Range& range);
 
-/// Numbers of one dimension and range. The conversions throw InputError without a place.
+/// Converts numbers of one dimension and range. The conversions throw InputError (without a place).
 struct Number {
   const UnitSystem& units;
   Dimension dimension;
   Range range;
   const Constants& constants;
 
-  /// As written behind a number; empty for a plain number.
+  /// The unit that is written behind a number; empty for plain numbers.
   std::string unit() const;
   /// "a number in Pa or a text with a unit, > 0".
   std::string allowed() const { return allowed_or(""); }
   std::string allowed_or_formula(Variables) const;
 
   Real real(const scene_tree::Value& value) const;
-  /// A text is a quantity if it can be one, else a formula.
+  /// A text is read as a quantity ("2 mm") if possible, else as a formula.
   Expression expression(const scene_tree::Value& value, Variables) const;
 
  private:
@@ -72,7 +72,7 @@ struct Number {
   /// The number of a text with or without a unit, or of a formula of constants.
   Real converted(const std::string& given) const;
   void refuse_radians(const std::string& text) const;
-  /// A formula in which constants occur.
+  /// Converts a formula that contains constants.
   Expression formula_of_constants(const std::string& given, Variables) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Suggestions for names that are misspelt or those of other programs.
+// Suggestions for misspelt names and for names that other programs use.
 #include "input/names.hpp"
 
 #include "input/text.hpp"
@@ -31,7 +31,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string did_you_mean(std::string_view given, const std::vector<std::string>& known) {
-  constexpr std::size_t longest = 64;  // beyond, nobody misspelt anything, and the table is large
+  constexpr std::size_t longest = 64;  // longer texts are no misspelt names
   if (given.size() > longest) return "";
   const std::string* nearest = nullptr;
   std::size_t least = 0;
@@ -55,8 +55,8 @@ constexpr std::string_view isotropic =
 constexpr std::string_view step = "the step is [time] step, chosen by itself if absent",
                            weight = "a weight is a table [[body_force]] with its acceleration";
 
-/// A word of other programs, where its thing is here, and the table or key that is called otherwise
-/// here.
+/// A word of other programs, a sentence about its place in this program, and the name of the table
+/// or key here if it differs.
 struct ForeignWord {
   std::string_view word, home, own = {};
 };

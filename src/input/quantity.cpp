@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Units by name, and texts such as "72.8 mN/m" taken apart.
+// Units by name, and quantities such as "72.8 mN/m" parsed into number and unit.
 #include "input/quantity.hpp"
 
 #include "input/names.hpp"
@@ -57,7 +57,7 @@ constexpr std::pair<std::string_view, int> prefixes[] = {
     {"z", -21},     {"a", -18}, {"f", -15}, {"p", -12}, {"n", -9}, {"u", -6}, {"\u00b5", -6},
     {"\u03bc", -6}, {"m", -3},  {"c", -2},  {"k", 3},   {"M", 6},  {"G", 9},  {"T", 12}};
 
-/// What units are called elsewhere, in small letters.
+/// Other common names of units, in lower case.
 constexpr std::pair<std::string_view, std::string_view> other_names[] = {
     {"micron", "um"},       {"microns", "um"}, {"meter", "m"},
     {"metre", "m"},         {"a", "angstrom"}, {"\u00c5", "angstrom"},
@@ -104,7 +104,7 @@ std::optional<Unit> find_prefixed(std::string_view symbol) {
   return std::nullopt;
 }
 
-/// All units as one types them, prefixes included.
+/// All unit symbols that can be typed, including prefixes.
 std::vector<std::string> all_symbols() {
   std::vector<std::string> symbols;
   for (const NamedUnit& unit : known_units) {
@@ -116,8 +116,8 @@ std::vector<std::string> all_symbols() {
   return symbols;
 }
 
-/// Units that somebody may have meant who wrote `symbol`: by another name, two in one word ("Nm"),
-/// the same letters small or large, or else one letter off.
+/// Units that the author of `symbol` may have meant: another name of a unit, two units in one word
+/// ("Nm"), another case, or one wrong letter.
 std::vector<std::string> near_units(std::string_view symbol) {
   std::vector<std::string> near;
   const std::string small = small_letters(symbol);
@@ -129,7 +129,7 @@ std::vector<std::string> near_units(std::string_view symbol) {
   const std::vector<std::string> known = all_symbols();
   for (const std::string& unit : known)
     if (small_letters(unit) == small) near.push_back(unit);
-  constexpr std::size_t shortest = 3, longest = 16;  // of what may be misspelt
+  constexpr std::size_t shortest = 3, longest = 16;  // lengths of texts that may be misspelt
   if (!near.empty() || symbol.size() < shortest || symbol.size() > longest) return near;
   for (const std::string& unit : known)
     if (near.size() < 3 && unit.size() > 1 && edit_distance(symbol, unit) == 1)
@@ -168,7 +168,7 @@ class QuantityReader {
  public:
   explicit QuantityReader(std::string_view text) : text_(text) {}
 
-  /// The digits without their exponent, which is returned apart.
+  /// The digits of a number, and its exponent separately.
   std::pair<std::string_view, int> number() {
     skip_spaces();
     take('+');
@@ -211,7 +211,7 @@ class QuantityReader {
     while (take(' ')) {
     }
   }
-  /// The 1 of "1/s", as rates are written by symbol().
+  /// Skips the 1 of "1/s"; symbol() writes rates in this way.
   void take_one_over() {
     if (text_.substr(position_).starts_with("1/")) ++position_;
   }
@@ -264,7 +264,7 @@ class QuantityReader {
       const std::string_view symbol = letters();
       if (symbol.empty()) fail("lacks a unit" + behind());
       base = unit_called(symbol);
-      if (power_follows()) return raised(base, power());  // m3, s-1
+      if (power_follows()) return raised(base, power());  // powers without ^, such as m3, s-1
     }
     if (const auto raise = superscript()) return raised(base, *raise);
     skip_spaces();
@@ -282,10 +282,10 @@ class QuantityReader {
     position_ += sign.size();
     return true;
   }
-  /// A star or a dot at half height, as in texts that are pasted.
+  /// Reads a sign of multiplication: a star, or a raised dot as in copied texts.
   bool take_times() { return take('*') || take("\u00b7") || take("\u22c5"); }
 
-  /// A power in raised digits.
+  /// Reads a power in superscript digits.
   std::optional<int> superscript() {
     const bool negative = take("\u207b");
     for (std::size_t value = 0; value < std::size(raised_digits); ++value)
@@ -295,7 +295,8 @@ class QuantityReader {
     return std::nullopt;
   }
 
-  /// Letters of ASCII, and whatever is no sign of ours beyond it, such as the micro sign.
+  /// Reads ASCII letters and any other characters without a meaning of their own here, such as the
+  /// micro sign.
   std::string_view letters() {
     const std::size_t begin = position_;
     const auto at_sign = [&] {

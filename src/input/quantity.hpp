@@ -14,7 +14,7 @@ struct Unit {
   Dimension dimension;
   int tens = 0;
   Real factor = 1;
-  int angle = 0;  ///< the power of rad and deg in it
+  int angle = 0;  ///< power of rad or deg in the unit
 };
 /// One degree in rad.
 inline constexpr Real degree = std::numbers::pi / 180;

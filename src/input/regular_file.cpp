@@ -54,7 +54,7 @@ class Descriptor {
 void read_regular_file(const std::string& path, std::uintmax_t most,
                        const std::function<void(std::string_view)>& take) {
   struct stat status {};
-  // A device is not even opened: that alone may have an effect.
+  // Check before opening: opening a device may already have an effect.
   if (stat(path.c_str(), &status) != 0) refuse(path, errno);
   const auto require_regular = [&] {
     if (!S_ISREG(status.st_mode))
@@ -77,7 +77,7 @@ void read_regular_file(const std::string& path, std::uintmax_t most,
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse(path, errno);
     if (count == 0) return;
-    require_small(size += static_cast<std::uintmax_t>(count));  // it may grow meanwhile
+    require_small(size += static_cast<std::uintmax_t>(count));  // the file may grow
     take({piece.data(), static_cast<std::size_t>(count)});
   }
 }

@@ -129,7 +129,7 @@ class Block::Node::ConstantsReader {
 
   Node& table_;
   std::set<std::string> begun_;
-  std::vector<std::string> under_way_;  ///< each depends on the next
+  std::vector<std::string> under_way_;  ///< constants being evaluated; each depends on the next
 };
 
 void Block::Node::read_constants() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A whole scene: opening it, the report of its problems, and the complete input.
+// Opens a whole scene, reports its problems, and writes the complete input.
 #include "input/input.hpp"
 #include "input/input_node.hpp"
 #include "input/text.hpp"
@@ -58,7 +58,8 @@ void apply_settings(Document& document) {
   if (!report.empty()) throw InputError(report);
 }
 
-/// A long list of allowed names stands in the first line that has it; later lines refer to it.
+/// Shortens a line: a long list of allowed names is printed once, in the first line that needs it.
+/// Later lines refer to that line.
 void refer_to_list_above(std::string& line, std::unordered_set<std::string>& said) {
   constexpr std::string_view begin = "allowed are ";
   constexpr std::size_t few = 80;
@@ -121,10 +122,10 @@ void SceneInput::check() const {
   const Document& document = *root_.node_->document;
   if (document.problems.empty()) return;
   std::vector<Problem> sorted = document.problems;
-  // The file first, then the settings in their order.
+  // Problems in the file come first, then problems of settings in their order.
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Problem& a, const Problem& b) { return a.place < b.place; });
-  constexpr std::size_t most = 100;  // nobody reads more
+  constexpr std::size_t most = 100;  // more lines would not be read
   std::vector<std::string> lines;
   std::unordered_set<std::string> known;
   for (const Problem& problem : sorted) {

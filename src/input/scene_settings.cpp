@@ -151,7 +151,7 @@ Value parsed_value(std::string_view text) {
       throw InputError(fmt::format("the value {} is not valid TOML", text));
   }
   try {
-    return parsed(quoted(text));  // a bare word
+    return parsed(quoted(text));  // a bare word is a text
   } catch (const InputError&) {
     throw InputError("the value is not valid UTF-8");
   }

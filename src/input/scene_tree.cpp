@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From TOML to a tree of values. This is the only file that includes toml++.
+// Converts TOML to a tree of values. This is the only file that includes toml++.
 #include "input/scene_tree.hpp"
 
 #include "input/quantity.hpp"
@@ -23,8 +23,7 @@ Place place_of(const toml::source_region& source) {
   throw InputError(fmt::format("{}:{}:{}: {}", name, place.line, place.column, what));
 }
 
-/// Converts the nodes of the parser, with limits that no scene reaches and that keep searches
-/// short.
+/// Converts the nodes of the parser. Limits that no real scene reaches keep searches short.
 class Converter {
  public:
   explicit Converter(const std::string& name) : name_(name) {}
@@ -107,8 +106,8 @@ class Skimmer {
   bool at(std::string_view mark) const { return toml_.substr(position_).starts_with(mark); }
   void skip_line() { position_ = std::min(toml_.find('\n', position_), toml_.size()); }
 
-  /// Skips a text, from behind its first quote. A text without closing quote ends with its line, as
-  /// in the parser.
+  /// Skips a text, starting behind its first quote. A text without closing quote ends with its
+  /// line, as in the parser.
   void skip_text(char quote) {
     const std::string three(3, quote);
     const bool many_lines = at(three.substr(1));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene as a tree of values with their places, in file order, made by the TOML parser.
+// A scene as a tree of values with their positions in the file, in file order, made by the TOML
+// parser.
 #pragma once
 #include "numbers/types.hpp"
 
@@ -12,7 +13,7 @@
 
 namespace meniscus::scene_tree {
 
-/// Where a value stands: in the file (setting 0) or in the n-th `--set` (line and column 0).
+/// Position of a value: in the file (setting 0), or in the n-th `--set` (line and column 0).
 struct Place {
   int setting = 0, line = 1, column = 1;
   friend auto operator<=>(const Place&, const Place&) = default;
@@ -36,7 +37,7 @@ struct Value {
 };
 struct Entry {
   std::string key;
-  Place place;  ///< of the key
+  Place place;  ///< position of the key
   Value value;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts made of texts.
+// Text functions: shortening, joining, and making texts safe to print.
 #include "input/text.hpp"
 
 #include <fmt/core.h>
@@ -15,7 +15,7 @@ struct Character {
   std::size_t bytes;
 };
 
-/// The character at the beginning of a text that is not empty.
+/// Decodes the first character of a text that is not empty.
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t bytes = byte(0) < 0x80   ? 1
@@ -36,7 +36,8 @@ Character first_character(std::string_view text) {
   return too_long || surrogate || code > 0x10ffff ? Character{0, 1} : Character{code, bytes};
 }
 
-/// Control characters (C0, C1), and those that turn the direction of writing or are invisible.
+/// True for characters that must not reach a terminal: control characters (C0, C1), invisible
+/// characters, and characters that change the direction of writing.
 bool commands_terminals(std::uint32_t code) {
   if (code == '\n' || code == '\t') return false;
   constexpr std::pair<std::uint32_t, std::uint32_t> ranges[] = {
@@ -46,7 +47,7 @@ bool commands_terminals(std::uint32_t code) {
                      [&](const auto& r) { return code >= r.first && code <= r.second; });
 }
 
-/// The text, or its beginning and its end if it is longer than `most` bytes.
+/// The text; if it is longer than `most` bytes, its beginning and its end.
 std::string shortened(std::string_view text, std::size_t most) {
   if (text.size() <= most) return std::string(text);
   const auto in_character = [&](std::size_t i) {
@@ -63,10 +64,10 @@ bool is_letter_or_digit(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-/// The line with each long quotation 'so' shortened. A quote within a word, as in "isn't", neither
-/// opens nor closes one.
+/// Shortens each long quotation in single quotes. A quote within a word, as in "isn't", does not
+/// open or close a quotation.
 std::string with_short_quotations(std::string_view line) {
-  constexpr std::size_t most = 400;  // paths are shorter
+  constexpr std::size_t most = 400;  // paths are usually shorter
   const auto next_quote = [&](std::size_t from, bool opens) {
     for (std::size_t i = from; i < line.size(); ++i) {
       const bool beside = opens ? i > 0 && is_letter_or_digit(line[i - 1])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writing checkpoints in turn, and finding the newest valid one.
+// Writes checkpoints alternately to two files, and finds the newest valid one.
 #include "io/checkpoint.hpp"
 
 #include "io/files.hpp"
@@ -32,11 +32,11 @@ std::string header_text(const Header& header) {
   return text;
 }
 
-/// Beginning of a file and checksum of the rest.
+/// The beginning of a file, and the checksum of the rest.
 struct Content {
   std::string beginning;
   std::uint64_t checksum;
-  bool more;  ///< there is a rest
+  bool more;  ///< true if the file continues behind the beginning
 };
 
 Content read_content(const std::filesystem::path& file) {
@@ -52,7 +52,7 @@ Content read_content(const std::filesystem::path& file) {
   return content;
 }
 
-/// The header of the file if all bytes are as they were written.
+/// The header of the file, if all bytes are valid.
 std::optional<Header> valid_header(const std::filesystem::path& file) {
   const Content content = read_content(file);
   Header header;
@@ -96,7 +96,7 @@ ReadCheckpoint read_file_of_checkpoint(const std::filesystem::path& path) {
 }
 
 struct Newest {
-  std::filesystem::path file;  ///< empty: none is valid
+  std::filesystem::path file;  ///< empty if no file is valid
   std::int64_t serial = 0;
   std::vector<std::string> warnings;
 };
@@ -147,7 +147,8 @@ std::string frames_with_state(const hdf5::Group& steps, std::int64_t first) {
                   : fmt::format("{}; the last one with the state is {}", all, first + last);
 }
 
-/// Of a result file or of one in a series, whose frames are counted from `first` on.
+/// Reads a frame of a result file, or of one file of a series; `first` is the number of its first
+/// frame.
 ReadCheckpoint read_frame(const std::filesystem::path& path, std::int64_t frame,
                           std::int64_t first = 0) {
   const hdf5::File file = hdf5::File::open(path);

@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// A field as stored.
+/// A stored field.
 struct StoredField {
   std::string name;
   int components = 1;  ///< 1, 3, 6 or 9
@@ -19,8 +19,8 @@ struct StoredField {
 struct FrameLayout {
   std::int64_t particles = 0;
   std::int64_t cells = 0;
-  std::int64_t corners = 0;  ///< of all cells together
-  int cell_type = 0;         ///< the number that VTK has for it; 0: there are several
+  std::int64_t corners = 0;  ///< total number of corners of all cells
+  int cell_type = 0;         ///< VTK's number of the type; 0: several types
   hdf5::Type precision = hdf5::Type::float64;
   std::vector<StoredField> fields;  ///< sorted by name
   friend bool operator==(const FrameLayout&, const FrameLayout&) = default;

@@ -12,7 +12,7 @@
 namespace meniscus::hdf5 {
 namespace {
 
-/// Rows of a piece that is compressed by itself, and of one growth of a series.
+/// Number of rows that are compressed together, and number of rows by which a series grows.
 constexpr hsize_t piece_rows = 65536, series_rows = 1024;
 
 Handle dataspace(Shape shape, bool growing = false) {
@@ -28,7 +28,8 @@ Handle storage_properties(Shape shape, Storage storage) {
     const hsize_t piece[] = {std::min(static_cast<hsize_t>(shape.rows), piece_rows),
                              static_cast<hsize_t>(shape.columns)};
     check(H5Pset_chunk(properties, shape.columns == 1 ? 1 : 2, piece), "prepare HDF5");
-    // Bytes of equal significance lie side by side: the leading ones of neighbours are alike.
+    // Put bytes of equal significance side by side: the leading bytes of neighbouring numbers are
+    // alike, which helps compression.
     check(H5Pset_shuffle(properties), "prepare HDF5");
     check(H5Pset_deflate(properties, static_cast<unsigned>(storage.compression)), "prepare HDF5");
   }
@@ -49,8 +50,8 @@ Handle open_array(std::int64_t group, const std::string& name, const std::string
   return {H5Dopen2(group, name.c_str(), H5P_DEFAULT), doing};
 }
 
-/// How many elements of `size` bytes an array has. Throws FileError unless all of them lie in one
-/// piece of the file.
+/// Number of elements of `size` bytes in an array. Throws FileError unless the array is stored
+/// contiguously in the file.
 std::size_t stored_count(const Handle& array, std::size_t size, const std::string& doing) {
   const Handle space(H5Dget_space(array), doing), properties(H5Dget_create_plist(array), doing);
   const hssize_t count = H5Sget_simple_extent_npoints(space);

@@ -26,7 +26,7 @@ Handle open(std::int64_t object, const std::string& name) {
   return {H5Aopen(object, name.c_str(), H5P_DEFAULT), fmt::format("read the attribute '{}'", name)};
 }
 
-/// A number is replaced in place: the file changes by its eight bytes alone.
+/// Replaces a number in place, so that only its eight bytes of the file change.
 template <class T>
 void write_number(std::int64_t object, const std::string& name, Type type, T value) {
   const Handle scalar(H5Screate(H5S_SCALAR), "describe an attribute");
@@ -73,7 +73,7 @@ hid_t file_type(Type type) {
   throw std::logic_error("a text has a type of its own length");
 }
 
-// Fixed length, so that it is stored in place; plain ASCII where possible, which VTK asks for.
+// A type of fixed length, so that the text is stored in place. ASCII if possible, as VTK requires.
 Handle text_type(const std::string& text) {
   Handle type(H5Tcopy(H5T_C_S1), "describe a text");
   check(H5Tset_size(type, std::max<std::size_t>(text.size(), 1)), "describe a text");

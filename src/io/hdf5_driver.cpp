@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The HDF5 file driver with ordered changes (virtual file layer of HDF5 1.10 to 1.14).
+// The HDF5 file driver that orders its writes (virtual file layer of HDF5 1.10 to 1.14).
 #include "io/hdf5_driver.hpp"
 
 #include <fcntl.h>
@@ -27,16 +27,17 @@ namespace meniscus::hdf5 {
 namespace {
 
 constexpr herr_t done = 0;
-constexpr haddr_t page = 4096;  ///< of the system, or a part of one
+constexpr haddr_t page = 4096;  ///< size of a memory page, or a divisor of it
 
-/// Leaves the reason where HDF5, and so the messages of hdf5::check(), look for it.
+/// Puts the reason of a failure on the error stack of HDF5, from which hdf5::check() makes its
+/// messages.
 herr_t push_error(const char* what) {
   H5Epush2(H5E_DEFAULT, __FILE__, what, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_CANTOPENFILE,
            "%s, error message = '%s'", what, std::strerror(errno));
   return -1;
 }
 
-/// 0, or the number of the error.
+/// Writes all bytes. Returns 0 or errno.
 int write_all(int file, haddr_t address, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(address));
@@ -48,7 +49,7 @@ int write_all(int file, haddr_t address, std::string_view bytes) {
   return 0;
 }
 
-/// A set of addresses, as intervals [begin, end) that neither overlap nor touch.
+/// A set of addresses, stored as intervals [begin, end) that neither overlap nor touch.
 class Extents {
  public:
   void add(haddr_t begin, haddr_t end) {
@@ -70,25 +71,26 @@ class Extents {
   }
 
  private:
-  std::map<haddr_t, haddr_t> end_of_;  ///< by begin
+  std::map<haddr_t, haddr_t> end_of_;  ///< [begin] end of an interval
 };
 
 struct OrderedFile : H5FD_t {
   int descriptor = -1;
   bool writable = false;
   struct stat identity {};
-  haddr_t end_of_addresses = 0;  ///< what HDF5 has given out
-  haddr_t end_of_file = 0;       ///< on the disk
-  haddr_t next = 0;              ///< behind all that was ever given out: no place is given twice
-  haddr_t room_begin = 0, room_end = 0;  ///< left in the page of metadata
+  haddr_t end_of_addresses = 0;  ///< end of the addresses that HDF5 uses
+  haddr_t end_of_file = 0;       ///< size on the disk
+  haddr_t next = 0;              ///< end of all addresses ever allocated; none is used twice
+  haddr_t room_begin = 0, room_end = 0;  ///< free part of the present metadata page
   haddr_t scratch_begin = 0;             ///< a page for copies during a flush
-  Extents flushed;                       ///< what the file on the disk may refer to
-  Extents fresh;                         ///< what was written beside it since the last flush
-  std::vector<Change> changes;           ///< in the order in which they came
+  Extents flushed;                       ///< addresses that the file on the disk may refer to
+  Extents fresh;                         ///< other addresses written since the last flush
+  std::vector<Change> changes;           ///< changes in memory, in order
   int error = 0;                         ///< errno of the first write that failed
 
-  /// Metadata within one page, in which a killed process has written all of it or nothing; no place
-  /// is given twice, so that what is new can be written before what was there is given up.
+  /// Allocates addresses. Metadata lie within one memory page, because a killed process has written
+  /// a page completely or not at all. No address is allocated twice, so that new data can be
+  /// written before old data are abandoned.
   haddr_t allocate(H5FD_mem_t kind, haddr_t size) {
     if (scratch_begin == 0) scratch_begin = new_page();
     if (kind == H5FD_MEM_DRAW || size > page) {
@@ -131,8 +133,8 @@ struct OrderedFile : H5FD_t {
     error = write_all(descriptor, address, bytes);
   }
 
-  /// 0, or the number of the error. Behind the end, as what is given out and not written, are
-  /// zeros.
+  /// Reads bytes. Returns 0 or errno. Beyond the end of the file, where addresses are allocated but
+  /// not written, bytes are zero.
   int get(haddr_t address, std::size_t size, char* buffer) const {
     std::size_t got = 0;
     while (got < size) {
@@ -177,7 +179,8 @@ struct OrderedFile : H5FD_t {
     resize();
   }
 
-  /// A file grows at once; it shrinks when nothing on the disk refers to its end any more.
+  /// Sets the size of the file. It grows at once, but shrinks only when nothing on the disk refers
+  /// to its end any more.
   void resize() {
     const bool shrinks = end_of_addresses < end_of_file;
     if (error || end_of_addresses == end_of_file || (shrinks && !changes.empty())) return;
@@ -237,7 +240,7 @@ H5FD_class_t driver_class() {
   H5FD_class_t c{};
 #if H5_VERSION_GE(1, 14, 0)
   c.version = H5FD_CLASS_VERSION;
-  c.value = H5_VFD_RESERVED;  // the first number that HDF5 leaves to others
+  c.value = H5_VFD_RESERVED;  // the first number that HDF5 leaves to other drivers
 #endif
   c.name = "meniscus_ordered";
   c.maxaddr = HADDR_MAX;
@@ -275,7 +278,7 @@ H5FD_class_t driver_class() {
     *handle = &self(f).error;
     return done;
   };
-  constexpr H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;  // raw data apart from metadata
+  constexpr H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;  // separates raw data from metadata
   std::copy(std::begin(map), std::end(map), c.fl_map);
   return c;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5 files, groups and their closing.
+// HDF5 files and groups, and closing them.
 #include "io/hdf5_file.hpp"
 
 #include "io/files.hpp"
@@ -18,15 +18,16 @@ namespace {
 constexpr std::size_t most_members = 100'000;
 constexpr int deepest = 4;
 
-/// HDF5 would print its whole stack of errors by itself; ours are sentences in exceptions. A filter
-/// that a file names would be looked for and loaded as a library.
+/// Disables HDF5's own printing of errors, since exceptions report them, and the loading of
+/// filters, which a file could name and HDF5 would load as a library.
 void be_quiet() {
   static const herr_t quiet =
       std::min(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr), H5PLset_loading_state(0));
   (void)quiet;
 }
 
-/// What the innermost function of HDF5 complained about; the operating system's words if it was it.
+/// Reason of the last failure: the message of the innermost HDF5 function, or of the operating
+/// system if that failed.
 std::string reason() {
   std::string text;
   H5Ewalk2(
@@ -44,8 +45,8 @@ std::string reason() {
   return text.empty() ? "no reason given" : text;
 }
 
-/// Files are opened without HDF5's own locks: results can be looked at while a run writes them.
-/// Two writers are kept apart by RunDirectory. Version bounds stay at their defaults: a raised
+/// Properties for opening files. Without HDF5's own locks, results can be read while a run writes
+/// them; RunDirectory prevents a second writer. Version bounds stay at their defaults: a higher
 /// bound makes the file unreadable after an interruption.
 Handle access_properties() {
   be_quiet();
@@ -181,9 +182,9 @@ File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
   const Handle access = access_properties();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), "prepare HDF5");
   check(H5Pset_userblock(creation, user_block), "prepare HDF5");
-  // The driver gives out places; those that were given up are not used again.
+  // The driver allocates addresses and never uses an address twice.
   check(H5Pset_file_space_strategy(creation, H5F_FSPACE_STRATEGY_NONE, false, 1), "prepare HDF5");
-  // A new file in any case: what is written is not to follow a link of that name.
+  // Always creates a new file, so that an existing link of that name is replaced and not followed.
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
   Handle handle(H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation, access),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of HDF5 that results need: groups, arrays, texts, attributes, and views that gather one
-// array from all frames. No HDF5 header is seen outside hdf5_file.cpp, hdf5_array.cpp,
-// hdf5_attribute.cpp, hdf5_driver.cpp.
+// The part of HDF5 that results need: groups, arrays, texts, attributes, and views that join one
+// array of all frames. Only hdf5_file.cpp, hdf5_array.cpp, hdf5_attribute.cpp and hdf5_driver.cpp
+// include HDF5 headers.
 #pragma once
 #include "numbers/types.hpp"
 
@@ -16,28 +16,28 @@
 
 namespace meniscus::hdf5 {
 
-/// An open HDF5 object, closed with its owner.
+/// An open HDF5 object, which the destructor closes.
 class Handle {
  public:
-  /// Throws FileError "cannot <doing>: <reason HDF5 gives>" if `id` is negative.
+  /// Throws FileError "cannot <doing>: <reason of HDF5>" if `id` is negative.
   Handle(std::int64_t id, std::string_view doing);
   Handle(Handle&& other) noexcept : id_(other.id_) { other.id_ = -1; }
   Handle& operator=(Handle&& other) noexcept;
   ~Handle();
   operator std::int64_t() const { return id_; }
-  /// The caller closes it from now on.
+  /// Gives up ownership: the caller has to close the object.
   std::int64_t release() { return std::exchange(id_, -1); }
 
  private:
   std::int64_t id_;
 };
 
-/// Throws FileError as Handle does if `status` is negative.
+/// Throws FileError like Handle if `status` is negative.
 void check(std::int64_t status, std::string_view doing);
 
 enum class Type { float32, float64, uint8, int32, int64, text };
 
-/// How an array lies in the file.
+/// Storage of an array in the file.
 struct Storage {
   Type type = Type::float64;
   int compression = 0;  ///< deflate level 0 (none) to 9
@@ -48,7 +48,7 @@ struct Shape {
   int columns = 1;  ///< 1: a one-dimensional array
 };
 
-/// What is stored under a name.
+/// Type, shape and unit of a stored array.
 struct ArrayInfo {
   Type type = Type::float64;
   Shape shape;
@@ -64,17 +64,18 @@ class Group {
   bool has_group(const std::string& name) const;
   /// Names of the members in HDF5's order (alphabetical).
   std::vector<std::string> names() const;
-  /// Calls visit(name, info) for the arrays of this group and of those below it, in the order of
-  /// their names, which are joined by '/'. Throws FileError where groups lie deeper than four
-  /// levels or members are more than 100,000.
+  /// Calls visit(name, info) for all arrays of this group and its sub-groups in the order of their
+  /// names, whose parts are joined by '/'. Throws FileError if groups are nested deeper than four
+  /// levels or have more than 100,000 members.
   void for_each_array(
       const std::function<void(const std::string& name, const ArrayInfo&)>& visit) const;
   Group create_group(const std::string& name);
   Group group(const std::string& name) const;
   void remove(const std::string& name);
-  /// A member that stands for the group or array `target` of another file beside this one.
+  /// Adds a member that refers to the group or array `target` of another file in the same
+  /// directory.
   void link(const std::string& name, const std::string& file, const std::string& target);
-  /// Bytes of the file that the group lies in.
+  /// Size of the file that contains the group, in bytes.
   std::uint64_t file_size() const;
 
   // Arrays. A '/' in a name makes the groups in between.
@@ -84,9 +85,9 @@ class Group {
              const std::string& unit);
   void write_text(const std::string& name, const std::string& text);
   //
-  // Reading trusts nothing: links into other files, arrays that are stored anywhere but in one
-  // piece of this file, and types other than those written are refused, so that nothing larger than
-  // the file is ever asked of the memory.
+  // Reading does not trust the file. It refuses links into other files, arrays that are not stored
+  // contiguously in this file, and types that this program does not write. So no array can need
+  // more memory than the size of the file.
   ArrayInfo info(const std::string& name) const;
   std::vector<Real> reals(const std::string& name) const;
   std::vector<std::int64_t> integers(const std::string& name) const;
@@ -97,8 +98,8 @@ class Group {
                      const std::string& unit);
   void resize_series(const std::string& name, std::int64_t rows);
   void set_series(const std::string& name, std::int64_t row, Real value);
-  /// The arrays pattern(0), pattern(1), ... of `shape` one below the other, as many as there are;
-  /// "%b" in the pattern stands for the number.
+  /// Creates a view of the arrays pattern(0), pattern(1), ... of `shape`, one below the other, as
+  /// many as exist. "%b" in the pattern stands for the number.
   void create_view(const std::string& name, const std::string& pattern, Shape shape, Type,
                    const std::string& unit);
 
@@ -114,8 +115,8 @@ class Group {
 
  private:
   std::string doing(std::string_view verb, const std::string& name) const;
-  /// Throws FileError if one of the groups on the way to `name`, or that itself, is a link by name,
-  /// which may lead into another file or in a circle.
+  /// Throws FileError if `name`, or a group on the path to it, is a link by name: it could lead
+  /// into another file or in a circle.
   void require_own(const std::string& name, const std::string& what) const;
   void require_few(std::size_t members) const;
 
@@ -125,17 +126,17 @@ class Group {
 
 class File {
  public:
-  /// A new file, replacing one of that name. `user_block` bytes (0, or a power of two from 512) at
-  /// its beginning are left to the caller.
+  /// Creates a file and replaces an existing one of this name. The first `user_block` bytes (0, or
+  /// a power of two from 512) are left to the caller.
   static File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
   static File open(const std::filesystem::path& path);
   static File open_to_append(const std::filesystem::path& path);
 
   Group root() const;
-  /// Makes all changes since the last flush lasting, in an order that survives a kill at any moment
-  /// (hdf5_driver.hpp).
+  /// Makes all changes since the last flush permanent, in an order that survives a kill at any
+  /// moment (hdf5_driver.hpp).
   void flush();
-  /// Flushes, closes, and reports what went wrong in doing so, as a destructor cannot.
+  /// Flushes and closes the file. Throws FileError on failure, which a destructor cannot do.
   void close();
 
  private:

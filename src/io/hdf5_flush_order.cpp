@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The order of writes: what is referred to before what refers to it, trees of groups by a copy.
+// Orders writes: data before the structures that refer to them; trees of groups through a copy.
 #include "io/hdf5_flush_order.hpp"
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 using Order = std::vector<Change>;
 using Changes = std::vector<const Change*>;
 
-/// A number of eight bytes, as all addresses and sizes of our files are; 0 behind the end.
+/// Reads an unsigned number of eight bytes, the size of all addresses and lengths in our files. 0
+/// beyond the end.
 std::uint64_t number(std::string_view bytes, std::size_t at) {
   std::uint64_t value = 0;
   if (at + sizeof value <= bytes.size()) std::memcpy(&value, bytes.data() + at, sizeof value);
@@ -29,8 +30,8 @@ bool overlap(Changes changes) {
          }) != changes.end();
 }
 
-/// The names of a group: a prefix with the place of the first free block, and data, in which a free
-/// block begins with the place of the next one and its own size.
+/// The heap with the names of a group. Its prefix has the address of the first free block; a free
+/// block begins with the address of the next one and its own size.
 struct Heap {
   static constexpr std::size_t prefix_size = 32;
   static constexpr std::uint64_t no_free_block = 1;
@@ -43,7 +44,7 @@ struct Heap {
   haddr_t data_address() const { return number(prefix, 24); }
   std::uint64_t bytes_of_names() const {
     std::uint64_t sum = data.size(), at = number(prefix, 16);
-    // At most as many blocks as there is room for: a damaged file may lead in a circle.
+    // A damaged file may lead in a circle: follow at most as many blocks as the heap can contain.
     for (std::size_t i = 0; i < data.size() / 16 && at != no_free_block; ++i) {
       sum -= number(data, at + 8);
       at = number(data, at);
@@ -63,8 +64,8 @@ Heap heap_at(haddr_t address, const auto& read) {
   return heap;
 }
 
-/// Heaps that have got names; those that have lost some go to `after`, to be written when nothing
-/// refers to the names any more.
+/// Appends the changes of heaps. Heaps that gained names go to `order`; heaps that lost names go to
+/// `after`, to be written when nothing refers to the lost names any more.
 void order_heaps(const Changes& heaps, const Order& changes, const FileOnDisk& file, Order& order,
                  Order& after) {
   const auto then = [&](haddr_t at, std::size_t size) {
@@ -74,33 +75,34 @@ void order_heaps(const Changes& heaps, const Order& changes, const FileOnDisk& f
   };
   for (const Change* change : heaps) {
     if (!Heap::begins(change->bytes)) {
-      after.push_back(*change);  // data, which most often the heap has brought before
+      after.push_back(*change);  // data of a heap; usually its heap has already written them
       continue;
     }
     const Heap heap = heap_at(change->address, then), before = heap_at(change->address, file.read);
     const haddr_t data = heap.data_address();
     Order& to = heap.bytes_of_names() < before.bytes_of_names() ? after : order;
-    // Names and free blocks take each other's places; meanwhile the heap has no free blocks.
+    // Names and free blocks overwrite each other; until both are written, the heap has no free
+    // blocks.
     to.push_back({H5FD_MEM_LHEAP, change->address, heap.prefix_without_free_blocks()});
     to.push_back({H5FD_MEM_LHEAP, data, heap.data});
     to.push_back({H5FD_MEM_LHEAP, change->address, heap.prefix});
   }
 }
 
-/// A node of the tree of a group, or a leaf, which is a table of names and objects.
+/// An inner node of the tree of a group, or a leaf: a table of names and objects.
 struct GroupNode {
   static bool begins(std::string_view bytes) {
     return bytes.starts_with("SNOD") || bytes.starts_with(std::string_view("TREE\0", 5));
   }
 
   const Change* change;
-  bool has_parent = false;  ///< among the changes
-  bool touches = false;     ///< it or what is below it is in use
+  bool has_parent = false;  ///< true if a parent is among the changes
+  bool touches = false;     ///< true if it or a node below it is in use
   haddr_t copy = HADDR_UNDEF;
 
   bool is_leaf() const { return change->bytes.starts_with("SNOD"); }
   int level() const { return is_leaf() ? -1 : static_cast<unsigned char>(change->bytes.at(5)); }
-  /// Where in its bytes the addresses of its children are.
+  /// Offsets of the addresses of its children within its bytes.
   std::vector<std::size_t> children() const {
     constexpr std::size_t head = 32, next = 16;
     std::vector<std::size_t> places;
@@ -112,9 +114,9 @@ struct GroupNode {
   }
 };
 
-/// Trees of groups. When a node is split, its parent and the node itself change: a copy of all that
-/// changes below the highest changed node is made first, that node refers to the copy until what
-/// was copied is at its own place, and to this place then.
+/// Appends the changes of group trees. When a node is split, the node and its parent change
+/// together. Therefore a copy of all changed nodes below the highest one is written first. The
+/// highest node refers to the copy until the nodes are written at their own addresses.
 void order_groups(const Changes& changes, const FileOnDisk& file, Order& order) {
   std::map<haddr_t, GroupNode> nodes;
   std::vector<GroupNode*> by_level;
@@ -159,7 +161,8 @@ void order_groups(const Changes& changes, const FileOnDisk& file, Order& order) 
     if (node->touches && !node->has_parent && !node->is_leaf()) order.push_back(*node->change);
 }
 
-/// Trees of chunks begin with "TREE", type 1, level: 0 for leaves.
+/// True for nodes of chunk trees. They begin with "TREE", type 1, and the level, which is 0 for
+/// leaves.
 bool is_chunk_node(std::string_view bytes) {
   return bytes.starts_with(std::string_view("TREE\1", 5)) && bytes.size() > 5;
 }
@@ -197,8 +200,8 @@ Order flush_order(const Order& changes, const FileOnDisk& file) {
   append(raw);
   append(super);
   order_heaps(heaps, changes, file, order, after);
-  // A split node of a tree of chunks gives half of its chunks to a new one: the parent refers to
-  // that before the node loses them, and who reads finds chunks from above.
+  // When a node of a chunk tree is split, half of its chunks move to a new node. The parent must
+  // refer to the new node before the old one loses these chunks: readers search from the top.
   const auto level = [](const Change* node) { return static_cast<unsigned char>(node->bytes[5]); };
   std::stable_sort(chunks.begin(), chunks.end(), [&](const Change* a, const Change* b) {
     const bool a_used = file.in_use(a->address, a->end()),

@@ -16,13 +16,13 @@ hid_t memory_type() {
   return std::is_same_v<T, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
 }
 
-/// Bytes of the file that an open object lies in.
+/// Size of the file that contains an open object, in bytes.
 std::uint64_t file_size(std::int64_t object);
 
-/// The type in the file: little-endian on every machine.
+/// The stored type: little-endian on every machine.
 hid_t file_type(Type type);
 
-/// The type of a text of that length, in the file and in memory.
+/// The type of a text of this length, both stored and in memory.
 Handle text_type(const std::string& text);
 
 /// Sets or replaces an attribute of a group or an array.

@@ -28,7 +28,7 @@ std::vector<std::string> split(const std::string& line) {
   return parts;
 }
 
-/// The lines that end in a line break.
+/// The complete lines, which end in a line break.
 std::vector<std::string> complete_lines(const std::string& content) {
   std::vector<std::string> lines;
   std::size_t begin = 0;
@@ -57,7 +57,7 @@ std::string header_text(const std::vector<HistoryColumn>& columns) {
   return fmt::format("# {}\n# {}\n", joined(names, ","), joined(units, ","));
 }
 
-/// Header and kept rows of the history that is continued.
+/// Header and kept rows of a history that is continued.
 std::string kept_part(const std::filesystem::path& path, const std::vector<HistoryColumn>& columns,
                       Real last_time) {
   const History history = History::read(path);

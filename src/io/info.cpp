@@ -56,7 +56,7 @@ void describe_bodies(const hdf5::Group& reference, std::string& out) {
     out += fmt::format("  {:<24} {} particles\n", name, reference.group(name).integer("particles"));
 }
 
-/// Returns the number of frames; they are counted from `first` on.
+/// Describes the frames of a file, whose numbers begin with `first_number`. Returns their number.
 std::int64_t describe_frames(const hdf5::Group& steps, const std::string& time_unit,
                              std::int64_t first_number, std::string& out) {
   const auto name = [](std::int64_t k) { return fmt::format("{}", k); };
@@ -117,12 +117,12 @@ std::string describe_file(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files{path};
   if (is_directory_there(path)) {
     files = result_series(path);
-    if (files.empty()) files = {path / "run.h5"};  // which is missing
+    if (files.empty()) files = {path / "run.h5"};  // reports the missing file
   }
   std::string text;
   std::int64_t frames = 0;
   for (const auto& file : files) frames += describe(file, frames, text);
-  return printable(text);  // texts of a file are not to command the terminal
+  return printable(text);  // texts of a file must not control the terminal
 }
 
 }  // namespace meniscus

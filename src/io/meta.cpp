@@ -30,7 +30,8 @@ std::size_t bytes_of(const Snapshot::Values& values) {
   return 8 * std::visit([](const auto& v) { return v.size(); }, values);
 }
 
-/// A file can name the same bytes many times; together the arrays are not to be larger than it.
+/// Reads the arrays of a snapshot. Throws FileError if together they are larger than the file,
+/// which could name the same bytes many times.
 Snapshot read_arrays(const hdf5::Group& group) {
   Snapshot state;
   std::size_t bytes = 0;

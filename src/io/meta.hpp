@@ -15,7 +15,7 @@ void write_meta(hdf5::Group& root, const Provenance& provenance);
 /// The input text of the group "meta". Throws FileError if its SHA-256 is not the stored one.
 std::string read_input(const hdf5::Group& root);
 
-/// The program that wrote the file, as program_text() says it.
+/// The program that wrote the file, in the words of program_text().
 std::string read_program(const hdf5::Group& root);
 
 /// Adds the group "state" with its hash.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Provenance of a result, collected.
+// Collects the provenance of a result.
 #include "io/provenance.hpp"
 
 #include "io/hdf5_file.hpp"
@@ -70,7 +70,7 @@ std::string portable_command_line(int argc, const char* const* argv) {
         option = argument.substr(0, equal + 1);
         argument.remove_prefix(equal + 1);
       }
-    // "/a/b/" ends in no name of its own.
+    // A path such as "/a/b/" has an empty file name.
     std::string shown(argument);
     if (argument.starts_with('/')) {
       while (shown.size() > 1 && shown.ends_with('/')) shown.pop_back();

@@ -26,7 +26,7 @@ std::int64_t particle_count(const BodyReference& body) {
   return std::ssize(first.values) / first.components;
 }
 
-/// 2D vectors are stored with z = 0.
+/// Number of stored components: 2D vectors are stored with z = 0.
 int stored_components(const ResultField& field) {
   switch (field.components) {
     case 1:
@@ -60,7 +60,7 @@ void require_field_name(const std::string& name) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   };
-  // These two are names of the file itself.
+  // The names "state" and "body" are used by the file itself.
   if (name.empty() || name == "state" || name == "body" ||
       !std::all_of(name.begin(), name.end(), allowed))
     throw std::invalid_argument(fmt::format("'{}' cannot be the name of a field", name));
@@ -79,7 +79,7 @@ bool is_in_space(const BodyReference& body) {
   return body.corners == 8 || (body.simplices && body.corners == 4);
 }
 
-/// The number that VTK has for the cells.
+/// VTK's number of the cell type.
 int cell_type(const BodyReference& body) {
   if (body.corners == 2) return vtkhdf::line;
   if (body.simplices) return is_in_space(body) ? vtkhdf::tetrahedron : vtkhdf::triangle;
@@ -126,7 +126,7 @@ class ResultFile::Writer {
       write_reference(bodies);
       root.create_group("steps");
       file_.flush();
-      rename_file(temporary_name(path_), path_);  // a file of the series says of which epoch it is
+      rename_file(temporary_name(path_), path_);  // a file in the series must state its epoch
     }
     vtkhdf::write_view(path_);
     if (!file_.root().has("VTKHDF")) mesh_ = mesh_of(bodies);
@@ -290,7 +290,8 @@ class ResultFile::Writer {
       sidecars_.add_frame(path_.filename().string(), frames_++, time, *layout_);
     }
     dropped_frames_ = stored - frames_;
-    // The last first, each for itself: at any moment there are frames 0, 1, ... without a gap.
+    // Remove the last frame first, and flush after each: the file has frames 0, 1, ... without a
+    // gap at any time.
     while (stored > frames_) {
       steps.remove(fmt::format("{}", --stored));
       file_.flush();
@@ -300,7 +301,7 @@ class ResultFile::Writer {
     sidecars_.write();
   }
 
-  /// /meta keeps the provenance of the first part; later parts are listed below it.
+  /// Lists a continuation below the group "meta", which keeps the provenance of the first part.
   void note_continuation(const Provenance& provenance) {
     hdf5::Group meta = file_.root().group("meta");
     hdf5::Group list = meta.has("continuations") ? meta.group("continuations")
@@ -320,8 +321,8 @@ class ResultFile::Writer {
   std::int64_t particles_ = 0, cells_ = 0, frames_ = 0, dropped_frames_ = 0;
   std::int64_t corners_ = 0;
   int cell_type_ = 0;
-  std::optional<vtkhdf::Mesh> mesh_;   ///< until the first frame
-  std::optional<FrameLayout> layout_;  ///< of all frames; none before the first
+  std::optional<vtkhdf::Mesh> mesh_;   ///< kept until the first frame
+  std::optional<FrameLayout> layout_;  ///< layout of all frames; empty before the first
 };
 
 ResultFile::ResultFile(const RunDirectory& directory, const Provenance& provenance,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Order in a series of result files.
+// The order of files in a series of result files.
 #include "io/result_series.hpp"
 
 #include "io/files.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 /// Adds the frames of a finished file to the sidecars.
 void add_frames(const std::filesystem::path& path, const hdf5::Group& root, Sidecars& sidecars) {
-  if (!root.has("VTKHDF")) return;  // before the first frame
+  if (!root.has("VTKHDF")) return;  // the file has no frame
   const FrameLayout layout = vtkhdf::layout(root);
   const hdf5::Group steps = root.group("steps");
   for (std::int64_t k = 0; steps.has(fmt::format("{}", k)); ++k)

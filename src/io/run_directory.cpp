@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Making, locking and clearing the directory of a run.
+// Creates, locks and clears the directory of a run.
 #include "io/run_directory.hpp"
 
 #include "io/files.hpp"
@@ -15,7 +15,7 @@
 namespace meniscus {
 namespace {
 
-/// Everything a run writes. One of the first four makes a directory count as used.
+/// All files of a run. A directory counts as used if it has one of the first four.
 constexpr const char* run_files[] = {"run.h5",      "checkpoint-a.h5", "checkpoint-b.h5",
                                      "history.csv", "run.xdmf",        "run.vtkhdf.series",
                                      "run.log",     "partners.xdmf"};
@@ -36,10 +36,10 @@ std::filesystem::path in_series(const std::filesystem::path& directory, const st
   return directory / (number == 0 ? name + ".h5" : fmt::format("{}.{}.h5", name, number));
 }
 
-/// What a run that was killed had not brought to its place yet.
+/// Removes temporary files that a killed run had not renamed yet.
 void remove_temporaries(const std::filesystem::path& directory) {
   for (const char* name : run_files) remove_file(temporary_name(directory / name));
-  // The last file may have come without its view, the next one not at all.
+  // The last result file may lack its view; the temporary file of the next one may exist.
   for (const char* name : series_names) {
     const std::size_t next = result_series(directory, name).size();
     for (std::size_t number = next > 0 ? next - 1 : 0; number <= next; ++number) {
@@ -49,7 +49,7 @@ void remove_temporaries(const std::filesystem::path& directory) {
   }
 }
 
-/// probe-NAME.csv of the lines of any run.
+/// Files probe-NAME.csv of all lines of points, of this run or an earlier one.
 std::vector<std::filesystem::path> probe_files(const std::filesystem::path& directory) {
   std::vector<std::filesystem::path> files;
   for (const auto& path : entries_of(directory))
@@ -58,7 +58,7 @@ std::vector<std::filesystem::path> probe_files(const std::filesystem::path& dire
   return files;
 }
 
-/// Throws if a file that a run writes is a link: somebody else may have put it there.
+/// Throws FileError if a file of a run is a link, since somebody else may have created it.
 void refuse_links(const std::filesystem::path& directory) {
   for (const char* name : run_files) refuse_unless_regular(directory / name);
   for (const char* name : series_names)
@@ -132,7 +132,7 @@ void RunDirectory::lock() {
                     "directory with --output",
                     path_.string()));
   }
-  // A file system without locks: nothing can be known, and nothing is refused.
+  // The file system has no locks: other writers cannot be detected, and nothing is refused.
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The log of a run by spdlog; no other file sees spdlog.
+// The log of a run. This is the only file that includes spdlog.
 #include "io/run_log.hpp"
 
 #include "input/text.hpp"
@@ -39,8 +39,7 @@ spdlog::sink_ptr file_sink(const std::filesystem::path& file) {
 struct RunLog::Logger {
   explicit Logger(std::initializer_list<spdlog::sink_ptr> sinks) : log("meniscus", sinks) {
     log.flush_on(spdlog::level::info);
-    // A log that cannot be written is no reason to say so at each line: the run will fail by
-    // itself.
+    // Failed writing is not reported for each line, because the run itself will fail.
     log.set_error_handler([](const std::string&) {});
   }
   spdlog::logger log;

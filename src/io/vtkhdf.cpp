@@ -12,7 +12,7 @@ namespace {
 
 using hdf5::Type;
 
-/// Point data that do not change.
+/// Constant point data.
 constexpr const char* body_array = "body";
 constexpr const char* surface_array = "surface";
 
@@ -25,7 +25,7 @@ void write_integers(hdf5::Group& group, const std::string& name,
   group.write(name, values, {std::ssize(values)}, {type}, "1");
 }
 
-/// All steps share one part: its counts and its cells.
+/// Writes the cells and their counts once; all frames share them.
 void write_cells(hdf5::Group& view, const FrameLayout& layout, const Mesh& mesh) {
   std::vector<std::int64_t> offsets{0};
   for (const std::int64_t type : mesh.types) offsets.push_back(offsets.back() + corners_of(type));
@@ -38,7 +38,7 @@ void write_cells(hdf5::Group& view, const FrameLayout& layout, const Mesh& mesh)
   if (layout.cell_type == 0 && layout.cells > 0) {
     std::vector<std::int64_t> mixed;
     for (std::size_t c = 0; c < mesh.types.size(); ++c) {
-      const std::int64_t type = mesh.types[c];  // the numbers of XDMF
+      const std::int64_t type = mesh.types[c];  // XDMF's numbers of the types
       mixed.push_back(type == hexahedron ? 9 : type == tetrahedron ? 6 : type == triangle ? 4 : 5);
       mixed.insert(mixed.end(), mesh.connectivity.begin() + offsets[c],
                    mesh.connectivity.begin() + offsets[c + 1]);
@@ -63,7 +63,7 @@ void create_steps(hdf5::Group& view, const FrameLayout& layout, const std::strin
     if (field.name != "position") offsets.create_series(field.name, 1, Type::int64, 0, "1");
 }
 
-/// The series that say for each step where its data begin: one entry is one frame of particles.
+/// Names of the series with the offsets of the data of each step.
 std::vector<std::string> point_offset_series(const FrameLayout& layout) {
   std::vector<std::string> names = {"PointOffsets"};
   for (const StoredField& field : layout.fields)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The group /VTKHDF: the frames as an unstructured grid that moves. Its cells are those of the
-// bodies and stand there once; field data are virtual datasets over /steps/<k>/<field> that grow by
-// themselves; only small index arrays are written.
+// The group /VTKHDF, which presents the frames as one moving unstructured grid. The cells of the
+// bodies are stored once. Field data are virtual datasets over /steps/<k>/<field>, which grow by
+// themselves; a frame adds only small index arrays.
 // Source: VTK File Formats, "VTKHDF File Format" 2.x, sections UnstructuredGrid and Temporal Data.
 #pragma once
 #include "io/frame_layout.hpp"
@@ -13,41 +13,43 @@
 
 namespace meniscus::vtkhdf {
 
-/// What does not change from frame to frame.
+/// The parts of the grid that are the same in all frames.
 struct Mesh {
   std::vector<std::int64_t> body;          ///< number of the body of each particle
   std::vector<std::int64_t> surface;       ///< 1 for particles on the surface of their body, else 0
   std::vector<std::int64_t> connectivity;  ///< corners of all cells in the order of VTK
-  std::vector<std::int64_t> types;         ///< of the cells
+  std::vector<std::int64_t> types;         ///< VTK types of the cells
 };
 
-/// The numbers of VTK.
+/// VTK's numbers of cell types.
 enum CellType { line = 3, triangle = 5, quadrilateral = 9, tetrahedron = 10, hexahedron = 12 };
 
-/// Corners of a cell.
+/// Number of corners of a cell.
 constexpr std::int64_t corners_of(std::int64_t type) {
   return type == hexahedron ? 8 : type == triangle ? 3 : type == line ? 2 : 4;
 }
 
-/// Where a file with cells of several types has them as XDMF wants them, each after its type.
+/// Array with the cells for XDMF, each cell after its type. Only in files with several types of
+/// cells.
 inline constexpr const char* mixed_topology = "MixedTopology";
 
-/// The point data are the fields, `body` and `surface`. Throws FileError.
+/// Creates the group. Its point data are the fields, `body` and `surface`. Throws FileError.
 void create(hdf5::Group& root, const FrameLayout& layout, const Mesh& mesh,
             const std::string& time_unit);
 
-/// Writes the view of a result file, a link to its /VTKHDF under the name by which ParaView knows
-/// what it is. Throws FileError.
+/// Writes the view of a result file: a small file with a link to /VTKHDF, whose extension makes
+/// ParaView recognise it. Throws FileError.
 void write_view(const std::filesystem::path& result_file);
 
-/// Makes frame `k` the last one: all index arrays get k + 1 rows.
+/// Makes frame `k` the last frame: all index arrays get k + 1 rows.
 void append(hdf5::Group& root, const FrameLayout& layout, std::int64_t k, Real time);
 
-/// Tells readers that there are so many frames. To be flushed apart: the arrays must be longer
-/// before, and shorter after, and within one flush HDF5 has an order of its own.
+/// Sets the number of frames that readers see. Needs a flush of its own, because HDF5 orders the
+/// changes within one flush: before it the arrays must be long enough, and they may shrink only
+/// after it.
 void announce(hdf5::Group& root, std::int64_t frames);
 
-/// The index arrays have no rows any more.
+/// Removes all rows of the index arrays.
 void clear(hdf5::Group& root, const FrameLayout& layout);
 
 /// The layout with which create() was called.

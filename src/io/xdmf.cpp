@@ -10,8 +10,8 @@
 namespace meniscus {
 namespace {
 
-/// "Matrix" leaves six numbers in the order they have, which is VTK's; XDMF's own Tensor6 has
-/// another.
+/// XDMF type of an array. Type "Matrix" keeps six numbers in the order of VTK, which is used here;
+/// XDMF's Tensor6 has another order.
 const char* attribute_type(int components) {
   switch (components) {
     case 1:
@@ -42,7 +42,7 @@ const char* topology_type(int cell_type) {
   }
 }
 
-/// `array` is the file and the place in it.
+/// A data item. `array`: the file and the path of the array in it.
 std::string data_item(const std::string& array, std::int64_t rows, int columns, hdf5::Type type) {
   const bool integer = type == hdf5::Type::int64;
   return fmt::format(

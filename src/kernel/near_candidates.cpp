@@ -56,7 +56,7 @@ void NearCandidates<D>::select(const std::array<Vec<D>, 4>& points) {
       }
       reaches |= square.v <= square_[four].v;
     }
-    const unsigned bits = lane_bits(reaches);  // no branch: it could not be predicted
+    const unsigned bits = lane_bits(reaches);  // without a branch, which could not be predicted
     std::array<Index, Lanes::width> numbers = lanes_of_bits[bits];
     for (Index& number : numbers) number += static_cast<Index>(four) * Lanes::width;
     std::copy(numbers.begin(), numbers.end(), numbers_.data() + count);

@@ -36,7 +36,7 @@ struct Cloud {
   }
 };
 
-/// Points that follow each other, numbered from `first` on, with their tree.
+/// Consecutive points, numbered from `first` on, with their tree.
 template <int D>
 struct Part {
   using Metric = nanoflann::L2_Simple_Adaptor<Real, Cloud<D>>;
@@ -56,7 +56,7 @@ struct Part {
   }
 };
 
-/// Distances from boxes and of points are rounded differently.
+/// Tolerance: distances from boxes and from points are rounded differently.
 constexpr Real box_rounding = 1e-14;
 
 template <int D>
@@ -66,8 +66,8 @@ Real square_of_distance(const Box<D>& box, const Vec<D>& x) {
 
 }  // namespace
 
-/// The parts of a cloud, and of more than one the boxes around halves of them, halves of these,
-/// and so on.
+/// The parts of a cloud. If there are several, also a tree of boxes around halves of the parts,
+/// quarters, and so on.
 template <int D>
 requires SpaceDim<D>
 class NeighborSearch<D>::Trees {
@@ -100,8 +100,8 @@ class NeighborSearch<D>::Trees {
     parts_.front().tree().buildIndex();
   }
 
-  /// Calls f(part) for the parts of whose boxes is_near(square of the distance from x) holds,
-  /// nearer ones first.
+  /// Calls f(part) for each part near x, nearer parts first. A part is near if is_near(d^2) is true
+  /// for the distance d of x from its box.
   template <class Near, class F>
   void for_near(const Vec<D>& x, Near&& is_near, F&& f) {
     if (count() == 1) return f(parts_.front());
@@ -111,7 +111,8 @@ class NeighborSearch<D>::Trees {
  private:
   Index count() const { return static_cast<Index>(parts_.size()); }
 
-  // The box of parts [begin, end) is followed by those of its first half and those of its second.
+  // Numbering of boxes: the box of parts [begin, end) comes before all boxes of its first half,
+  // which come before all boxes of its second half.
   static Index middle(Index begin, Index end) { return begin + (end - begin) / 2; }
   static Index first_half(Index box) { return box + 1; }
   static Index second_half(Index box, Index begin, Index end) {
@@ -146,8 +147,8 @@ class NeighborSearch<D>::Trees {
   }
 
   std::vector<Part<D>> parts_;
-  std::vector<Box<D>> boxes_;   // of more than one part
-  std::vector<Vec<D>> points_;  // a copy, of one part
+  std::vector<Box<D>> boxes_;   // used if there are several parts
+  std::vector<Vec<D>> points_;  // copy of the points; used if there is one part
 };
 
 template <int D>
@@ -183,8 +184,8 @@ void NeighborSearch<D>::within_unsorted(const Vec<D>& x, Real radius,
                                         std::vector<Index>& found) const {
   found.clear();
   if (radius < 0) return;
-  // nanoflann wants squared radii and leaves out points exactly on the sphere; a few units in the
-  // last place more bring in those whose distance was rounded.
+  // nanoflann takes squared radii and leaves out points exactly on the sphere; a few units in the
+  // last place more include points whose distance was rounded.
   const Real squared = radius * radius * (1 + 2e-15) + std::numeric_limits<Real>::min();
   thread_local std::vector<Hit> hits;
   trees_->for_near(

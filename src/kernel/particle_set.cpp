@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Supports of particles and the deficiency monitor.
+// Supports of particles, and the check of the quality of shape functions.
 #include "kernel/particle_set.hpp"
 
 #include "meniscus/error.hpp"
@@ -15,7 +15,7 @@
 namespace meniscus {
 namespace {
 
-/// Whether a support around X reaches into a ball.
+/// Predicate: true if a support around X reaches into the ball.
 template <int D>
 struct Ball {
   Vec<D> centre;
@@ -26,7 +26,8 @@ struct Ball {
   }
 };
 
-/// Whether a support around X reaches one of four points, up to rounding of the distance.
+/// Predicate: true if a support around X reaches one of four points, up to rounding of the
+/// distance.
 template <int D>
 class FourPoints {
  public:
@@ -67,7 +68,7 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, 
       pressed_(press(stretch, X_)) {
   const OwnItems own = evenly.own_rows(size());
   parallel_for(own, [&](Index A) {
-    // The particle is its own nearest point.
+    // The nearest point to a particle is the particle itself, hence rank + 1.
     at(support_, A) =
         rule.factor * kernel_search().distance_of_nearest(at(kernel_X(), A), rule.rank + 1);
   });
@@ -112,7 +113,8 @@ template <class Keep>
 void ParticleSet<D>::find(const Vec<D>& centre, Real radius, Keep&& keep,
                           std::vector<Candidate<D>>& found) const {
   thread_local std::vector<Index> near;
-  // Supports differ: the search finds many more than it keeps, so it does not sort.
+  // The search finds many more particles than are kept, because supports differ; so it does not
+  // sort.
   kernel_search().within_unsorted(centre, radius + largest_support_, near);
   const auto X = kernel_X();
   std::erase_if(near, [&](Index A) { return !keep(at(X, A), at(support_, A)); });
@@ -136,7 +138,7 @@ void ParticleSet<D>::candidates(const Vec<D>& centre, Real radius,
   thread_local std::vector<Index> numbers;
   numbers.resize(std::max(numbers.size(), around.size()));
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < around.size(); ++k) {  // without a branch: it would be a guess
+  for (std::size_t k = 0; k < around.size(); ++k) {  // without a branch to mispredict
     numbers[kept] = static_cast<Index>(k);
     kept += ball(around[k].X, around[k].support);
   }
@@ -155,8 +157,8 @@ void ParticleSet<D>::candidates(const std::array<Vec<D>, 4>& x,
   find(centre, radius * (1 + 1e-12), FourPoints<D>(points), found);
 }
 
-/// quality[q] for the numbers q of points, of which those that follow each other are often near
-/// each other and are then done together.
+/// Computes quality[q] for the points with these numbers. Consecutive points are often near each
+/// other; four such points are computed together.
 template <int D>
 void ParticleSet<D>::find_quality(std::span<const Vec<D>> points, std::span<const Index> numbers,
                                   std::vector<Real>& quality) const {
@@ -205,8 +207,9 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
     find_quality(points, poor, quality);
     std::erase_if(poor, [&](Index q) { return at(quality, q) >= poor_quality; });
     if (poor.empty() || round == rounds) break;
-    // What reaches the point with supports `growth` times those asked for gets them: also particles
-    // that do not reach it now, else no new neighbours would come in.
+    // Enlarge the supports of particles that reach the point with `growth` times their requested
+    // support. This includes particles that do not reach it now, so that the point gets new
+    // neighbours.
     growth *= 1.1;
     for (const Index q : poor) {
       const Vec<D> place = kernel_place(at(points, q));
@@ -228,7 +231,7 @@ Index ParticleSet<D>::ensure_quality(std::span<const Vec<D>> points, const std::
 
 namespace {
 
-/// How many planes (2D: lines) across a direction the points lie in; 3 where there are more.
+/// Number of planes (2D: lines) across a direction that contain all points; 3 if more are needed.
 template <int D>
 int planes_across(const Vec<D>& direction, const std::vector<Vec<D>>& points, Real rounding) {
   std::vector<Real> heights;
@@ -239,9 +242,9 @@ int planes_across(const Vec<D>& direction, const std::vector<Vec<D>>& points, Re
   return std::min(planes, 3);
 }
 
-/// Whether points lie in two parallel planes, or in one: then a quadratic basis cannot tell x^2
-/// from x across them, however large supports are. Three of the first points (2D: two) lie in one
-/// of them.
+/// True if all points lie in one plane or two parallel planes. Then x^2 and x are the same in a
+/// quadratic basis across the planes, for any size of supports. At least three of the first points
+/// (2D: two) lie in one of the planes, which limits the search.
 template <int D>
 bool lie_in_two_planes(const std::vector<Vec<D>>& points) {
   const std::size_t first = std::min<std::size_t>(points.size(), 12);

@@ -52,8 +52,8 @@ void append_row(PointRows<D>& rows, const std::vector<Candidate<D>>& candidates,
   rows.start.push_back(static_cast<Offset>(e));
 }
 
-/// Transforms derivatives with respect to kernel places G x to those with respect to x: N,i = N,k
-/// G_ki. G is symmetric.
+/// Transforms derivatives with respect to kernel coordinates G x into derivatives with respect to
+/// x: N,i = N,k G_ki. G is symmetric.
 template <int D>
 void stretch_derivatives(PointRows<D>& rows, const Mat<D>& G) {
   for (std::size_t e = 0; e < rows.gradient.size() / D; ++e) {
@@ -101,8 +101,8 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
   return rows;
 }
 
-/// Reserves memory for `times` as many entries as `some` rows have, with a factor of 2 in hand.
-/// Memory that is not filled takes no pages, while growing would need twice the memory for a
+/// Reserves memory for `times` as many entries as `some` rows have, times a safety factor of 2.
+/// Unused reserve occupies no memory, while growing an array would need twice its memory for a
 /// moment.
 template <int D>
 void reserve(PointRows<D>& rows, std::span<const PointRows<D>> some, Real times,
@@ -115,7 +115,7 @@ void reserve(PointRows<D>& rows, std::span<const PointRows<D>> some, Real times,
 
 template <int D>
 void append_rows(PointRows<D>& rows, std::span<const PointRows<D>> parts, RowContent content) {
-  std::vector<std::size_t> first{rows.particle.size()};  // number of entries before it, [part]
+  std::vector<std::size_t> first{rows.particle.size()};  // [part] number of entries before it
   for (const PointRows<D>& part : parts) {
     const Offset base = rows.start.back();
     for (std::size_t q = 1; q < part.start.size(); ++q) rows.start.push_back(base + part.start[q]);
@@ -167,7 +167,8 @@ PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const V
   return rows;
 }
 
-/// Points stay in the groups that they have among all points, so that bits agree.
+/// Rows of some of the points. Points are grouped by four as in the rows of all points, so that the
+/// bits are the same.
 template <int D>
 PointRows<D> build_point_rows(const ParticleSet<D>& particles, std::span<const Vec<D>> points,
                               RowContent content, const std::string& body, ItemRange some) {

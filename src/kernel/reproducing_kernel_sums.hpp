@@ -86,7 +86,7 @@ void ReproducingKernel<D, Degree>::factorise_moments() {
     });
     Lanes pivot = factor_[a * n + a] * (scale_[a] * scale_[a]);
     unroll<a>([&](auto k) { pivot -= factor_[a * n + k] * factor_[a * n + k]; });
-    quality_ = select(pivot.v >= quality_.v, quality_, pivot);  // NaN stays
+    quality_ = select(pivot.v >= quality_.v, quality_, pivot);  // a NaN is kept
     inverse_pivot_[a] = 1.0 / sqrt(pivot);
   });
 }

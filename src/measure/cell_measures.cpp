@@ -16,7 +16,7 @@ namespace meniscus {
 
 namespace {
 
-/// Builds an optional part at its first use.
+/// Builds an optional part when it is first used.
 template <class T, class... Arguments>
 T& built(std::optional<T>& part, Arguments&&... arguments) {
   if (!part) part.emplace(std::forward<Arguments>(arguments)...);
@@ -42,7 +42,7 @@ class CellShape {
     Thickest found{0, 0};
     for (int k = 0; k < compared_places; ++k) {
       const Real x = Real(k) / (compared_places - 1), t = meridian.thickness(x);
-      // The margin keeps round-off from choosing a place on flat faces.
+      // The margin prevents round-off from choosing a position on flat faces.
       if (t > found.thickness * (1 + 1e-9)) found = {t, x};
     }
     return found;
@@ -66,7 +66,7 @@ class CellShape {
     return std::sqrt(square) / mean;
   }
   Real evans_fung_rms(const MeanMeridian& meridian) const {
-    const Real scale = 7.82 / (2 * meridian.radius());  // to um at the diameter of Evans and Fung
+    const Real scale = 7.82 / (2 * meridian.radius());  // to the diameter of Evans and Fung
     Real sum = 0;
     for (int k = 0; k < compared_places; ++k) {
       const Real x = Real(k) / (compared_places - 1);

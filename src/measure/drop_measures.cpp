@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocities at particles and shape of drops.
+// Measures of drops: velocities at particles, and shape.
 #include "measure/drop_measures.hpp"
 
 #include "body/particle_values.hpp"
@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-/// The outer surface at quadrature points, made at its first use.
+/// The outer surface at quadrature points, built when it is first used.
 template <int D>
 class FineSurface {
  public:
@@ -66,7 +66,7 @@ class FineSurface {
   std::optional<ClosedSurface<D>> surface_;
 };
 
-/// sum m |v|^2 of the velocities at the particles, the same about their mean velocity, and sum m.
+/// Sums over the particles with their velocities: m |v|^2, m |v - mean v|^2, and m.
 struct PlaceMotion {
   Real square, about_mean, mass;
 };

@@ -11,7 +11,8 @@
 namespace meniscus {
 namespace {
 
-/// All are sums over coefficients, as momenta and energy of the audit are.
+/// Measures of a whole body. All are sums over coefficients, like the momenta and the energy of the
+/// audit.
 template <int D>
 class Whole {
  public:

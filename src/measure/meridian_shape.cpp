@@ -15,7 +15,7 @@ namespace meniscus {
 namespace {
 
 constexpr int meridians = 24;
-constexpr int points_of_meridian = 193;  // including both poles
+constexpr int points_of_meridian = 193;  // number of points, including both poles
 
 /// The value of z at the first crossing of the curve with r = where, by linear interpolation.
 Real height_at(std::span<const Real> r, std::span<const Real> z, Real where) {

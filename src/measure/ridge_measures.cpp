@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Height of the ridge at a contact line, and the angles in which three surfaces meet there.
+// Measures of a contact line: height of the ridge, and the angles at which the three surfaces meet.
 #include "measure/ridge_measures.hpp"
 
 #include "numbers/dense.hpp"
@@ -38,8 +38,8 @@ std::optional<Eigen::VectorXd> fit(const std::vector<Vec<2>>& points, Functions&
   return solve_symmetric(normal, right);
 }
 
-/// 1, s, s^2 and s^2 log s: near a line force the slope of an elastic surface under tension changes
-/// as s log s.
+/// The functions 1, s, s^2 and s^2 log s: near a line force, the slope of an elastic surface under
+/// tension changes as s log s.
 Eigen::VectorXd beside_a_line(Real s) {
   return Eigen::Vector4d(1, s, s * s, s * s * std::log(s));
 }
@@ -64,7 +64,7 @@ class Ridge {
   Real radius(const Motion& motion) { return highest(profile(motion).face).r; }
 
   struct Angles {
-    Real liquid = 0, solid = 0;  // degrees
+    Real liquid = 0, solid = 0;  // angles in degrees
   };
   Angles angles(const Motion& motion) {
     const Profile p = profile(motion);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape of a body from its surface, and the error against an exact solution.
+// Measures of the shape of a body, and of its error against an exact solution.
 #include "measure/shape_measures.hpp"
 
 #include "body/particle_values.hpp"
@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-/// Extents of the surface, and modes of the places x(X_B) of its particles.
+/// Extents of the surface, and shape modes of the positions x(X_B) of its particles.
 template <int D>
 class SurfaceShape {
  public:
@@ -98,12 +98,12 @@ const bool shape_measures_registered =
 
 namespace {
 
-/// Squares of what is wrong and of what should be, over volumes.
+/// Volume integrals of the squared error and of the squared exact solution.
 struct ErrorAndSize {
   Real error = 0, size = 0;
 };
 
-/// Of a particle with the displacement u and the velocity v.
+/// Adds the contribution of particle A with the displacement u and the velocity v.
 template <int D>
 void add_particle(const Body<D>& body, const ExactSolution& exact, Real time, Index A,
                   const Lanes& u, const Lanes& v, ErrorAndSize& sum) {
@@ -119,7 +119,8 @@ void add_particle(const Body<D>& body, const ExactSolution& exact, Real time, In
 
 }  // namespace
 
-/// Threads would take turns at the formulas; ranks do not.
+/// Relative error of displacement and velocity. Only one thread of a rank can evaluate a formula at
+/// a time, so the particles are divided between ranks, not threads.
 template <int D>
 MeasureSource state_error(const Body<D>& body, ExactSolution exact) {
   const auto compute = [&body, exact = std::move(exact)](const Motion& m) {
@@ -142,7 +143,7 @@ MeasureSource state_error(const Body<D>& body, ExactSolution exact) {
       all.error += sum.error;
       all.size += sum.size;
     }
-    return all.error > 0 ? std::sqrt(all.error / all.size) : 0;  // at rest both are 0
+    return all.error > 0 ? std::sqrt(all.error / all.size) : 0;  // both are 0 if nothing moves
   };
   return {"state_error", dimension::none,
           "error of places and velocities against the exact solution", compute};

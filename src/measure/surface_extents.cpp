@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extents of quadratic patches.
+// Extents of surfaces that consist of quadratic patches.
 #include "measure/surface_extents.hpp"
 
 #include "body/surface/surface_points.hpp"
@@ -11,10 +11,10 @@
 namespace meniscus {
 namespace {
 
-/// Values at -1, 0, 1 of a quadratic function.
+/// Values of a quadratic function at -1, 0, 1.
 using Quadratic = std::array<Real, 3>;
 
-/// Where the function is largest in [-1, 1].
+/// The position in [-1, 1] at which the function is largest.
 Real peak_place(const Quadratic& f) {
   const Real slope = (f[2] - f[0]) / 2, bend = f[0] - 2 * f[1] + f[2];
   if (bend < 0 && std::abs(slope) < -bend) return -slope / bend;
@@ -28,8 +28,8 @@ Real value_at(const Quadratic& f, Real x) {
 Real peak(const std::array<Real, 3>& f) {
   return std::max({value_at(f, peak_place(f)), f[0], f[1], f[2]});
 }
-/// The largest value of a biquadratic function over the square, the first direction fastest: along
-/// one direction after the other, which climbs to the top from the largest of the nine values.
+/// The largest value of a biquadratic function over the square; `f` has the first direction
+/// fastest. From the largest of the nine values, it maximises along the two directions in turn.
 Real peak(const std::array<Real, 9>& f) {
   constexpr int most_rounds = 30;
   const auto largest = std::max_element(f.begin(), f.end());
@@ -48,8 +48,8 @@ Real peak(const std::array<Real, 9>& f) {
   return best;
 }
 
-/// The largest value over all patches of what has the value f(p) at point p. A patch rises above
-/// its nodes by at most half of what they differ by.
+/// The largest value over all patches of a function with the value f(p) at node p. On a patch the
+/// function exceeds its nodal values by at most half of their difference.
 template <std::size_t nodes, class F>
 Real largest_over(const std::vector<std::array<Index, nodes>>& patches, Real largest_of_points,
                   F&& f) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box around the present surface of a body, whose extents do not depend on where the particles
-// of the body happen to be.
+// The bounding box of the present surface of a body. It does not depend on the positions of
+// particles within the body.
 #pragma once
 #include "body/body.hpp"
 #include "body/surface/quadratic_patches.hpp"
@@ -10,21 +10,21 @@
 
 namespace meniscus {
 
-/// Every boundary facet is the quadratic patch of PatchNodes through places of material points of
-/// the exact reference surface, the surface that balanced tension acts on. Facets of a round body
-/// that turns come to other places than its farthest points; the patches between them do not.
+/// Every boundary facet is represented by the quadratic patch of PatchNodes through material points
+/// of the exact reference surface; the balanced surface tension uses the same surface. When a round
+/// body rotates, its facets may miss its farthest points; the patches do not.
 template <int D>
 class SurfaceExtents {
  public:
   explicit SurfaceExtents(const Body<D>& body) : body_(body) {}
 
   /// The box around all patches at a motion. Shape functions are computed at the first call. All
-  /// ranks call this. Throws SolveError where shape functions cannot be determined.
+  /// ranks must call this. Throws SolveError if shape functions cannot be determined.
   Box<D> box(const Motion& motion);
 
  private:
   static constexpr int nodes = PatchFunctions<D>::nodes;
-  /// Points that the patches go through; each rank has the rows of its part of them.
+  /// Nodes of the patches. Each rank has the rows of a part of them.
   struct Points {
     std::vector<std::array<Index, nodes>> of_patch;
     std::vector<Vec<D>> X;

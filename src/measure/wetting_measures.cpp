@@ -15,7 +15,8 @@
 namespace meniscus {
 namespace {
 
-/// The rate of a length: a central difference along the motion over a path of 1e-4 of the length.
+/// The rate of a length, by a central difference along the motion over a distance of 1e-4 of the
+/// length.
 Real rate_of(const std::function<Real(const Motion&)>& length, const Motion& motion) {
   Real square = 0;
   for (const NodalVector& v : motion.v) square = std::max(square, sum(v * v));
@@ -141,7 +142,7 @@ template <int D>
 Real angle_of_cap(Real volume, Real height) {
   if constexpr (D == 3) {
     const Real square =
-        (6 * volume / (std::numbers::pi * height) - height * height) / 3;  // of the base radius
+        (6 * volume / (std::numbers::pi * height) - height * height) / 3;  // base radius^2
     return square > 0 ? 2 * std::atan(height / std::sqrt(square)) : std::numbers::pi;
   } else {
     // (theta - sin theta cos theta) / (1 - cos theta)^2 falls from infinity to pi / 4.

@@ -14,7 +14,7 @@ Real determinant(const Mat<D>& A) {
   return A.determinant();
 }
 
-// In the same order of operations as in Eigen.
+// Uses the same order of operations as Eigen.
 template <std::size_t D>
 Lanes determinant(const std::array<std::array<Lanes, D>, D>& A) {
   const auto a = [&](std::size_t i, std::size_t j) { return A[i][j].v; };
@@ -74,7 +74,8 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& S, const Eigen::VectorXd&
   return S.ldlt().solve(b);
 }
 
-/// By bisection: the signs of the pivots of A - x I give the number of eigenvalues below x (Sturm).
+/// The least eigenvalue of a symmetric tridiagonal matrix, by bisection: the signs of the pivots of
+/// A - x I give the number of eigenvalues below x (Sturm).
 Real least_eigenvalue(const std::vector<Real>& diagonal, const std::vector<Real>& beside) {
   const auto any_below = [&](Real x) {
     Real pivot = 1;
@@ -85,7 +86,7 @@ Real least_eigenvalue(const std::vector<Real>& diagonal, const std::vector<Real>
     }
     return false;
   };
-  Real low = diagonal.front(), high = low;  // Gershgorin
+  Real low = diagonal.front(), high = low;  // bounds by Gershgorin's circles
   for (std::size_t k = 0; k < diagonal.size(); ++k) {
     const Real radius =
         (k > 0 ? std::abs(beside[k - 1]) : 0) + (k + 1 < diagonal.size() ? std::abs(beside[k]) : 0);

@@ -9,7 +9,7 @@ namespace meniscus {
 
 namespace {
 
-/// The numbers that occur in `particle`, once each, in ascending order; all are below `particles`.
+/// The distinct numbers in `particle`, ascending. All are below `particles`.
 std::vector<Index> distinct(std::span<const Index> particle, Index particles) {
   thread_local std::vector<bool> found;
   if (found.size() < static_cast<std::size_t>(particles))

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Real unlimited = std::numeric_limits<Real>::infinity();
 
-/// The number behind `word` in a file of the system; infinite if there is none.
+/// The number that follows `word` in a file of the system; infinite if there is none.
 Real number_behind(const char* file, const std::string& word) {
   std::ifstream in(file);
   for (std::string found; in >> found;)
@@ -29,7 +29,7 @@ Real only_number(const char* file) {
   return in >> value ? value : unlimited;
 }
 
-/// The bytes that the limit on the address space leaves.
+/// Number of bytes that are left until the limit of the address space.
 Real left_of_addresses() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;

@@ -27,8 +27,8 @@ int number_in(const char* variable, int otherwise) {
   return text && end != text && *end == '\0' ? static_cast<int>(number) : otherwise;
 }
 
-/// Of Open MPI's mpirun, of what speaks the process management interface (Hydra, srun --mpi=pmi2),
-/// and of srun --mpi=pmix.
+/// Rank and number of processes, from the environment variables of Open MPI's mpirun, of launchers
+/// with the process management interface (Hydra, srun --mpi=pmi2), or of srun --mpi=pmix.
 Launch launch_in_environment() {
   constexpr const char* names[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
                                       {"PMI_RANK", "PMI_SIZE"},
@@ -43,7 +43,8 @@ Launch launch_in_environment() {
 constexpr char of_files = 'F', of_input = 'I', of_run = 'S', of_request = 'Q', of_memory = 'M',
                of_program = 'P';
 
-/// How `work` fails: the kind, then what it says; empty if it does not.
+/// Calls `work`. Returns a letter for the kind of exception and its message; empty if there is
+/// none.
 std::string failure_of(const std::function<void()>& work) {
   try {
     work();

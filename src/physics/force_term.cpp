@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Defaults of force terms: the tangent by differences, the report from those of chunks.
+// Default functions of force terms: tangents by differences, reports summed over chunks.
 #include "meniscus/physics/force_term.hpp"
 
 namespace meniscus {
@@ -12,7 +12,7 @@ NodalVectors moved(std::span<const NodalVector> x, Real h, std::span<const Nodal
   return sum;
 }
 
-/// Forces at the motion + h change.
+/// Forces of a term at motion + h change.
 struct Trial {
   NodalVectors force;
   std::vector<Unknown> fields;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Condition of F at the particles of a body.
+// Condition number of F at the particles of a body.
 #include "remap/distortion.hpp"
 
 #include "kernel/row_sums.hpp"

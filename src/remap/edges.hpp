@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges of a present surface, as that of the flat face of a drop that began as a half disk.
+// Sharp edges of the present surface, such as the rim of the flat face of a drop that began as a
+// half disk.
 #pragma once
 #include "remap/present_surface.hpp"
 

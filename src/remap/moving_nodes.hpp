@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// Area vector of a facet through its corners (2D: normal of its length).
+/// Area vector of a facet through its corners (2D: normal times length).
 template <int D>
 Vec<D> area_of(const Facet<D>& facet, const std::vector<Vec<D>>& x) {
   const auto corner = [&](int a) { return at(x, at(facet.nodes, a)); };
@@ -19,7 +19,7 @@ Vec<D> area_of(const Facet<D>& facet, const std::vector<Vec<D>>& x) {
     return Vec<2>(corner(1)[1] - corner(0)[1], corner(0)[0] - corner(1)[0]);
 }
 
-/// The boundary of a grid while its nodes move along the present surface.
+/// The boundary nodes of a grid, which move along the present surface.
 template <int D>
 class MovingNodes {
  public:
@@ -55,7 +55,8 @@ class MovingNodes {
     place(node, foot);
     at(held_, node) = 1;
   }
-  /// Holds a node of an edge, across which facets do not count as turned.
+  /// Holds a node on a sharp edge. Facets on both sides of the edge do not count as turned against
+  /// each other.
   void hold_on_edge(Index node) {
     at(held_, node) = 1;
     at(edge_, node) = 1;
@@ -63,8 +64,8 @@ class MovingNodes {
   bool is_on_edge(Index node) const { return at(edge_, node) != 0; }
   const Foot& foot(Index node) const { return at(foot_, node); }
 
-  /// Nodes that are not held move to the middle of their facets, which count by area and, eight
-  /// times as much, by how they turn against those beside them.
+  /// Moves the free nodes to the weighted mean of the centres of their facets. The weights are the
+  /// areas, plus eight times the turn of a facet against its neighbours.
   void relax() {
     constexpr Real weight_of_turns = 8;
     std::vector<Vec<D>> area, middle;
@@ -106,10 +107,10 @@ class MovingNodes {
 
   const Grid<D>& grid_;
   const PresentSurface<D>& surface_;
-  std::vector<Vec<D>> x_;  // [node]; of no meaning inside
+  std::vector<Vec<D>> x_;  // [node] position; boundary nodes only
   std::vector<Foot> foot_;
   std::vector<char> held_, edge_;
-  std::vector<std::vector<Index>> facets_at_;  // [node]
+  std::vector<std::vector<Index>> facets_at_;  // [node] facets with this node
 };
 
 }  // namespace meniscus

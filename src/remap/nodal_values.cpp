@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values and coefficients of fields, and the inverse of a motion.
+// Conversion between coefficients of fields and their values at particles, and the inverse of a
+// motion.
 #include "remap/nodal_values.hpp"
 
 #include "body/particle_values.hpp"
@@ -51,7 +52,7 @@ std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
                                std::span<const Vec<D>> x) {
   constexpr int most_iterations = 30;
   const Real spacing = mean_spacing(body.geometry.grid);
-  // Places far from the origin are known less exactly than spacings are.
+  // Rounding errors of positions grow with the distance from the origin.
   Real farthest = 0;
   for (const Vec<D>& place : x) farthest = std::max(farthest, place.cwiseAbs().maxCoeff());
   const Real round_off =
@@ -83,7 +84,7 @@ std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
       }
       at(left, q) = miss.norm();
       if (at(left, q) == 0) return;
-      // Far from the solution F may be that of another place.
+      // Limit the step of Newton's method: far from the solution, F belongs to another point.
       Vec<D> step = inverse<D>(F) * miss;
       step *= std::min(1.0, spacing / step.norm());
       if (at(left, q) > 1e-15 * spacing) at(X, q) += step;

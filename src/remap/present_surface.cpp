@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearest points of patches.
+// Nearest points on patches.
 #include "remap/present_surface.hpp"
 
 #include "kernel/row_sums.hpp"
@@ -36,7 +36,8 @@ PresentSurface<D>::PresentSurface(const Body<D>& body, const NodalVector* u)
   }
 }
 
-/// Gauss-Newton steps in the directions that do not lead out of the patch.
+/// The nearest point of a patch, by Gauss-Newton steps in the directions that do not lead out of
+/// the patch.
 template <int D>
 typename PresentSurface<D>::Foot PresentSurface<D>::nearest_in(const Vec<D>& p, Index patch) const {
   constexpr int most_steps = 20;
@@ -73,7 +74,7 @@ typename PresentSurface<D>::Foot PresentSurface<D>::nearest(const Vec<D>& p, Ind
   if (!p.allFinite())
     throw SolveError("the new place of a node of the surface is not a finite number");
   Foot best = nearest_in(p, patch);
-  // Each patch comes nearer than all before it, so that none is visited twice.
+  // Each visited patch is nearer than all before it, so none is visited twice.
   for (bool nearer = true; nearer;) {
     nearer = false;
     for (const Index other : at(beside_, best.patch)) {

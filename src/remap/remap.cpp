@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// New references, and velocities and fields carried to them.
+// New reference configurations, and the transfer of velocities and fields to them.
 #include "remap/remap.hpp"
 
 #include "body/particle_values.hpp"
@@ -31,7 +31,8 @@ std::vector<Vec<D>> centroids(const NodalCells<D>& cells) {
   return X;
 }
 
-/// Places in the reference of the scene when particles or cells move in that of the body.
+/// Positions in the reference of the scene, after particles or cells have moved within the
+/// reference of the body.
 template <int D>
 std::vector<Vec<D>> origins(const std::vector<Vec<D>>& origin, auto&& from,
                             const PointRows<D>& to) {
@@ -44,7 +45,7 @@ std::vector<Vec<D>> origins(const std::vector<Vec<D>>& origin, auto&& from,
   return result;
 }
 
-/// J - 1 when nodal cells move.
+/// J - 1 of the nodal cells after they have moved within the reference of the body.
 template <int D>
 std::vector<Real> volume_changes(std::span<const Real> of_cells, const PointRows<D>& from,
                                  const PointRows<D>& to) {
@@ -56,8 +57,8 @@ std::vector<Real> volume_changes(std::span<const Real> of_cells, const PointRows
   return theta;
 }
 
-/// Mass, first moment, momentum and angular momentum of coefficients, and the inertia about the
-/// centre of mass.
+/// Mass, first moment, momentum, angular momentum, and inertia about the centre of mass, all
+/// computed from coefficients.
 struct RigidSums {
   Real mass = 0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), momentum = centre, angular_momentum = centre;
@@ -89,14 +90,15 @@ RigidSums rigid_sums(const Body<D>& body, const State& state) {
   return sums;
 }
 
-/// Adds the rigid motion a + w x (x - centre) that brings the momenta to those of `target`.
+/// Adds a rigid motion a + w x (x - centre), so that momentum and angular momentum become equal to
+/// `target`.
 template <int D>
 void restore_momenta(const Body<D>& body, const RigidSums& target, State& state) {
   const RigidSums now = rigid_sums(body, state);
   const Eigen::Vector3d a = (target.momentum - now.momentum) / now.mass;
   const Eigen::Vector3d spin_left = target.angular_momentum - now.angular_momentum -
                                     cross(now.centre, target.momentum - now.momentum);
-  // In two dimensions the only spin is about z, where the inertia is that of the plane.
+  // In 2D the body spins about z only, with the plane moment of inertia.
   const Eigen::Vector3d w = D == 3 ? Eigen::Vector3d(solve_symmetric(now.inertia, spin_left))
                                    : Eigen::Vector3d(0, 0, spin_left[2] / now.inertia(2, 2));
   for (Index A = 0; A < body.size(); ++A) {
@@ -170,7 +172,7 @@ Remap<D> remap(const Body<D>& body, const NodalVector* u, Seeds<D> seeds,
     next->origin = result.nodes;
     next->cell_origin = cell_places;
   }
-  Real volume_before = 0, volume_now = 0;  // in the reference of the scene
+  Real volume_before = 0, volume_now = 0;  // volumes in the reference of the scene
   const std::vector<Real> theta = volume_changes<D>(volume_change, old_cells, new_cells);
   for (Index A = 0; A < body.size(); ++A) {
     if (!(at(theta, A) > -1))

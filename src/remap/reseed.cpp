@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes along the present surface, and inside it.
+// Places the nodes of a grid along the present surface and inside it.
 #include "remap/reseed.hpp"
 
 #include "body/grid/gauss.hpp"
@@ -18,7 +18,7 @@
 namespace meniscus {
 namespace {
 
-/// x_i of A x = b, b_i and x_i vectors; A is symmetric and positive definite.
+/// Solves A x = b for vectors b_i and x_i. A is symmetric and positive definite.
 template <int D>
 std::vector<Vec<D>> solved(const SparseCholesky& A, const std::vector<Vec<D>>& b) {
   std::vector<Vec<D>> x(b.size());
@@ -31,7 +31,8 @@ std::vector<Vec<D>> solved(const SparseCholesky& A, const std::vector<Vec<D>>& b
   return x;
 }
 
-/// Points of patches between the nodes, such that the patches fit the present ones best.
+/// Nodes of quadratic patches between the nodes of the grid, fitted to the present surface by least
+/// squares.
 template <int D>
 std::vector<Vec<D>> fitted_patches(const Grid<D>& grid, const PresentSurface<D>& surface,
                                    const MovingNodes<D>& nodes) {
@@ -74,8 +75,8 @@ std::vector<Vec<D>> fitted_patches(const Grid<D>& grid, const PresentSurface<D>&
   return points;
 }
 
-/// Nodes inside at the values of functions that are harmonic in the ideal grid and those of the
-/// boundary on it.
+/// Places the inner nodes: their positions are harmonic functions on the ideal grid with the given
+/// values on its boundary.
 template <int D>
 void place_inside(const Grid<D>& ideal, const std::vector<char>& on_boundary,
                   std::vector<Vec<D>>& x) {
@@ -117,8 +118,9 @@ void place_inside(const Grid<D>& ideal, const std::vector<char>& on_boundary,
     if (number[i] >= 0) x[i] = at(solution, number[i]);
 }
 
-/// Interior nodes of cells that fold are moved to the middle of the nodes they share an edge with,
-/// until none folds or it does not help. Cells at the surface are curved as it is.
+/// Moves the inner nodes of folded cells to the mean of the nodes at the other ends of their edges.
+/// Repeats this until no cell is folded or it no longer helps. Cells at the surface are curved like
+/// the surface.
 template <int D>
 void unfold(const Grid<D>& grid, const std::vector<char>& on_boundary, Seeds<D>& seeds) {
   constexpr int most_rounds = 30;
@@ -162,8 +164,8 @@ Seeds<D> reseeded(const Body<D>& body, const NodalVector* u, const Grid<D>& idea
 
   Seeds<D> seeds(nodes.x());
   seeds.surface = fitted_patches(grid, surface, nodes);
-  // The volume is that of the present surface: a stiff fluid would be under another pressure. What
-  // is nearest to a wall stays there.
+  // Scale the body to the volume of the present surface, because a stiff fluid would otherwise
+  // change its pressure. The point nearest to a wall is kept fixed.
   const PatchNodes<D> numbered(grid);
   Vec<D> fixed = Vec<D>::Zero();
   for (const Vec<D>& x : seeds.surface) fixed += x / static_cast<Real>(seeds.surface.size());

@@ -12,8 +12,8 @@
 namespace meniscus {
 namespace {
 
-/// Boundary nodes by the number of facets that lie between them and the pole: each set is a ring
-/// around it. Empty if there is a node that no facet leads to.
+/// Boundary nodes in rings around the pole, by the number of facets between them and the pole.
+/// Empty if some node is not connected to the pole.
 template <int D>
 std::vector<std::vector<Index>> rings_around(Index pole, const Grid<D>& grid,
                                              const MovingNodes<D>& nodes) {
@@ -35,8 +35,8 @@ std::vector<std::vector<Index>> rings_around(Index pole, const Grid<D>& grid,
   }
 }
 
-/// The ring that encloses the part of the facets nearest to `fraction`; none if that is the pole or
-/// the last.
+/// The ring that encloses a fraction of the facets nearest to `fraction`. Empty if this is the pole
+/// or the last ring.
 template <int D>
 std::optional<std::vector<Index>> ring_of(Real fraction,
                                           const std::vector<std::vector<Index>>& rings,
@@ -58,7 +58,7 @@ std::optional<std::vector<Index>> ring_of(Real fraction,
   return rings[best];
 }
 
-/// Middle of the facets below the level of the line; none if there is no such facet.
+/// Middle of the facets whose gap is below that of the contact line; none if there is none.
 template <int D>
 std::optional<Vec<D>> middle_of_wetted(const ContactLine<D>& line, Real time, const Grid<D>& grid,
                                        const MovingNodes<D>& nodes) {
@@ -87,7 +87,7 @@ Index boundary_node_nearest_to(const Vec<D>& middle, const Grid<D>& grid,
   return pole;
 }
 
-/// Directions from the middle in which the nodes of the ring are to lie, across the axis.
+/// Directions from the middle to the nodes of the ring, perpendicular to the axis.
 template <int D>
 std::vector<Vec<D>> directions_of(const std::vector<Index>& ring, const Vec<D>& middle,
                                   const Vec<D>& axis, const MovingNodes<D>& nodes) {
@@ -161,8 +161,8 @@ void hold_at_line(const ContactLine<D>& line, Real time, const Grid<D>& grid,
   }
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                       \
-  template void hold_at_line(const ContactLine<D>&, Real, const Grid<D>&,             \
+#define MENISCUS_INSTANTIATE(D)                                           \
+  template void hold_at_line(const ContactLine<D>&, Real, const Grid<D>&, \
                              const PresentSurface<D>&, MovingNodes<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

@@ -6,8 +6,9 @@
 
 namespace meniscus {
 
-/// Puts a ring of nodes on the contact line, evenly about the middle of the wetted facets, and holds
-/// it there. In 2D it is the two ends of the wetted part. Without a contact line nothing happens.
+/// Places a ring of nodes on the contact line, at equal angles around the middle of the wetted
+/// area, and holds it there. In 2D the ring is the two ends of that area. Without a contact line
+/// nothing happens.
 template <int D>
 void hold_at_line(const ContactLine<D>& line, Real time, const Grid<D>& grid,
                   const PresentSurface<D>& surface, MovingNodes<D>& nodes);

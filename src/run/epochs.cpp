@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From one epoch of a run to the next.
+// Leads a run from one epoch to the next by a remap.
 #include "run/epochs.hpp"
 
 #include "body/grid/ordering.hpp"
@@ -15,7 +15,8 @@
 namespace meniscus {
 namespace {
 
-/// The references that a saved state was in. Throws FileError if they make no bodies.
+/// The reference configurations of a saved state. Throws FileError if no bodies can be made of
+/// them.
 template <int D>
 References<D> read_references(const Plan<D>& plan, const Snapshot& state) {
   References<D> references;
@@ -50,8 +51,8 @@ std::size_t number_of(const System<D>& system, const std::string& body) {
   return b;
 }
 
-/// Between looks at what a body is like: 50 steps, doubled as the number of steps doubles beyond
-/// 800. A remap that has to be refused again and again then costs no more than a few of them.
+/// Number of steps between two checks of the distortion of bodies: 50, doubled each time the number
+/// of steps doubles beyond 800. So a remap that is refused again and again costs little.
 std::int64_t steps_between_looks(std::int64_t step) {
   std::int64_t between = 50;
   while (16 * between <= step / 2) between *= 2;
@@ -71,8 +72,8 @@ std::vector<Real> volume_changes(const Scene<D>& scene, std::size_t body, const 
   throw InputError("body '" + scene.system.bodies[body].name + "' has no field J");
 }
 
-/// A remap is an interpolation: one that changes the energy by more than this share of what was
-/// exchanged so far has changed the motion.
+/// Largest energy change by a remap without a warning, as a fraction of the energy exchanged so
+/// far. A remap interpolates; one that changes the energy more has changed the motion.
 constexpr Real bearable_change = 0.01;
 
 /// Warns of a remap that changes the energy of a run.

@@ -33,7 +33,7 @@ struct Run::Base {
 
 namespace {
 
-/// Position in `names`; throws InputError that lists them.
+/// Position of a name in `names`. Throws InputError that lists them.
 std::size_t find(const char* what, const std::string& name, const std::vector<std::string>& names) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
@@ -116,7 +116,7 @@ class RunIn final : public Run::Base {
   }
 
  private:
-  /// sum_B N_B(X_A) f_B, plus X_A for positions.
+  /// Values at the particles, sum_B N_B(X_A) f_B, plus X_A for positions.
   static std::vector<double> places(const Body<D>& body, const NodalVectors& f, bool position) {
     const NodalVectors x = values_at_particles(body, f.data() + body.first);
     std::vector<double> values;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Beginning, advancing, saving and restoring a run.
+// Starts, advances, saves and restores a run.
 #include "run/simulation.hpp"
 
 #include "measure/drop_measures.hpp"
@@ -45,7 +45,7 @@ StepperChoice stepper_choice(const Scene<D>& scene, bool implicit_viscosity) {
   return choice;
 }
 
-/// copy = state, what is large by all threads.
+/// Copies the state. All threads share the copying of the large arrays.
 template <int D>
 void keep(const System<D>& system, State& state, State& copy) {
   constexpr std::array large{&State::u, &State::v, &State::force};
@@ -94,7 +94,8 @@ void Simulation<D>::make_stepper(bool implicit_viscosity) {
   share_steps();
 }
 
-/// Between ranks, as far as stepper and terms know what they read. All ranks know the state.
+/// Divides steps between ranks, if the stepper and all terms report the particles that they read.
+/// The state must be complete on all ranks.
 template <int D>
 void Simulation<D>::share_steps() {
   scene_.system.halo.reset();
@@ -103,7 +104,7 @@ void Simulation<D>::share_steps() {
   if (stepper_->tell_reads(reads)) scene_.system.share_steps(std::move(reads));
 }
 
-/// By the present state, where the scene leaves it open.
+/// If the scene leaves the viscosity automatic, chooses explicit or implicit for the present state.
 template <int D>
 void Simulation<D>::choose_viscosity() {
   if (scene_.time.viscosity != "automatic") return;
@@ -124,7 +125,7 @@ template <int D>
 void Simulation<D>::begin() {
   start(scene_.system, state_);
   choose_viscosity();
-  if (stepper_->implicit())  // without motion
+  if (stepper_->implicit())  // the solution has no motion
     std::fill(state_.v.begin(), state_.v.end(), Lanes::zero());
   if (!stepper_->chooses_step()) controller_->begin(state_);
   begin_audit();
@@ -163,7 +164,8 @@ bool Simulation<D>::finished() const {
   return state_.time >= scene_.time.end || stepper_->arrived() || stepper_->blocked();
 }
 
-/// Where ranks come to need more than they follow, again with the state that all of them know.
+/// Makes a step. If a rank needs particles outside its halo, the step is made again with the
+/// complete state.
 template <int D>
 void Simulation<D>::step(Real dt) {
   try {
@@ -175,8 +177,8 @@ void Simulation<D>::step(Real dt) {
   }
 }
 
-/// A step of dt or, if that is rejected, of a half of it, and so on. What no step is short enough
-/// for, as a blow, is taken as it is.
+/// Makes a step of dt. If the step is rejected, it is halved and tried again. After six halvings
+/// the step is made unchecked, because an impact exceeds the limits at any step.
 template <int D>
 void Simulation<D>::step_or_halve(Real dt) {
   constexpr int most_halvings = 6;
@@ -260,7 +262,8 @@ void Simulation<D>::refuse_impossible_states() {
   possible_at_ = state_.time;
 }
 
-/// Looks at all surfaces are so far apart that they take less than a hundredth of the steps.
+/// True if the surfaces must be checked now. Checks are rare enough to take less than a hundredth
+/// of the time of steps.
 template <int D>
 bool Simulation<D>::surfaces_due() const {
   constexpr std::int64_t between = 50;
@@ -280,8 +283,8 @@ void Simulation<D>::refuse(const StateCheck& check) const {
   throw StepError(failure);
 }
 
-/// A surface smaller than that of the ball (2D: disk) of the same volume cannot be: its quadrature
-/// has lost the shape.
+/// Throws SolveError if a surface is smaller than the surface of a ball (2D: disk) of the same
+/// volume. This is impossible and means that the quadrature no longer resolves the shape.
 template <int D>
 void Simulation<D>::refuse_impossible_surfaces() const {
   constexpr Real bearable = 1e-3;
@@ -303,7 +306,8 @@ void Simulation<D>::refuse_impossible_surfaces() const {
 template <int D>
 void Simulation<D>::give_up(StepFailure failure) {
   complete_state();
-  // The step left its broken forces; those of the places it was taken back to can be shown.
+  // The failed step left invalid forces. Compute the forces at the restored positions, so that
+  // output can show them.
   scene_.system.add_up(state_.motion(), state_.forces());
   failure.step = state_.step + 1;
   failure.time = state_.time + last_step_;

@@ -16,19 +16,19 @@ void Simulation<D>::archive(const Archive& a) {
   require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
   archive_viscosity(a);
   if (!stepper_->chooses_step()) {
-    if (a.is_reading() && !a.has("step_control"))  // the run's stepper chose its steps
+    if (a.is_reading() && !a.has("step_control"))  // saved by a stepper that chose steps
       controller_->begin(state_);
     else
       controller_->archive(a.in("step_control"));
   }
   const Archive stepper = a.in("stepper").in(scene_.time.solver);
-  if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // the run was another stepper's
+  if (a.is_reading() && !a.in("stepper").has(scene_.time.solver))  // saved by another one
     stepper_->begin(state_);
   else
     stepper_->archive(stepper, state_);
-  if (a.is_reading()) audit_.begin(take_ledger(scene_.system, state_));  // its kinds of energy
+  if (a.is_reading()) audit_.begin(take_ledger(scene_.system, state_));  // sets the kinds of energy
   audit_.archive(a.in("audit"), D);
-  // They begin as these and change by impulses from outside only.
+  // The books begin with the initial momenta and change by external impulses only.
   a.in("audit")("initial_momentum", state_.books.momentum, of_sum(dimension::momentum, D));
   a.in("audit")("initial_angular_momentum", state_.books.angular_momentum,
                 of_sum(dimension::angular_momentum, D));
@@ -36,12 +36,13 @@ void Simulation<D>::archive(const Archive& a) {
   archive_references(a.in("references"));
 }
 
-/// What was chosen at the beginning, where the scene leaves it open, is kept to the end.
+/// Saves or restores the viscosity that was chosen at the start of the run, if the scene leaves it
+/// automatic.
 template <int D>
 void Simulation<D>::archive_viscosity(const Archive& a) {
   if (scene_.time.viscosity != "automatic") return;
   const Archive choice = a.in("viscosity");
-  if (a.is_reading() && !a.has("viscosity")) return choose_viscosity();  // it was not open
+  if (a.is_reading() && !a.has("viscosity")) return choose_viscosity();  // not automatic then
   bool implicit = implicit_viscosity_;
   choice("implicit", implicit);
   if (implicit != implicit_viscosity_) make_stepper(implicit);
@@ -57,7 +58,8 @@ void Simulation<D>::archive_terms(const Archive& a) {
     scene_.system.carried[k]->archive(a.in(fmt::format("carried/{}", k)));
 }
 
-/// The scene is built on its references, so that a state that is read only has to be of the same.
+/// Saves the references of remapped bodies. When a state is read, the scene has already been built
+/// on its references; they are only compared.
 template <int D>
 void Simulation<D>::archive_references(const Archive& a) const {
   for (const Body<D>& body : scene_.system.bodies) {
@@ -70,11 +72,11 @@ void Simulation<D>::archive_references(const Archive& a) const {
   }
 }
 
-/// Values are those of particles by their numbers, which another version may give otherwise. Places
-/// of later references are kept themselves.
+/// Saves a hash of the order of the particles, and throws FileError if a state was saved with
+/// another order, as other versions may have. Bodies after a remap save their positions instead.
 template <int D>
 void Simulation<D>::archive_orders(const Archive& a) const {
-  constexpr Real of_rounding = 1e-6;  // of the spacing, of all particles together
+  constexpr Real of_rounding = 1e-6;  // in spacings, for all particles together
   for (const Body<D>& body : scene_.system.bodies) {
     if (body.reference) continue;
     const Vec<D> mark = mark_of_order<D>(body.geometry.grid.X);
@@ -110,11 +112,11 @@ void Simulation<D>::restore(const Snapshot& snapshot) {
   archive(Archive::reading(snapshot));
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                \
-  template void Simulation<D>::archive(const Archive&);                       \
-  template void Simulation<D>::archive_terms(const Archive&);                 \
-  template Snapshot Simulation<D>::snapshot();                                \
-  template Snapshot Simulation<D>::snapshot_of_first_rank();                  \
+#define MENISCUS_INSTANTIATE(D)                               \
+  template void Simulation<D>::archive(const Archive&);       \
+  template void Simulation<D>::archive_terms(const Archive&); \
+  template Snapshot Simulation<D>::snapshot();                \
+  template Snapshot Simulation<D>::snapshot_of_first_rank();  \
   template void Simulation<D>::restore(const Snapshot&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

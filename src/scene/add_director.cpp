@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The director of a nematic body becomes a field of the scene.
+// Makes the director of a nematic body a field of the scene.
 #include "scene/add_director.hpp"
 
 #include "physics/director/director.hpp"
@@ -21,8 +21,8 @@ void add_director(const Body<D>& body, NematicBody<D> nematic, Scene<D>& scene,
     at(capacity, body.first + A) = nematic.numbers.rotational_viscosity * at(nematic.volume, A);
   const std::size_t number =
       system.add_field({"director", D, dimension::none, Evolution::carried, 1}, capacity);
-  // The scene gives values of the director at the particles. Coefficients equal to them would make
-  // a director that is smoother than the formula.
+  // The scene gives values of the director at the particles, which are converted to coefficients.
+  // Using values as coefficients would smooth the director.
   NodalVectors values(static_cast<std::size_t>(body.size()), Lanes::zero());
   for (Index A = 0; A < body.size(); ++A) set_vector<D>(values, A, at(nematic.director, A));
   const NodalVectors coefficients = coefficients_of(body, values, values);

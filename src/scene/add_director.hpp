@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The director of a nematic body becomes a field of the scene.
+// Makes the director of a nematic body a field of the scene.
 #pragma once
 #include "meniscus/scene/assembly.hpp"
 #include "physics/director/nematic_numbers.hpp"
 
 namespace meniscus {
 
-/// All bodies of `scene` have their particles; the assembly is of the same scene.
+/// Adds the director of `body`. All bodies of `scene` must have their particles; `assembly` must
+/// belong to the same scene.
 template <int D>
 void add_director(const Body<D>& body, NematicBody<D> nematic, Scene<D>& scene,
                   Assembly<D>& assembly);

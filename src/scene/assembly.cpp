@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Assembly: what loads add to a scene.
+// Assembly: collects what loads add to a scene.
 #include "meniscus/scene/assembly.hpp"
 
 #include "meniscus/error.hpp"
@@ -110,7 +110,7 @@ std::function<Real(const Motion&)> Assembly<D>::measure_named(const std::string&
   throw std::logic_error("there is no measure '" + name + "'");
 }
 
-/// Many contacts ask for that of one body.
+/// Shear modulus of a body, computed once because many contacts may use it.
 template <int D>
 Real Assembly<D>::shear_modulus(const std::string& name) const {
   const auto [known, is_new] = shear_modulus_.try_emplace(name);
@@ -123,7 +123,8 @@ Real Assembly<D>::find_shear_modulus(const std::string& name) const {
   constexpr Real small = 1e-4;
   const Body<D>& sheared = body(name);
   const ForceTerm& force = *of(name).internal_force;
-  // Kept at rest from body to body: they are as long as all bodies together.
+  // Kept between calls because these arrays have the length of all bodies together; all other
+  // entries are zero.
   rest_.resize(scene_.system.mass.size(), Lanes::zero());
   sheared_.resize(rest_.size(), Lanes::zero());
   const std::span<NodalVector> u = sheared.part(std::span(sheared_));
@@ -131,14 +132,15 @@ Real Assembly<D>::find_shear_modulus(const std::string& name) const {
     for (Index A = 0; A < sheared.size(); ++A) at(u, A).set(0, shear * sheared.origin(A)[1]);
     return force.stored_energy({0, sheared_, rest_}).value_or(0);
   };
-  // What is linear in the shear is of a stressed reference.
+  // The even part of the energy: a stressed reference adds a part that is linear in the shear.
   const Real energy = (strain_energy(small) + strain_energy(-small)) / 2;
   Real volume = 0;
   for (Index A = 0; A < sheared.size(); ++A) volume += sheared.cells.volume(A);
   return 2 * (energy - strain_energy(0)) / (small * small * volume);
 }
 
-/// The power of the loads on a uniform velocity along an axis is their force along it.
+/// Acceleration of a body by its loads: their power on a uniform unit velocity along an axis is the
+/// force along it.
 template <int D>
 Vec<D> Assembly<D>::acceleration(const std::string& name) const {
   const Body<D>& moved = body(name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building a body of a scene.
+// Builds the bodies of a scene.
 #include "scene/build_body.hpp"
 
 #include "body/grid/ordering.hpp"
@@ -23,7 +23,8 @@ ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& g
   Window window{};
   for (std::size_t k = 0; k < window_names.size(); ++k)
     if (window_names[k] == settings.window) window = static_cast<Window>(k);
-  // Cells of a body with edges or a cavity are made as its walls need them.
+  // Supports follow the mean shape of the cells in round bodies only. In bodies with edges or a
+  // cavity, the shape of cells serves their walls.
   const bool round = geometry.surface->smooth() && !is_hollow(geometry);
   const Mat<D> stretch = round ? mean_stretch(geometry.grid) : Mat<D>(Mat<D>::Identity());
   if (settings.support_spacings > 0)
@@ -39,8 +40,9 @@ ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& g
   return {geometry.grid.X, rule, window, stretch};
 }
 
-/// Where the deficiency monitor looks: particles, cell centres, and a point per surface facet, in
-/// the order of the particles, so that neighbours in it are neighbours in space.
+/// Points at which the quality of shape functions is checked: particles, cell centres, and one
+/// point per surface facet. They follow the order of the particles, so that neighbours in the list
+/// are near each other.
 template <int D>
 std::vector<Vec<D>> probe_points(const Geometry<D>& geometry) {
   const Grid<D>& grid = geometry.grid;
@@ -61,8 +63,8 @@ std::vector<Vec<D>> probe_points(const Geometry<D>& geometry) {
   return points;
 }
 
-/// Particles whose supports stay in the wall of a hollow body and make well-conditioned shape
-/// functions everywhere.
+/// Particles with well-conditioned shape functions everywhere. In a hollow body, supports do not
+/// reach across the cavity.
 template <int D>
 ParticleSet<D> sound_particles(const BodySettings& settings, const Geometry<D>& geometry,
                                Assembly<D>& assembly) {
@@ -88,7 +90,7 @@ ParticleSet<D> sound_particles(const BodySettings& settings, const Geometry<D>& 
   return particles;
 }
 
-/// What the floor of the lumped masses changed.
+/// Logs how many lumped masses were raised to their lower bound, and which moments were kept.
 template <int D>
 void report_masses(const std::string& name, const MassReport& mass, Assembly<D>& assembly) {
   if (mass.raised == 0) return;
@@ -108,9 +110,9 @@ void report_masses(const std::string& name, const MassReport& mass, Assembly<D>&
                     name, mass.added));
 }
 
-/// Coarse nearly incompressible solids are too stiff (locking): every nodal cell keeps its volume,
-/// which leaves too few ways to deform. Numbers are those of two cells across a beam and of three
-/// across a closed wall.
+/// Warns that coarse, nearly incompressible solids are too stiff (locking): every nodal cell keeps
+/// its volume, which leaves too few ways to deform. The numbers hold for two cells across a beam
+/// and three across a closed wall.
 template <int D>
 void warn_of_locking(const Body<D>& body, const typename Material<D>::Built& built,
                      const BodySettings& settings, Assembly<D>& assembly) {
@@ -173,7 +175,8 @@ RowPrecision row_precision(const BodySettings& settings) {
   return settings.precision == "single" ? RowPrecision::rounded : RowPrecision::full;
 }
 
-/// The body has the mass that it had before it was referred anew, to the last bit if it is that.
+/// Scales the masses of a body to their sum before its remap. The sum is kept to the last bit if it
+/// does not change.
 template <int D>
 void keep_mass(Body<D>& body) {
   for (std::vector<Real>* masses : {&body.mass, &body.mass_integral}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small scenes around examples.
+// Builds small scenes around the examples of registered items.
 #include "scene/example_scenes.hpp"
 
 #include <fmt/core.h>

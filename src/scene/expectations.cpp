@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// Linear interpolation; `t` lies within the times.
+/// Linear interpolation of y at the time t, which must lie within the times.
 Real value_at_time(const std::vector<Real>& time, const std::vector<Real>& y, Real t) {
   const auto next = std::lower_bound(time.begin(), time.end(), t);
   if (next == time.begin()) return y.front();
@@ -20,7 +20,7 @@ Real value_at_time(const std::vector<Real>& time, const std::vector<Real>& y, Re
   return (1 - s) * y[k - 1] + s * y[k];
 }
 
-/// Minus the least-squares slope of ln |y| over t.
+/// Decay rate: minus the least-squares slope of ln |y| over t.
 Real decay_rate(std::span<const Real> t, std::span<const Real> y) {
   Real n = 0, st = 0, sy = 0, stt = 0, sty = 0;
   for (std::size_t k = 0; k < t.size(); ++k) {
@@ -34,7 +34,7 @@ Real decay_rate(std::span<const Real> t, std::span<const Real> y) {
   return -(n * sty - st * sy) / (n * stt - st * st);
 }
 
-/// How often y falls from `level` or above to below it.
+/// Number of times that y falls from `level` or above to below it.
 Real falls(std::span<const Real> y, Real level) {
   int count = 0;
   for (std::size_t k = 1; k < y.size(); ++k) count += y[k - 1] >= level && y[k] < level;
@@ -49,14 +49,14 @@ Real reduce(const ExpectSettings& e, std::span<const Real> t, std::span<const Re
     total += x;
     largest_size = std::max(largest_size, std::abs(x));
   }
-  if (std::isnan(total)) return total;  // comparisons would pass over it
+  if (std::isnan(total)) return total;  // comparisons with NaN are false
   if (how == "falls") return falls(y, *e.level);
   if (how == "max") return *std::max_element(y.begin(), y.end());
   if (how == "min") return *std::min_element(y.begin(), y.end());
   return how == "max_abs" ? largest_size : total / static_cast<Real>(y.size());
 }
 
-/// The part of the history that an expectation is about.
+/// The part of the history that an expectation evaluates.
 struct Span {
   std::vector<Real> time, y;
 };
@@ -71,7 +71,7 @@ Span span_between(const std::vector<Real>& time, const std::vector<Real>& y, Rea
   return span;
 }
 
-/// Whether the rows begin and end soon enough; the time of the last one may be off by round-off.
+/// True if the rows cover the span [from, to]; the last time may differ by round-off.
 bool covers(const std::vector<Real>& time, Real from, Real to) {
   return !time.empty() && time.front() <= from && time.back() >= to * (1 - 1e-12);
 }

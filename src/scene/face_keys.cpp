@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces that loads name.
+// Keys that name faces, for loads.
 #include "scene/face_keys.hpp"
 
 #include "input/names.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference of all keys of a scene: to read, and for documents.
+// Prints the reference of all keys of a scene, as text and for documents.
 #include "scene/key_reference.hpp"
 
 #include "input/names.hpp"
@@ -24,7 +24,7 @@ bool mentions(const std::string& text, const std::string& small_word) {
   return small_text(text).find(small_word) != std::string::npos;
 }
 
-/// "[[contact]]" and "contact" are the same to those who ask.
+/// The name without brackets, because users may type "[[contact]]" or "contact".
 std::string without_brackets(const std::string& name) {
   const std::size_t begin = name.find_first_not_of("[ "), end = name.find_last_not_of("] ");
   return begin == std::string::npos || end < begin ? "" : name.substr(begin, end + 1 - begin);
@@ -37,7 +37,8 @@ bool is_called(const KeyTable& table, const std::string& name) {
           (heading.path.empty() && name == "top level"));
 }
 
-/// The tables with those keys only of which `holds` is true, without the tables that have none.
+/// The tables with only those keys for which `holds` is true. Tables without such keys are left
+/// out.
 std::vector<KeyTable> reduced(const std::vector<KeyTable>& tables, const auto& holds) {
   std::vector<KeyTable> result;
   for (const KeyTable& table : tables) {
@@ -73,7 +74,7 @@ std::vector<KeyTable> found(const std::string& given) {
                                given, did_you_mean(wanted, known)));
 }
 
-/// Of the whole reference only.
+/// Introduction, printed before the complete reference only.
 void print_introduction(std::ostream& out) {
   out << "A plain number is in the unit system of the scene; a text such as \"72.8 mN/m\" has its "
          "own\n"
@@ -86,7 +87,7 @@ void print_introduction(std::ostream& out) {
          "degrees Celsius, 4.1164e-21 J.\n\n";
 }
 
-/// A bar would begin the next cell.
+/// Text of a cell of a Markdown table. A bar must be escaped, or it would begin the next cell.
 std::string cell(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A JSON Schema of scenes, made of the reference of keys.
+// Prints a JSON Schema of scenes, made from the key reference.
 #include "input/text.hpp"
 #include "scene/key_reference.hpp"
 
@@ -61,7 +61,8 @@ std::optional<Real> number_in(std::string_view text) {
   return value;
 }
 
-/// Bounds such as "> 0 and <= 1". With a unit they change with the units of the scene, but for 0.
+/// Adds bounds such as "> 0 and <= 1". Only bounds at 0 can be added for keys with a unit, since
+/// others depend on the units of the scene.
 void add_bounds(JsonObject& schema, const KeyText& key) {
   static constexpr std::pair<std::string_view, const char*> words[] = {{">= ", "minimum"},
                                                                        {"<= ", "maximum"},
@@ -77,7 +78,7 @@ void add_bounds(JsonObject& schema, const KeyText& key) {
     }
 }
 
-/// Numbers may be texts: with units, formulas, constants.
+/// Adds the type. Texts are allowed for numbers: quantities with units, formulas, constants.
 void add_type(JsonObject& schema, const KeyText& key) {
   const auto [word, count] = [&] {
     const std::size_t space = key.type.find(' ');
@@ -103,7 +104,7 @@ void add_type(JsonObject& schema, const KeyText& key) {
     items.add("type", "[\"number\",\"string\"]");
     add_bounds(items, key);
     schema.add("items", items.text());
-    // One per dimension of space, of which the reference shows one.
+    // The number of entries is 2 or 3, depending on the dimension; the reference shows one of them.
     if (count > 0) schema.add("minItems", std::to_string(count == 3 ? 2 : count));
     if (count > 0) schema.add("maxItems", std::to_string(count == 2 ? 3 : count));
   } else {
@@ -112,7 +113,7 @@ void add_type(JsonObject& schema, const KeyText& key) {
   }
 }
 
-/// All that a key of one name may be in the tables of one path: editors do not know which of them
+/// All variants of a key in the tables of one path, because an editor does not know which table
 /// applies.
 struct KeyVariants {
   std::vector<KeyText> rows;
@@ -155,7 +156,7 @@ struct PathSchema {
   bool is_array = false;
   std::string kind_key;
   std::vector<std::string> kinds;
-  std::vector<std::string> keys, required;  ///< names in their order
+  std::vector<std::string> keys, required;  ///< names in the order of the tables
   std::map<std::string, KeyVariants> variants;
 
   void add(const KeyTable& table, const KeyHeading& heading) {
@@ -178,7 +179,7 @@ using Paths = std::map<std::string, PathSchema>;
 
 std::string schema_of(const Paths& paths, const std::string& path);
 
-/// The tables below `path`, each by the next word of its path.
+/// Adds the tables below `path`, each under the next word of its path.
 void add_tables(const Paths& paths, const std::string& path, JsonObject& properties,
                 std::optional<std::string>& any) {
   const std::string prefix = path.empty() ? "" : path + ".";
@@ -202,7 +203,7 @@ std::string schema_of(const Paths& paths, const std::string& path) {
   const auto found = paths.find(path);
   const PathSchema& of = found == paths.end() ? none : found->second;
   JsonObject properties;
-  std::optional<std::string> any;  // of the names that are free
+  std::optional<std::string> any;  // schema of tables with any name
   std::vector<std::string> required = of.required;
   if (!of.kind_key.empty() && of.kind_key != "interaction") required.push_back(of.kind_key);
   for (const std::string& key : of.keys)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference of all measures: those that small scenes with everything registered have.
+// The reference of all measures: builds small scenes with everything registered, and lists their
+// measures.
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/physics/partner_registry.hpp"
 #include "scene/example_scenes.hpp"
@@ -13,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-constexpr int dimensions = 3;  // has all that 2D has
+constexpr int dimensions = 3;  // 3D has all measures of 2D
 constexpr const char* tension = "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n";
 
 struct MeasureText {
@@ -30,7 +31,7 @@ bool has(const MeasureTable& table, const std::string& name) {
                      [&](const MeasureText& m) { return m.name == name; });
 }
 
-/// Adds the measures of a scene, without those of bodies that are in `known`.
+/// Adds the measures of a scene, except measures of bodies that are in `known` already.
 void add(MeasureTable& table, const std::string& text, const std::vector<MeasureTable>& known) {
   const SceneInput input = SceneInput::from_text(text);
   scene_dimension(input);
@@ -50,12 +51,12 @@ void add(MeasureTable& table, const std::string& text, const std::vector<Measure
   }
 }
 
-/// Contacts of a drop with each partner and with a soft body, by each interaction.
+/// Scenes in which a drop touches each partner and a soft body, for each interaction.
 std::vector<std::string> contact_scenes() {
   std::vector<std::string> scenes{
       scene_with_load(dimensions, "contact", legacy_contact(dimensions))};
   for (const auto& [interaction, by] : interactions<dimensions>()) {
-    if (interaction == "legacy_switch") continue;  // above
+    if (interaction == "legacy_switch") continue;  // already included
     const std::string law = fmt::format("interaction = \"{}\"\n{}", interaction, by.example);
     scenes.push_back(
         scene_with_load(dimensions, "contact", "bodies = [\"drop\", \"other\"]\n" + law + tension));
@@ -86,14 +87,14 @@ std::vector<MeasureTable> measure_tables() {
   section("of a shell", {heading + one_shell()});
   const auto of_load = [&](const std::string& name, const std::string& example) {
     std::vector<std::string> scenes{scene_with_load(dimensions, name, example)};
-    if (name == "cavity")  // that of a shell has a gap, too
+    if (name == "cavity")  // the cavity of a shell has a gap, too
       scenes.push_back(scene_with_load(dimensions, name,
                                        "body = \"shell\"\nsurface = \"inner\"\npressure = 0.3\n"));
     if (name == "contact")
       for (std::string& scene : contact_scenes()) scenes.push_back(std::move(scene));
     section("with [[" + name + "]]", scenes);
   };
-  // First the one that scenes of others have, too.
+  // Surface tension first, because the scenes of other loads contain it too.
   of_load("surface_tension", std::string(loads<dimensions>().at("surface_tension").example));
   for (const auto& [name, load] : loads<dimensions>())
     if (name != "surface_tension") of_load(name, std::string(load.example));

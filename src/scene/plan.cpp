@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading a scene whole, with every check that needs no particles.
+// Reads a whole scene and makes all checks that need no particles.
 #include "scene/plan.hpp"
 
 #include "body/shapes/cell_count.hpp"
@@ -91,7 +91,7 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
   }
 }
 
-/// Reads all tables of a kind of load.
+/// Reads all tables of one kind of load.
 template <int D>
 void plan_loads(const Block& root, const LoadEntry<D>& kind, std::set<std::string>& claims,
                 Plan<D>& plan) {
@@ -113,7 +113,7 @@ void plan_loads(const Block& root, const LoadEntry<D>& kind, std::set<std::strin
   }
 }
 
-/// Loads that the other dimension has are no unknown words.
+/// Reports loads that exist in the other dimension only, so that they are not called unknown.
 template <int D>
 void refuse_loads_of_other_dimension(const Block& root) {
   constexpr int other = 5 - D;
@@ -132,15 +132,15 @@ void plan_loads(const Block& root, Plan<D>& plan) {
   refuse_loads_of_other_dimension<D>(root);
 }
 
-/// Solids in space reach an error much sooner with supports that are narrower than those of drops
-/// and curvature and do not grow at faces (performance note 3.1).
+/// True for solids in 3D. They reach a given error much sooner with narrower supports than drops
+/// and curvature need, and with supports that do not grow at faces (performance note 3.1).
 template <int D>
 bool has_narrow_supports(const BodyPlan<D>& body) {
   return D == 3 && body.material && !body.material->fluid() && !body.curvature;
 }
 
-/// Which length supports are multiples of where the scene does not say. A liquid is sheared at the
-/// surface by its director, and supports that grow there double the error (cells note 6).
+/// The length that supports are multiples of by default. A director shears a liquid at its surface,
+/// where growing supports would double the error (cells note 6).
 template <int D>
 std::string default_support_length(const BodyPlan<D>& body) {
   const bool sheared = D == 2 && body.material && body.material->carries_director();
@@ -155,9 +155,9 @@ void settle_supports(const Block& root, BodyPlans<D>& bodies) {
                                       default_support_length(bodies[k]));
 }
 
-/// Bytes of a body while it is set up with integration "q_scni" and run, less than other rules
-/// take: rows have as many pairs as there are particles in a ball of the support and half of a
-/// cell's diagonal more (within 10 % of what is counted in lattices and balls).
+/// Expected memory of a body in bytes, during set-up and run, with integration "q_scni"; other
+/// rules need more. The pairs of a row are estimated as the particles in a ball whose radius is the
+/// support plus half the diagonal of a cell (within 10 % of counts for lattices and balls).
 template <int D>
 Real expected_bytes(const BodyPlan<D>& body) {
   const BodySettings& s = body.settings;
@@ -166,13 +166,13 @@ Real expected_bytes(const BodyPlan<D>& body) {
   const Real reach = support + 0.6;
   constexpr Real ball = (D == 3 ? 4.0 / 3 : 1.0) * std::numbers::pi;
   const Real pairs = ball * std::pow(reach, D);
-  constexpr int gradients = D * (D + 1);  // means and linear moments
+  constexpr int gradients = D * (D + 1);  // mean gradients and linear moments
   const Real bytes_per_pair = (s.precision == "single" ? 4.0 : 8.0) * gradients + 4;
   constexpr Real rest = D == 3 ? 2e3 : 1e3;
   return Real(body.geometry.grid.node_count()) * (pairs * bytes_per_pair / ranks().size() + rest);
 }
 
-/// Each body for itself may be affordable where all are not.
+/// Reports bodies that together need more memory than there is, although each alone may fit.
 template <int D>
 void require_memory_for(const Block& root, const BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
@@ -191,7 +191,7 @@ void require_memory_for(const Block& root, const BodyPlans<D>& bodies) {
   }
 }
 
-/// What can never be met, or is always, is a mistake.
+/// Reports expectations that can never be met or are always met.
 void require_reachable(const Block& block, const ExpectSettings& e, Real end) {
   if (!e.within && !e.within_relative)
     block.problem("", "says no tolerance; give within or within_relative");
@@ -213,7 +213,8 @@ void require_reachable(const Block& block, const ExpectSettings& e, Real end) {
                                    : "is missing; reduce = \"falls\" counts falls below it");
 }
 
-/// The names are words of tables and columns of sweep.csv, "drop.aspect" among them.
+/// Reports names of expectations that cannot be words of printed tables and columns of sweep.csv.
+/// Dots are allowed, as in "drop.aspect".
 void require_name_of_expectation(const Block& block, const std::string& name) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-' || c == '.';
@@ -226,7 +227,7 @@ RunSettings read_settings(const Block& root) {
   RunSettings run;
   run.title = root.text("title", "");
   run.units = root.units();
-  Real end = unbounded;  // as long as what the scene gives is wrong
+  Real end = unbounded;  // if the end time is missing or wrong
   if (const auto block = root.table("time", true)) {
     run.time = read<TimeSettings>(*block);
     run.time.step_place = block->place("step");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building what a scene says.
+// Builds the objects of a scene from its plan.
 #include "scene/scene.hpp"
 
 #include "meniscus/error.hpp"
@@ -36,7 +36,7 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
   }
 }
 
-/// Null: the reference of the scene.
+/// The own reference of a body. Null if it has the reference of the scene.
 template <int D>
 std::shared_ptr<const Reference<D>> reference_of(const BodyPlan<D>& body,
                                                  const References<D>& references) {
@@ -44,7 +44,7 @@ std::shared_ptr<const Reference<D>> reference_of(const BodyPlan<D>& body,
   return found == references.end() ? nullptr : found->second;
 }
 
-/// How the rows of the bodies are divided between the ranks.
+/// Divides the rows of the bodies between the ranks.
 template <int D>
 std::vector<Division> divide_bodies(const Plan<D>& plan, const References<D>& references) {
   std::vector<Index> particles;

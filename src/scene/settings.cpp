@@ -20,7 +20,7 @@ std::vector<std::string> windows() {
   return {window_names.begin(), window_names.end()};
 }
 
-/// Whether a multiple of `every` lies in (before, now].
+/// True if a multiple of `every` lies in (before, now].
 bool due(Real before, Real now, Real every) {
   const auto count = [every](Real t) { return std::floor(t / every + 1e-9); };
   return count(now) > count(before);
@@ -170,8 +170,8 @@ Rows<SolidSettings> SolidSettings::rows() {
 
 namespace {
 
-/// A number in the unit of a column of the history. It may be a text with a unit: that it is the
-/// dimension of the column is known when the scene is built.
+/// A number in the unit of a column of the history. A text with any unit is accepted here; its
+/// dimension is compared with the column when the scene is built.
 Real in_unit_of_column(const Block& block, const std::string& key, Range range,
                        std::optional<Real> fallback) {
   return block.real(key, block.own_dimension(key).value_or(dimension::none), range, fallback);

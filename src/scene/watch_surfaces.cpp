@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of surfaces, and pairs of bodies without contact.
+// Checks for crossing surfaces, and for bodies that touch without a contact.
 #include "scene/watch_surfaces.hpp"
 
 #include "input/text.hpp"
@@ -24,7 +24,7 @@ std::vector<const Body<D>*> bodies_of(const Scene<D>& scene) {
   return bodies;
 }
 
-/// Pairs of bodies with a contact, by their names in either order.
+/// Pairs of bodies with a contact; the names of each pair are in both orders.
 using Pairs = std::set<std::pair<std::string, std::string>>;
 
 template <int D>
@@ -45,7 +45,7 @@ std::string missing_contact(const std::string& first, const std::string& second)
       first, second);
 }
 
-/// Ends the message about two bodies, which may be the same, whose surfaces cross.
+/// Ends the message about crossing surfaces of two bodies (or one body) with a remedy.
 std::string remedy(const Pairs& contacts, const std::string& first, const std::string& second) {
   if (first == second)
     return "a body has no contact with itself: load it less, or make it thicker, stiffer or finer";
@@ -55,7 +55,7 @@ std::string remedy(const Pairs& contacts, const std::string& first, const std::s
   return missing_contact(first, second);
 }
 
-/// Pairs with a contact have this check from the contact.
+/// Check that no body enters another, for pairs without a contact. Contacts check their own pairs.
 template <int D>
 StateCheck containment_without_contact(const Scene<D>& scene) {
   const auto bodies = bodies_of(scene);
@@ -106,7 +106,7 @@ void watch_surfaces(Scene<D>& scene, bool begins) {
   if (begins) {
     const Motion motion = scene.initial.motion();
     auto failure = bodies.size() > 1 ? scene.checks.back()(motion) : std::nullopt;
-    // Whether a body is turned inside out at the start is told better by its J.
+    // J detects bodies that start inside out better than crossing surfaces do.
     if (!failure) failure = surfaces->crossing(motion);
     if (failure) throw InputError(scene.system.located(*failure, motion).text());
     note_missing_contacts(scene);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces of a scene that must not go through themselves or each other.
+// Checks that no surface of a scene passes through itself or another surface.
 #pragma once
 #include "scene/scene.hpp"
 
 namespace meniscus {
 
-/// Adds the checks of all surfaces to the scene. At its beginning, throws InputError for bodies
-/// that overlap or a surface that crosses itself, and notes the pairs of bodies that no contact
-/// keeps apart.
+/// Adds the checks of all surfaces to the scene. If `begins`, also throws InputError for bodies
+/// that overlap and surfaces that cross themselves, and notes pairs of bodies without a contact.
 template <int D>
 void watch_surfaces(Scene<D>& scene, bool begins);
 

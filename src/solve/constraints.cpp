@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constraints in central differences.
+// Constraints (held faces) in steps of central differences.
 #include "solve/constraints.hpp"
 
 #include "meniscus/error.hpp"
@@ -14,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-/// Threads take longer to meet than small faces to sum.
+/// Loops over n items. Small faces use one thread, since synchronising threads would take longer.
 template <class F>
 void for_each_of(Index n, F&& f) {
   constexpr Index worth_threads = 1000;
@@ -68,7 +68,8 @@ void Constraints::list_rows() {
   }
 }
 
-/// S couples rows at right angles not at all, and the places of each direction alike.
+/// Number of rows per face cell if all cells have the same mutually orthogonal directions;
+/// otherwise 1. S then consists of equal blocks, one per direction, which are not coupled.
 Index Constraints::count_alike() const {
   const Index places = static_cast<Index>(start_.size()) - 1, n = rows() / places;
   if (n * places != rows() || n > Lanes::width) return 1;
@@ -83,8 +84,8 @@ Index Constraints::count_alike() const {
   return n;
 }
 
-/// Two places with a particle in common meet in S by sum_A weight weight / m_A, times the cosine of
-/// the directions of their rows.
+/// Factors of S. Two face cells with common particles are coupled by sum_A weight weight / m_A,
+/// times the cosine of the angle between the directions of their rows.
 SparseCholesky Constraints::factors() const {
   std::map<std::pair<Index, Index>, Real> of_places;
   for (Index t = 0; t < static_cast<Index>(touched_.size()); ++t)
@@ -248,7 +249,8 @@ void Constraints::find_places(const State& state, Real back) const {
   });
 }
 
-/// An impulse p per row changes the kinetic energy by p . (C v before + C v after) / 2.
+/// Books the work of impulses: an impulse p per row changes the kinetic energy by p . (C v before +
+/// C v after) / 2.
 void Constraints::book(State& state, const std::vector<Real>& impulse,
                        const std::vector<Real>& before, const std::vector<Real>& after) const {
   for (const auto& one : all_) {
@@ -280,7 +282,7 @@ void Constraints::constrain(State& state, Real dt) {
   add_over_mass(a_, dt, state.v);
   add_over_mass(a_, dt * dt, state.u);
   for (std::size_t r = 0; r < a_.size(); ++r) a_[r] = dt * (state.reactions.force[r] / 2 + a_[r]);
-  find_places(state, dt);  // where the step began
+  find_places(state, dt);  // positions at the beginning of the step
   book(state, a_, before_, after_);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An estimate from counts.
+// Estimates the cost of an equilibrium from counts.
 #include "solve/expected_effort.hpp"
 
 #include "parallel/nodal_algebra.hpp"
@@ -22,9 +22,9 @@ Real seconds_of(int times, F&& f) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / times;
 }
 
-/// The forces that set the bodies in motion: those of the final loads at the state of the start,
-/// with held faces where they come to be; without such loads the inertia of the way of the held
-/// faces; without either random ones.
+/// Forces that excite the motion: the final loads on the initial state, with held faces at their
+/// final positions. Without such loads, the inertia of the displacement of the held faces; without
+/// held faces, random forces.
 template <int D>
 NodalVectors exciting_forces(System<D>& system, const HeldPreconditioner<D>& P, const State& state,
                              Real time) {
@@ -47,9 +47,9 @@ NodalVectors exciting_forces(System<D>& system, const HeldPreconditioner<D>& P, 
   return f;
 }
 
-/// The frequency, with linear elements and without what is free, of about the slowest mode that the
-/// forces excite: by a few inverse iterations, which keep the symmetry of the loads. Modes that the
-/// loads do not excite do not delay the rest.
+/// About the lowest frequency that the forces excite, with linear elements and without rigid
+/// motions. A few inverse iterations keep the symmetry of the loads, because modes that the loads
+/// do not excite do not delay the equilibrium.
 template <int D>
 Real excited_frequency(const System<D>& system, const HeldPreconditioner<D>& P,
                        const FreeMotions<D>& free, NodalVectors r) {
@@ -106,7 +106,7 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
     effort.relaxation_steps = (steady_after + clocks_to_rest * clock) / (0.9 * stable);
     return effort;
   }
-  // Four or five iterations of Newton's method.
+  // Counts of four or five iterations of Newton's method.
   effort.tangents_per_step = D == 3 ? 150 : 50;
   const FreeMotions<D> free(system, motion, std::cbrt(system.bodies.front().cells.volume(0)));
   const Real period = 2 * std::numbers::pi /

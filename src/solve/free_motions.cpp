@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Search for rigid motions without a force.
+// Finds the rigid motions that no force resists.
 #include "solve/free_motions.hpp"
 
 #include "parallel/nodal_algebra.hpp"
@@ -16,7 +16,7 @@ Vec<D> place(const Body<D>& body, const NodalVectors& u, Index A) {
   return x;
 }
 
-/// D translations, then the rotations about the middle.
+/// The rigid motions of bodies: D translations, then the rotations about the common centre.
 template <int D>
 std::vector<NodalVectors> rigid_motions(const std::vector<const Body<D>*>& bodies,
                                         const NodalVectors& u) {
@@ -42,8 +42,8 @@ std::vector<NodalVectors> rigid_motions(const std::vector<const Body<D>*>& bodie
 
 }  // namespace
 
-/// A state nearby, without any symmetry, has no force along what is free and, but by chance, has
-/// one along what is not.
+/// Finds the free motions. At a slightly disturbed state without symmetry, forces have no component
+/// along a free motion, and nearly always have one along a motion that is not free.
 template <int D>
 FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale) {
   constexpr Real disturbance = 1e-3, round_off = 1e-9;
@@ -92,7 +92,7 @@ FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale)
   if (bound.size() > 1) keep_free(bound);
 }
 
-/// Unless it is a sum of those that there are already.
+/// Adds a mode, unless it is a combination of the present modes.
 template <int D>
 void FreeMotions<D>::add(NodalVectors mode) {
   constexpr Real independent = 1e-6;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The smallest distance between two particles of a body, by the tree of their search.
+// The smallest distance between two particles of a body, found with the tree of the neighbour
+// search.
 #include "solve/least_spacing.hpp"
 
 #include "parallel/parallel.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The books of energy, and what is kept of a state.
+// The energy books, and saving and restoring of a state.
 #include "solve/state.hpp"
 
 #include "meniscus/error.hpp"
@@ -52,7 +52,7 @@ void Books::archive(const Archive& a, int space_dimension) {
   a("heat", heat, power);
   a("external_power", external_power, power);
   a("load_power", load_power, power);
-  // Where nothing acts from outside nothing is kept of it.
+  // Without external forces, nothing is saved of them.
   const bool acts = impulses + angular_impulses + outside.force_size + outside.moment_size > 0;
   if (a.is_reading()) {
     outside = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which force makes the stable step as short as it is, for messages.
+// Finds the force that limits the stable step, for messages.
 #pragma once
 #include "solve/system.hpp"
 
@@ -8,9 +8,10 @@
 
 namespace meniscus {
 
-/// Names the term whose force changes most along `mode` [particle] at the state, its share of the
-/// stiffness of that mode, and what can be done about it. Empty if no term has a stiffness. Used
-/// when a run has to end: costs two evaluations of all forces. All ranks call this.
+/// Describes the term whose force changes most along `mode` [particle] at the given state: its
+/// name, its share of the stiffness of the mode, and a remedy. Empty if no term has a stiffness.
+/// For runs that have to end, since it costs two evaluations of all forces. All ranks must call
+/// this.
 template <int D>
 std::string describe_stiffest_term(System<D>& system, const State& state,
                                    std::span<const NodalVector> mode, Real size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sum of all force terms and the check that it makes sense.
+// Sums the forces of all terms and checks that they are finite.
 #include "solve/system.hpp"
 
 #include "kernel/row_sums.hpp"
@@ -41,7 +41,8 @@ Real System<D>::steady_after() const {
   return last;
 }
 
-/// Values at its own particles are known to a rank as well.
+/// Divides the particles between ranks. The reads of values at its own particles are added here for
+/// each rank.
 template <int D>
 void System<D>::share_steps(StepReads reads) {
   halo.reset();
@@ -141,8 +142,8 @@ Report System<D>::add_up(const Motion& motion, Forces force) {
   return all;
 }
 
-/// Waits for other ranks once for chunks and once for what a rank alone knows, however many terms
-/// there are.
+/// Completes the reports of all terms with two exchanges: one for results per chunk, one for
+/// results of single ranks.
 template <int D>
 void System<D>::complete_reports(const Motion& motion, Forces force) {
   left_.clear();
@@ -180,10 +181,10 @@ Report System<D>::compute_forces(const Motion& motion, Forces force) {
   if (std::isfinite(sum(total))) return report;
   if (const Index A = first_not_finite(force); A < size())
     throw StepError(located({A, "the force is not a finite number"}, motion));
-  return report;  // the squares overflowed
+  return report;  // only the squares have overflowed
 }
 
-/// Particle; the number of all where there is none.
+/// The first particle whose force is not finite; the number of particles if there is none.
 template <int D>
 Index System<D>::first_not_finite(std::span<const NodalVector> force) const {
   const auto first_in = [&](OwnItems part) {

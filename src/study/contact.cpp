@@ -15,7 +15,7 @@
 namespace meniscus::contact_study {
 namespace {
 
-constexpr Real radius = 3, cutoff = 4;  // in sigma0 = 1
+constexpr Real radius = 3, cutoff = 4;  // in units of sigma0
 
 ContactLaw cut_law() {
   ContactLaw law;
@@ -143,13 +143,13 @@ Measurement measure(const Balls& balls, const Method& method, Real gap, int leve
   result.bytes = term->bytes();
 
   const Real exact = exact_force(gap);
-  const Real scale = std::max(std::abs(exact), std::abs(exact_force(0.64)));  // pull-off
+  const Real scale = std::max(std::abs(exact), std::abs(exact_force(0.64)));  // the largest pull
   const int turns = turns_of(method, brief);
   Real squares = 0, largest = 0;
   for (int k = 0; k < turns; ++k) {
     const NodalVectors u = balls.displacement(gap, k), v(u.size(), Lanes::zero());
     NodalVectors force = v;
-    term->add_force({0, u, v}, force);  // builds the list
+    term->add_force({0, u, v}, force);  // the first call builds the list
     force = v;
     const Stopwatch one;
     term->add_force({0, u, v}, force);

@@ -97,8 +97,8 @@ void run(StudyRun& study) {
   const auto name_of = [](const char* form, int points) {
     return fmt::format("{}, {} points per facet", form, points);
   };
-  // Errors of the energy form come from the step only. The error of the dissertation's form at the
-  // smallest step is its own.
+  // Errors of the energy form come from the step only. The dissertation's form keeps an error of
+  // its own at the smallest step.
   const auto last_error = [&](const char* form, int points) {
     return study.find(name_of(form, points), study.levels().back())->error("energy");
   };

@@ -169,7 +169,7 @@ void require_targets(StudyRun& study) {
   limit(map + "cubic_spline, points: " + line, "max", 2.5e-2);
   limit(map + "bases: " + cubic, "L2", 9e-4);
   limit(map + "recovered: " + line + ", recovered", "L2", 2e-3);
-  // Between close levels and between fine levels the order of the quadratic basis is lower.
+  // The order of the quadratic basis is lower between close levels and between fine levels.
   if (study.levels().front() > 6 || study.levels().back() < 2 * study.levels().front()) return;
   const auto order = [&](const std::string& method, Real least) {
     const Real found = study.overall_order(method, "L2");

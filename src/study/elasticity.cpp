@@ -27,7 +27,7 @@ struct Clouds {
   }
 };
 
-/// Root mean square errors over all clouds; the time of one cloud.
+/// Root mean square errors over all clouds, and the time of one cloud.
 template <int D>
 Measurement measure(const Rule& rule, const Clouds<D>& clouds, const std::string& method) {
   Measurement m;
@@ -68,8 +68,8 @@ void measure_all(StudyRun& study, const std::vector<Rule>& rules) {
     if (study.brief() && jitter != 0.2) continue;
     std::vector<Clouds<D>> clouds;
     for (const int level : study.levels()) {
-      // Coarse levels have as many clouds as have the particles of the finest cloud, so that
-      // averages over chance are alike.
+      // Coarse levels use more clouds, so that all levels average over about the same number of
+      // particles.
       const Real refined = std::pow(study.levels().back() / Real(level), D);
       clouds.emplace_back(D == 2 ? 2 * level : level, jitter,
                           jitter > 0 ? 1 + static_cast<int>(refined) : 1);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ellipsoidal nano-drop of Fan 2014, section 6.1, refined: aspect at 0.5, 1, 2, 3, 4 times T =
-// sqrt(rho R^3 / gamma). Large amplitudes have no closed solution. The reference is the limit of
-// one method under refinement; other integration rules, surface forms and clouds have to converge
-// to it, too. The values of RKPM note 8 are shown beside it.
+// sqrt(rho R^3 / gamma). No closed solution exists for large amplitudes. The reference is the limit
+// of one method under refinement; other integration rules, surface forms and clouds must converge
+// to it, too. The values of RKPM note 8 are shown for comparison.
 #include "run/simulation.hpp"
 #include "study/study.hpp"
 
@@ -26,7 +26,7 @@ constexpr Method others[] = {{"gauss 3x3x3, weak 3x3", "gauss", "weak", 0},
                              {"q_scni, curvature 3x3", "q_scni", "curvature", 0},
                              {"q_scni, weak 3x3, jitter 20 %", "q_scni", "weak", 0.2}};
 
-constexpr std::array<Real, 5> times{0.5, 1, 2, 3, 4};  // in T
+constexpr std::array<Real, 5> times{0.5, 1, 2, 3, 4};  // in units of T
 // Values at 4341 particles with straight-edged cells, whose mass is 1.07 % too small.
 constexpr std::array<Real, 5> note_8{1.3204, 1.1626, 1.0385, 1.0090, 1.0019};
 const std::array<std::string, 5> names{"aspect 0.5 T", "aspect T", "aspect 2 T", "aspect 3 T",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases: each has to stay stable, or to stop and name the cause.
+// Hard cases: each must stay stable, or stop with a message that names the cause.
 #include "meniscus/error.hpp"
 #include "scene/scene.hpp"
 #include "solve/audit.hpp"
@@ -22,7 +22,7 @@ const std::string solid =
     "material = { type = \"neo_hookean\", density = 1, mu = 0.384615384615, lambda = "
     "0.576923076923 "
     "}\n";
-/// A swirl that a cube at the origin can follow without hindrance by its edges.
+/// A swirling initial velocity; the edges of a cube at the origin do not hinder it.
 const std::string swirl =
     "initial_velocity = [\"0.02*sin(pi*x)*cos(pi*y)\", \"-0.02*cos(pi*x)*sin(pi*y)\", \"0\"]\n";
 
@@ -35,9 +35,9 @@ std::string box(const std::string& cells, const std::string& keys, Real end,
       end, size, cells, keys);
 }
 
-/// A bar released at once, corners included, at the default step. From a stretch of 1.2 on it folds
-/// for any supports and spacing: at a corner first, or, when the bar comes back, where the law is
-/// no longer elliptic.
+/// A stretched bar that is released suddenly, corners included, with the default step. From a
+/// stretch of 1.2 on it folds for all supports and spacings: first at a corner, or later, when the
+/// bar contracts, where the law loses ellipticity.
 std::string bar(Real stretch, Real end) {
   return fmt::format(
       "dimension = 3\ntime = {{ end = {:.17g} }}\n[[body]]\nname = \"body\"\nshape = \"box\"\n"
@@ -47,8 +47,8 @@ std::string bar(Real stretch, Real end) {
       end, stretch - 1);
 }
 
-/// Central differences with the fraction `part` of the estimated stable step. Scenes cannot ask for
-/// this, since steps above the limit are refused there.
+/// Runs central differences with the fraction `part` of the estimated stable step. Scenes cannot do
+/// this, because they refuse steps above the limit.
 HardOutcome run_at(Real part, int steps) {
   HardOutcome outcome;
   const SceneInput input =

@@ -32,7 +32,7 @@ std::string header(Real end) {
   return fmt::format("dimension = 2\n[time]\nend = {}\n", end);
 }
 
-/// Requires the smallest gap of a run in which bodies meet.
+/// Requires that the smallest gap of a run in which bodies meet is in the range `allowed`.
 void met(HardCases& cases, const std::string& name, const HardOutcome& outcome, Range allowed) {
   const auto gap = outcome.least.find("contact.gap");
   cases.require(name, "least gap / sigma0",
@@ -40,7 +40,7 @@ void met(HardCases& cases, const std::string& name, const HardOutcome& outcome, 
 }
 
 void first_contact(HardCases& cases) {
-  const Real c = std::sqrt(1100.0);  // of compression waves
+  const Real c = std::sqrt(1100.0);  // speed of compression waves
   const std::string name = "first contact at 0.1 c";
   const HardOutcome outcome = cases.stays_stable(
       name,
@@ -124,9 +124,8 @@ Thrown thrown(const Body<D>& body, const State& state) {
   return sum;
 }
 
-/// Two bodies of radius 1 without friction, with an impact parameter of 0.6 in a direction that
-/// differs from those of their lattices. Angular momentum L that the collision gives them is an
-/// artefact (CGCM note 10).
+/// Collides two bodies of radius 1 without friction, with an impact parameter of 0.6 in a direction
+/// that differs from their lattices. Angular momentum L that they gain is an error (CGCM note 10).
 template <int D>
 void without_friction(HardCases& cases, const std::string& name, const std::string& shape,
                       Real bound) {
@@ -198,8 +197,8 @@ Real pinning(Real spacing_per_gap) {
   return largest / plane_contact(law, 1).peak_traction;
 }
 
-/// Flat lattices in registry hold each other at coarse spacings, and hardly at all for h <= gap /
-/// 2.
+/// Flat lattices of points in registry hold each other at coarse spacings, but hardly for h <= gap
+/// / 2.
 void registry(HardCases& cases) {
   if (!cases.wants("lattices in registry")) return;
   for (const Real ratio : {0.4, 0.5, 0.75, 1.0})
@@ -219,7 +218,8 @@ void hard_contact(HardCases& cases) {
   without_friction<2>(cases, "disks without friction",
                       "shape = \"disk\"\nradius = 1\ncore = 6\nrings = 3", 1e-3);
   if (!cases.study().brief()) {
-    // Supports are wider than the default of solids, 1.5: with it, balls of core = 6 err by 1.7e-3.
+    // Supports are wider than the default for solids, 1.5: with the default, balls of core = 6 have
+    // an error of 1.7e-3.
     for (const auto& [core, bound] : {std::pair{4, 5e-2}, {6, 1e-3}})
       without_friction<3>(
           cases, fmt::format("balls without friction, core = {}", core),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of drops: far from round, of small viscosity, with edges, spinning, attracting each
-// other, and at rest for long.
+// Hard cases of drops: far from round, with small viscosity, with edges, spinning, attracting each
+// other, and at rest for a long time.
 #include "study/support/hard_cases.hpp"
 
 #include <fmt/core.h>

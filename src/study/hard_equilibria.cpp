@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of equilibria by Newton's method: an arch that snaps through, a nearly incompressible
-// block compressed to half its height, an end rotated by half a turn, a surface that jumps into
-// contact, and thin drops that relax to a circle.
+// Hard equilibria for Newton's method: an arch that snaps through; a nearly incompressible block
+// compressed to half its height; an end rotated by half a turn; a surface that jumps into contact;
+// thin drops that relax to a circle.
 #include "study/support/hard_cases.hpp"
 
 #include <fmt/core.h>
@@ -30,7 +30,7 @@ std::string held(const std::string& name, const std::string& where, const std::s
   return fmt::format("[[held]]\nname = \"{}\"\nbody = \"body\"\n{}\n{}", name, where, more);
 }
 
-/// One face is held, the opposite one moves.
+/// Tables that hold one face and move the opposite one.
 std::string gripped(const std::string& base, const std::string& grip, const std::string& motion) {
   return held("base", "face = \"" + base + "\"") + held("grip", "face = \"" + grip + "\"", motion);
 }
@@ -67,8 +67,8 @@ void pressed_block(HardCases& cases, bool full) {
           gripped("y_min", "y_max", "displacement = [0, \"-0.5*t\"]\n"),
       1e-2);
   cases.require(name, "jumps", outcome.measure("jumps"), {0, 0});
-  // Expected: the pressure of the force, 11 below the plates and less beside them, over the bulk
-  // modulus 100.
+  // Expected compression: the pressure of the force, 11 below the plates and less beside them, over
+  // the bulk modulus 100.
   cases.require(name, "area / reference area", outcome.measure("body.volume") / 2, {0.89, 0.97});
 }
 
@@ -89,7 +89,7 @@ void half_a_turn(HardCases& cases, bool full) {
                 outcome.measure("grip.torque_x") / (0.1406 * std::acos(-1.0) / 4), {0.9, 1.2});
 }
 
-/// A soft half disk and a plate that approaches and goes away farther. The Tabor number (R
+/// A soft half disk and a plate that approaches it and then moves away farther. The Tabor number (R
 /// W^2/(E*^2 g*^3))^(1/3) is 5: the surface jumps into contact and is pulled off late.
 void jump_in(HardCases& cases, bool full) {
   const std::string name = "jump into contact at Tabor number 5";

@@ -76,15 +76,15 @@ void nearly_incompressible(HardCases& cases, bool full) {
     const std::string name = law.name + ", nu = 0.4999";
     const HardOutcome outcome = keeps_momenta(
         cases, name, scene(full ? 2 : 0.3, cube, "jitter = 0.2\n" + law.material + swirl));
-    // In liquid crystal elastomers with the director along z, the stress-free state is not the
-    // start.
+    // In liquid crystal elastomers with the director along z, the initial state is not free of
+    // stress.
     cases.require(name, "volume / reference volume - 1", outcome.measure("body.volume") - 1,
                   {-1e-3, 1e-3});
   }
 }
 
-/// Bars released at once from a stretch at constant volume. When the waves from both ends have met,
-/// corners are thrown into a bar farther than its particles resolve.
+/// Bars released suddenly from a stretch at constant volume. When the waves from both ends meet,
+/// corners move into the bar farther than the particles resolve.
 void let_go(HardCases& cases, bool full) {
   const auto all = laws(bulk);
   const std::vector<std::pair<Law, std::vector<Real>>> stretches{
@@ -210,7 +210,7 @@ void fast(HardCases& cases, bool full) {
                 gap == thrown.least.end() ? std::nan("") : gap->second / 0.3, {0.2, 1});
 }
 
-/// Bars rotated at one end by half a turn, and at both ends, where only the rotation may remain.
+/// Bars rotated by half a turn at one end, and at both ends; then only the rotation may remain.
 void turned(HardCases& cases, bool full) {
   const Real end = full ? 24 : 8;
   const std::string by_half_a_turn = fmt::format(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of surface laws: skins far stiffer than the body, skins with moduli that are not
-// positive, skins that alone hold a liquid, tensions that drive flows for long or become negative.
+// Hard cases of surface laws: skins far stiffer than the body; skins with moduli that are not
+// positive; skins as the only elasticity around a liquid; tensions that drive flows for a long time
+// or become negative.
 #include "study/support/hard_cases.hpp"
 
 #include <fmt/core.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases of drops on walls: contact angles near 0 and 180 degrees, a heavy drop with little
-// adhesion, complete wetting, ranges and supports that hardly resolve the line, impact, lift-off,
-// two drops that meet, a tip pulled out of a film, and ground too soft for its adhesion.
+// Hard cases of drops on walls: contact angles near 0 and 180 degrees; a heavy drop with little
+// adhesion; complete wetting; coarse ranges and supports at the contact line; impact and lift-off;
+// two drops that meet; a tip pulled out of a film; ground too soft for its adhesion.
 #include "study/support/hard_cases.hpp"
 
 #include <fmt/core.h>
@@ -109,7 +109,8 @@ void motions(HardCases& cases, bool full) {
       1e-2);
 }
 
-/// For water and a tip of 5 nm the speed is 120 m/s. A neck of liquid forms at the tip.
+/// A tip is pulled out of a film, and a neck of liquid forms. For water and a tip of 5 nm the speed
+/// is 120 m/s.
 void neck(HardCases& cases, bool full) {
   const std::string name = "tip is drawn out of a film, with a neck";
   const auto outcome = cases.stays_stable(

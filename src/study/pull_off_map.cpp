@@ -160,7 +160,7 @@ Measurement pulled_off(const Case& c, int core, const Way& way) {
   m.bytes = scene.system.bytes();
   m.set_up = set_up.seconds();
   const Stopwatch run;
-  const auto pull = [&] {  // of all four quarters, relative to a stiff ball
+  const auto pull = [&] {  // pull of all four quarters / pull-off of a stiff ball
     const auto force = std::find_if(scene.measures.begin(), scene.measures.end(),
                                     [](const auto& s) { return s.name == "tip.force_z"; });
     return -4 * force->compute(simulation.state().motion()) / (2 * pi * c.adhesion());

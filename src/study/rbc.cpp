@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A red blood cell by deflation to 0.7 of its cavity: error against axisymmetric finite elements
-// (red blood cell note 4) over the time to equilibrium, and what becomes of shells that are
-// thinner, thicker, nearly incompressible, not perfect, or pushed on the way.
+// A red blood cell made by deflation to 0.7 of its cavity. Measures the error against axisymmetric
+// finite elements (red blood cell note 4) over the time to equilibrium, and the behaviour of shells
+// that are thinner, thicker, nearly incompressible, imperfect, or pushed during deflation.
 #include "run/simulation.hpp"
 #include "study/study.hpp"
 
@@ -16,8 +16,8 @@ namespace {
 constexpr Real quarter_meridian = 3.5 + 1.5 * std::numbers::pi / 2;
 constexpr Real ramp_end = 10;
 
-/// A shell and how it is deflated. The target is 0.7 V0 less what the pressure of the finite
-/// elements makes of the penalty.
+/// A shell and its deflation. The target volume is 0.7 V0, corrected for the pressure of the finite
+/// elements and the penalty.
 struct Variation {
   std::string name;
   int layers = 4;
@@ -26,8 +26,8 @@ struct Variation {
   bool pushed = false;
 };
 
-/// Both faces are pushed to one side, with 20 Pa at the most on a wall of 0.5 um, while the ramp
-/// lasts: a place in the middle of the faces is accelerated by -a sin^2(pi t / ramp_end).
+/// Pushes both faces to one side while the ramp lasts, by at most 20 Pa on a wall of 0.5 um. The
+/// middle of the faces has the acceleration -a sin^2(pi t / ramp_end).
 class Push final : public ForceTerm {
  public:
   explicit Push(const Body<3>& body) : body_(body) {}
@@ -132,8 +132,8 @@ Real value(const Measurement& m, std::string_view name) {
   throw std::logic_error("no value " + std::string(name));
 }
 
-/// Errors against the finite-element shell at 0.7 V0: relative, that of the ratio absolute, that of
-/// the profile in um.
+/// Errors against the finite-element shell at 0.7 V0: relative errors, except for the ratio
+/// (absolute) and the profile (in um).
 Measurement compared(Measurement m) {
   const auto error = [&](std::string_view name, Real exact) {
     return std::abs(value(m, name) / exact - 1);
@@ -147,7 +147,8 @@ Measurement compared(Measurement m) {
   return m;
 }
 
-/// Somewhat narrower than red blood cell note 8; wider for coarse shells.
+/// Requires bounds on the errors that are somewhat narrower than in red blood cell note 8; wider
+/// for coarse shells.
 void require_close(StudyRun& study, const Measurement& m) {
   const Real factor = std::max(1.0, std::pow(12.0 / m.level, 2));
   const Measurement::Numbers bounds{{"profile", 0.02},        {"ratio", 0.015},
@@ -178,7 +179,7 @@ void converge(StudyRun& study) {
                   {1.5, unbounded});
 }
 
-/// The end state is a red blood cell: the bounds of red blood cell note 8.
+/// Requires that the end state is a red blood cell, with the bounds of red blood cell note 8.
 void require_biconcave(StudyRun& study, const Measurement& m, Real ratio, Real within) {
   study.require("ratio, " + m.method, value(m, "thickness_ratio"),
                 {ratio - within, std::min(ratio + within, 0.9)});
@@ -190,7 +191,7 @@ void require_biconcave(StudyRun& study, const Measurement& m, Real ratio, Real w
 void vary(StudyRun& study) {
   struct Case {
     Variation variation;
-    Real ratio, within;  ///< of finite elements; for the thickness 0.7 between those of 0.5 and 1
+    Real ratio, within;  ///< by finite elements; thickness 0.7: interpolated
   };
   std::vector<Case> cases{{{.name = "pushed to one side", .pushed = true}, 0.602, 0.02}};
   if (!study.brief()) {

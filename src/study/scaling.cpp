@@ -86,9 +86,9 @@ struct StepTimes {
   double one, two, at_once;
 };
 
-/// Measures in turns, since others may use the machine. Each turn takes about a second, so that the
-/// threads and caches left by the turn before do not matter. On a virtual machine a processor that
-/// slept may need up to 0.1 s to be near the other's cache again.
+/// Measures in turns, because other programs may use the machine. Each turn takes about a second,
+/// so that the threads and caches left by the previous turn do not matter. On a virtual machine, a
+/// processor that slept may need up to 0.1 s until it runs near the cache of the other one again.
 StepTimes step_times(Cube& cube, Cube& beside) {
   const int in_a_row = std::max(10, 2000000 / cube.particles());
   constexpr int rounds = 3;

@@ -27,7 +27,7 @@ ContactLaw law() {
   return law;
 }
 
-/// Distance between the bases of stiff discs; the soft ones come as near to each other.
+/// Distance between the bases of stiff discs; soft discs come equally close.
 constexpr Real distance = 2.08;
 constexpr std::array<Real, 6> offsets{-1, -0.7, -0.5, -0.3, -0.1, 0};
 

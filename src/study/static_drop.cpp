@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drop at rest: spurious motion and shape. It starts as a ball (2D: disk) in its Laplace
-// pressure, or as an ellipsoid (ellipse) 1.5 : 1 that relaxes first and whose particles keep that
-// deformation (static-drop note 3).
+// A drop at rest: spurious motion and shape. It starts as a ball (2D: disk) in equilibrium with its
+// Laplace pressure, or as an ellipsoid (ellipse) 1.5 : 1 that relaxes first; its particles keep
+// that deformation (static-drop note 3).
 #include "study/study.hpp"
 #include "study/support/static_drop_case.hpp"
 
@@ -28,7 +28,7 @@ void run(StudyRun& study) {
   struct Family {
     StaticDrop drop;
     Real end;
-    int finest;  ///< level
+    int finest;  ///< finest level
     int coarsest = 0;
   };
   std::vector<Family> families;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bookkeeping of a study.
+// Bookkeeping of a study: measurements, checks, observed orders.
 #include "study/study.hpp"
 
 #include <fmt/core.h>

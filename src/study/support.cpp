@@ -35,11 +35,11 @@ struct Support {
 
 constexpr Support standard{false, 1.8};
 
-/// A use of supports that is measured.
+/// A field of use for which supports are compared.
 struct Use {
   std::string name;
-  std::string error;  ///< error that compares supports; empty: none
-  int finest;         ///< level
+  std::string error;  ///< error by which supports are compared; may be empty
+  int finest;         ///< finest level
   Measurement (*measure)(const std::string& method, Support support, int level);
 };
 

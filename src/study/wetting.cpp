@@ -14,7 +14,7 @@ namespace meniscus::wetting_study {
 namespace {
 
 struct Case {
-  int angle;  ///< in degrees
+  int angle;  ///< contact angle in degrees
   const char* form;
   const char* viscosity;
 
@@ -77,7 +77,7 @@ class Drop {
     simulation_.begin();
   }
 
-  /// Runs up to the first step that reaches t.
+  /// Runs up to the first step that reaches the time t.
   void follow(Real t) {
     while (simulation_.state().time < t * (1 - 1e-12)) simulation_.advance();
     balance_ =
@@ -105,7 +105,8 @@ class Drop {
   Real balance_ = 0;
 };
 
-/// `alone`: runs until t = 30, to measure the motion after t = 15.
+/// Measures a spreading drop. `alone`: runs until t = 30, to measure the residual motion after t =
+/// 15.
 Measurement measure(const Case& c, int core, Real end, bool alone) {
   const Stopwatch set_up;
   Drop drop(c, core, alone ? 30 : end);
@@ -178,7 +179,8 @@ void run(StudyRun& study) {
   for (const int angle : {60, 120})
     for (const int level : study.levels())
       if (level >= 6 && level <= 10) add({angle, "balanced", "implicit"}, level, false);
-  // The same drop with the weak form, and with explicit viscosity.
+  // The drop of 90 degrees with the weak form and with explicit viscosity; the drop of 120 degrees
+  // left alone.
   add({90, "weak", "implicit"}, 6, false);
   add({90, "balanced", "explicit"}, 6, false);
   for (const char* form : {"balanced", "weak"}) add({120, form, "implicit"}, 6, true);

@@ -59,7 +59,7 @@ def picture(run, body):
         time_factor, time_unit = style.scale(run.time_unit, run.times)
         time = style.time_text(run.times[frame], time_unit, time_factor)
         axis.plot([], [], color=color, label=f"{text}, {time}")
-    radius = factor * np.abs(x[:, plane.axes[0]]).max()  # of the last frame
+    radius = factor * np.abs(x[:, plane.axes[0]]).max()  # radius in the last frame
     r = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))  # dense where the curve is steep
     half = evans_fung(np.abs(r)) / 7.82 * radius
     for side in (1, -1):

@@ -9,7 +9,7 @@ from histories import column
 
 # Widest ratio of values that a linear axis still shows.
 LINEAR_RATIO = 100
-# Of the largest value: what is below is no point of a logarithmic axis.
+# Values below this fraction of the largest value are not drawn on a logarithmic axis.
 ROUND_OFF = 1e-10
 
 

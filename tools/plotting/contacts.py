@@ -60,7 +60,7 @@ def curve(axis, x, push, first, labels):
     """Force over x: one colour for steps that end at a record marked in `first`, another for the
     other steps."""
     for number, (shown, label) in enumerate(zip((first, ~first), labels)):
-        joined = shown | np.append(shown[1:], False)  # each piece from where the last one ended
+        joined = shown | np.append(shown[1:], False)  # each piece begins where the last one ended
         axis.plot(x, np.where(joined, push, np.nan), color=style.COLORS[number], lw=0.9, label=label)
     axis.axhline(0, color="0.7", lw=0.6, zorder=0)
     axis.legend()

@@ -4,7 +4,7 @@
 import numpy as np
 from matplotlib.collections import LineCollection
 
-LENGTH = 0.8  # of a rod for a director of length one, in spacings
+LENGTH = 0.8  # length of the rod of a unit director, in spacings
 
 
 def rods(run, frame, body, near, axes):

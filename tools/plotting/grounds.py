@@ -9,7 +9,7 @@ from matplotlib.collections import LineCollection
 import sections
 import style
 
-WIDTH = 4.6  # inches, of the ground
+WIDTH = 4.6  # width of the ground, in inches
 
 
 def draw(run, count):

@@ -15,7 +15,7 @@ import partners
 import style
 import surfaces
 
-SECONDS = 8  # a movie should last at most
+SECONDS = 8  # longest duration of a movie
 FORMATS = ("mp4", "gif")
 
 
@@ -85,7 +85,7 @@ def in_the_plane(run, frames, field):
     points = np.concatenate(seen)
     margin = 0.04 * np.ptp(points, axis=0).max()
     low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
-    low[1] -= margin  # for the bar of the scale
+    low[1] -= margin  # space for the scale bar
     figure, axis = figure_of((high - low)[1] / (high - low)[0])
     coloring = surfaces.Coloring(run, field, frames)
     coloring.bar(figure, axis)

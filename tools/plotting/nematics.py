@@ -11,7 +11,7 @@ import sections
 import style
 from histories import time_axis
 
-DECADES = 3  # shown of the size of the dipole
+DECADES = 3  # decades of the size of the dipole that are shown
 
 
 def draw(run, count):

@@ -11,8 +11,8 @@ import traceback
 
 import style
 
-LONGEST = 600  # characters of a message
-MOST_PIXELS = 1e8  # of a picture
+LONGEST = 600  # longest message, in characters
+MOST_PIXELS = 1e8  # largest picture, in pixels
 
 
 def printable(text):

@@ -6,7 +6,7 @@ import numpy as np
 
 import style
 
-BEGIN, END = 0.05, 0.85  # of the colour map: the lightest yellow is hard to see
+BEGIN, END = 0.05, 0.85  # used part of the colour map: the lightest yellow is hard to see
 
 
 def draw(run, count):

@@ -92,7 +92,7 @@ def figures(run, args):
         picture = io.BytesIO()
         outside.save(figure, picture, format="png", dpi=130)
         text = base64.b64encode(picture.getvalue()).decode()
-        width = int.from_bytes(picture.getvalue()[16:20], "big")  # two curves beside each other
+        width = int.from_bytes(picture.getvalue()[16:20], "big")  # two curves side by side
         shown.append(f'<figure><img alt="{escaped(name)}" width="{0.72 * width:.0f}" '
                      f'src="data:image/png;base64,{text}">'
                      f"<figcaption>{escaped(name.replace('_', ' '))}</figcaption></figure>")  # fmt: skip

@@ -31,7 +31,7 @@ class Log:
         self.errors = texts("error")
         self.calls = [t for t in texts("info") if re.match(r"meniscus \d", t)]
         self.ends = [t for t in texts("info") if re.match(r"\d+ steps in ", t)]
-        # The last run alone says what is true now.
+        # Only the last run in the log describes the present files.
         last = max((k for k, (_, t) in enumerate(said) if re.match(r"meniscus \d", t)), default=0)
         now = [t for level, t in said[last:] if level == "info"]
         self.expected = [m.groups() for t in now if (m := self.EXPECTED.match(t))]

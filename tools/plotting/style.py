@@ -9,7 +9,7 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 
-# How the scripts here were called, for messages.
+# The command by which a script was called, for messages.
 COMMAND = os.environ.get("MENISCUS_COMMAND", f"tools/{pathlib.Path(sys.argv[0]).stem}")
 DPI = 200
 
@@ -80,7 +80,7 @@ def label(text, unit):
     return f"{text} ({unit})" if unit else text
 
 
-# Names in words of fields and measures whose keys are short.
+# Descriptive names of fields and measures with short keys.
 WORDS = {
     "von_mises": "von Mises stress", "J": "volume ratio J", "F": "deformation gradient F",
     "P": "first Piola stress P", "ca": "capillary number", "p2": "second mode $p_2$", "min_J": "least volume ratio J",

@@ -11,7 +11,7 @@ import style
 
 # The eye looks along -EYE; up in the picture is z. Light comes from the upper left of the eye.
 EYE = np.array([0.80, -0.48, 0.36])
-EYE_OF_SHELLS = np.array([0.80, -0.48, 0.72])  # from higher up, into the dimple
+EYE_OF_SHELLS = np.array([0.80, -0.48, 0.72])  # higher up, to look into the dimple
 KEY, KEY_STRENGTH = np.array([-0.45, 0.60, 0.66]), 0.60  # right, up, towards the eye
 FILL, FILL_STRENGTH = np.array([0.80, 0.05, 0.60]), 0.16
 AMBIENT, GLOSS, SHININESS = 0.40, 0.30, 40
@@ -133,7 +133,7 @@ def facets(bodies, scene, colors=None, parts=6):
         seen = normals[:, :, 2].max(axis=1) > 0
         quads, normals = quads[seen], normals[seen]
         outline = quads[:, [0, 1, 3, 2]]
-        # In front of the neighbouring facets, which would otherwise cover half of the line.
+        # Draw the line in front of the neighbouring facets, which would otherwise cover half of it.
         add(outline, outline[:, :, 2].max(axis=1) + 0.5 * body.spacing, (0, 0, 0, 0), EDGE)
         color = np.array(plt.matplotlib.colors.to_rgb(style.COLORS[number % len(style.COLORS)]))
         corner_colors = np.broadcast_to(color, (*quads.shape[:2], 3))

@@ -9,7 +9,7 @@ from matplotlib.collections import PolyCollection
 import style
 from histories import panels
 
-FREE_ABOVE = 0.35  # of the height: there the range of the wall does not bend the surface
+FREE_ABOVE = 0.35  # fraction of the height above which the wall does not bend the surface
 
 
 def draw(run, count):

@@ -198,7 +198,7 @@ template <int D>
 void add_integrals(const Body<D>& body, const CellSamples<D>& samples,
                    NearCandidates<D>& candidates, std::vector<VolumeIntegral>& volume,
                    std::span<std::vector<Flux<D>>> facets) {
-  thread_local std::vector<std::size_t> next;  // [facet] its next point
+  thread_local std::vector<std::size_t> next;  // [facet] number of its next point
   next.clear();
   for (const auto& facet : samples.facets) next.push_back(facet.begin);
   for_fours<D>(
@@ -220,7 +220,7 @@ template <int D>
 void list_with_flux(std::span<const Flux<D>> flux, std::vector<Index>& numbers) {
   numbers.resize(flux.size());
   std::size_t count = 0;
-  for (std::size_t k = 0; k < flux.size(); ++k) {  // no branch: it could not be predicted
+  for (std::size_t k = 0; k < flux.size(); ++k) {  // without a branch, which could not be predicted
     numbers[count] = static_cast<Index>(k);
     count += !flux[k].is_zero();
   }

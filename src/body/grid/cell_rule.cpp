@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building the rule of nodal cells with linear moments: their rows, from the integrals of shape
-// functions over cells and facets (RKPM note 5.6).
+// Builds the quadrature rule of nodal cells with linear moments: integrals of shape functions over
+// cells and facets give its rows (RKPM note 5.6).
 #include "body/body.hpp"
 #include "body/grid/cell_integrals.hpp"
 #include "body/grid/rounded_rows.hpp"
@@ -23,16 +23,16 @@ struct CellRow {
   };
   std::vector<Entry> entries;                  // by ascending particle
   std::vector<Index> particle;                 // in the order in which they are packed
-  std::vector<std::array<Lanes, D>> gradient;  // likewise, [K]: (a_K, B_K.)
-  std::size_t exact = 0;                       // how many of them stay in double
+  std::vector<std::array<Lanes, D>> gradient;  // in the same order, [K]: (a_K, B_K.)
+  std::size_t exact = 0;                       // number of leading entries that stay in double
 };
 
-/// Adds to a row what facets of cells before it in its block have of it. Particles that are new to
-/// the row come behind the others.
+/// Adds to a row the fluxes through facets that the cell shares with earlier cells of its block,
+/// where they were computed. Particles that are new to the row are appended.
 template <int D>
 void add_lower_facets(const Body<D>& body, Index cell, std::span<const CellIntegrals<D>> block,
                       Index first, CellRow<D>& row) {
-  thread_local std::vector<Index> slot;  // [particle] its entry; -1: none yet
+  thread_local std::vector<Index> slot;  // [particle] number of its entry; -1: no entry yet
   thread_local std::vector<Index> lower;
   slot.resize(std::max(slot.size(), body.particles.X().size()), -1);
   for (std::size_t e = 0; e < row.entries.size(); ++e)
@@ -89,9 +89,10 @@ void assemble_row(const Body<D>& body, Index cell, std::span<const CellIntegrals
   }
 }
 
-/// For more entries than the rows of these cells have, by the particles that reach boxes like some
-/// of the cells: what is not filled takes no memory, but growing would take twice as much for a
-/// moment.
+/// Reserves memory for the entries of the rows of these cells. The number of entries is estimated
+/// from above: some cells are sampled, and all particles whose supports reach the bounding sphere
+/// of a sample are counted. Unused reserve occupies no memory, while growing an array would need
+/// twice its memory for a moment.
 template <int D>
 void reserve_entries(const Body<D>& body, OwnItems cells, RowPrecision precision,
                      CellRule<D>& rule) {
@@ -123,8 +124,8 @@ std::array<Vec<D>, D + 1> simplex() {
   }
 }
 
-/// xi_q = sqrt(D) S^(1/2) t_q, a lane per q. In 2D the fourth lane, which has weight zero, repeats
-/// the third point: its stress is finite wherever that of the cell is.
+/// Stress points xi_q = sqrt(D) S^(1/2) t_q, one lane per q. In 2D the fourth lane has weight zero;
+/// it repeats the third point, so that its stress is finite if the stresses of the cell are.
 template <int D>
 std::array<Lanes, D> stress_points(const Mat<D>& S) {
   const Mat<D> root = square_root<D>(S);
@@ -136,7 +137,8 @@ std::array<Lanes, D> stress_points(const Mat<D>& S) {
   return xi;
 }
 
-/// Orders the entries of a row as they are packed and rounded.
+/// Sorts the entries of a row into the order in which they are packed, and compensates rounding to
+/// single precision.
 template <int D>
 void order_row(const Body<D>& body, Index cell, RowPrecision precision, CellRow<D>& row) {
   row.particle.clear();
@@ -177,13 +179,14 @@ void pack(std::span<const CellRow<D>> rows, CellRule<D>& rule) {
       8);
 }
 
-/// Has the system fill the pages of the next elements of an array, as far as they are reserved.
+/// Makes the system provide the memory pages of the next `count` elements of an array, within its
+/// reserve.
 template <class T>
 void take_pages_of_next(UnsetVector<T>& v, std::size_t count) {
   take_pages(v.data() + v.size(), std::min(count, v.capacity() - v.size()) * sizeof(T));
 }
 
-/// Volumes and stress points of all cells: little beside their rows.
+/// Sets the volumes and stress points of all cells; they take little memory compared with the rows.
 template <int D>
 void list_points(const Body<D>& body, CellRule<D>& rule) {
   rule.volume.resize(static_cast<std::size_t>(body.size()));
@@ -195,7 +198,7 @@ void list_points(const Body<D>& body, CellRule<D>& rule) {
   });
 }
 
-/// Makes the rows of all other cells empty.
+/// Gives the cells after the last row empty rows.
 template <int D>
 void end_rows(const Body<D>& body, CellRule<D>& rule) {
   const std::size_t size = static_cast<std::size_t>(body.size()) + 1;
@@ -203,20 +206,22 @@ void end_rows(const Body<D>& body, CellRule<D>& rule) {
   rule.double_start.resize(size, rule.double_start.back());
 }
 
-/// Appends rows to a rule that has none. What cells share within a block is computed once, and what
-/// they share with others twice, for whatever cells the rows are asked: so rows do not depend on
-/// that to the last bit.
+/// Appends the rows of the given cells to a rule without rows. Facets shared within a block of
+/// cells are computed once, and facets between blocks twice. Blocks do not depend on `cells`, so
+/// the rows have the same bits on any number of ranks.
 template <int D>
 void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, CellRule<D>& rule,
                  SumsOverRanks& shape_integral) {
   rule.start.resize(static_cast<std::size_t>(cells.begin) + 1, 0);
   rule.double_start.resize(rule.start.size(), 0);
   reserve_entries(body, cells, precision, rule);
-  // What rows are made of takes several times their memory; rows that are not packed yet, twice.
+  // The integrals need several times the memory of their rows, and rows that are not packed yet
+  // twice as much: small blocks keep both small.
   constexpr Index block = 512, packed_at_once = 64;
   std::vector<CellIntegrals<D>> integrals(static_cast<std::size_t>(std::min(block, body.size())));
   std::vector<CellRow<D>> rows(static_cast<std::size_t>(packed_at_once));
-  // By the rows of the block before; of the first, its share of what is reserved.
+  // Expected number of elements of the next block: as many as the block before had; for the first
+  // block, its share of the reserve.
   const auto share = [&](std::size_t reserved) {
     return reserved * static_cast<std::size_t>(block) /
            static_cast<std::size_t>(std::max(block, cells.end - cells.begin));

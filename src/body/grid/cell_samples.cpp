@@ -67,7 +67,7 @@ std::size_t number_of(const typename Grid<D>::Cell& cell, int corner,
   key.fill(-1);
   if (std::any_of(places.begin(), places.end(), is(0)) ||
       std::all_of(places.begin(), places.end(), is(Table::end))) {
-    key.fill(0);  // the particles and distances that describe it: equal in each part
+    key.fill(0);  // particles and distances identify a point in all parts
     for (int k = 0; k < D; ++k)
       if (at(places, k) != 0)
         at(key, k) = 1 + at(places, k) + Table::distances * node_of<D>(cell, corner, k);
@@ -250,7 +250,7 @@ void NodalCells<D>::sample_facet(Index node, std::span<const FacetPart> parts,
   auto& facet = samples.facets.emplace_back();
   facet.neighbor = parts.front().neighbor;
   facet.begin = samples.facet_points.size();
-  // Both sides count, so that a body and its mirror image have the same points.
+  // Test the supports from both sides, so that a body and its mirror image have the same points.
   const auto is_long_part = [&](const FacetPart& p) {
     const int beyond = corner_along<D>(at(grid_->cells, p.cell), p.corner, p.k);
     return is_long(node, p.cell, p.corner, particles) ||

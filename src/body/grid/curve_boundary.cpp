@@ -56,7 +56,7 @@ class EdgeDeviations {
             for (const auto& edge : edges) {
               const auto [a, b] =
                   std::minmax({at(facet.nodes, edge.corners[0]), at(facet.nodes, edge.corners[1])});
-              if (a != b) f(a, Edge{b, &facet, edge.middle});  // equal in a triangle
+              if (a != b) f(a, Edge{b, &facet, edge.middle});  // a triangle repeats a node
             }
         },
         [&](Offset count) { edges_.resize(static_cast<std::size_t>(count)); },

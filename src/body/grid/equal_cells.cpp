@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Comparing the cells of a grid.
+// Finds equal cells of a grid.
 #include "body/grid/equal_cells.hpp"
 
 #include "body/grid/simplex.hpp"
@@ -12,7 +12,7 @@ namespace {
 constexpr Real same_edge = 1e-13;  // relative to the longest edge
 
 template <int D>
-using Edges = std::array<Vec<D>, D>;  // [k] along xi_k
+using Edges = std::array<Vec<D>, D>;  // [k] edge along xi_k
 
 template <int D>
 Edges<D> edges_of(const Grid<D>& grid, Index cell) {

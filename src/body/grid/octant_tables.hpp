@@ -84,7 +84,7 @@ class OctantTable {
  public:
   using Points = std::vector<FourTabulatedPoints<D>>;
 
-  /// The table of cells that are curved in the directions of the bits of `curved`.
+  /// The table of cells that are curved in the directions k for which bit k of `curved` is set.
   static const OctantTable& instance(unsigned curved) {
     static constexpr auto tables = []<unsigned... c>(std::integer_sequence<unsigned, c...>) {
       return std::array{&made<c>...};
@@ -99,7 +99,7 @@ class OctantTable {
   const Points& outer(int corner, int k) const { return at(outer_, corner * D + k); }
 
  private:
-  /// The table is made at the first call: most bodies need only one.
+  /// The table, made at the first call: usually only one kind of table is used.
   template <unsigned curved>
   static const OctantTable& made() {
     static const OctantTable table(curved);
@@ -238,7 +238,7 @@ class SampleTable {
   using Points = std::vector<Point>;
   struct Facet {
     Points points;
-    Real sign = 1;  ///< of the outward normal against column k of cof J
+    Real sign = 1;  ///< sign of the outward normal relative to column k of cof J
   };
 
   static const SampleTable& of(bool simplex) { return simplex ? made<true>() : made<false>(); }
@@ -392,8 +392,8 @@ struct FourCellPoints {
     } else {
       const int a = (k + 1) % 3, b = (k + 2) % 3;
       const auto component = [&](std::size_t i, std::size_t j) {
-        // This product in a statement of its own makes g++ round the other product, as for a single
-        // point.
+        // A statement of its own makes g++ round this product (and not the other one), as for a
+        // single point.
         const Lanes product = at(J[i], a) * at(J[j], b);
         return product - at(J[j], a) * at(J[i], b);
       };
@@ -471,7 +471,7 @@ class CellMap {
 
   std::array<Lanes, corners> corner_;
   const Bulge<D>* bulge_;
-  std::array<Lanes, Bulge<D>::mode_count> deviation_;  // of modes that are not zero
+  std::array<Lanes, Bulge<D>::mode_count> deviation_;  // deviations of the modes that are not zero
   std::array<int, Bulge<D>::mode_count> mode_;
   int modes_ = 0;
   bool simplex_;

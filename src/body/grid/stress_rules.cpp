@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// The particle of the row of a point that is nearest to the point.
+/// The particle nearest to a point, among the particles in the row of the point.
 template <int D>
 Index nearest(const Body<D>& body, const PointRows<D>& rows, Index point, const Vec<D>& X) {
   Index owner = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of mesh files.
+// Bodies made of mesh files.
 #include "body/grid/simplex.hpp"
 #include "body/mesh/mesh_checks.hpp"
 #include "body/mesh/mesh_file.hpp"
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::string_view mesh_example[] = {"file = \"plate.msh\"\n", "file = \"block.msh\"\n"};
 
-/// Cells of a file, as they are.
+/// A body with the cells of a mesh file.
 template <int D>
 struct Mesh {
   static constexpr const char* name = "mesh";
@@ -32,8 +32,8 @@ struct Mesh {
                                              ? "hexahedra or tetrahedra of a .msh or .vtu file"
                                              : "quadrilaterals or triangles of a .msh or .vtu file";
   static constexpr std::string_view example = mesh_example[D - 2];
-  std::string file;  ///< with the folder of the scene, if it is relative
-  std::string text;  ///< of the file
+  std::string file;  ///< path; relative paths start at the folder of the scene
+  std::string text;  ///< content of the file
   std::optional<Real> unit;
   std::string facets;
 
@@ -41,7 +41,7 @@ struct Mesh {
   Geometry<D> geometry() const;
 };
 
-/// The folder of the file that a table stands in.
+/// The folder of the scene file that a table is in.
 std::filesystem::path folder_of(const Block& block) {
   std::string place = block.place();
   place.resize(place.rfind(block.path()));
@@ -97,7 +97,7 @@ const char* plural(MeshShape shape) {
   return at(names, static_cast<int>(shape));
 }
 
-/// The kind of cell that the body consists of.
+/// The kind of cell of which the body consists. Throws InputError if the file mixes kinds.
 template <int D>
 MeshShape only_shape(const MeshData& data) {
   const MeshCell* first = nullptr;
@@ -126,7 +126,7 @@ MeshShape only_shape(const MeshData& data) {
                           : "it has no quadrilaterals or triangles; expected are some");
 }
 
-/// A body while it is made.
+/// Builds a body from the data of a mesh file.
 template <int D>
 class MeshMaker {
  public:
@@ -186,7 +186,7 @@ class MeshMaker {
     cell_of_.push_back(&cell);
   }
 
-  /// Where a node of the grid is first.
+  /// Throws InputError if two nodes of the grid have the same position.
   void require_distinct() const {
     const NeighborSearch<D> search(grid_.X);
     const Real least = 1e-9 * box_around<D>(grid_.X).extent().norm();
@@ -201,7 +201,7 @@ class MeshMaker {
     }
   }
 
-  /// Turns a left-handed cell round.
+  /// Reorders the nodes of a left-handed cell.
   void orient(Index e) {
     if (!find_fold(grid_, e)) return;
     typename Grid<D>::Cell& cell = at(grid_.cells, e);
@@ -221,7 +221,7 @@ class MeshMaker {
         D == 3 ? fmt::format(", {:.6g}", fold->X[D - 1]) : ""));
   }
 
-  /// Numbers in the grid, ascending; nothing if one is no corner of the body.
+  /// Numbers of these nodes in the grid, ascending. Empty if a node is not a corner of the body.
   std::optional<std::vector<Index>> own_nodes(const std::vector<Index>& nodes) const {
     std::vector<Index> own;
     for (const Index node : nodes) {
@@ -240,9 +240,9 @@ class MeshMaker {
 
   const MeshData& data_;
   Grid<D> grid_;
-  std::vector<Index> number_;              ///< in the grid, of a node of the file
-  std::vector<const MeshCell*> cell_of_;   ///< [cell]
-  std::vector<const MeshCell*> first_of_;  ///< [node]
+  std::vector<Index> number_;              ///< [node of the file] number in the grid
+  std::vector<const MeshCell*> cell_of_;   ///< [cell] cell of the file
+  std::vector<const MeshCell*> first_of_;  ///< [node] a cell of the file with this node
   MeshSurface<D> given_;
 };
 

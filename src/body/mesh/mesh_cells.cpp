@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of mesh files: how many nodes they have, and where those are.
+// Cells of mesh files: their number of nodes and the positions of these.
 #include "body/mesh/mesh_cells.hpp"
 
 #include "meniscus/error.hpp"
@@ -24,7 +24,8 @@ const Middles line_middles{{0, 1}}, triangle_middles{{0, 1}, {1, 2}, {2, 0}},
     gmsh_sides{{0, 1, 2, 3}, {0, 1, 5, 4}, {0, 3, 7, 4}, {1, 2, 6, 5}, {3, 2, 6, 7}, {4, 5, 6, 7}},
     vtk_sides{{0, 3, 7, 4}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
 
-/// With the node in the middle of the cell, which no surface goes through.
+/// Joins the lists of middles of edges and of sides. `middle`: the cell also has a node in its
+/// middle, which no surface uses.
 Middles joined_middles(Middles edges, const Middles& sides, bool middle) {
   edges.insert(edges.end(), sides.begin(), sides.end());
   if (middle) edges.emplace_back();

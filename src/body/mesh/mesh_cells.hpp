@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of cells that mesh files know, by the numbers of Gmsh and of VTK.
+// The kinds of cells in mesh files, by their numbers in Gmsh and in VTK.
 #pragma once
 #include "body/mesh/mesh_file.hpp"
 
@@ -7,21 +7,22 @@
 
 namespace meniscus {
 
-/// What is known of a kind of cell.
+/// Properties of one kind of cell.
 struct MeshKind {
   MeshShape shape;
-  int nodes;  ///< corners first
+  int nodes;  ///< number of nodes; corners come first
   int corners;
-  /// Corners that node corners + m is in the middle of; those in the middle of the cell have none.
+  /// middles[m]: the corners between which node corners + m lies. Empty for a node in the middle of
+  /// the cell.
   std::vector<std::vector<int>> middles;
 };
 
-/// By number; nothing: it is not known, or it is a point. Throws InputError, without a place, for
-/// kinds that bodies cannot be made of.
+/// The kind of cell with this number. Empty if the number is unknown or means a point. Throws
+/// InputError (without a place) for kinds that are known but not supported.
 std::optional<MeshKind> gmsh_kind(long number);
 std::optional<MeshKind> vtk_kind(long number);
 
-/// The corners of a cell and, into the data, its middles.
+/// Returns the corners of a cell and adds its middle nodes to `data`.
 MeshCell mesh_cell(const MeshKind& kind, const std::vector<Index>& nodes, std::string where,
                    MeshData& data);
 

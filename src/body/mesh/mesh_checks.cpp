@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sides of cells and who shares them, nodes inside of cells, edges through facets.
+// Checks of a mesh: sides that cells share, nodes inside of cells, edges through facets.
 #include "body/mesh/mesh_checks.hpp"
 
 #include "body/grid/simplex.hpp"
@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-/// A side of a cell with its nodes as a facet has them, the last one of a triangle twice.
+/// A side of a cell with its nodes in the order of a facet; a triangle repeats its last node.
 template <int D>
 struct CellSide {
   std::array<Index, (1 << (D - 1))> sorted, nodes;
@@ -65,7 +65,8 @@ class MeshChecks {
   }
 
   bool simplex(Index e) const { return is_simplex<D>(at(grid_.cells, e)); }
-  /// How many different corners a cell has, and where in it they are.
+  /// Number of different corners of a cell; corner(e, i) is the place of the i-th of them in the
+  /// cell.
   int corner_count(Index e) const { return simplex(e) ? D + 1 : Grid<D>::corners; }
   int corner(Index e, int i) const { return simplex(e) ? at(simplex_corners<D>(), i) : i; }
   Index node(Index e, int i) const { return at(at(grid_.cells, e), corner(e, i)); }
@@ -94,7 +95,7 @@ class MeshChecks {
     }
   }
 
-  /// Two cells on either side of a facet.
+  /// Joins the corners of two cells at their common side.
   void join(const CellSide<D>& one, const CellSide<D>& other) {
     Vec<D> m = Vec<D>::Zero(), normal;
     for (const Index n : one.nodes) m += X(n) / Real(one.nodes.size());
@@ -113,7 +114,7 @@ class MeshChecks {
     }
   }
 
-  /// The number of a corner of a cell.
+  /// Number of node n as a corner of cell e, counted over the corners of all cells.
   Index entry(Index e, Index n) const {
     const auto& cell = at(grid_.cells, e);
     const auto found = std::find(cell.begin(), cell.end(), n);
@@ -127,7 +128,7 @@ class MeshChecks {
     return entry;
   }
 
-  /// All corners of cells at a node are one set, joined by sides.
+  /// Throws InputError if cells at a node are not connected through common sides.
   void require_joined() {
     std::vector<Index> first(grid_.X.size(), -1);
     for (Index e = 0; e < grid_.cell_count(); ++e)
@@ -144,7 +145,7 @@ class MeshChecks {
       }
   }
 
-  /// Whether a place is inside of a cell, farther from its sides than rounding.
+  /// True if x lies inside a cell, farther from its sides than rounding errors.
   bool is_inside(Index e, const Vec<D>& x) const {
     constexpr Real margin = 1e-7;
     const auto corners = grid_.corner_points(at(grid_.cells, e));
@@ -155,7 +156,7 @@ class MeshChecks {
       return share.minCoeff() > margin && share.sum() < 1 - margin;
     }
     Vec<D> xi = Vec<D>::Zero();
-    for (int step = 0; step < 20; ++step) {  // of Newton's method
+    for (int step = 0; step < 20; ++step) {  // steps of Newton's method
       const CellPoint<D, D> p = multilinear<D, D>(corners, xi);
       const Vec<D> change = inverse<D>(p.J) * (x - p.X);
       xi += change;
@@ -195,12 +196,13 @@ class MeshChecks {
     Index a, b, cell;
   };
 
-  /// Edges by the power of two of their length, so that a search need not reach for the longest.
+  /// Throws InputError if an edge pierces a side. Edges are sorted by the power of two of their
+  /// length, so that the search radius for short edges stays small.
   void require_no_crossing(const std::vector<CellSide<D>>& surface) const {
     std::map<int, std::vector<SurfaceEdge>> edges;
     for (const CellSide<D>& side : surface)
       for (std::size_t i = 0; i < side.nodes.size(); ++i) {
-        // Around the facet, whose nodes have tensor order.
+        // Neighbours around the facet, whose nodes are stored in tensor order.
         const Index a = side.nodes[i],
                     b = side.nodes[D == 2 ? 1 - i : at(std::array<std::size_t, 4>{1, 3, 0, 2}, i)];
         if (a != b) edges[std::ilogb((X(a) - X(b)).norm())].push_back({a, b, side.cell});
@@ -228,8 +230,8 @@ class MeshChecks {
     }
   }
 
-  /// Whether an edge goes through the inside of a side. A quadrilateral need not be plane: the edge
-  /// has to go through it whichever diagonal cuts it into triangles.
+  /// True if an edge pierces the interior of a side. A quadrilateral need not be plane: the edge
+  /// has to pierce it for both ways of cutting it into triangles.
   bool crosses(const SurfaceEdge& edge, const CellSide<D>& side) const {
     for (const Index n : side.nodes)
       if (n == edge.a || n == edge.b) return false;
@@ -245,7 +247,7 @@ class MeshChecks {
     }
   }
 
-  /// Whether c and d are on different sides of the line from a to b.
+  /// True if c and d lie on different sides of the line from a to b.
   bool apart(Index a, Index b, Index c, Index d) const {
     const Vec<D> along = X(b) - X(a);
     const auto beside = [&](Index n) {
@@ -255,7 +257,8 @@ class MeshChecks {
     return signs(beside(c), beside(d)) < 0;
   }
 
-  /// 1 or -1: both are farther from 0 than rounding, with one sign or with two.
+  /// 1 if both numbers have the same sign, -1 if they have different signs, 0 if one is zero up to
+  /// rounding.
   static int signs(Real a, Real b) {
     constexpr Real rounding = 1e-9;
     if (!(std::abs(a) > rounding) || !(std::abs(b) > rounding)) return 0;
@@ -267,7 +270,8 @@ class MeshChecks {
     const Real size = std::pow(normal.norm(), 1.5), length = along.norm();
     if (signs(normal.dot(X(edge.a) - X(a)) / size, normal.dot(X(edge.b) - X(a)) / size) >= 0)
       return false;
-    // Of the line through the edge, on which side the edges of the triangle pass it.
+    // Signed volume of the edge and an edge p-q of the triangle. The line pierces the triangle if
+    // all three have one sign.
     const auto around = [&](Index p, Index q) {
       return along.dot(cross(X(p) - X(edge.a), X(q) - X(edge.a))) / (normal.norm() * length);
     };
@@ -278,7 +282,7 @@ class MeshChecks {
   const Grid<D>& grid_;
   const CellName& name_;
   std::vector<CellSide<D>> sides_;
-  std::vector<Index> shared_;  ///< [corner of a cell] another one of its set, joined by sides
+  std::vector<Index> shared_;  ///< [corner of a cell] another corner of the same set
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ std::string text_of_mesh_file(const std::string& path) {
   if (file.extension() != ".msh" && file.extension() != ".vtu")
     refuse("is no mesh; expected is a file whose name ends with .msh or .vtu");
   const Real most =
-      std::clamp(available_memory() / 8, 0.0, 4e9);  // cells take more than their text
+      std::clamp(available_memory() / 8, 0.0, 4e9);  // cells need more memory than their text
   try {
     return content_of_regular_file(path, static_cast<std::uintmax_t>(most));
   } catch (const FileError& error) {

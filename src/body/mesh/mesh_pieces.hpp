@@ -12,17 +12,17 @@
 
 namespace meniscus {
 
-/// Nodes of the grid in ascending order: of an edge, or of a facet.
+/// Key of an edge or a facet: its grid nodes in ascending order.
 using MeshKey = std::vector<Index>;
 
-/// The nodes in ascending order, each once.
+/// Sorts the nodes and removes duplicates.
 inline MeshKey mesh_key(MeshKey nodes) {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
-/// What neighbours share: edges of a facet, in the plane its ends.
+/// Keys of the borders that a facet shares with its neighbours: its edges (2D: its two ends).
 template <int D>
 std::vector<MeshKey> facet_borders(const Facet<D>& facet) {
   if constexpr (D == 2) {
@@ -36,7 +36,7 @@ std::vector<MeshKey> facet_borders(const Facet<D>& facet) {
   }
 }
 
-/// Times the area, within a factor.
+/// A normal of the facet. Its length is proportional to the area.
 template <int D>
 Vec<D> facet_normal_of(const Facet<D>& facet, const std::vector<Vec<D>>& X) {
   const Vec<D> along = at(X, facet.nodes[1]) - at(X, facet.nodes[0]);
@@ -48,7 +48,7 @@ Vec<D> facet_normal_of(const Facet<D>& facet, const std::vector<Vec<D>>& X) {
   }
 }
 
-/// The pieces of the boundary facets of a grid, which has to outlive them.
+/// Divides the boundary facets of a grid into smooth pieces. The grid must outlive this object.
 template <int D>
 class MeshPieces {
  public:
@@ -77,11 +77,11 @@ class MeshPieces {
   }
   int count() const { return 1 + *std::max_element(piece_.begin(), piece_.end()); }
   int of(std::size_t facet) const { return at(piece_, facet); }
-  /// Whether a facet is of a closed part of the surface around a cavity.
+  /// True if the facet belongs to a closed surface around a cavity.
   bool inner(std::size_t facet) const { return at(inner_, at(part_, facet)); }
 
-  /// The middle of a sharp edge between a and b: of the parabolas through them and the next node
-  /// of the curve at either end, if that is there.
+  /// Middle of the sharp edge between nodes a and b, on the curve through its neighbours: the mean
+  /// of the parabolas through a, b and the next node of the curve at either end, if there is one.
   Vec<D> middle_of_curve(Index a, Index b) const {
     const Vec<D>&A = at(grid_.X, a), &B = at(grid_.X, b);
     const Real h = (B - A).norm();
@@ -135,7 +135,8 @@ class MeshPieces {
     for (const Real v : volume) inner_.push_back(v < 0);
   }
 
-  /// The node with which a sharp curve goes on beyond `end`, not around a corner.
+  /// The next node of a sharp curve beyond `end`, coming from node `from`. Empty at a corner of the
+  /// curve.
   std::optional<Index> next_on_curve(Index end, Index from) const {
     const std::vector<Index>& beside = sharp_at_.at(end);
     if (beside.size() != 2) return {};
@@ -146,11 +147,11 @@ class MeshPieces {
     return next;
   }
 
-  static constexpr Real least_cosine = 0.643;  // of 50 degrees
+  static constexpr Real least_cosine = 0.643;  // cosine of 50 degrees
   const Grid<D>& grid_;
   std::vector<Vec<D>> normal_;
   std::map<MeshKey, std::vector<std::size_t>> at_border_;
-  std::map<Index, std::vector<Index>> sharp_at_;  ///< 3D: nodes beside a node on sharp edges
+  std::map<Index, std::vector<Index>> sharp_at_;  ///< 3D: [node] neighbours on sharp edges
   std::vector<int> piece_, part_;
   std::vector<char> inner_;
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface of a mesh: names of its faces of a mesh, and the points that quadratic patches go
-// through.
+// The surface of a mesh: names of its faces, and the nodes of its quadratic patches.
 #include "body/mesh/mesh_surface.hpp"
 
 #include "body/grid/simplex.hpp"
@@ -24,7 +23,7 @@
 namespace meniscus {
 namespace {
 
-/// A surface whose faces have names; all else is that of another one.
+/// A surface with names for its faces; another surface gives its geometry.
 template <int D>
 class NamedSurface final : public Surface<D> {
  public:
@@ -57,7 +56,7 @@ class NamedSurface final : public Surface<D> {
   Index straightened_;
 };
 
-/// Each piece recovered by itself; `f` is a facet of the grid.
+/// Recovers a smooth surface for each piece by itself. `f` is a facet of the grid.
 template <int D>
 class RecoveredPieces {
  public:
@@ -81,8 +80,9 @@ class RecoveredPieces {
   std::vector<std::shared_ptr<const RecoveredSurface<D>>> surfaces_;
 };
 
-/// The middle of a facet whose edges have middles: that of the serendipity patch, of a triangle of
-/// that through its six points, at the middle of the collapsed square.
+/// Middle of a facet, interpolated from its corners and the middles of its edges: by the
+/// serendipity patch of a quadrilateral, or by the six-node patch of a triangle at the centre of
+/// its collapsed square.
 Vec<3> middle_of_facet(const Facet<3>& facet, const std::vector<Vec<3>>& X,
                        const std::map<MeshKey, Vec<3>>& middle) {
   const auto& n = facet.nodes;
@@ -94,11 +94,11 @@ Vec<3> middle_of_facet(const Facet<3>& facet, const std::vector<Vec<3>>& X,
          0.5 * (between(0, 1) + between(1, 3) + between(3, 2) + between(2, 0));
 }
 
-/// Points of patches by their keys.
+/// Nodes of quadratic patches by their keys.
 template <int D>
 using PatchPoints = std::map<MeshKey, Vec<D>>;
 
-/// The points of straight edges and of the facets between them.
+/// Patch nodes of straight edges and of the facets between them.
 template <int D>
 PatchPoints<D> flat_points(const Grid<D>& grid) {
   PatchPoints<D> points;
@@ -113,8 +113,8 @@ PatchPoints<D> flat_points(const Grid<D>& grid) {
   return points;
 }
 
-/// The points of quadratic patches, by their keys: those of the file if it has all middles of
-/// edges.
+/// Patch nodes by their keys. They come from the file if it has the middles of all edges; otherwise
+/// they are recovered.
 template <int D>
 PatchPoints<D> patch_points(const Grid<D>& grid, const MeshPieces<D>& pieces,
                             const MeshSurface<D>& given, bool second_order) {
@@ -123,7 +123,7 @@ PatchPoints<D> patch_points(const Grid<D>& grid, const MeshPieces<D>& pieces,
   PatchPoints<D> points;
   for (std::size_t f = 0; f < grid.facets.size(); ++f) {
     const Facet<D>& facet = grid.facets[f];
-    Vec<D> bulge = Vec<D>::Zero();  // of the middle, with edges that are curves
+    Vec<D> bulge = Vec<D>::Zero();  // shift of the middle by curved edges
     for (int a = 0; a < PatchFunctions<D>::nodes; ++a) {
       const Vec<D - 1> xi = patch_node<D>(a);
       const MeshKey key = patch_key(facet, xi);
@@ -150,7 +150,7 @@ PatchPoints<D> patch_points(const Grid<D>& grid, const MeshPieces<D>& pieces,
   return points;
 }
 
-/// Whether the file has the middles of all edges of the surface.
+/// True if the file has the middles of all surface edges.
 template <int D>
 bool has_middles(const Grid<D>& grid, const MeshSurface<D>& given) {
   return std::all_of(grid.facets.begin(), grid.facets.end(), [&](const Facet<D>& facet) {
@@ -161,7 +161,7 @@ bool has_middles(const Grid<D>& grid, const MeshSurface<D>& given) {
   });
 }
 
-/// Numbers the patches of the facets and returns their names.
+/// Gives the facets the number of their patch and returns the names of the patches.
 template <int D>
 std::vector<std::string> name_faces(Grid<D>& grid, const MeshPieces<D>& pieces,
                                     const MeshSurface<D>& given) {
@@ -183,7 +183,7 @@ std::vector<std::string> name_faces(Grid<D>& grid, const MeshPieces<D>& pieces,
   return names;
 }
 
-/// Of a place, the normal of the outer surface where that is nearest.
+/// Returns a function of a position X: the normal of the outer surface at its point nearest to X.
 template <int D>
 std::function<Vec<D>(const Vec<D>&)> outer_normal(const Geometry<D>& geometry) {
   const auto outer =
@@ -196,7 +196,7 @@ std::function<Vec<D>(const Vec<D>&)> outer_normal(const Geometry<D>& geometry) {
   };
 }
 
-/// Cells at the surface that are folded.
+/// Surface cells that are folded (their Jacobian is not positive everywhere).
 template <int D>
 std::vector<Index> folded_cells(const Grid<D>& grid) {
   std::vector<char> is_folded(grid.cells.size(), 0);
@@ -209,8 +209,8 @@ std::vector<Index> folded_cells(const Grid<D>& grid) {
   return folded;
 }
 
-/// Makes the edges of the surface straight that belong to folded cells; adds the facets with such
-/// edges to `straightened`. Returns false if all of them are straight already.
+/// Straightens the surface edges of folded cells and adds the facets of these edges to
+/// `straightened`. Returns false if all of them were straight already.
 template <int D>
 bool straighten(const Grid<D>& grid, const std::vector<Index>& folded, PatchPoints<D>& points,
                 std::set<std::size_t>& straightened) {
@@ -244,7 +244,7 @@ bool straighten(const Grid<D>& grid, const std::vector<Index>& folded, PatchPoin
   return changed;
 }
 
-/// The body with quadratic patches through these points.
+/// The body whose surface consists of quadratic patches through these nodes.
 template <int D>
 Geometry<D> geometry_of_patches(const Grid<D>& grid, const PatchPoints<D>& by_key, bool smooth,
                                 const std::vector<char>& inner) {
@@ -279,7 +279,7 @@ Geometry<D> mesh_geometry(Grid<D> grid, const MeshSurface<D>& given, MeshFacets 
       at(inner, grid.facets[f].patch) = pieces.inner(f);
     const bool smooth = second_order && !sharp;
     geometry = geometry_of_patches(grid, points, smooth, inner);
-    // Each round makes an edge straight, or is the last one.
+    // Every pass straightens at least one edge, so the loop ends.
     for (auto folded = folded_cells(geometry.grid);
          !folded.empty() && straighten(grid, folded, points, straightened);
          folded = folded_cells(geometry.grid))

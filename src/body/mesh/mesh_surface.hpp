@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces of meshes: pieces between edges, with names, and a curve or a patch through the nodes.
+// Surfaces of meshes: smooth pieces between sharp edges, their names, and curves or patches through
+// the nodes.
 #pragma once
 #include "body/shapes/geometry.hpp"
 
@@ -9,21 +10,22 @@
 
 namespace meniscus {
 
-/// What a file says of the surface, by ascending nodes of the grid.
+/// Surface data of a mesh file; keys are ascending node numbers of the grid.
 template <int D>
 struct MeshSurface {
-  std::map<std::vector<Index>, Vec<D>> middle;     ///< of edges, and (3D) of quadrilaterals
+  std::map<std::vector<Index>, Vec<D>> middle;     ///< middles of edges and (3D) of quadrilaterals
   std::map<std::vector<Index>, std::string> face;  ///< names of facets
 };
 
 enum class MeshFacets { curved, flat };
 
-/// The body of a grid (X and cells). Its surface is the recovered one where it is smooth and cells
-/// are of first order; otherwise quadratic patches: through the middles that the file has, else
-/// through those of each smooth piece recovered by itself, and of the curves between pieces. Pieces
-/// end where facets meet at more than 50 degrees. Edges of cells that would fold are straight, and
-/// all edges with MeshFacets::flat. Faces have the names of the file; if there are none, "surface",
-/// or "face_1", "face_2" ... of the pieces. Throws InputError if a cell folds.
+/// The body of a grid (X and cells). Where the surface is smooth and cells are of first order, its
+/// surface is recovered from the nodes. Otherwise it consists of quadratic patches. They go through
+/// the middles of the file, if there are any; else through middles recovered for each smooth piece
+/// and for the curves between pieces. Pieces end where facets meet at more than 50 degrees. Edges
+/// of cells that would fold stay straight; with MeshFacets::flat all edges do. Faces have the names
+/// of the file; without names, "surface", or "face_1", "face_2" ... for several pieces. Throws
+/// InputError if a cell folds.
 template <int D>
 Geometry<D> mesh_geometry(Grid<D> grid, const MeshSurface<D>& given,
                           MeshFacets facets = MeshFacets::curved);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words and numbers of a mesh file, with the lines they stand in.
+// Reads words and numbers of a mesh file and remembers their lines for messages.
 #pragma once
 #include "meniscus/error.hpp"
 #include "numbers/types.hpp"
@@ -17,14 +17,14 @@
 
 namespace meniscus {
 
-/// Reads from the beginning on. All members throw InputError with the name of the file and the
+/// Reads a text from its beginning. All members throw InputError with the name of the file and the
 /// line.
 class MeshText {
  public:
   MeshText(std::string_view text, std::string name, int line = 1)
       : text_(text), name_(std::move(name)), line_(line) {}
 
-  /// The next word; `expected` is said if there is none.
+  /// The next word. If there is none, the message names `expected`.
   std::string_view word(std::string_view expected) {
     skip_space();
     begin_word();
@@ -37,7 +37,7 @@ class MeshText {
     skip_space();
     return at_ == text_.size();
   }
-  /// In double quotes.
+  /// The next text in double quotes.
   std::string quoted(std::string_view expected) {
     skip_space();
     begin_word();
@@ -71,7 +71,8 @@ class MeshText {
       fail(fmt::format("'{}' is no finite number; expected is {}", shown(text), expected));
     return value;
   }
-  /// The next number, stored as bytes; from here on messages name bytes, for lines have no meaning.
+  /// The next number, stored as bytes. From here on messages name bytes, because lines have no
+  /// meaning.
   template <class T>
   T bytes_of(std::string_view expected) {
     static_assert(std::endian::native == std::endian::little);
@@ -84,7 +85,7 @@ class MeshText {
     at_ += sizeof(T);
     return value;
   }
-  /// Moves on to the beginning of the next line; only space may be left on this one.
+  /// Moves on to the next line. The rest of this line may contain only space.
   void skip_line_end() {
     while (at_ < text_.size() && is_space(text_[at_]))
       if (text_[at_++] == '\n') {
@@ -94,7 +95,7 @@ class MeshText {
     begin_word();
     fail("expected is the end of the line, behind which bytes begin");
   }
-  /// Moves on behind a line that begins with `end`.
+  /// Moves on behind the next line that begins with `end`.
   void skip_past(const std::string& end) {
     begin_word();
     const std::size_t found = text_.find("\n" + end, at_ > 0 ? at_ - 1 : 0);
@@ -104,14 +105,14 @@ class MeshText {
                                          text_.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
     at_ = next;
   }
-  /// "line 17" or "byte 1234": where the word or number read last begins.
+  /// Place of the last word or number, for messages: "line 17" or "byte 1234".
   std::string place() const {
     return bytes_ ? fmt::format("byte {}", word_begin_) : fmt::format("line {}", word_line_);
   }
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("{}: {}: {}", name_, place(), what));
   }
-  /// As much of a text of a file as a message shows.
+  /// The beginning of a text as a message can show it: at most 40 printable characters.
   static std::string shown(std::string_view text) {
     std::string printable(text.substr(0, 40));
     for (char& c : printable)

@@ -36,9 +36,9 @@ class MshReader {
   }
 
  private:
-  using Tag = std::pair<int, long>;  ///< dimension and number
+  using Tag = std::pair<int, long>;  ///< dimension and number of a group or entity
 
-  /// False: nothing is needed of it.
+  /// Reads a section of the file. Returns false if the section is not needed.
   bool read_section(const std::string& section) {
     if (section == "$MeshFormat")
       read_format();
@@ -90,7 +90,8 @@ class MshReader {
     }
   }
 
-  /// The parts of partitioned ones have the groups of what they are parts of.
+  /// Reads the physical groups of entities. In partitioned meshes, parts of an entity inherit its
+  /// groups.
   void read_entities(bool partitioned) {
     numbers_.begin_bytes();
     if (partitioned) {
@@ -179,7 +180,7 @@ class MshReader {
     }
   }
 
-  /// Of version 2.2: elements follow each other by their kinds.
+  /// Reads the elements of a binary file of version 2.2, which stores them by kind.
   void read_elements_of_bytes() {
     long left = text_.integer("a number of elements", 1, most_);
     numbers_.begin_bytes();
@@ -197,7 +198,7 @@ class MshReader {
     }
   }
 
-  /// The physical group.
+  /// Reads `count` tags and returns the first one, the physical group.
   long first_of_tags(long count) {
     long first = 0;
     for (long k = 0; k < count; ++k)
@@ -226,7 +227,7 @@ class MshReader {
     require_total(found, total, "elements");
   }
 
-  /// The number of a node, which has as many bytes as version and file give it.
+  /// The number of a node. The version and the header of the file determine its number of bytes.
   long node_number() {
     constexpr std::string_view expected = "the number of a node";
     return version_ == 4 ? numbers_.size(expected) : numbers_.integer(expected);
@@ -269,7 +270,7 @@ class MshReader {
   MeshText& text_ = numbers_.text();
   int version_ = 0;
   std::map<Tag, std::string> names_;
-  std::map<Tag, long> group_;  ///< of an entity, the first
+  std::map<Tag, long> group_;  ///< [entity] its first physical group
   std::unordered_map<long, Index> number_;
   MeshData data_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of a mesh of Gmsh, which are text or bytes, as the file says at its beginning.
+// Reads the numbers of a Gmsh mesh, which are text or bytes, as the header of the file states.
 #pragma once
 #include "body/mesh/mesh_text.hpp"
 
@@ -7,18 +7,18 @@
 
 namespace meniscus {
 
-/// Words are text in both kinds of files. In binary ones integers have 4 bytes, sizes (of version
-/// 4.1) 8 and reals 8, of this machine's order. All members throw InputError with the file and the
-/// line, or the byte.
+/// Words are text in both kinds of files. In binary files, integers have 4 bytes, sizes (of version
+/// 4.1) 8 and reals 8, in the byte order of this machine. All members throw InputError with the
+/// file and the line, or the byte.
 class MshNumbers {
  public:
   MshNumbers(std::string_view text, const std::string& name) : text_(text, name) {}
 
   MeshText& text() { return text_; }
   bool binary() const { return binary_; }
-  /// From here on numbers are bytes.
+  /// Switches to binary numbers.
   void set_binary() { binary_ = true; }
-  /// Skips the end of the line behind which the bytes of a binary file begin.
+  /// In a binary file, skips the end of the line after which bytes begin.
   void begin_bytes() {
     if (binary_) text_.skip_line_end();
   }
@@ -40,7 +40,7 @@ class MshNumbers {
       text_.fail(fmt::format("{} is no finite number; expected is {}", value, expected));
     return value;
   }
-  /// "line 17" or "byte 1234" of the number read last.
+  /// Place of the last number, for messages: "line 17" or "byte 1234".
   std::string place() const { return text_.place(); }
   [[noreturn]] void fail(const std::string& what) const { text_.fail(what); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Base64, and arrays that zlib has compressed block by block.
+// Decodes base64, and arrays that zlib has compressed in blocks.
 #include "body/mesh/vtk_numbers.hpp"
 
 #include "meniscus/error.hpp"
@@ -46,10 +46,9 @@ void require_expected(std::uint64_t said, std::uint64_t expected) {
         fmt::format("the array says that it has {} bytes; expected are {}", said, expected));
 }
 
-/// Appends a block that has `size` bytes when it is not compressed.
+/// Decompresses a block and appends its `size` bytes to `data`.
 void add_inflated(const std::string& compressed, std::uint64_t size, std::string& data) {
-  // The format has no block that becomes 1032 times as large: one that says so is not believed
-  // before there is memory for it.
+  // zlib enlarges a block at most 1032 times: a damaged size is refused before memory is reserved.
   if (size / 1032 > compressed.size())
     throw InputError(
         fmt::format("a block of {} bytes says that it becomes {}; zlib makes 1032 of one at most",
@@ -68,7 +67,7 @@ std::string read_compressed(VtkBytes& bytes, std::uint64_t expected, const VtkSt
   const std::uint64_t blocks = header_number(bytes, storage),
                       block_size = header_number(bytes, storage),
                       last_size = header_number(bytes, storage);
-  // A last size of 0 says that the last block is a whole one.
+  // A last size of 0 means that the last block has full size.
   const std::uint64_t last = last_size > 0 ? last_size : block_size;
   if (blocks > 0 && block_size > 0 && blocks - 1 > expected / block_size)
     throw InputError(fmt::format(
@@ -85,7 +84,7 @@ std::string read_compressed(VtkBytes& bytes, std::uint64_t expected, const VtkSt
 
 }  // namespace
 
-/// Where one part ends with =, another may begin.
+/// Decodes four letters. After padding (=) a new base64 text may begin.
 void VtkBytes::decode_four_letters() {
   std::uint32_t bits = 0;
   int count = 0, padding = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of VTK's XML files that are stored as bytes. Source: VTK file formats, section "XML File
-// Formats", and vtkXMLDataReader of VTK 9.
+// Binary numbers in VTK's XML files. Source: VTK file formats, section "XML File Formats", and
+// vtkXMLDataReader of VTK 9.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,30 +10,30 @@ namespace meniscus {
 
 /// How the numbers of a file are stored as bytes.
 struct VtkStorage {
-  int header_bytes = 4;     ///< of each number in the header of an array, 4 or 8
-  bool compressed = false;  ///< by zlib, in blocks
+  int header_bytes = 4;     ///< size of a number in the header of an array, 4 or 8
+  bool compressed = false;  ///< arrays are compressed by zlib, in blocks
 };
 
-/// The bytes of an array, in base64 or as they are, read from the front.
+/// Reads the bytes of an array from the front, in base64 or raw.
 class VtkBytes {
  public:
   VtkBytes(std::string_view text, bool base64) : text_(text), base64_(base64) {}
 
-  /// Throws InputError, without a place, if there are less.
+  /// The next `count` bytes. Throws InputError (without a place) if there are fewer.
   std::string read(std::uint64_t count);
-  /// Whether nothing but space is left.
+  /// True if only space is left.
   bool ended();
 
  private:
   void decode_four_letters();
 
-  std::string_view text_;  ///< what is left
+  std::string_view text_;  ///< the unread rest
   bool base64_;
-  std::string decoded_;  ///< of the last four letters, what was not asked for yet
+  std::string decoded_;  ///< decoded bytes that were not read yet
 };
 
-/// The `expected` bytes of an array, whose header comes first. Throws InputError, without a place,
-/// if they are more or less, or damaged.
+/// Reads an array: its header and its `expected` bytes. Throws InputError (without a place) if the
+/// array has another size or is damaged.
 std::string read_stored(VtkBytes& bytes, std::uint64_t expected, const VtkStorage& storage);
 
 }  // namespace meniscus

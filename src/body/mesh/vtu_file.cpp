@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of VTK: unstructured grids as XML, with their numbers as text, as base64 in place, or
-// appended. Source: VTK file formats, section "XML File Formats".
+// Unstructured grids of VTK as XML. Numbers are text, base64 in place, or appended bytes. Source:
+// VTK file formats, section "XML File Formats".
 #include "body/mesh/mesh_cells.hpp"
 #include "body/mesh/mesh_text.hpp"
 #include "body/mesh/vtk_numbers.hpp"
@@ -23,7 +23,7 @@ std::string attribute_of(const Attributes& attributes, const char* key, const ch
   return found == attributes.end() ? fallback : found->second;
 }
 
-/// An array of a file: its tag and the text in it, outside of its children.
+/// An array of a file: its tag, and its text without the text of child elements.
 struct XmlArray {
   Attributes attributes;
   std::string_view content;
@@ -73,10 +73,10 @@ class VtuReader {
     return number.integer(key, 0, 1'000'000'000);
   }
 
-  /// Notes what is needed of the elements, up to the appended bytes.
+  /// Scans the elements of the file up to the appended bytes, and remembers the arrays of the mesh.
   void scan() {
     std::string section;
-    XmlArray* array = nullptr;  // the one that is open
+    XmlArray* array = nullptr;  // the array whose element is open
     std::size_t depth_of_array = 0;
     for (XmlPiece piece = xml_.next(); piece.kind != XmlPiece::Kind::end; piece = xml_.next()) {
       if (piece.kind == XmlPiece::Kind::open && piece.name == "AppendedData") {
@@ -128,7 +128,7 @@ class VtuReader {
     return added->second;
   }
 
-  /// The bytes begin behind an underscore.
+  /// Finds the appended bytes, which begin behind an underscore.
   void note_appended(const XmlPiece& tag) {
     const std::string encoding = attribute_of(xml_.attributes(tag), "encoding", "base64");
     if (encoding != "raw" && encoding != "base64")
@@ -287,7 +287,7 @@ class VtuReader {
   XmlScanner xml_;
   const std::string& name_;
   VtkStorage storage_;
-  std::string_view appended_;  ///< from the underscore on
+  std::string_view appended_;  ///< appended bytes, from the underscore on
   bool appended_base64_ = false;
   bool grid_ = false;
   std::int64_t points_ = 0, cells_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pass through an XML text.
+// Scans an XML text in one pass.
 #include "body/mesh/xml_scanner.hpp"
 
 #include "body/mesh/mesh_text.hpp"
@@ -34,7 +34,7 @@ std::string_view XmlScanner::until(std::string_view end, std::string_view inside
   return before;
 }
 
-/// What is between < and >; a > in quotes belongs to a value.
+/// Reads the text between < and >. A > within quotes belongs to a value.
 std::string_view XmlScanner::tag() {
   const std::size_t begin = at_;
   char quote = 0;

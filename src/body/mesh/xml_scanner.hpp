@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tags of an XML text and the text between them, one after the other, in one pass.
+// Scans an XML text in one pass and returns its tags and the text between them.
 #pragma once
 #include <map>
 #include <string>
@@ -11,13 +11,14 @@ namespace meniscus {
 struct XmlPiece {
   enum class Kind { open, close, text, end };
   Kind kind;
-  std::string_view name;     ///< of the element
-  std::string_view content;  ///< of a text; of an opening tag, its attributes
-  int line;                  ///< where it begins
+  std::string_view name;     ///< name of the element
+  std::string_view content;  ///< the text, or the attributes of an opening tag
+  int line;                  ///< line in which the piece begins
 };
 
-/// Comments, declarations and processing instructions are skipped; entities stay as they are. A tag
-/// <a/> is an opening and a closing one. All members throw InputError, "FILE: line N: ...".
+/// Skips comments, declarations and processing instructions, and does not expand entities. A tag
+/// <a/> is returned as an opening and a closing tag. All members throw InputError, "FILE: line N:
+/// ...".
 class XmlScanner {
  public:
   XmlScanner(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -25,14 +26,15 @@ class XmlScanner {
   XmlPiece next();
   /// The attributes of an opening tag by their names.
   std::map<std::string, std::string> attributes(const XmlPiece& tag) const;
-  /// What is not read yet.
+  /// The unread rest of the text.
   std::string_view rest() const { return text_.substr(at_); }
-  /// How many elements are open.
+  /// Number of open elements.
   std::size_t depth() const { return open_.size(); }
   [[noreturn]] void fail(const std::string& what, int line) const;
 
  private:
-  /// Moves on to `end`, which is read with the lines on the way, and returns what is before it.
+  /// Moves on behind `end`, counts lines, and returns the text before `end`. `inside_of` is for the
+  /// message if `end` is missing.
   std::string_view until(std::string_view end, std::string_view inside_of);
   std::string_view tag();
 

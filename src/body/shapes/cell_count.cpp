@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory of a body from the number of its cells.
+// Memory of a body, estimated from the number of its cells.
 #include "body/shapes/cell_count.hpp"
 
 #include "meniscus/error.hpp"
@@ -13,9 +13,9 @@
 namespace meniscus {
 namespace {
 
-/// The least of what the ranks have, so that all of them decide alike.
+/// The least memory that any rank has available, so that all ranks take the same decision.
 Real least_of_ranks(Real bytes) {
-  constexpr Real most = 9e18;  // of an integer
+  constexpr Real most = 9e18;  // largest value that fits into an integer
   return -static_cast<Real>(ranks().largest(-static_cast<std::int64_t>(std::min(bytes, most))));
 }
 

@@ -27,24 +27,26 @@ Vec<D> core_point(const CubedCore& shape, const Vec<D>& q) {
   return shape.a * ((1 - shape.w * s) * q + shape.b * shape.w * s * s * direction<D>(q / s));
 }
 
-/// Thickness of the first `shells` shells, that of a cell of the core being 1.
+/// Thickness of the first `shells` shells together, in units of the size of a core cell.
 Real thickness(int shells, Real grading) {
   Real sum = 0, one = 1;
   for (int shell = 0; shell < shells; ++shell) sum += one *= grading;
   return sum;
 }
 
-/// The core takes the share core / (core + 2 shells) of a diameter, so that cells are of about
-/// equal size everywhere, or as much less as shells grow; above 0.6 its corners would come near the
-/// surface. In 2D the scan of a, w, b for the largest ratio of smallest scaled Jacobian (0.86) to
-/// edge ratio (1.93) chose these numbers.
+/// Size and shape of the core. The core takes the share core / (core + 2 shells) of the diameter,
+/// so that all cells have about equal size; the share is smaller if shells grow. It is at most 0.6,
+/// because the corners of a larger core come too near to the surface. The numbers a, w, b were
+/// found by a search in 2D: they give the largest ratio of the smallest scaled Jacobian (0.86) to
+/// the edge ratio (1.93).
 template <int D>
 CubedCore core_shape(int core, Real shells) {
   const Real share = std::min(0.6, core / (core + 2.0 * shells));
   return D == 3 ? CubedCore{share, 0.7, 1.25} : CubedCore{0.95 * share, 0.4, 1.0};
 }
 
-/// Numbers the lattice {0..n}^D, and its surface again in every shell.
+/// Numbers the nodes: the lattice {0..n}^D first, then the surface of the lattice again for every
+/// shell.
 template <int D>
 class NodeNumbers {
  public:
@@ -63,7 +65,7 @@ class NodeNumbers {
 
   Index core_count() const { return static_cast<Index>(on_surface_.size()); }
   const std::vector<Index>& surface() const { return surface_; }
-  /// Number among the lattice points of the surface.
+  /// Number of a lattice point of the surface among all lattice points of the surface.
   Index on_surface(const Lattice& p) const { return at(on_surface_, index(p)); }
   Lattice lattice(Index i) const {
     Lattice p;
@@ -125,14 +127,15 @@ void add_core_cells(Grid<D>& grid, const NodeNumbers<D>& number, int core) {
   }
 }
 
-/// Cells outside one side of the core, with the nodes number(lattice point, shell). Directions 0 ..
-/// D-2 run along the side so that the last one, from shell to shell, points outwards.
+/// Adds the cells outside one side of the core; number(lattice point, shell) gives their nodes.
+/// Directions 0 .. D-2 run along the side so that the last direction, from shell to shell, points
+/// outwards.
 template <int D, class Number>
 void add_shell_cells(Grid<D>& grid, const Number& number, int core, int shells, int side) {
   const int k = side / 2, upper = side % 2;
-  // The local system (tangents, outwards) is right-handed if the tangents are e_(k+1), e_(k+2) at
-  // an upper side; at a lower one the first tangent is reversed. In 2D, tangents turn the other
-  // way.
+  // The local system (tangents, outward direction) is right-handed at an upper side with the
+  // tangents e_(k+1), e_(k+2). At a lower side the first tangent is reversed. In 2D the tangents
+  // have the opposite direction.
   const bool reverse = (upper == 0) == (D == 3 || k == 1);
   const Index columns = D == 3 ? core * core : core;
   for (Index column = 0; column < columns; ++column)

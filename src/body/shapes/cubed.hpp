@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grids of the unit disk and ball: a lattice core whose boundary cells continue in shells to the
-// surface. One construction for both, used by their shape files only.
+// Grids of the unit disk and ball, for their shape files. The boundary cells of a core lattice
+// continue in shells up to the surface.
 #pragma once
 #include "body/grid/grid.hpp"
 #include "input/input.hpp"
 
 namespace meniscus {
 
-/// Shape of the core. A core point q in [-1, 1]^D with s = max|q| goes to
-///   X = a [(1 - w s) q + b w s^2 dir(q/s)],   dir(p) = tan(pi p / 4) / |tan(pi p / 4)|,
-/// and shell l of m to X + (dir(q) - X) l / m for |q|_max = 1, or by geometric sums instead of l
-/// and m where shells grow.
+/// Shape of the core. A core point q in [-1, 1]^D with s = max|q| is mapped to
+///   X = a [(1 - w s) q + b w s^2 dir(q/s)];   dir(p) = tan(pi p / 4) / |tan(pi p / 4)|.
+/// A surface point of the core (|q|_max = 1) continues in shell l of m to X + (dir(q) - X) l / m.
+/// If shells grow, geometric sums replace l and m.
 struct CubedCore {
   Real a, w, b;
 };
@@ -21,7 +21,7 @@ struct CubedCore {
 template <int D>
 Grid<D> cubed_ball(int core, int shells, Real grading = 1);
 
-/// How `grading` is called and what it may be.
+/// The input key `grading` with its range.
 template <class S>
 Row<S> grading_row(Real S::*member) {
   return real_row("grading", member, dimension::none, {1, 4},
@@ -30,8 +30,8 @@ Row<S> grading_row(Real S::*member) {
                   1.0);
 }
 
-/// The cells above x_axis = 0 and their nodes; an even core has nodes, and no cells, across that
-/// plane.
+/// The cells above the plane x_axis = 0 and their nodes. With an even core the plane runs through
+/// nodes and cuts no cell.
 template <int D>
 Grid<D> upper_half(const Grid<D>& whole, int axis = D - 1);
 

@@ -8,7 +8,7 @@ namespace meniscus {
 
 namespace {
 
-/// Radius 1, -1/2 <= z <= 1/2.
+/// The cylinder of radius 1 with -1/2 <= z <= 1/2.
 Grid<3> unit_cylinder(int core, int rings, int layers) {
   const Grid<2> disk = cubed_ball<2>(core, rings);
   require_affordable<3>(Real(layers) * disk.cell_count());

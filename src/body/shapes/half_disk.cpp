@@ -34,7 +34,7 @@ struct HalfDisk {
       throw InputError(
           "a half disk has an even number of cells along the core; use a multiple of 2");
     const Vec<2> origin = Vec<2>::Zero(), y = Vec<2>::UnitY();
-    const Vec<2> scale = Vec<2>::Constant(below ? -radius : radius);  // turned
+    const Vec<2> scale = Vec<2>::Constant(below ? -radius : radius);  // turned for the lower half
     return make_geometry<2>(upper_half<2>(cubed_ball<2>(core, rings, grading)),
                             {SurfacePatch<2>::sphere(origin, 1).named("round"),
                              SurfacePatch<2>::plane(origin, -y).named("flat")},

@@ -29,8 +29,8 @@ Geometry<3> HalfSphere::geometry() const {
   if (core % 2 != 0)
     throw InputError(
         "a half sphere has an even number of cells along the core; use a multiple of 2");
-  const Vec<3> scale =
-      below ? Vec<3>(radius, -radius, -radius) : Vec<3>::Constant(radius);  // turned
+  // The lower half is the upper one turned about x.
+  const Vec<3> scale = below ? Vec<3>(radius, -radius, -radius) : Vec<3>::Constant(radius);
   const Vec<3> origin = Vec<3>::Zero(), z = Vec<3>::UnitZ();
   return make_geometry<3>(upper_half<3>(cubed_ball<3>(core, layers)),
                           {SurfacePatch<3>::sphere(origin, 1).named("round"),

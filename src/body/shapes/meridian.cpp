@@ -14,11 +14,11 @@ namespace {
 
 constexpr Real right_angle = std::numbers::pi / 2;
 
-/// x = a sin t, z = c cos t.
+/// The ellipse x = a sin t, z = c cos t.
 struct EllipseArc {
   Real a, c;
 
-  /// ds/dt
+  /// Speed ds/dt of the arc length.
   Real speed(Real t) const { return std::hypot(a * std::cos(t), c * std::sin(t)); }
 
   Real arc_length(Real t) const {
@@ -32,7 +32,7 @@ struct EllipseArc {
     return sum;
   }
 
-  /// Newton's method; the arc length grows monotonically.
+  /// The parameter t at the arc length s, by Newton's method; the arc length is monotonic in t.
   Real parameter(Real s, Real quarter) const {
     Real t = right_angle * s / quarter;
     for (int k = 0; k < 30; ++k) {
@@ -53,8 +53,8 @@ struct EllipseArc {
             3 * a * c * (a * a - c * c) * sine * cosine / std::pow(q, 6)};
   }
 
-  /// The parameter of the foot of a place: where its distance is stationary, by Newton's method
-  /// between bisections.
+  /// The parameter of the foot of a position, where its distance is stationary. Newton's method,
+  /// with bisection as a safeguard.
   Real foot(const Vec<2>& place) const {
     Real low = 0, high = right_angle, t = std::atan2(place[0] / a, place[1] / c);
     for (int k = 0; k < 100; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Octant: an eighth of the ball between three planes, which rollers make planes of symmetry.
+// Octant: an eighth of a ball between three planes. Rollers on these planes make them planes of
+// symmetry.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"

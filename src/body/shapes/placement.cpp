@@ -26,7 +26,8 @@ std::string coordinates(const Vec<D>& X) {
   return text;
 }
 
-/// Where a fold would be seen first: nodes, the middles of cells and the surface.
+/// Throws InputError if the map folds the body. Checks the nodes, the middles of cells and the
+/// surface, where a fold appears first.
 template <int D>
 void require_no_fold(const SmoothMap<D>& map, const Geometry<D>& geometry) {
   const auto check = [&](const Vec<D>& X) {
@@ -47,7 +48,8 @@ void require_no_fold(const SmoothMap<D>& map, const Geometry<D>& geometry) {
   for (const Vec<D>& X : surface_points(geometry, 2).X) check(X);
 }
 
-/// Before the map: X0 with x(X0) = x, by Newton's method from the node that comes nearest.
+/// The inverse of the map: finds X0 with x(X0) = x by Newton's method, starting from the nearest
+/// node.
 template <int D>
 class Inverse {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ring: the plane section of a thick-walled cylinder.
+// Ring: the cross section of a thick-walled cylinder.
 #include "body/shapes/cell_count.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
@@ -12,8 +12,8 @@
 namespace meniscus {
 namespace {
 
-/// Between the circles of radius `inside` and 1; the directions of a cell are around and outwards,
-/// turned so that they are right-handed.
+/// The ring between the circles of radius `inside` and 1. The directions of a cell are around and
+/// outwards, ordered so that they are right-handed.
 Grid<2> unit_ring(int around, int layers, Real inside) {
   Grid<2> grid;
   for (int layer = 0; layer <= layers; ++layer)

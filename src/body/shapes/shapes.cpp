@@ -10,7 +10,7 @@ namespace meniscus {
 
 namespace {
 
-/// A body used to look for further problems of a scene when the described one cannot be made.
+/// A substitute for a body that cannot be made, to search for further problems of the scene.
 template <int D>
 Geometry<D> stand_in() {
   Brick<D> brick;
@@ -30,7 +30,7 @@ Geometry<D> read_geometry(const Block& block) {
   if (!name) return stand_in<D>();
   try {
     auto made = shapes<D>().at(*name).make(block);
-    if (!made) return read_placement(block, stand_in<D>());  // this marks its keys as known
+    if (!made) return read_placement(block, stand_in<D>());  // reading marks the keys as known
     Geometry<D> geometry = read_placement(block, *std::move(made));
     if (!block.in_order()) return stand_in<D>();
     if (imperfection > 0)

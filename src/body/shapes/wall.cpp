@@ -15,12 +15,12 @@ namespace meniscus {
 
 namespace {
 
-/// A function of the angle theta from the axis and its first two derivatives.
+/// Value and first two derivatives of a function of the angle theta from the axis.
 struct OfAngle {
   Real value, first, second;
 };
 
-/// Even functions of theta as functions of cos theta, which are smooth at the pole.
+/// Converts even functions of theta to functions of cos theta, which are smooth at the pole.
 class FromAxis {
  public:
   explicit FromAxis(Jet<3> cosine, Real sine)
@@ -41,7 +41,7 @@ class FromAxis {
  private:
   Jet<3> cosine_;
   Real sine_;
-  bool at_pole_;  // limits: the next terms of the series are below round-off
+  bool at_pole_;  // use limits; further terms of the series are below round-off
 };
 
 Jet<3> inverse(const Jet<3>& a) {
@@ -89,7 +89,8 @@ Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real
         fmt::format("a wall {:g} thick has no smooth inner surface: the outer one is bent to a "
                     "radius of {:g}, which must be larger than the thickness",
                     thickness, meridian.smallest_radius));
-  // A quarter of a great circle crosses as many cells as the edge of a face of the cube has.
+  // A quarter of a great circle crosses as many cells as there are along an edge of a face of the
+  // cube.
   const Real cells = std::ceil(meridian.length / spacing - 1e-9);
   require_affordable<3>(6 * cells * cells * layers);
   Geometry<3> geometry =

@@ -6,14 +6,15 @@
 
 namespace meniscus {
 
-/// The surface of the sphere of radius 1 becomes the surface of revolution of the meridian, the
-/// sphere of radius `unit_wall_inside` the parallel surface `thickness` inside it; radii become
-/// normals. Angles from the axis become arc lengths in proportion.
+/// Maps the sphere of radius 1 to the surface of revolution of the meridian, and the sphere of
+/// radius `unit_wall_inside` to the parallel surface `thickness` inside. Radii are mapped to
+/// normals; angles from the axis are mapped to arc lengths in proportion.
 SmoothMap<3> wall_map(Meridian meridian, Real thickness, const Vec<3>& centre);
 inline constexpr Real unit_wall_inside = 0.5;
 
-/// The wall as a body: a cubed sphere surface of cells as long as `spacing` along the meridian at
-/// most, `layers` particles through the wall. Throws InputError if there is no parallel surface.
+/// The wall as a body. Its surface is a cubed sphere whose cells are at most `spacing` long along
+/// the meridian; `layers` particles lie through the wall. Throws InputError if there is no parallel
+/// surface.
 Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real spacing,
                       const Vec<3>& centre);
 

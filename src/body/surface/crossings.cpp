@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges that pierce simplices, found by boxes.
+// Finds edges that pierce simplices, by a tree of bounding boxes.
 #include "body/surface/crossings.hpp"
 
 #include "numbers/dense.hpp"
@@ -14,8 +14,8 @@ namespace meniscus {
 template <int D>
 struct CrossingSearch<D>::Plane {
   std::array<Vec<D>, D> corner;
-  Vec<D> normal;  // of length one
-  Real size;      // length; of a triangle, the leg of the half square of its area
+  Vec<D> normal;  // unit vector
+  Real size;      // length; triangle: leg of a right isosceles one of its area
 
   Plane() = default;
   explicit Plane(const std::array<Vec<D>, D>& corners) : corner(corners) {
@@ -30,7 +30,7 @@ struct CrossingSearch<D>::Plane {
       normal /= size;
     }
   }
-  /// Distance of a point of the plane from the rim; not positive outside of the simplex.
+  /// Distance of a point of the plane from the boundary of the simplex; zero or negative outside.
   Real from_rim(const Vec<D>& x) const {
     if constexpr (D == 2) {
       const Real t = (corner[1] - corner[0]).dot(x - corner[0]) / size;
@@ -49,7 +49,7 @@ struct CrossingSearch<D>::Plane {
 template <int D>
 struct CrossingSearch<D>::Places {
   const std::vector<Vec<D>>& x;
-  std::vector<Box<D>> simplex, node;  // boxes
+  std::vector<Box<D>> simplex, node;  // boxes around simplices and nodes
   std::vector<Plane> plane;           // [simplex]
 
   std::array<Vec<D>, D> corners(const Simplex& of) const {
@@ -79,7 +79,8 @@ CrossingSearch<D>::CrossingSearch(std::vector<Simplex> simplices, const std::vec
   for (std::size_t k = 0; k < items.size(); ++k) simplices_[k] = items[k].simplex;
 }
 
-/// Surfaces are kept apart, since they may move apart; a surface is halved along its longest side.
+/// Divides the simplices into a tree of boxes. Different surfaces are separated first, since they
+/// may move apart; each surface is then halved along its longest side.
 template <int D>
 void CrossingSearch<D>::divide(std::vector<Item>& items, Index begin, Index end) {
   constexpr Index few = 4;
@@ -138,9 +139,11 @@ std::optional<Crossing<D>> CrossingSearch<D>::deepest(const std::vector<Vec<D>>&
   return deepest.share > bearable ? std::optional(deepest) : std::nullopt;
 }
 
-/// The deepest of the edges of simplex `first` that pierce simplex `second`, if one is deeper than
-/// `deepest`. In 2D, a place on the line of `second` but for a little is as far from it as the next
-/// place along the curve on that side: curves may cross near their corners.
+/// Finds the edge of simplex `first` that pierces simplex `second` most deeply, and stores it if it
+/// is deeper than `deepest`. Depth is the least distance of the ends from the plane and of the
+/// intersection from the boundary. In 2D curves may cross near their corners: an end that lies
+/// almost on the line of `second` counts with the distance of the next point of the curve on the
+/// same side.
 template <int D>
 void CrossingSearch<D>::pierce(Index first, Index second, const Places& places,
                                Crossing<D>& deepest) const {
@@ -172,7 +175,8 @@ void CrossingSearch<D>::pierce(Index first, Index second, const Places& places,
   }
 }
 
-/// Looks among the simplices that come after those of the leaf, and among its own.
+/// Searches crossings of the simplices of a leaf with each other and with the simplices of later
+/// leaves.
 template <int D>
 void CrossingSearch<D>::find_in(const Node& leaf, const Places& places,
                                 Crossing<D>& deepest) const {
@@ -198,7 +202,7 @@ void CrossingSearch<D>::find_in(const Node& leaf, const Places& places,
       int common = 0;
       for (const Index a : at(simplices_, first))
         for (const Index b : at(simplices_, second)) common += a == b;
-      if (common >= D - 1) continue;  // every edge of one meets the other
+      if (common >= D - 1) continue;  // neighbours: every edge of one meets the other
       pierce(first, second, places, deepest);
       pierce(second, first, places, deepest);
     }

@@ -75,7 +75,7 @@ FaceCells<D> face_cells(const Body<D>& body, const FaceChoice& choice) {
   CellQuadrature<D> q;
   for (const Index node : boundary_nodes(grid)) {
     body.cells.quadrature(node, q);
-    std::map<int, std::vector<std::size_t>> points;  // by patch
+    std::map<int, std::vector<std::size_t>> points;  // [patch] numbers of its points
     for (const auto& part : q.body_facets) {
       const Facet<D>& facet = facet_at(grid, part.cell, part.side);
       if (!chosen(facet, q, part)) continue;

@@ -26,7 +26,7 @@ using Tangent2 = std::array<std::array<T, 2>, 1>;
 template <class T>
 using Tangents3 = std::array<std::array<T, 3>, 2>;
 
-/// m, outward for outward facets.
+/// The area normal m; outward for outward facets.
 template <class T>
 std::array<T, 2> area_normal(const Tangent2<T>& t) {
   return {t[0][1], -t[0][0]};
@@ -35,7 +35,7 @@ template <class T>
 std::array<T, 3> area_normal(const Tangents3<T>& t) {
   return cross(t[0], t[1]);
 }
-/// c_k of b . dm = sum_k c_k . dt_k.
+/// The coefficients c_k in b . dm = sum_k c_k . dt_k.
 template <class T>
 Tangent2<T> through_tangents(const Tangent2<T>&, const std::array<T, 2>& b) {
   return {{{-b[1], b[0]}}};
@@ -62,7 +62,7 @@ T SurfacePatches<D>::group_sum(const Corners<T>& place, T* gradient, F&& integra
         at(p, i) += at(f.L, a) * at(at(place, a), i);
         for (int k = 0; k < D - 1; ++k) at(at(t, k), i) += at(at(f.dL, k), a) * at(at(place, a), i);
       }
-    // The sum is sum s; ds = by_place . dx + by_normal . dm.
+    // The result is sum s with the change ds = by_place . dx + by_normal . dm.
     const Vector<T> m = area_normal(t);
     Vector<T> by_place, by_normal;
     total += integrand(f.weight, p, m, by_place, by_normal);

@@ -18,7 +18,7 @@ constexpr std::array<Index, PatchFunctions<D>::nodes> own_points() {
   return points;
 }
 
-/// X_,kl of a patch, whose functions are at most quadratic in each direction.
+/// Second derivative X_,kl of a patch, whose functions are at most quadratic in each direction.
 template <int D>
 Vec<D> second_derivative(const std::vector<Vec<D>>& x, const Vec<D - 1>& xi, int k, int l) {
   constexpr std::array<Real, 3> bend = {1, -2, 1};
@@ -36,7 +36,7 @@ Vec<D> second_derivative(const std::vector<Vec<D>>& x, const Vec<D - 1>& xi, int
   return sum;
 }
 
-/// N_K,L along the surface.
+/// Gradient N_K,L of the normal along the surface.
 template <int D>
 Mat<D> normal_gradient(const std::vector<Vec<D>>& x, const Vec<D - 1>& xi,
                        const Eigen::Matrix<Real, D, D - 1>& J, const Vec<D>& N) {

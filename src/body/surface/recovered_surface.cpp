@@ -24,7 +24,7 @@ std::size_t corner_count(const Facet<D>& facet) {
     return 2;
 }
 
-/// xi of a corner of a facet.
+/// Coordinates xi of a corner of a facet.
 template <int D>
 Vec<D - 1> corner_place(std::size_t corner) {
   Vec<D - 1> xi;
@@ -42,8 +42,8 @@ Vec<D> normal_at_corner(const Facet<D>& facet, const FacetCorners<D>& corners, s
 
 template <int D>
 struct BoundaryNodes {
-  std::vector<Index> node;              ///< number of each boundary node in the grid
-  std::vector<Index> number;            ///< number of a grid node among them; -1: inside the body
+  std::vector<Index> node;    ///< number of each boundary node in the grid
+  std::vector<Index> number;  ///< [grid node] number among boundary nodes; -1: inside the body
   std::vector<std::set<Index>> beside;  ///< boundary nodes that share a facet
   std::vector<Vec<D>> normal;           ///< mean normal of its facets, weighted by area
 };
@@ -69,7 +69,7 @@ BoundaryNodes<D> boundary_of(const Grid<D>& grid) {
   return b;
 }
 
-/// A node at which the surface has an edge or corner, or -1.
+/// A node at which the surface has an edge or corner; -1 if there is none.
 template <int D>
 Index find_edge(const Grid<D>& grid, const BoundaryNodes<D>& b) {
   constexpr Real least_cosine = 0.75;  // cosine of 41 degrees
@@ -184,7 +184,7 @@ std::shared_ptr<const RecoveredSurface<D>> RecoveredSurface<D>::if_smooth(const 
 template <int D>
 std::shared_ptr<const RecoveredSurface<D>> RecoveredSurface<D>::of_piece(const Grid<D>& grid) {
   auto surface = std::shared_ptr<RecoveredSurface>(new RecoveredSurface);
-  surface->recover(grid, 1e-10);  // for few nodes the fit with least curvature
+  surface->recover(grid, 1e-10);  // if nodes are few, take the fit with least curvature
   return surface;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Impact pressure, elastocapillary and Tabor numbers of a contact, and waves of drops that spread.
+// Advice about a contact: impact pressure, elastocapillary number, Tabor number, and waves of
+// spreading drops.
 #include "features/contact/contact_advice.hpp"
 
 #include "physics/contact/contact_numbers.hpp"
@@ -14,11 +15,11 @@
 namespace meniscus {
 namespace {
 
-/// A body in the mean.
+/// Mean properties of a body in contact.
 struct TouchingBody {
-  Real density, shear_modulus, bulk_modulus, radius;  ///< of the ball (2D: disk) of its volume
+  Real density, shear_modulus, bulk_modulus, radius;  ///< of a ball (2D: disk) of its volume
 
-  /// rho c of p-waves: pressure per speed at which it is hit.
+  /// Impedance rho c of p-waves: the pressure of an impact divided by its speed.
   Real impedance() const { return std::sqrt(density * (bulk_modulus + 4 * shear_modulus / 3)); }
 };
 
@@ -34,7 +35,8 @@ TouchingBody touching_body(const std::string& name, const Assembly<D>& assembly)
                  : std::sqrt(volume / std::numbers::pi)};
 }
 
-/// Of its particles at the start; coefficients are near enough to places.
+/// Mean velocity of the particles at the start. Coefficients are used instead of values, which is
+/// accurate enough here.
 template <int D>
 Vec<D> mean_velocity(const Body<D>& body, const State& begin) {
   Vec<D> sum = Vec<D>::Zero();
@@ -46,7 +48,7 @@ Vec<D> mean_velocity(const Body<D>& body, const State& begin) {
   return sum / mass;
 }
 
-/// The largest speed of its particles relative to `other`.
+/// The largest speed of the particles of a body relative to the velocity `other`.
 template <int D>
 Real largest_speed(const Body<D>& body, const State& begin, const Vec<D>& other) {
   Real largest = 0;
@@ -58,7 +60,7 @@ Real largest_speed(const Body<D>& body, const State& begin, const Vec<D>& other)
   return largest;
 }
 
-/// The direction from a body to what it touches.
+/// Unit vector from the first body to the other body or partner.
 template <int D>
 Vec<D> towards(const BeginningContact<D>& contact, const Assembly<D>& assembly) {
   const auto middle = [&](const std::string& name) {
@@ -81,10 +83,10 @@ Real largest_speed_along(const Vec<D>& direction, const RigidMotion<D>& motion, 
   return largest;
 }
 
-/// How fast the first body comes to the other side.
+/// Speeds at which the first body approaches the other side.
 struct Approaching {
   Real at_start;  ///< the largest speed of its particles relative to the other side
-  Real later;  ///< when they meet: with the partner at its fastest, and what loads add over the gap
+  Real later;     ///< at contact: largest partner speed, and speed gained from loads over the gap
 };
 
 template <int D>
@@ -128,8 +130,8 @@ void advise_on_impact(const BeginningContact<D>& contact, const std::vector<Touc
                                         : "moves",
       speed, assembly.units().symbol(dimension::velocity), impact, pressure,
       contact.greatest_pressure, pressure));
-  // Balls of 321 and 997 particles came through at 0.26 (scaled_lennard_jones) and at 0.74
-  // (smooth_young) of it, and did not at 0.13 and 0.49.
+  // Balls of 321 and 997 particles passed through the contact at 0.26 (scaled_lennard_jones) and at
+  // 0.74 (smooth_young) of this pressure, but not at 0.13 and 0.49.
   if (impact > contact.greatest_pressure / 5)
     assembly.warn(fmt::format(
         "contact '{}': an impact at {:.3g} {} may press with {:.3g} {}, where the contact holds "
@@ -139,8 +141,9 @@ void advise_on_impact(const BeginningContact<D>& contact, const std::vector<Touc
         contact.greatest_pressure, pressure));
 }
 
-/// sigma (9 R/(2 pi W E*^2))^(1/3)/1.157, with the peak traction sigma: of a Lennard-Jones contact
-/// it is (R W^2/(E*^2 g^3))^(1/3), g the equilibrium gap (quasi-statics note 6.1).
+/// Tabor number sigma (9 R/(2 pi W E*^2))^(1/3)/1.157 with the peak traction sigma. For a
+/// Lennard-Jones contact it is (R W^2/(E*^2 g^3))^(1/3) with the equilibrium gap g (quasi-statics
+/// note 6.1).
 Real tabor_number(const std::vector<TouchingBody>& solids, const PlaneContact& flat) {
   Real compliance = 0, curvature = 0;  // 1/E* = sum (1 - nu)/(2 mu), 1/R
   for (const TouchingBody& solid : solids) {
@@ -154,8 +157,8 @@ Real tabor_number(const std::vector<TouchingBody>& solids, const PlaneContact& f
                    (2 * std::numbers::pi * flat.adhesion * curvature));
 }
 
-/// Width over the square root of the area (3D: radius over the cube root of the volume) of the base
-/// of a cap with the contact angle theta.
+/// Size of the base of a cap with the contact angle theta. 2D: width over the square root of the
+/// area. 3D: radius over the cube root of the volume.
 template <int D>
 Real base_of_cap(Real theta) {
   const Real c = std::cos(theta), s = std::sin(theta);
@@ -207,7 +210,8 @@ void advise(const BeginningContact<D>& contact, Assembly<D>& assembly) {
                               contact.name, name, softness));
     const Real tension = assembly.of(name).surface_energy.value_or(0);
     const bool below_drop = &name != &contact.bodies[0] && touching[0].shear_modulus == 0;
-    if (softness > 1 && tension < contact.flat.adhesion / 2 && !below_drop)  // of drops others warn
+    // Another warning is about ground below drops.
+    if (softness > 1 && tension < contact.flat.adhesion / 2 && !below_drop)
       assembly.warn(fmt::format(
           "contact '{}': W/(mu R) of '{}' is {:.3g}: adhesion deforms it by more than its size, "
           "which its elasticity does not hold; expected is less than 1, by a stiffer body, less "

@@ -65,7 +65,8 @@ ContactChoice Contact<D>::choice(const Assembly<D>& assembly) const {
   return choice;
 }
 
-/// Which keys decide what the contact holds, for a run in which surfaces come through it.
+/// Advice for a run in which a surface passes through the contact: the pressure it withstands, and
+/// the keys that raise it.
 template <int D>
 std::string Contact<D>::overlap(const Assembly<D>& assembly) const {
   std::vector<std::string> lengths, strengths;
@@ -97,7 +98,8 @@ RigidMotion<D> Contact<D>::partner_motion() const {
   return partner->displacement.empty() ? RigidMotion<D>() : RigidMotion<D>(partner->displacement);
 }
 
-/// Two surfaces that start closer than the least gap have forces that no step can follow.
+/// Throws InputError if the surfaces start closer than the least gap, where no step can resolve the
+/// forces.
 template <int D>
 void Contact<D>::require_gap(ForceTerm& term, const State& initial) const {
   NodalVectors force(initial.u.size(), Lanes::zero());
@@ -105,7 +107,8 @@ void Contact<D>::require_gap(ForceTerm& term, const State& initial) const {
     throw InputError(fmt::format("{}: {}; move the bodies apart", this->place, failure->cause));
 }
 
-/// Surfaces whose points lie farther apart than the interaction reaches go through each other.
+/// Throws InputError if contact points are farther apart than the interaction reaches: the bodies
+/// could pass through each other without a force.
 template <int D>
 void Contact<D>::require_points_to_meet(const Assembly<D>& assembly) const {
   const ContactResolution r = resolution(assembly);
@@ -118,8 +121,8 @@ void Contact<D>::require_points_to_meet(const Assembly<D>& assembly) const {
       this->place, bodies[0], bodies[1], r.facet / chosen, chosen, r.gap, r.longest_spacing()));
 }
 
-/// Nothing but the forces keeps bodies out of each other: a body that went through the surface of
-/// another all the same must not run on.
+/// Check of the state: only forces keep the bodies apart, so a run must end if a body has passed
+/// through the surface of another.
 template <int D>
 StateCheck Contact<D>::containment(const Assembly<D>& assembly) const {
   const Body<D>& first = assembly.body(bodies[0]);

@@ -8,7 +8,7 @@
 
 namespace meniscus::contact_table {
 
-/// How many points there are, and what their distance costs.
+/// Logs the number of contact points per facet and the error due to their distance.
 template <int D>
 void Contact<D>::report_points(Assembly<D>& assembly) const {
   if (form == "volume") return;
@@ -22,7 +22,7 @@ void Contact<D>::report_points(Assembly<D>& assembly) const {
       r.tangential_share(chosen), r.rigid ? " times a radius" : ""));
 }
 
-/// Adhesion, gap, strength and stiffness of the contact as if it were flat.
+/// Logs adhesion, gap, strength and stiffness of the contact of flat surfaces.
 template <int D>
 void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   const auto unit = [&](Dimension d) { return assembly.units().symbol(d); };
@@ -41,7 +41,8 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   if (const std::string more = model->described(surfaces(assembly), assembly.units());
       !more.empty())
     note += ", " + more;
-  // The traction along the normal of the wall does no work on the line of contact.
+  // In form `dissertation` the traction is normal to the wall and does no work on the contact line,
+  // so there is no contact angle.
   for (const std::string& body : bodies)
     if (const auto gamma = assembly.of(body).surface_energy; gamma && form != "dissertation")
       note += fmt::format(", contact angle of '{}': {}", body,
@@ -80,7 +81,7 @@ BeginningContact<D> Contact<D>::beginning(const ForceTerm& term,
   return beginning;
 }
 
-/// What a drop does on a wall.
+/// Adds the measures of a drop that wets a rigid partner.
 template <int D>
 void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
   if (!assembly.of(bodies[0]).surface_energy) return;
@@ -108,16 +109,16 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
       assembly.measure_of_cap(bodies[0], name, std::move(source), this->place);
 }
 
-/// Whether the first is a drop, and the second is not.
+/// True if the first body is a drop and the second is a solid.
 template <int D>
 bool Contact<D>::soft_wetting(const Assembly<D>& assembly) const {
   return !partner && assembly.of(bodies[0]).surface_energy && assembly.of(bodies[0]).is_fluid() &&
          !assembly.of(bodies[1]).is_fluid();
 }
 
-/// Why the surface of soft ground may fold: a traction of the adhesion W over the range l pulls it
-/// nearer by about W/E, and at a part of l it jumps into contact (wetting note 10). Empty where
-/// that is not to be expected.
+/// Warns that the surface of soft ground may fold. The adhesion W with range l pulls the surface
+/// nearer by about W/E; if this is a considerable part of l, the surface jumps into contact
+/// (wetting note 10). Empty if no fold is expected.
 template <int D>
 std::string Contact<D>::folding(const Assembly<D>& assembly) const {
   constexpr Real largest = 1.0 / 3, peak_of_chi = 1.875;
@@ -139,12 +140,12 @@ std::string Contact<D>::folding(const Assembly<D>& assembly) const {
       unit(dimension::length), W / 2, unit(dimension::tension));
 }
 
-/// What a drop does on a soft body.
+/// Adds the measures of a drop that wets a soft body.
 template <int D>
 void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
   if (!soft_wetting(assembly)) return;
   const PlaneContact& flat = this->flat(assembly);
-  // Where adhesion varies the contact has it.
+  // If the adhesion varies, the contact itself has this measure.
   if (!assembly.has_measure(name + ".wetted_area"))
     assembly.measure(name, {"wetted_area", D == 3 ? dimension::area : dimension::length,
                             "area in contact: energy of the interaction / adhesion",
@@ -157,7 +158,7 @@ void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
     assembly.measure(name, std::move(source));
   if (const std::string why = folding(assembly); !why.empty())
     assembly.warn(fmt::format("contact '{}': {}", name, why));
-  // Half of the energy of the contact is that of either surface.
+  // Each surface stores half of the energy of the contact.
   const Real tension = assembly.of(bodies[1]).surface_energy.value_or(0);
   const Real half = model->greatest_adhesion(surfaces(assembly), assembly.end_time()) / 2;
   if (up.empty() && tension < half)

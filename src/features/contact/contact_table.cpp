@@ -9,7 +9,7 @@
 namespace meniscus::contact_table {
 namespace {
 
-/// What an absent key stands for.
+/// The interaction if the key is absent.
 std::string usual_interaction(const Block& block) {
   if (!block.has("contact_angle") && !block.has("adhesion")) return "lennard_jones";
   return block.has("sigma0") ? "scaled_lennard_jones" : "smooth_young";
@@ -37,7 +37,7 @@ Rows<Keys> Keys::rows() {
                  "disjoining pressure; forces between volume points; traction of the dissertation "
                  "(not the gradient of any energy), the only one of legacy_switch",
                  "energy");
-  form.read = [](Keys&, const Block&) {};  // with the interaction, which knows its usual one
+  form.read = [](Keys&, const Block&) {};  // read with the interaction, for its default
   return {
       text_row("name", &Keys::name, "by which messages and measures call it; empty: the bodies",
                ""),
@@ -72,7 +72,7 @@ Rows<Keys> Keys::rows() {
   };
 }
 
-/// Of the interactions and of the partners.
+/// Key tables of all interactions and partners, for the key reference.
 std::vector<KeyTable> tables_of_parts() {
   std::vector<KeyTable> tables;
   for (const auto& [name, interaction] : interactions<3>())
@@ -81,7 +81,7 @@ std::vector<KeyTable> tables_of_parts() {
          interaction.keys(),
          fmt::format("[[contact]]\nbodies = [\"drop\", \"other\"]\ninteraction = \"{}\"\n{}", name,
                      interaction.example)});
-  // In the plane there are all partners of space, and more.
+  // 2D has all partners of 3D, and more.
   tables.push_back({"[contact.partner] of any type", key_texts(Partner<2>::rows())});
   for (const auto& [name, partner] : partners<2>()) {
     const auto* in_space = partners<3>().find(name);

@@ -27,11 +27,11 @@ struct Keys {
 /// Names of the forms of the forces of a contact.
 std::vector<std::string> forms();
 
-/// [contact.partner]
+/// The table [contact.partner].
 template <int D>
 struct Partner {
   std::shared_ptr<const PartnerShape<D>> shape;
-  std::vector<Expression> displacement;  // of the time; empty: at rest
+  std::vector<Expression> displacement;  // formulas of the time; empty: at rest
 
   static Rows<Partner> rows() {
     Row<Partner> type = choice_row<Partner>("type", nullptr, partners<D>().names(),
@@ -54,7 +54,7 @@ struct Contact final : Load<D>, Keys {
   static constexpr std::string_view example =
       "bodies = [\"drop\", \"other\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\n";
   std::unique_ptr<const ContactModel<D>> model;
-  std::optional<Partner<D>> partner;  // none: between two bodies
+  std::optional<Partner<D>> partner;  // empty for a contact of two bodies
 
   void read_inner(const Block& block) {
     model = interactions<D>().at(interaction).read(block);
@@ -75,7 +75,8 @@ struct Contact final : Load<D>, Keys {
  private:
   ContactChoice choice(const Assembly<D>& assembly) const;
   ContactSurfaces surfaces(const Assembly<D>& assembly) const;
-  /// Computed once in build(), which uses it many times. Throws InputError if it is not finite.
+  /// Properties of the contact of flat surfaces. Computed once, because build() uses them many
+  /// times. Throws InputError if they are not finite.
   const PlaneContact& flat(const Assembly<D>& assembly) const {
     if (!flat_) {
       flat_ = model->flat(partner.has_value(), surfaces(assembly));

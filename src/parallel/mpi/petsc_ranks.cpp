@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranks by MPI, their exchanges by PETSc's star forests; no other file sees them.
+// Ranks by MPI, and exchanges by PETSc's star forests. This is the only file that includes these
+// libraries.
 #include "meniscus/error.hpp"
 #include "parallel/ranks.hpp"
 
@@ -20,12 +21,12 @@
 namespace meniscus {
 namespace {
 
-/// PETSc has said what it is by then.
+/// Throws if a function of PETSc has failed. PETSc itself has printed its message by then.
 void require(PetscErrorCode error) {
   if (error != 0) throw std::runtime_error(fmt::format("PETSc error {}", int{error}));
 }
 
-/// MPI's description of values of so many bytes, as words where they are.
+/// MPI's type for a value of so many bytes, made of doubles if possible.
 MPI_Datatype type_of(std::size_t bytes) {
   static std::map<std::size_t, MPI_Datatype> known;
   const auto [entry, is_new] = known.try_emplace(bytes, MPI_DATATYPE_NULL);
@@ -56,7 +57,7 @@ class StarForest final : public Exchange {
   StarForest(const StarForest&) = delete;
   StarForest& operator=(const StarForest&) = delete;
   ~StarForest() override {
-    PetscBool too_late = PETSC_FALSE;  // at the end of the program PETSc has gone before
+    PetscBool too_late = PETSC_FALSE;  // PETSc is already finalised at the end of the program
     PetscFinalized(&too_late);
     if (!too_late) PetscSFDestroy(&forest_);
   }
@@ -70,7 +71,7 @@ class StarForest final : public Exchange {
   }
 
  private:
-  /// Messages and values that one exchange sends from here.
+  /// Counts the messages and values that this rank sends in one exchange.
   void count() {
     PetscMPIInt ranks = 0;
     const PetscMPIInt* rank = nullptr;
@@ -88,19 +89,20 @@ class StarForest final : public Exchange {
 class PetscRanks final : public Ranks {
  public:
   PetscRanks() {
-    // The process that has started this one waits for it: without it nobody would know.
+    // Die with the launcher; otherwise ranks would be orphaned.
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     require(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));
     require(PetscInitializeNoArguments());
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
     MPI_Comm_size(PETSC_COMM_WORLD, &size_);
-    // Each would be a run of its own, all in one directory.
+    // A mismatch means separate runs that all write into one directory.
     if (size_ != launch().size)
       throw FileError(fmt::format(
           "rank {} of {} as it was started, but MPI knows of {} in all; expected is the mpirun of "
           "the MPI that meniscus-mpi is built with, or srun --mpi=pmix",
           launch().rank, launch().size, size_));
-    // Apart from what a rank that failed alone leaves the others waiting in.
+    // Communicators of their own: if a rank fails alone, the others may still wait in a call on the
+    // first communicator.
     MPI_Comm_dup(PETSC_COMM_WORLD, &at_the_end_);
     MPI_Comm_dup(PETSC_COMM_WORLD, &apart_);
   }
@@ -117,7 +119,7 @@ class PetscRanks final : public Ranks {
   }
 
   void hand_out(int from, void* values, std::size_t bytes) override {
-    constexpr std::size_t most = std::size_t{1} << 30;  // MPI counts by int
+    constexpr std::size_t most = std::size_t{1} << 30;  // MPI counts with int
     auto* part = static_cast<std::byte*>(values);
     for (std::size_t left = bytes; left > 0;) {
       const std::size_t now = std::min(left, most);
@@ -130,7 +132,7 @@ class PetscRanks final : public Ranks {
     traffic_.bytes += static_cast<std::int64_t>(bytes);
   }
 
-  /// In log2(P) rounds, of which a rank sends as much as it gets.
+  /// Gathers in log2(P) rounds; in each round, a rank sends as much as it receives.
   void gather(void* values, std::span<const std::size_t> begin) override {
     constexpr std::size_t most = std::size_t{1} << 30;
     if (begin.back() > most) return hand_out_in_turn(static_cast<std::byte*>(values), begin);
@@ -182,7 +184,7 @@ class PetscRanks final : public Ranks {
     return rounds;
   }
 
-  /// Whether it does while others may still be on the way.
+  /// True if the request completes within 20 s; other ranks may arrive late.
   static bool comes_true(MPI_Request& request) {
     using namespace std::chrono;
     constexpr milliseconds patience(20000), pause(1);
@@ -202,7 +204,7 @@ class PetscRanks final : public Ranks {
 
   int rank_ = 0, size_ = 1;
   MPI_Comm at_the_end_ = MPI_COMM_NULL, apart_ = MPI_COMM_NULL;
-  std::vector<int> count_, begin_;  // of gather(), [rank]
+  std::vector<int> count_, begin_;  // work space of gather(), [rank]
   Traffic traffic_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adhesion as a formula of place and time.
+// Adhesion as a formula of position and time.
 #include "physics/contact/adhesion.hpp"
 
 #include "meniscus/error.hpp"

@@ -45,16 +45,16 @@ Real bisect(Real a, Real b, F&& f) {
   const bool rises = f(b) > 0;
   while (true) {
     const Real middle = a + (b - a) / 2;
-    if (!(a < middle && middle < b)) return middle;  // also where one of them is not a number
+    if (!(a < middle && middle < b)) return middle;  // also true if one of them is NaN
     ((f(middle) > 0) == rises ? b : a) = middle;
   }
 }
 
-/// Where f is least between a and b, to half the digits (golden section).
+/// The position between a and b at which f is least, to half the digits (golden section).
 template <class F>
 Real minimum(Real a, Real b, F&& f) {
   constexpr Real golden = 1 / std::numbers::phi_v<Real>;
-  constexpr int most = 100;  // steps: the digits of a number are used up by then
+  constexpr int most = 100;  // steps; enough for all digits of a number
   for (int step = 0; step < most && b - a > 1e-9 * b; ++step) {
     const Real left = b - golden * (b - a), right = a + golden * (b - a);
     f(left) < f(right) ? b = right : a = left;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stages of the relaxation of carried fields.
+// Relaxation of carried fields in stages.
 #include "physics/director/carried_field.hpp"
 
 #include "meniscus/error.hpp"
@@ -59,8 +59,9 @@ Real CarriedField::arrive(std::span<const NodalVector> u, Real dt, std::span<Nod
   return heat;
 }
 
-/// s stages are stable up to (s^2 + s - 2)/4 Euler steps (Meyer, Balsara & Aslam 2014); the limit
-/// is that of the last estimate.
+/// Number of stages for the step dt. s stages are stable up to (s^2 + s - 2)/4 Euler steps (Meyer,
+/// Balsara & Aslam 2014). The length of a stable Euler step comes from the last estimate. Throws
+/// SolveError if more than 10,000 stages are needed.
 int CarriedField::stages(Real dt) const {
   constexpr Real safety = 0.8, most = 10'000;
   const Real steps = dt / (safety * limit_);
@@ -73,7 +74,8 @@ int CarriedField::stages(Real dt) const {
   return std::max(2, static_cast<int>(needed));
 }
 
-/// RKL2: Y_1 = x + m_1 dt R_0, Y_j = m Y_j-1 + n Y_j-2 + (1 - m - n) x + k dt R_j-1 + g dt R_0.
+/// Relaxes x over dt by the scheme RKL2: Y_1 = x + m_1 dt R_0, Y_j = m Y_j-1 + n Y_j-2 + (1 - m -
+/// n) x + k dt R_j-1 + g dt R_0.
 void CarriedField::relax(Real dt, std::span<NodalVector> x) {
   const int s = stages(dt);
   const Real w = 4.0 / (s * s + s - 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Directors that bodies carry.
+// The director field of a body.
 #include "physics/director/director.hpp"
 
 #include "body/particle_values.hpp"
@@ -52,8 +52,9 @@ Director<D>::Director(const Body<D>& body, std::size_t number, const NematicBody
   for (const Vec<D>& h : nematic.director) initial_.push_back(spatial<D>(h));
 }
 
-/// With D = (F_1 - F_0) [(F_0 + F_1)/2]^-1 and B = skew D + lambda sym D - nu2 tr D I the director
-/// becomes (I - B/2)^-1 (I + B/2) h: exact where the body turns, the same forth and back.
+/// Transports the director with the motion. With D = (F_1 - F_0) [(F_0 + F_1)/2]^-1 and B = skew D
+/// + lambda sym D - nu2 tr D I, h becomes (I - B/2)^-1 (I + B/2) h. This is exact for rotations and
+/// reversible.
 template <int D>
 void Director<D>::carry(const NodalVector* from, const NodalVector* to,
                         std::span<NodalVector> x) const {
@@ -104,7 +105,7 @@ NodalVectors Director<D>::values(const Motion& motion) const {
   return values_at_particles(body_, at(motion.fields, number()).x.data() + body_.first);
 }
 
-/// Over the reference volume.
+/// Mean of a value per particle over the reference volume.
 template <int D>
 template <class F>
 Real Director<D>::mean(F&& of_particle) const {
@@ -116,7 +117,7 @@ Real Director<D>::mean(F&& of_particle) const {
   return sum / volume;
 }
 
-/// The greatest eigenvalue of the mean of (D h h/|h|^2 - I)/(D - 1).
+/// Order parameter: the largest eigenvalue of the mean of (D h h/|h|^2 - I)/(D - 1).
 template <int D>
 Real Director<D>::order(const Motion& motion) const {
   Mat<D> Q = Mat<D>::Zero();
@@ -135,8 +136,7 @@ Real Director<D>::order(const Motion& motion) const {
   return (D * eigenvalues.maxCoeff() - 1) / (D - 1);
 }
 
-/// h x s per volume, s the force -dE/dh on the director that the elastic couple balances, zero at
-/// rest.
+/// The elastic couple h x s per volume, with the force s = -dE/dh on the director. Zero at rest.
 template <int D>
 void Director<D>::couples(const Motion& motion, std::span<Real> values) {
   const NodalVector* u = motion.u.data() + body_.first;
@@ -150,7 +150,7 @@ void Director<D>::couples(const Motion& motion, std::span<Real> values) {
   }
 }
 
-/// P2 of the angle between the director and that of the start; 1 where there is none.
+/// P2 of the angle between the present and the initial director; 1 where a director is zero.
 template <int D>
 Real Director<D>::tilt(const Lanes& director, Index A) const {
   const Eigen::Vector3d h = spatial(director), &h0 = at(initial_, A);

@@ -149,8 +149,8 @@ void FrankEnergy<D>::add_held_force(const NodalVector* x, std::span<NodalVector>
   });
 }
 
-/// A defect whose director turns within the core is accurate to 0.1 % up to a spacing of 1.5 core
-/// lengths.
+/// Warns of a coarse spacing: a defect whose director turns within its core is accurate to 0.1 % up
+/// to a spacing of 1.5 core lengths.
 template <int D>
 std::optional<std::string> FrankEnergy<D>::warning(const Motion&) const {
   constexpr Real bearable = 1.5;

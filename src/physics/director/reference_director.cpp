@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Directors from formulas or from the walls of a shape.
+// Directors given by formulas, or by the walls of a shape.
 #include "physics/director/reference_director.hpp"
 
 #include "meniscus/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damping of combinations of velocity coefficients that leave every material point at rest.
+// Damps combinations of nodal velocities that leave every material point at rest.
 #include "physics/internal/coefficient_damping.hpp"
 
 #include "kernel/row_sums.hpp"

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *young = "youngs_modulus", *poisson = "poissons_ratio";
 
-/// "mu and lambda"
+/// The keys as a text: "mu and lambda".
 std::string names_of(std::span<const OfModuli> numbers) {
   std::vector<std::string> names;
   for (const OfModuli& number : numbers) names.emplace_back(number.key);

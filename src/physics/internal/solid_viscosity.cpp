@@ -104,7 +104,7 @@ class SolidViscosity final : public ForceTerm {
   ChunkReports said_;
   OwnItems own_;  // groups whose rows this rank has
   Lanes shear_, volumetric_;
-  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group]
+  std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group] H
 };
 
 }  // namespace

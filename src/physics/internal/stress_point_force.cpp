@@ -21,7 +21,8 @@ Tensor<Lanes> StressPointForce<D, Rule>::gradients(Index group, const NodalVecto
   return H;
 }
 
-/// With J_e = V/V0 of the surface the force is -sum w P grad N - (sum w dW/dJ_e) dV/du / V0.
+/// Adds the tangent. With J_e = V/V0 of the surface, the force is -sum w P grad N - (sum w dW/dJ_e)
+/// dV/du / V0.
 template <int D, class Rule>
 void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& change,
                                             Forces force) {

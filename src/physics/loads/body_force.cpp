@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads per mass from formulas.
+// Body forces: accelerations given by formulas, times masses.
 #include "physics/loads/body_force.hpp"
 
 #include "numbers/dense.hpp"
@@ -33,7 +33,7 @@ class BodyForce final : public ForceTerm {
     report.outside = {all.force, all.moment};
     return report;
   }
-  void add_tangent(const Motion&, const Motion&, Forces) override {}  // the same everywhere
+  void add_tangent(const Motion&, const Motion&, Forces) override {}  // a constant force
   bool tell_reads(StepReads& reads) override {
     const OwnItems own = body_.division.own_rows(body_.size());
     reads.range(body_.first + own.begin, body_.first + own.end);
@@ -56,7 +56,7 @@ class BodyForce final : public ForceTerm {
   Offset pairs() const override { return 0; }
 
  private:
-  /// load_ at a time, which is that of the call before as a rule.
+  /// Computes load_ at a time, unless it is known from the last call.
   void evaluate(Real time) {
     if (time == evaluated_at_ || (steady_ && evaluated_at_ > never)) return;
     for (Index A = 0; A < body_.size(); ++A) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cavity: force of a filling on the surface around it.
+// Cavity: the force of a filling on the surface around it.
 #include "physics/loads/cavity.hpp"
 
 #include "physics/loads/cavity_gap.hpp"
@@ -42,7 +42,8 @@ class Cavity final : public ForceTerm {
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     if (vented()) return;
     const Body<D>& body = surface_.body();
-    // The volume is a polynomial of third degree: central differences of its gradient are exact.
+    // The volume is a cubic polynomial of the positions, so central differences of its gradient are
+    // exact.
     const NodalVectors here = volume_gradient(motion, 0, change),
                        ahead = volume_gradient(motion, 1, change),
                        behind = volume_gradient(motion, -1, change);
@@ -69,7 +70,7 @@ class Cavity final : public ForceTerm {
     return true;
   }
   Real steady_after() const override { return vented() ? 0 : filling_.ramp.end; }
-  /// Pressure times area.
+  /// Scale of the force, before opposite sides cancel: pressure times area.
   Real uncancelled_force(const Motion& motion) const override {
     const auto size = surface_.size(motion);
     return std::abs(pressure(motion.time, size.volume)) * size.area;
@@ -93,7 +94,7 @@ class Cavity final : public ForceTerm {
  private:
   bool vented() const { return !filling_.pressure && !filling_.volume_target; }
   Real volume(const Motion& motion) const { return surface_.size(motion).volume; }
-  /// dV/dd_A of the body's particles at the displacements u + s du.
+  /// Gradient dV/dd_A for the particles of the body, at the displacements u + s du.
   NodalVectors volume_gradient(const Motion& motion, Real s, const Motion& change) {
     NodalVectors u(motion.u.begin(), motion.u.end());
     for (std::size_t A = 0; A < u.size(); ++A) u[A] += s * change.u[A];
@@ -101,7 +102,7 @@ class Cavity final : public ForceTerm {
     surface_.add_volume_gradient(surface_.placed({motion.time, u, u}), 1, gradient);
     return gradient;
   }
-  /// V/V0 - target.
+  /// Relative excess volume V/V0 - target.
   Real excess(Real time, Real volume) const {
     const Real target = 1 + (*filling_.volume_target - 1) * filling_.ramp.fraction(time);
     return volume / reference_volume_ - target;
@@ -111,7 +112,7 @@ class Cavity final : public ForceTerm {
     return filling_.volume_target ? -filling_.penalty * excess(time, volume) : 0;
   }
 
-  /// dE/dt at constant volume.
+  /// Power dE/dt of the ramp at constant volume.
   Real ramp_power(Real time, Real volume) const {
     const Real rate = filling_.ramp.rate(time);
     if (rate == 0) return 0;
@@ -119,7 +120,7 @@ class Cavity final : public ForceTerm {
     return filling_.penalty * reference_volume_ * excess(time, volume) *
            (1 - *filling_.volume_target) * rate;
   }
-  /// Opposite inner faces that touch, as now_ has them.
+  /// A failure if opposite inner faces touch at the positions of now_.
   std::optional<Failure> crossing() const {
     if (!gap_) return std::nullopt;
     const auto gap = gap_->smallest(now_);
@@ -132,7 +133,7 @@ class Cavity final : public ForceTerm {
   }
 
   ClosedSurface<D> surface_;
-  typename ClosedSurface<D>::Placed now_;  // at the motion of a force
+  typename ClosedSurface<D>::Placed now_;  // surface at the motion of the last force
   CavityFilling filling_;
   Real reference_volume_ = 0;
   std::optional<CavityGap<D>> gap_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cavity gap: pairs of opposite places.
+// The gap of a cavity, from pairs of opposite surface points.
 #include "physics/loads/cavity_gap.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace meniscus {
 
 namespace {
 
-/// Points that follow each other, which mostly are near each other, and a ball around them.
+/// Consecutive points, which are usually near each other, and a ball around them.
 template <int D>
 struct Cluster {
   std::span<const Index> points;
@@ -35,8 +35,8 @@ std::vector<Cluster<D>> clusters_of(const SurfacePoints<D>& surface,
   return clusters;
 }
 
-/// The point that the normal of point q meets: of those that face it the one nearest to the line,
-/// -1 if the line passes more than a facet beside it.
+/// The point that lies opposite to point q: of the points that face q, the one nearest to the line
+/// along the normal of q. -1 if no point is nearer to this line than the size of a facet.
 template <int D>
 Index opposite(const SurfacePoints<D>& surface, Index q,
                const std::vector<Cluster<D>>& candidates) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pressure that follows a face, on the quadratic patches through its places.
+// Pressure on a face that follows its deformation, on quadratic patches through its positions.
 #include "body/grid/gauss.hpp"
 #include "body/surface/quadratic_patches.hpp"
 #include "body/surface/surface_points.hpp"
@@ -22,8 +22,8 @@ Vec<D> area_normal(const CellPoint<D, D - 1>& place) {
     return {place.J(1, 0), -place.J(0, 0)};
 }
 
-/// Three Gauss points per direction on a facet (`quarter` negative) or on its quarter at a corner:
-/// exact for the products of L_a and the area normal m.
+/// Patch functions at three Gauss points per direction, on a facet (`quarter` negative) or on its
+/// quarter at a corner. Exact for products of L_a and the area normal m.
 template <int D>
 std::vector<PatchFunctions<D>> exact_functions(int quarter) {
   if (quarter < 0) return patch_functions<D>(3);
@@ -70,7 +70,8 @@ class FacePressure final : public ForceTerm {
     if (!has_potential()) report.outside = resultant();
     return report;
   }
-  /// The force is of second degree in the places (2D: of first).
+  /// Adds the exact tangent: the force is quadratic in the positions (2D: linear), so a difference
+  /// of two forces is exact.
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     NodalVectors ahead(X_.size()), behind = ahead, more = ahead;
     find_places(motion, x_);
@@ -125,13 +126,13 @@ class FacePressure final : public ForceTerm {
   Offset pairs() const override { return rows_.entries(); }
 
  private:
-  /// A facet, or a quarter of one.
+  /// A facet or a quarter of a facet.
   struct Piece {
     std::array<Index, nodes> point;
-    std::size_t functions;  ///< number in functions_
+    std::size_t functions;  ///< index in functions_
   };
-  /// Halves of the sides of quarters, from a point to a point with a larger number, and how often
-  /// quarters go around them in that sense less how often in the other.
+  /// Sides of pieces as pairs of points, the smaller number first. The value counts the pieces that
+  /// have the side in this direction minus the pieces that have it in the opposite direction.
   using Sides = std::map<std::pair<Index, Index>, int>;
 
   Index points() const { return static_cast<Index>(X_.size()); }
@@ -139,7 +140,8 @@ class FacePressure final : public ForceTerm {
   const NodalVector* own(std::span<const NodalVector> field) const {
     return field.data() + body_.first;
   }
-  /// The force is the gradient of p V, V the enclosed volume.
+  /// A uniform pressure on a closed surface has a potential: the force is the gradient of p V, V
+  /// the enclosed volume.
   bool has_potential() const { return closed_ && !pressure_.depends_on_place(); }
   Real uniform_pressure(Real time) const {
     return ramp_.fraction(time) * pressure_({0, 0, 0}, time);
@@ -148,7 +150,7 @@ class FacePressure final : public ForceTerm {
   void list_pieces() {
     const Grid<D>& grid = body_.geometry.grid;
     const PatchNodes<D> patches(grid);
-    std::map<Index, int> chosen;  // corners of facets, a bit each
+    std::map<Index, int> chosen;  // chosen corners of a facet, one bit each
     for (const auto& part : cells_.parts)
       for (int corner = 0; corner < corners; ++corner)
         if (at(at(grid.facets, part.facet).nodes, corner) == part.node)
@@ -178,8 +180,8 @@ class FacePressure final : public ForceTerm {
     X_.resize(X.size());
     for (Index q = 0; q < points(); ++q) set_vector<D>(X_, q, at(X, q));
   }
-  /// The sides of a quarter in the sense of the facet. In 2D its sides are its ends: what begins at
-  /// the one has to end there.
+  /// Counts the sides of a piece in the direction of the facet. In 2D the sides are its two ends,
+  /// with opposite signs.
   static void go_around(const std::array<Index, nodes>& point, int corner, Sides& sides) {
     const auto count = [&](Index from, Index to) {
       if (from < to) ++sides[{from, to}];
@@ -212,7 +214,8 @@ class FacePressure final : public ForceTerm {
     }
     return at_point;
   }
-  /// Pressures at the Gauss points of all pieces, formulas of the place at their reference places.
+  /// Computes the pressures at the Gauss points of all pieces. Formulas are evaluated at reference
+  /// positions.
   void find_pressures(Real time) {
     const std::size_t per_piece = functions_.front().size();
     if (!pressure_.depends_on_place()) {
@@ -227,7 +230,8 @@ class FacePressure final : public ForceTerm {
             pressure_(spatial<D>(place(at(functions_, pieces_[k].functions)[g], pieces_[k], X_).X),
                       time);
   }
-  /// f_a = - INT p L_a m, m the area normal, at the points of all pieces at these places.
+  /// Computes the forces f_a = - INT p L_a m on the points of all pieces at the positions x; m is
+  /// the area normal.
   void find_forces(Real time, const NodalVectors& x, NodalVectors& forces) {
     find_pressures(time);
     const auto per_piece = static_cast<Index>(functions_.front().size());
@@ -285,13 +289,13 @@ class FacePressure final : public ForceTerm {
   std::vector<std::vector<PatchFunctions<D>>> functions_;  // of whole facets, then of quarters
   std::vector<Piece> pieces_;
   bool closed_ = false;
-  NodalVectors X_;  // [point] reference place
+  NodalVectors X_;  // [point] reference position
   PointRows<D> rows_;
   ForceWindows windows_;
   Real reference_volume_ = 0;
-  // Of a force.
+  // Work space of a force.
   NodalVectors x_, point_force_;
-  std::vector<Vec<D>> piece_force_;  // [piece][a]
+  std::vector<Vec<D>> piece_force_;  // [piece][a] force on point a
   std::vector<Real> values_;         // pressures, [piece][Gauss point]
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Springs and dampers on means of displacements.
+// Springs and dampers on mean displacements.
 #include "physics/loads/spring.hpp"
 
 #include "kernel/row_sums.hpp"
@@ -109,7 +109,7 @@ class Spring final : public ForceTerm {
   Lanes mean(std::span<const NodalVector> field, Index k) const {
     return components_ * value_at(springs_.mean, k, field.data() + body_.first);
   }
-  /// u - g
+  /// The extension u - g of a spring.
   Lanes stretch(const Motion& motion, Index k) const {
     return mean(motion.u, k) - springs_.ramp.fraction(motion.time) * (components_ * at(target_, k));
   }

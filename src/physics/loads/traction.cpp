@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dead tractions on face cells.
+// Dead loads (tractions of fixed direction) on face cells.
 #include "physics/loads/traction.hpp"
 
 #include "body/surface/face_means.hpp"
@@ -69,12 +69,12 @@ class Traction final : public ForceTerm {
   Offset pairs() const override { return cells_.mean.entries(); }
 
  private:
-  /// Mean place of a face cell.
+  /// Mean position of a face cell.
   Eigen::Vector3d place(const Motion& motion, Index k) const {
     return spatial<D>(at(cells_.centre, k)) +
            spatial(value_at(cells_.mean, k, motion.u.data() + body_.first));
   }
-  /// force_ at a time.
+  /// Computes force_ at a time.
   void evaluate(Real time) {
     const std::vector<Real>& mean = means_.at(time);
     const Real fraction = ramp_.fraction(time);
@@ -83,7 +83,7 @@ class Traction final : public ForceTerm {
                     Vec<D>(fraction * at(cells_.area, k) *
                            Vec<D>::Map(mean.data() + static_cast<std::size_t>(k) * D)));
   }
-  /// sum of f_A . field_A.
+  /// The power: sum of f_A . field_A.
   Real power(const Motion& motion, std::span<const NodalVector> field) {
     evaluate(motion.time);
     const NodalVector* own = field.data() + body_.first;
@@ -98,7 +98,7 @@ class Traction final : public ForceTerm {
   Ramp ramp_;
   FaceMeans<D> means_;
   FaceCells<D> cells_;
-  NodalVectors force_;  // of each face cell
+  NodalVectors force_;  // force of each face cell
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Body force of a drop: the gradient of the height of the centroid that its patches enclose.
+// Body force of a drop: the gradient of the height of the centroid of the volume inside its
+// patches.
 #include "body/surface/surface_patches.hpp"
 #include "numbers/dense.hpp"
 #include "physics/loads/body_force.hpp"
@@ -68,7 +69,7 @@ class WeightOnPatches final : public ForceTerm {
   std::vector<Expression> acceleration_;
   Real mass_;
   SurfacePatches<D> patches_;
-  Vec<D> centre_;  // of the reference
+  Vec<D> centre_;  // centroid in the reference
   bool steady_ = true;
 };
 

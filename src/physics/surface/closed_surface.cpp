@@ -31,7 +31,7 @@ Lanes weighted_sums(Lanes w, const Vector& a) {
 Sums sums_of(Lanes w, const Vector& x, const Vector& m) {
   return {sum(w * dot(x, m)), sum(w * sqrt(dot(m, m))), weighted_sums(w, x), weighted_sums(w, m)};
 }
-/// V / (+-1/D); `weight`: sum of the weights of all points.
+/// V / (+-1/D). `weight`: sum of the weights of all points.
 Real volume(const Sums& sums, Real weight) {
   return sums.x_dot_m - sum(sums.x * sums.m) / weight;
 }
@@ -122,9 +122,9 @@ typename ClosedSurface<D>::Size ClosedSurface<D>::size(const Motion& motion) con
   return {share_ * volume(sums, weight_), sums.area};
 }
 
-/// dV/dd_A = +-1/D sum_q w_q [(m_q - mean m) N_A + d(x'.m)/dF grad N_A] with x' = x - mean x. With
-/// the columns f_K of F, x'.m = sum_K N_K x'.(f_K+1 x f_K+2). Column L of the derivative is
-/// therefore x' x (N_L+1 f_L+2 - N_L+2 f_L+1).
+/// Adds factor times dV/dd_A = +-1/D sum_q w_q [(m_q - mean m) N_A + d(x'.m)/dF grad N_A] with x' =
+/// x - mean x. With the columns f_K of F, x'.m = sum_K N_K x'.(f_K+1 x f_K+2). Column L of the
+/// derivative is therefore x' x (N_L+1 f_L+2 - N_L+2 f_L+1).
 template <int D>
 void ClosedSurface<D>::add_volume_gradient(const Placed& placed, Real factor,
                                            std::span<NodalVector> force) {

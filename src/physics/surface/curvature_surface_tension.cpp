@@ -29,7 +29,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
     windows_ = {rows_.start, rows_.particle, body.size(), body.division};
   }
 
-  /// Its force is not the gradient of its energy.
+  /// No potential: the force is not the gradient of the energy.
   std::optional<Real> potential(const Motion&) override { return std::nullopt; }
 
   Report add_force(const Motion& motion, Forces force) override {
@@ -97,7 +97,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
   SurfaceFrame<Real> frame_at(Index q, const NodalVector* u) const {
     return frame_of(q, deformation(q, u));
   }
-  /// n_i u_i,KL
+  /// The tensor n_i u_i,KL.
   Tensor<Real> bending(Index q, const NodalVector* u, const std::array<Real, 3>& n) const {
     Vec<D> direction;
     for (int i = 0; i < D; ++i) direction[i] = at(n, i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Crossings and enclosed volumes of all surfaces.
+// Checks all surfaces for crossings and for negative enclosed volumes.
 #include "physics/surface/surface_check.hpp"
 
 #include "body/particle_values.hpp"
@@ -13,7 +13,7 @@
 namespace meniscus {
 namespace {
 
-/// [simplex] number of the closed face: simplices that share corners are of one face.
+/// [simplex] number of its closed face. Simplices that share corners belong to one face.
 template <int D>
 std::vector<Index> closed_faces(const std::vector<std::array<Index, D>>& simplices, Index places) {
   std::vector<Index> joined(static_cast<std::size_t>(places));
@@ -32,7 +32,7 @@ std::vector<Index> closed_faces(const std::vector<std::array<Index, D>>& simplic
   return face;
 }
 
-/// D times (3D: 6 times) the volume between a simplex and a point.
+/// D (3D: 6) times the volume between a simplex and the origin.
 Real cone(const std::array<Vec<2>, 2>& x) {
   return x[0].x() * x[1].y() - x[0].y() * x[1].x();
 }
@@ -40,7 +40,7 @@ Real cone(const std::array<Vec<3>, 3>& x) {
   return x[0].dot(cross(x[1], x[2]));
 }
 
-/// Enclosed by the simplices [begin, end) of a closed face; positive if they are seen from outside.
+/// Volume enclosed by the simplices [begin, end) of a closed face; positive if they face outwards.
 template <int D>
 Real enclosed_volume(const std::vector<std::array<Index, D>>& simplices, Index begin, Index end,
                      const std::vector<Vec<D>>& x) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stiffness of linear elements, its factors, and the inverse of the transform to places.
+// Preconditioner for equilibria: factors of the stiffness of linear elements, and the inverse of
+// the transform from coefficients to positions.
 //
-// Fully integrated, not with a mean volume change: nodal cells with linear moments resist a change
-// of volume at D + 1 points, and a plane drop takes 128 to 1800 iterations instead of 44 to 195
-// with it.
+// Elements are fully integrated, without averaging the volume change, like nodal cells with linear
+// moments, which resist a volume change at D + 1 points. With averaging, a plane drop needs 128 to
+// 1800 iterations instead of 44 to 195.
 #include "solve/linear/element_preconditioner.hpp"
 
 #include "body/particle_values.hpp"
@@ -19,11 +20,11 @@
 namespace meniscus {
 namespace {
 
-/// Block [a][b] of an element: of forces at corner a by displacements of corner b.
+/// Stiffness of an element; block [a][b] gives the force at corner a by a displacement of corner b.
 template <int D>
 using ElementMatrix = std::array<std::array<Mat<D>, 1 << D>, 1 << D>;
 
-/// Two Gauss points per direction.
+/// Stiffness of an element, by two Gauss points per direction.
 template <int D>
 ElementMatrix<D> element_stiffness(const std::array<Vec<D>, 1 << D>& corners,
                                    const ElasticModuli& moduli) {
@@ -48,10 +49,10 @@ ElementMatrix<D> element_stiffness(const std::array<Vec<D>, 1 << D>& corners,
   return K;
 }
 
-/// Whether a cell of these corners is not folded, nor nearly so.
+/// True if a cell with these corners is neither folded nor close to it.
 template <int D>
 bool is_sound(const std::array<Vec<D>, 1 << D>& corners, Real sign) {
-  constexpr Real least = 0.2;  // of the largest
+  constexpr Real least = 0.2;  // smallest determinant / largest
   Real smallest = unbounded, largest = 0;
   for (int q = 0; q < 1 << D; ++q) {
     Vec<D> xi;
@@ -63,8 +64,9 @@ bool is_sound(const std::array<Vec<D>, 1 << D>& corners, Real sign) {
   return smallest > least * largest;
 }
 
-/// K of a body, with something of a mass so that rigid motions do not make it singular; in a step
-/// the masses themselves, and cells where it begins.
+/// Stiffness of a body. A small multiple of the masses is added so that rigid motions do not make
+/// the matrix singular. For a time step, the masses themselves are added, and cells have their
+/// shape at the beginning of the step.
 template <int D>
 std::vector<MatrixEntry> stiffness(const System<D>& system, const Body<D>& body,
                                    const ElasticModuli& moduli, const ImplicitEuler<D>* step) {
@@ -103,8 +105,8 @@ std::vector<MatrixEntry> stiffness(const System<D>& system, const Body<D>& body,
   return entries;
 }
 
-/// Rows of K as its factors take them. In 3D the factors have two thirds of what minimum degree
-/// gives (15^3 nodes), and are made in half the time.
+/// Elimination order of the rows of K, by nested dissection. In 3D the factors have two thirds of
+/// the entries of minimum degree (15^3 nodes), and take half the time.
 template <int D>
 std::vector<Index> order_of_rows(const Grid<D>& grid) {
   std::vector<Index> order;
@@ -114,10 +116,10 @@ std::vector<Index> order_of_rows(const Grid<D>& grid) {
   return order;
 }
 
-/// About T^-1, and the transpose of that. T has eigenvalues near zero, in modes in which
-/// coefficients move and places hardly do. Those of a bulk body are stiffer than T^t K T has them,
-/// those of a shell of few layers are not: what is added to T is just enough for the former
-/// (quasi-statics note 3).
+/// Factors for T^-1 and its transpose, approximately. T has eigenvalues near zero, for modes in
+/// which coefficients move and positions hardly do. In bulk bodies these modes are stiffer than T^t
+/// K T, in shells of few layers they are not. The number added to T is just large enough for bulk
+/// bodies (quasi-statics note 3).
 template <int D>
 SparseLU inverse_transform(const Body<D>& body) {
   constexpr Real added = 0.004;
@@ -132,8 +134,8 @@ SparseLU inverse_transform(const Body<D>& body) {
   return {body.size(), entries};
 }
 
-/// du.A du of the strain energy of a body in its reference, for a uniform gradient of du; with
-/// dv = rate du of its viscosity, too.
+/// du.A du of the strain energy of a body in its reference, for a uniform gradient of du. `rate`
+/// adds the viscosity for dv = rate du.
 template <int D>
 Real strain_square(System<D>& system, const Body<D>& body, const Mat<D>& gradient, Real rate) {
   const NodalVectors rest(static_cast<std::size_t>(system.size()), Lanes::zero());
@@ -158,7 +160,8 @@ Real volume_of(const Body<D>& body) {
 
 }  // namespace
 
-/// A strain e has the energy V (lambda tr(e)^2 + 2 mu e:e)/2.
+/// Moduli of a body from the energies of uniform strains: a strain e has the energy V (lambda
+/// tr(e)^2 + 2 mu e:e)/2.
 template <int D>
 ElasticModuli elastic_moduli(System<D>& system, const Body<D>& body, Real rate) {
   const Real volume = volume_of(body);
@@ -178,8 +181,8 @@ ElasticModuli elastic_moduli(System<D>& system, const Body<D>& body, Real rate) 
 
 namespace {
 
-/// A fluid whose pressure is not zero in its reference has, against shear alone, that pressure of
-/// either sign.
+/// Moduli for a time step. A fluid with pressure in its reference has an elastic shear modulus
+/// equal to this pressure, of either sign; negative values are left out.
 template <int D>
 ElasticModuli moduli_of_step(System<D>& system, const Body<D>& body, Real rate) {
   ElasticModuli moduli = elastic_moduli(system, body, rate);

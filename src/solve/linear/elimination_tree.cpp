@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-/// A matrix in an order of elimination.
+/// A matrix in its order of elimination.
 struct Ordered {
   std::span<const Index> start, row;
   std::vector<Index> order, place;  // inverse of each other
@@ -20,7 +20,7 @@ struct Ordered {
   }
   Index size() const { return static_cast<Index>(order.size()); }
 
-  /// f(i) for the places of the entries of column j, in no order.
+  /// Calls f(i) for the places of the entries of column j, in arbitrary order.
   template <class F>
   void for_column(Index j, F&& f) const {
     const Index column = at(order, j);
@@ -28,12 +28,12 @@ struct Ordered {
   }
 };
 
-/// The first row below the diagonal of each column of L; -1: there is none.
+/// Parents in the elimination tree: the first row below the diagonal of each column of L, or -1.
 std::vector<Index> parents(const Ordered& A) {
   std::vector<Index> parent(A.order.size(), -1), ancestor = parent;
   for (Index j = 0; j < A.size(); ++j)
     A.for_column(j, [&](Index i) {
-      while (i < j && i >= 0) {  // up the tree, leaving shortcuts to j
+      while (i < j && i >= 0) {  // go up the tree and leave shortcuts to j
         const Index next = at(ancestor, i);
         at(ancestor, i) = j;
         if (next < 0) at(parent, i) = j;
@@ -43,7 +43,8 @@ std::vector<Index> parents(const Ordered& A) {
   return parent;
 }
 
-/// Children directly before their parents, subtree by subtree: [new place] old place.
+/// Postorder of the tree, subtree by subtree with children directly before their parents: [new
+/// place] old place.
 std::vector<Index> by_subtrees(std::span<const Index> parent) {
   const auto n = static_cast<Index>(parent.size());
   std::vector<Index> first_child(parent.size(), -1), next_sibling = first_child, order, open;
@@ -69,12 +70,12 @@ std::vector<Index> by_subtrees(std::span<const Index> parent) {
   return order;
 }
 
-/// Entries of the columns of L below the diagonal.
+/// Number of entries below the diagonal in each column of L.
 std::vector<Index> counts(const Ordered& A, std::span<const Index> parent) {
   std::vector<Index> count(A.order.size(), 0), last_row(A.order.size(), -1);
   for (Index i = 0; i < A.size(); ++i) {
     at(last_row, i) = i;
-    A.for_column(i, [&](Index j) {  // row i of L: the ways from its entries in A up to i
+    A.for_column(i, [&](Index j) {  // row i of L: the paths from its entries in A up to i
       for (; j < i && at(last_row, j) != i; j = at(parent, j)) {
         ++at(count, j);
         at(last_row, j) = i;
@@ -84,10 +85,10 @@ std::vector<Index> counts(const Ordered& A, std::span<const Index> parent) {
   return count;
 }
 
-/// Columns of the same rows, and those before them where few zeros come in by it.
+/// Fronts: columns with the same rows, and columns before them if this adds few zeros.
 std::vector<Front> fronts_of(std::span<const Index> parent, std::span<const Index> count) {
   constexpr Index small = 4;
-  constexpr Real most_zeros = 0.05;  // of the entries
+  constexpr Real most_zeros = 0.05;  // fraction of the entries
   struct Group {
     Index first, last;
     Real zeros;
@@ -97,7 +98,7 @@ std::vector<Front> fronts_of(std::span<const Index> parent, std::span<const Inde
     Group group{j, j + 1, 0};
     const Index below = at(count, j);
     while (!groups.empty()) {
-      // The group before ends with a child of this one?
+      // Does the last group end with a child of this one?
       const Group& child = groups.back();
       if (at(parent, child.last - 1) != group.first) break;
       const Index width = child.last - child.first, all = group.last - child.first;
@@ -142,11 +143,11 @@ void find_rows(const Ordered& A, std::vector<Front>& fronts) {
 }
 
 std::vector<std::vector<FrontRange>> stages_of(std::span<const Front> fronts) {
-  constexpr Offset worth_threads = 100'000;  // entries
+  constexpr Offset worth_threads = 100'000;  // least number of entries
   constexpr Offset subtrees = 64;
   const auto n = static_cast<Index>(fronts.size());
-  std::vector<Offset> work(fronts.size());  // of the subtree
-  std::vector<Index> first(fronts.size());  // likewise
+  std::vector<Offset> work(fronts.size());  // [front] work of its subtree
+  std::vector<Index> first(fronts.size());  // [front] first front of its subtree
   Offset all = 0;
   for (Index f = 0; f < n; ++f) {
     const Front& front = at(fronts, f);

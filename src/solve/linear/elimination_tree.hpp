@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which columns of sparse factors are eliminated together, and which rows they touch.
+// Plan of a sparse factorisation: which columns are eliminated together, and which rows they
+// modify.
 #pragma once
 #include "numbers/types.hpp"
 
@@ -8,12 +9,12 @@
 
 namespace meniscus {
 
-/// Neighbouring columns [first, last) of L with the same rows below them: a dense matrix, of which
-/// what is left after their elimination is added to that of the parent.
+/// Adjacent columns [first, last) of L with the same rows below them. They form a dense matrix;
+/// after their elimination, the remaining part is added to the matrix of the parent.
 struct Front {
   Index first = 0, last = 0;
   std::vector<Index> below;  ///< rows from `last` on, ascending
-  Index parent = -1;         ///< front of the first of them; -1: there are none
+  Index parent = -1;         ///< front of the first row below; -1: no rows below
   std::vector<Index> children;
 
   Index width() const { return last - first; }
@@ -26,16 +27,17 @@ struct FrontRange {
 };
 
 struct Elimination {
-  std::vector<Index> order;   ///< [place] row of the matrix; each after what its rows depend on
+  std::vector<Index> order;   ///< [place] row of the matrix; dependencies come first
   std::vector<Front> fronts;  ///< children before parents, subtree by subtree
-  /// Ranges of a stage do not depend on each other, but on those of the stages before: many
-  /// subtrees of about the same work, then the fronts above them from height to height. One range
-  /// if there is little work.
+  /// Ranges of one stage are independent of each other, but need the earlier stages. First come
+  /// many subtrees with about equal work, then the fronts above them, level by level. Only one
+  /// range if there is little work.
   std::vector<std::vector<FrontRange>> stages;
 };
 
-/// Of the symmetric matrix with these columns of rows, both triangles given. `order` [place] is
-/// that of few entries in the factors: it is kept but for places that do not depend on each other.
+/// Plans the elimination of a symmetric matrix, given by the row numbers of all its columns (both
+/// triangles). `order` [place] should give few entries in the factors; only places that are
+/// independent of each other are reordered.
 Elimination plan_elimination(std::span<const Index> start, std::span<const Index> row,
                              std::span<const Index> order);
 

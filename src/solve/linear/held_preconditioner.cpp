@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements that are held where the constraints of a system hold places.
+// A preconditioner of finite elements in which held faces are fixed.
 #include "solve/linear/held_preconditioner.hpp"
 
 #include "parallel/parallel.hpp"
@@ -56,7 +56,7 @@ Real HeldPreconditioner<D>::apply(const NodalVectors& r, NodalVectors& z) const 
   elements_.apply(r, z);
   if (constraints_) {
     std::vector<Real> b(static_cast<std::size_t>(constraints_->rows()));
-    for (int pass = 0; pass < 2; ++pass) {  // the second for round-off
+    for (int pass = 0; pass < 2; ++pass) {  // the second pass removes round-off
       constraints_->apply(z, b);
       for (Real& x : b) x = -x;
       add_response(b, z);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nested dissection of a grid by the places of its nodes.
+// Nested dissection of a grid, by the positions of its nodes.
 #include "solve/linear/nested_dissection.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ class Dissection {
       return std::pair(at(X_, a)[axis], a) < std::pair(at(X_, b)[axis], b);
     };
     std::nth_element(nodes.begin(), middle, nodes.end(), before);
-    // A layer of nodes at one place stays whole.
+    // Nodes with the same coordinate stay together.
     const Real place = at(X_, *middle)[axis];
     auto half =
         std::partition(nodes.begin(), middle, [&](Index n) { return at(X_, n)[axis] < place; });
@@ -60,7 +60,7 @@ class Dissection {
       (touches ? between : first).push_back(*n);
     }
     nodes = {};
-    // Their order is now the standard library's own.
+    // Sort, because partitioning leaves an order that depends on the standard library.
     for (auto* part : {&first, &second, &between}) std::sort(part->begin(), part->end());
     cut(std::move(first));
     cut(std::move(second));
@@ -69,7 +69,7 @@ class Dissection {
 
   const std::vector<Vec<D>>& X_;
   std::vector<std::vector<Index>> neighbors_;
-  std::vector<Index> half_of_;  ///< the last cut of which a node was in the second half
+  std::vector<Index> half_of_;  ///< [node] the last cut that put it into the second half
   Index cuts_ = 0;
   std::vector<Index> order_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Factors of a sparse symmetric matrix by dense fronts (Duff and Reid, ACM Trans. Math. Softw. 9,
-// 1983): ten times as fast as column by column, and fronts that do not depend on each other are
-// eliminated at the same time.
+// 1983). This is ten times faster than column by column, and independent fronts are eliminated in
+// parallel.
 #include "numbers/buckets.hpp"
 #include "parallel/parallel.hpp"
 #include "solve/linear/elimination_tree.hpp"
@@ -20,14 +20,14 @@ namespace {
 
 using Dense = Eigen::MatrixXd;
 
-/// A symmetric matrix, rows ascending in each column.
+/// A symmetric matrix by columns, with ascending rows in each column.
 struct Columns {
   std::vector<Index> start;
   UnsetVector<Index> row;
   UnsetVector<Real> value;
 };
 
-/// The matrix with a diagonal of one, by `scale` from both sides.
+/// The sum of the entries, multiplied by `scale` from both sides so that the diagonal is one.
 Columns scaled_sum(Index n, std::span<const MatrixEntry> entries, Eigen::VectorXd& scale) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
   for (const MatrixEntry& e : entries)
@@ -50,7 +50,7 @@ Columns scaled_sum(Index n, std::span<const MatrixEntry> entries, Eigen::VectorX
 
   std::vector<Index> count(static_cast<std::size_t>(n));
   for_chunks(n, [&](Index, Index begin, Index end) {
-    std::vector<Index> place(static_cast<std::size_t>(n), -1);  // [row] in the sums of the column
+    std::vector<Index> place(static_cast<std::size_t>(n), -1);  // [row] in the sums of a column
     std::vector<std::pair<Index, Real>> sums;
     for (Index j = begin; j < end; ++j) {
       sums.clear();
@@ -86,7 +86,7 @@ Columns scaled_sum(Index n, std::span<const MatrixEntry> entries, Eigen::VectorX
   return A;
 }
 
-/// order[place] = row
+/// Minimum-degree order: order[place] = row.
 std::vector<Index> by_minimum_degree(const Columns& A) {
   const auto n = static_cast<Eigen::Index>(A.start.size()) - 1;
   const Eigen::SparseMatrix<Real> matrix = Eigen::Map<const Eigen::SparseMatrix<Real>>(
@@ -96,8 +96,8 @@ std::vector<Index> by_minimum_degree(const Columns& A) {
   return {order.indices().begin(), order.indices().end()};
 }
 
-/// L D L^T of the first `width` columns of a symmetric matrix, whose lower triangle of these
-/// columns is given; L has no diagonal of its own. Pivots that are zero are left out.
+/// Factors L D L^T of the first `width` columns of a symmetric matrix, given by the lower triangle
+/// of these columns. The diagonal of L is one and not stored. Zero pivots are left out.
 void eliminate(Dense& columns, Eigen::VectorXd& pivots) {
   constexpr Eigen::Index most = 48;
   const Eigen::Index size = columns.rows(), width = columns.cols();
@@ -126,14 +126,15 @@ void eliminate(Dense& columns, Eigen::VectorXd& pivots) {
 
 struct SparseCholesky::Factors {
   struct OfFront {
-    Dense L;  // [row of the front][column]; what is above the diagonal means nothing
+    Dense L;  // [row of the front][column]; above the diagonal unused
     Eigen::VectorXd pivots;
   };
 
-  /// What fronts take from the rows below them, one after the other.
+  /// Work space of a solution. `taken`: front after front, the amounts that a front subtracts from
+  /// the rows below it.
   template <class Vector>
   struct Solution {
-    AlignedVector<Vector> x;  // in the order of the factors
+    AlignedVector<Vector> x;  // unknowns in the order of the factors
     AlignedVector<Vector> taken;
   };
 
@@ -141,7 +142,7 @@ struct SparseCholesky::Factors {
   std::vector<OfFront> of;  // [front]
   Eigen::VectorXd scale;
   std::vector<Offset> taken_by;            // [front] its first place in `taken`
-  std::vector<Offset> sources_of, source;  // [row] places in `taken`, those of later fronts last
+  std::vector<Offset> sources_of, source;  // [row] places in `taken`, by ascending front
   Solution<Lanes> vectors;
   Solution<Real> numbers;
 
@@ -159,11 +160,11 @@ struct SparseCholesky::Factors {
   void substitute(Index f, AlignedVector<Vector>& x) const;
 };
 
-/// Eliminates a front; what is left of its rows below goes to left[f]. `place` is the inverse of
-/// the order.
+/// Eliminates a front and stores the remaining matrix of its rows below in left[f]. `place` is the
+/// inverse of the order.
 void SparseCholesky::Factors::compute_front(const Columns& A, std::span<const Index> place, Index f,
                                             std::vector<Dense>& left) {
-  thread_local std::vector<Index> number;  // [place] row of the front; those of others mean nothing
+  thread_local std::vector<Index> number;  // [place] row of the front; other entries unused
   number.resize(std::max(number.size(), plan.order.size()));
   const Front& front = at(plan.fronts, f);
   const Index width = front.width();
@@ -199,7 +200,7 @@ void SparseCholesky::Factors::compute_front(const Columns& A, std::span<const In
   rest.triangularView<Eigen::Lower>() -= below * scaled.transpose();
 }
 
-/// On all threads work(range); what depends on nothing else in the stage.
+/// Calls work(range) for all ranges of a stage, in parallel since they are independent.
 template <class Work>
 void SparseCholesky::Factors::for_stage(const std::vector<FrontRange>& stage, Work&& work) const {
   if (stage.size() == 1) return work(stage.front());
@@ -254,7 +255,8 @@ SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
   return least;
 }
 
-/// x = L^-1 x for the rows of the front, and what they take from those below.
+/// x = L^-1 x for the rows of a front; also computes what the front subtracts from the rows below
+/// it.
 template <class Vector>
 void SparseCholesky::Factors::eliminate_from(Index f, Solution<Vector>& solution) const {
   const Front& front = at(plan.fronts, f);
@@ -273,7 +275,7 @@ void SparseCholesky::Factors::eliminate_from(Index f, Solution<Vector>& solution
   }
 }
 
-/// x = L^-t D^-1 x for the rows of the front.
+/// x = L^-t D^-1 x for the rows of a front.
 template <class Vector>
 void SparseCholesky::Factors::substitute(Index f, AlignedVector<Vector>& x) const {
   thread_local AlignedVector<Vector> below;
@@ -283,7 +285,7 @@ void SparseCholesky::Factors::substitute(Index f, AlignedVector<Vector>& x) cons
   for (std::size_t i = 0; i < below.size(); ++i) below[i] = at(x, front.below[i]);
   for (Index k = width - 1; k >= 0; --k) {
     const Real* L = &at(of, f).L(0, k);
-    Vector even = at(x, front.first + k) / at(of, f).pivots[k], odd(0.0);  // hide the latency
+    Vector even = at(x, front.first + k) / at(of, f).pivots[k], odd(0.0);  // two hide latency
     Index i = width;
     for (; i + 1 < size; i += 2) {
       even -= L[i] * at(below, i - width);

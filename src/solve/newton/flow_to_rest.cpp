@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of implicit Euler, and when they are at rest.
+// Implicit Euler steps for fluids, and the detection of rest.
 #include "solve/newton/flow_to_rest.hpp"
 
 #include "parallel/nodal_algebra.hpp"
@@ -12,7 +12,8 @@
 namespace meniscus {
 namespace {
 
-/// Of the energy that the next iteration would release: what is missed is left to the next step.
+/// Tolerance of Newton's method: the energy that the next iteration would release, as a fraction of
+/// the energy scale. The next time step corrects the remaining error.
 constexpr Real tolerance_of_flow = 1e-6;
 
 }  // namespace
@@ -62,7 +63,7 @@ Real FlowToRest<D>::stored_size(const State& state) const {
   return size;
 }
 
-/// A flow that begins near its rest has this energy at least.
+/// Energy scale of the flow. It has a lower bound for flows that start near rest.
 template <int D>
 Real FlowToRest<D>::scale_of_flow(Real stored) const {
   constexpr Real least_share = 1e-4;
@@ -71,8 +72,8 @@ Real FlowToRest<D>::scale_of_flow(Real stored) const {
 
 template <int D>
 void FlowToRest<D>::step(State& state, Real dt) {
-  constexpr Real bearable = 1e-3;    // of the energy exchanged: what is missed of its balance
-  constexpr Real idle_share = 1e-3;  // of the energy that may be left at rest
+  constexpr Real bearable = 1e-3;    // error of the balance / energy exchanged
+  constexpr Real idle_share = 1e-3;  // fraction of the energy that may remain at rest
   const State before = state;
   const Real end = state.time + dt;
   Real released = 0, piece = dt;
@@ -125,7 +126,7 @@ void FlowToRest<D>::step(State& state, Real dt) {
   judge_rest(state, dt, released, whole_step && easy);
 }
 
-/// Of the static forces on the straight way from one state to another, by Simpson's rule.
+/// Work of the static forces on a straight line between two states, by Simpson's rule.
 template <int D>
 Real FlowToRest<D>::work_of_forces(const State& from, const State& to) {
   NodalVectors way = to.u, middle = from.u;
@@ -138,9 +139,11 @@ Real FlowToRest<D>::work_of_forces(const State& from, const State& to) {
   return (ends + 4 * dot(middle_force_, way)) / 6;
 }
 
-/// Steps that release a small part of what the one before has leave as small a part of theirs.
-/// Coefficients have slow modes that hardly move places, and are judged by what they release within
-/// the time that the flow took.
+/// Estimates the energy that is still to be released, relative to the energy scale, and sets
+/// arrived_ if it is within the tolerance. If a step releases a small part of the energy released
+/// by the last one, the next steps are assumed to do the same. Slow modes of the coefficients
+/// hardly move positions; they are judged by the energy that they release within the time that the
+/// flow took.
 template <int D>
 void FlowToRest<D>::judge_rest(const State& state, Real dt, Real released, bool whole_step) {
   constexpr Real slow = 1.0 / 30, fast = 0.5;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Viscosity of the places where a step began, and masses.
+// Inertia and viscosity of a step of implicit Euler. Viscosity is evaluated at the positions at the
+// beginning of the step.
 #include "solve/newton/implicit_euler.hpp"
 
 #include "parallel/parallel.hpp"
@@ -31,7 +32,8 @@ Real ImplicitEuler<D>::add_force(const NodalVectors& u, NodalVectors& force) {
       at(Rw_, A) = (-at(system_.mass, A) / tau_) * at(velocity, A);
     }
   });
-  // As tangents, which do not ask for the places of the last force.
+  // Add viscous forces as tangents, because add_viscous() would need the last force to be at the
+  // positions u_.
   for (auto& term : system_.terms)
     if (term->viscous()) term->add_tangent({time_, u_, still_}, {time_, still_, velocity}, Rw_);
   sweep(system_.size(), [&](Index begin, Index end) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "newton": load steps of solids, or the flow of fluids to rest.
+// Stepper "newton": load steps of solids, or the flow of fluids to rest.
 #include "solve/newton/flow_to_rest.hpp"
 #include "solve/newton/quasi_statics.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Truncated Newton with conjugate gradients.
+// Truncated Newton method with conjugate gradients.
 #include "solve/newton/newton_method.hpp"
 
 #include "numbers/dense.hpp"
@@ -17,7 +17,7 @@
 namespace meniscus {
 namespace {
 
-/// Of the tolerance, where another iteration would be idle.
+/// Fraction of the tolerance below which another iteration would change nothing.
 constexpr Real polished = 1e-3;
 constexpr int most_directions = 60, most_tangents = 400;
 
@@ -40,7 +40,8 @@ void NewtonMethod<D>::prepare() {
   if (step_) energy_scale_ = 0;
 }
 
-/// Whether nothing holds a body, or all of them, in a direction in which something pulls: in words.
+/// Describes a net force along a translation that nothing resists, for one body or all bodies.
+/// Empty if there is none.
 template <int D>
 std::string NewtonMethod<D>::pulled(Real time, const NodalVectors& u) {
   constexpr Real round_off = 1e-9;
@@ -98,7 +99,7 @@ bool NewtonMethod<D>::evaluate(Real time, Point& point, NodalVectors& force) {
 
 template <int D>
 Real NewtonMethod<D>::apply(Real time, const NodalVectors& u) {
-  // Terms without an exact tangent take differences over a part of the change.
+  // Terms without an exact tangent use differences of forces over a part of the change.
   const Real scale = spacing_ / largest(p_);
   sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
@@ -117,10 +118,10 @@ Real NewtonMethod<D>::apply(Real time, const NodalVectors& u) {
   return dot(p_, q_);
 }
 
-/// Conjugate gradients for A s_ = g_ from s_ = 0 until `done` of the residual, in the squared norm
-/// of the preconditioner, or to a direction p_ of negative curvature, where it returns true. Their
-/// coefficients are the numbers of a tridiagonal matrix whose eigenvalues are among those of P^-1 A
-/// (Lanczos).
+/// Solves A s_ = g_ by conjugate gradients from s_ = 0. Ends when `done` accepts the residual,
+/// measured in the squared norm of the preconditioner. Returns true if it ends at a direction p_ of
+/// negative curvature. The coefficients of the iterations form a tridiagonal matrix, whose
+/// eigenvalues approximate eigenvalues of P^-1 A (Lanczos).
 template <int D>
 template <class Done>
 bool NewtonMethod<D>::conjugate_gradients(Real time, const NodalVectors& u, Lanczos& seen,
@@ -134,7 +135,7 @@ bool NewtonMethod<D>::conjugate_gradients(Real time, const NodalVectors& u, Lanc
   Real rz = precondition();
   const Real first = rz;
   p_ = z_;
-  Real carried = 0;  // of the last iteration to the diagonal
+  Real carried = 0;  // contribution of the last iteration to the diagonal
   for (int k = 0; k < most_tangents && rz > 0; ++k) {
     if (asked_to_stop_()) throw Interrupted();
     const Real curvature = apply(time, u);
@@ -163,8 +164,8 @@ Real NewtonMethod<D>::Lanczos::least() const {
       {beside.begin(), beside.begin() + static_cast<std::ptrdiff_t>(diagonal.size()) - 1});
 }
 
-/// Until the residual, in the norm of the preconditioner, has fallen to the square root of `share`
-/// of itself.
+/// The Newton direction. Iterates until the squared residual, in the norm of the preconditioner,
+/// has fallen to `share` of its first value.
 template <int D>
 typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const NodalVectors& u,
                                                                Real share) {
@@ -176,26 +177,26 @@ typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const 
     return left <= std::max(share * first, polished * tolerance_ * energy_scale_);
   });
   if (found.bent && seen.diagonal.size() == 1) s_ = z_;
-  // A few iterations see the stiffest modes alone.
+  // The first iterations approximate the stiffest modes only.
   constexpr std::size_t enough = 10;
   if (!seen.diagonal.empty()) {
     const Real least = seen.least();
     if (seen.diagonal.size() >= enough || least < stability_) stability_ = least;
   }
-  stability_ = std::min(stability_, 1e3);  // where there was nothing to see
+  stability_ = std::min(stability_, 1e3);  // bound in case no eigenvalue was found
   found.decrement = 0.5 * dot(s_, r_);
   return found;
 }
 
-/// Forces of a symmetric scene at a symmetric state have no part of the modes that break the
-/// symmetry, and iterations that begin with such forces never see them. These begin with random
-/// forces, which have a part of every mode. The numbers are the same on any machine, with any
-/// number of threads and ranks. Iterations end where the least eigenvalue seen hardly falls any
-/// more, by its own size, so that the nearer it is to zero the better it is known.
+/// True if the equilibrium is stable. Forces of a symmetric scene have no component along modes
+/// that break the symmetry, so iterations that start with them never find such modes. Therefore
+/// these iterations start with random forces, whose numbers are the same on any machine, with any
+/// number of threads and ranks. They end when the least eigenvalue hardly falls relative to its
+/// size; the nearer it is to zero, the more accurate it becomes.
 template <int D>
 bool NewtonMethod<D>::is_stable_at(Real time, const NodalVectors& u) {
   constexpr Real neutral = 1e-6, settled = 0.15, all_gone = 1e-12;
-  constexpr std::size_t fewest = 12, apart = 4;  // iterations
+  constexpr std::size_t fewest = 12, apart = 4;  // numbers of iterations
   std::mt19937_64 bits(61);
   for (NodalVector& force : g_)
     for (int i = 0; i < D; ++i) force.set(i, symmetric_uniform(bits));
@@ -211,8 +212,8 @@ bool NewtonMethod<D>::is_stable_at(Real time, const NodalVectors& u) {
     return k >= fewest && !falls;
   });
   stability_ = std::min(seen.diagonal.empty() ? unbounded : seen.least(), 1e3);
-  if (!(stability_ > -1e3)) stability_ = -1e3;  // also not a number
-  // Round-off bends a motion against which no force acts.
+  if (!(stability_ > -1e3)) stability_ = -1e3;  // also for NaN
+  // Round-off can give a free motion a small negative eigenvalue.
   if (stability_ > -neutral) stability_ = std::max(stability_, 0.0);
   return !bent || stability_ >= 0;
 }
@@ -236,7 +237,7 @@ bool NewtonMethod<D>::search(Real time, Point& point, Real decrement) {
     if (!evaluate(time, trial, trial_r_)) continue;
     const Real released = point.potential - trial.potential;
     const Real enough = 2 * least_share * a * decrement - noise * std::abs(point.potential);
-    if (!(released >= enough)) continue;  // also where the energy is not a number
+    if (!(released >= enough)) continue;  // also true if the energy is NaN
     energy_scale_ = std::max(energy_scale_, released);
     point = std::move(trial);
     r_.swap(trial_r_);
@@ -264,7 +265,7 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
   const Real floor = std::max(start.idle, 1e-18 * preconditioner_->elements().energy_scale());
   stability_ = unbounded;
   Real before = 0;
-  bool bent = false;  // in the last iteration
+  bool bent = false;  // negative curvature in the last iteration
   for (;; ++solution.iterations) {
     if (solution.iterations == most_directions) {
       solution.failure = fmt::format(
@@ -276,7 +277,7 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
     constexpr Real loosest = 0.1, sharper = 0.9;
     preconditioner_->apply(r_, z_);
     const Real size = dot(r_, z_);
-    // What is left is at most r.P^-1 r / 2 over the least eigenvalue.
+    // The energy that could still be released is at most r.P^-1 r / 2 over the least eigenvalue.
     if (solution.iterations > 0 && stability_ > 0 && !bent &&
         size <= 2 * stability_ * polished * tolerance_ * energy_scale_) {
       left_ = size / (2 * stability_ * energy_scale_);
@@ -284,8 +285,8 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
       before = 0;
       continue;
     }
-    // As sharp as the quadratic convergence of the last iteration is worth (Eisenstat & Walker
-    // 1996).
+    // Solve as accurately as the quadratic convergence of the last iteration justifies (Eisenstat &
+    // Walker 1996).
     const Real fallen = before > 0 ? size / before : 1;
     const Real share = std::min(loosest, sharper * fallen * fallen);
     before = size;
@@ -305,20 +306,20 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
       continue;
     }
     Real decrement = found.decrement;
-    if (small) {  // nothing pulls away from a state that is not stable
+    if (small) {  // no force pulls away from this unstable state
       leave_saddle();
       decrement = 0;
     }
-    constexpr Real longest = 2;  // spacings
+    constexpr Real longest = 2;  // in spacings
     const Real length = largest(s_) / (longest * spacing_);
     if (length > 1) {
       for (NodalVector& w : s_) w /= length;
       decrement /= length;
     }
     if (search(start.time, point, decrement)) continue;
-    if (small) return;  // flat to the last digit
+    if (small) return;  // the energy is flat to the last digit
     if (step_ && solution.iterations > 0)
-      solution.stuck = true;  // an edge in the potential: as far as it goes
+      solution.stuck = true;  // the potential has a kink: no further progress
     else
       solution.failure =
           fmt::format("no step of Newton's method lowers the energy, {:.2g} of it is left", left_);
@@ -326,12 +327,12 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
   }
 }
 
-/// False where an equilibrium was not stable and has been left. Where the way back to it is found
-/// again and again, it is as flat as round-off.
+/// Returns false if the equilibrium was unstable and has been left. If the method returns to it
+/// several times, its energy is flat to round-off, and it is accepted.
 template <int D>
 bool NewtonMethod<D>::stays(Real time, Point& point, Solution& solution) {
   constexpr int often = 3;
-  // A step of implicit Euler is not an equilibrium.
+  // A step of implicit Euler need not be stable, because it is no equilibrium.
   if (step_ || is_stable_at(time, point.u) || solution.saddles == often) return true;
   solution.bent = true;
   leave_saddle();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work by the mean of forces, and what bends of it.
+// External work between two states: the mean of the forces, and a correction for their curvature.
 #include "solve/newton/outer_work.hpp"
 
 #include "parallel/nodal_algebra.hpp"
@@ -9,7 +9,7 @@
 namespace meniscus {
 namespace {
 
-/// The last of `work` is done by no held face.
+/// Books the work of each held face, and in the last entry of `work` the work of everything else.
 void book(State& state, const std::vector<Real>& work) {
   for (std::size_t k = 0; k < work.size(); ++k) {
     state.books.external_work += work[k];
@@ -68,9 +68,9 @@ std::vector<Real> OuterWork<D>::work_between(const End& before, const End& after
   return work;
 }
 
-/// What the means leave out of the work over this piece and the last, by that over both together.
-/// Half of it: the other half of what bends over a piece is seen with the neighbour on its other
-/// side, and a way back takes back what the way there has booked.
+/// Books the correction to the mean of forces over the last two pieces: the difference to the mean
+/// over both pieces together. Half of it is booked, because the curvature over a piece is estimated
+/// again with its neighbour on the other side. A path back cancels what the path forth has booked.
 template <int D>
 void OuterWork<D>::book_bend(const State& before, State& state) {
   if (last_.dt <= 0) return;

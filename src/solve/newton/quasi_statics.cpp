@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Load steps, their pieces and jumps.
+// Load steps, which are divided into pieces at jumps.
 #include "solve/newton/quasi_statics.hpp"
 
 #include "parallel/nodal_algebra.hpp"
@@ -13,11 +13,13 @@
 namespace meniscus {
 namespace {
 
-/// Of the energy that the next step would release, relative to the largest that one has.
+/// Tolerance at rest: the energy that the next iteration would release, relative to the largest
+/// such energy of the step.
 constexpr Real tolerance_of_rest = 1e-9;
-/// Of the energy that a piece of a step exchanges: what is lost beyond the work by a jump.
+/// Energy lost by a jump that is reported, as a fraction of the energy that a piece of a step
+/// exchanges.
 constexpr Real noticeable = 0.05;
-/// What jumps is looked at in pieces of this part.
+/// Length of the pieces in which a jump is resolved, as a fraction of the load step.
 constexpr Real piece_of_jump = 1.0 / 8;
 
 }  // namespace
@@ -89,7 +91,8 @@ void QuasiStatics<D>::step(State& state, Real dt) {
   arrived_ = end >= std::min(system_.steady_after(), choice_.end);
 }
 
-/// From the displacement before, and from that continued with the rate of the last step.
+/// Finds the equilibrium, starting from the last displacement, continued with the rate of the last
+/// step if that is known.
 template <int D>
 typename NewtonMethod<D>::Solution QuasiStatics<D>::solve(const State& state, Real time) {
   const auto& last = work_.last();
@@ -99,7 +102,8 @@ typename NewtonMethod<D>::Solution QuasiStatics<D>::solve(const State& state, Re
   return method_.solve({time, state.u, &expected});
 }
 
-/// From what the last step has led to expect, or found on a winding way.
+/// True if the solution is far from the prediction of the last step, or was found by a winding
+/// path.
 template <int D>
 bool QuasiStatics<D>::is_far(const State& state, Real time,
                              const typename NewtonMethod<D>::Solution& solution) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time step.
+// The time step of central differences.
 #include "solve/step/central_difference.hpp"
 
 #include "solve/step/leapfrog.hpp"
@@ -37,8 +37,8 @@ void advance(System<D>& system, State& state, Real dt,
   leapfrog::settle(state, dt);
   leapfrog::kick(system, state, dt / 2);
   if (judge) judge(state);
-  // Over a step the viscous force does the work dt/2 (f_n + f_n+1).v_n+1/2, of which f_n+1.v_n+1/2
-  // is the power computed last and f_n.v_n+1/2 lies half-way between the power before and that.
+  // The viscous work of a step is dt/2 (f_n + f_n+1).v_n+1/2. The power computed last is
+  // f_n+1.v_n+1/2; f_n.v_n+1/2 is the mean of the previous power and the last one.
   leapfrog::conclude(system, state, report, dt, 0.75);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Combinations of modes by the quotients of Rayleigh and Ritz.
+// Finds the critical mode of the time step by combining trial modes (Rayleigh-Ritz).
 #include "solve/step/critical_mode.hpp"
 
 #include "parallel/halo_algebra.hpp"
@@ -12,7 +12,8 @@ namespace {
 
 using SharedHalo = std::shared_ptr<const Halo>;
 
-/// a = factor_of_a a + factor b; a may be empty, as b where there is no viscosity.
+/// a = factor_of_a a + factor b. An empty a counts as zero. If b is empty (no viscosity), nothing
+/// changes.
 void mix(const SharedHalo& halo, NodalScratch& a, Real factor_of_a, const NodalScratch& b,
          Real factor) {
   if (b.empty()) return;
@@ -72,7 +73,7 @@ void CriticalMode::propose_trial(Real dt) {
 
 void CriticalMode::include_trial(Real dt) {
   if (mode.w.empty()) return std::swap(mode, trial);
-  using Products = Eigen::Matrix<Real, 3, 6>;  // by M, by A
+  using Products = Eigen::Matrix<Real, 3, 6>;  // products with M, then with A
   const std::array<const TrialMode*, 3> all{&mode, &trial, &way_};
   const int count = way_.w.empty() ? 2 : 3;
   const Products products = sum_over_particles(
@@ -87,7 +88,7 @@ void CriticalMode::include_trial(Real dt) {
         }
         return p;
       });
-  // Of length one; without a way that is about a combination of the others.
+  // Scale the vectors to length one. Drop the last one if it nearly is a combination of the others.
   using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
   constexpr Real independent = 1e-6;
   const Eigen::Vector3d size = products.leftCols<3>().diagonal().cwiseSqrt();

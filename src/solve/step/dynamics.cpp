@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dynamics: the motion as it is.
+// Stepper for the physical motion, without damping or artificial inertia.
 #include "meniscus/solve/stepper.hpp"
 #include "solve/step/central_difference.hpp"
 #include "solve/step/energy_resolution.hpp"
@@ -46,7 +46,7 @@ class Dynamics final : public Stepper<D> {
   }
   void archive(const Archive& a, const State&) override {
     resolution_.archive(a.in("energy_resolution"));
-    // A run whose viscosity was explicit so far has none.
+    // Absent in checkpoints of a run whose viscosity was explicit so far.
     if (viscosity_ && (!a.is_reading() || a.has("implicit_viscosity")))
       viscosity_->archive(a.in("implicit_viscosity"));
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Laplacian of elements, the inverse of the transform to places by a polynomial, and the
-// fastest mode.
+// The artificial inertia: the Laplacian of finite elements, an approximate inverse of the transform
+// from coefficients to positions, and the fastest mode.
 //
-// Why a polynomial: the factors of the transform of 31,112 particles take 70 s and 1.3 GB, a
-// polynomial of degree 8 the time of a few forces, and what it leaves of the soft modes, in which
-// coefficients move and places hardly do, changes the number of steps by a tenth.
+// The inverse is a polynomial of the transform. Factors of the transform of 31,112 particles take
+// 70 s and 1.3 GB; a polynomial of degree 8 costs as much as a few forces. It is inaccurate only
+// for soft modes, in which coefficients move and positions hardly do; this changes the number of
+// steps by a tenth.
 #include "solve/step/elastic_inertia.hpp"
 
 #include "body/particle_values.hpp"
@@ -25,13 +26,13 @@
 namespace meniscus {
 namespace {
 
-/// Entries of `factor` times the integral of grad v . grad v with trilinear (2D: bilinear)
-/// elements, two Gauss points per direction.
+/// Matrix entries of `factor` times the integral of grad v . grad v, with trilinear (2D: bilinear)
+/// elements and two Gauss points per direction.
 template <int D>
 UnsetVector<MatrixEntry> laplacian(const Grid<D>& grid, Real factor) {
   constexpr int corners_of_cell = 1 << D, of_cell = corners_of_cell * corners_of_cell;
   UnsetVector<MatrixEntry> entries;
-  entries.reserve(grid.cells.size() * of_cell + grid.X.size());  // and a diagonal
+  entries.reserve(grid.cells.size() * of_cell + grid.X.size());  // and the diagonal
   grow(entries, grid.cells.size() * of_cell);
   parallel_for(static_cast<Index>(grid.cells.size()), [&](Index c) {
     const auto& cell = at(grid.cells, c);
@@ -77,7 +78,7 @@ Real extent_of(const Body<D>& body) {
   return box_around<D>(body.particles.X()).extent().maxCoeff();
 }
 
-/// Of the values at the particles.
+/// The transpose of the matrix that gives values at the particles.
 template <int D>
 PointRows<D> transpose_of(const PointRows<D>& rows) {
   struct Entry {
@@ -135,9 +136,9 @@ class ElasticInertia<D>::OfBody {
   }
 
  private:
-  /// x becomes a polynomial of T, about T^-1, times x: Chebyshev's iteration for eigenvalues of T
-  /// in [0.05, 1.1]. Those below it, of coefficients that hardly move places, are taken for about
-  /// it.
+  /// Multiplies x by a polynomial of T that approximates T^-1: Chebyshev iteration for eigenvalues
+  /// of T in [0.05, 1.1]. Smaller eigenvalues, whose modes hardly move any position, are treated
+  /// like 0.05.
   void divide_by(const PointRows<D>& T) {
     constexpr int degree = 8;
     constexpr Real low = 0.05, high = 1.1, middle = (high + low) / 2, half = (high - low) / 2;
@@ -194,7 +195,7 @@ ElasticStep<D>::ElasticStep(System<D>& system, Real safety)
   const auto n = static_cast<std::size_t>(system.size());
   mode_.resize(n);
   momentum_ = trial_ = force_ = mode_;
-  // All wave lengths.
+  // A start vector with all wavelengths.
   for (Index A = 0; A < system.size(); ++A)
     at(momentum_, A) =
         Lanes(std::sin(12.9898 * A), std::sin(78.233 * A), D == 3 ? std::sin(37.719 * A) : 0.0, 0);
@@ -259,7 +260,7 @@ void ElasticStep<D>::archive(const Archive& a) {
 
 template <int D>
 bool is_thin_and_elastic(const System<D>& system, const std::vector<bool>& fluid) {
-  constexpr Real thinnest = 0.1;  // thickness / extent
+  constexpr Real thinnest = 0.1;  // largest thickness / extent
   const auto is_set = [](bool is) { return is; };
   const auto asks_for_more = [](const auto& term) {
     return term->viscous() || term->may_reject_steps();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces predicted by least squares.
+// Predicts the next force from past forces by least squares.
 #include "solve/step/force_prediction.hpp"
 
 #include "solve/state.hpp"
@@ -11,12 +11,14 @@
 namespace meniscus {
 namespace {
 
-/// Of three forces in a row, the latest first: itself, its change, and the change of that.
+/// The latest of three successive forces, its change, and the change of that change. `a` is the
+/// latest.
 std::array<Lanes, 3> differences(Lanes a, Lanes b, Lanes c) {
   return {a, a - b, (a - b) - (b - c)};
 }
 
-/// Products of the differences with each other and with what they are to predict, and its square.
+/// Sums of a least-squares problem: products of the differences with each other (`matrix`) and with
+/// the predicted quantity (`side`), and the square of that quantity.
 struct Products {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d side = Eigen::Vector3d::Zero();
@@ -26,7 +28,7 @@ struct Products {
   }
 };
 
-/// x of S x = b by Cholesky's factors; S is positive definite.
+/// Solves S x = b by Cholesky factorisation. S is positive definite.
 Eigen::Vector3d solve(const Eigen::Matrix3d& S, const Eigen::Vector3d& b) {
   Eigen::Matrix3d L = Eigen::Matrix3d::Zero();
   Eigen::Vector3d x;
@@ -53,7 +55,8 @@ ForcePrediction::ForcePrediction(std::size_t particles) {
   f_.fill(NodalVectors(particles, Lanes::zero()));
 }
 
-/// b. A difference that is nearly a combination of the others, or unknown, has none.
+/// The best coefficients b. A difference that is nearly a combination of the others, or is unknown,
+/// has the coefficient 0.
 Eigen::Vector3d ForcePrediction::best(const std::vector<Real>& mass, const SharedHalo& halo) const {
   const auto n = static_cast<Index>(mass.size());
   const Products all = sum_over_particles(halo, n, Products{}, [&](Index A) {

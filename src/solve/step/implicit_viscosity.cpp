@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conjugate gradients for the velocity at the end of a step.
+// Solves for the velocity at the end of a step by conjugate gradients.
 #include "solve/step/implicit_viscosity.hpp"
 
 #include "numbers/dense.hpp"
@@ -13,15 +13,16 @@
 namespace meniscus {
 namespace {
 
-/// Of the residual, in the norm of the preconditioner, relative to sqrt(v . M v).
+/// Largest residual, in the norm of the preconditioner and relative to sqrt(v . M v).
 constexpr Real tolerance = 3e-5;
-/// Up to 200 as a rule, and up to 1000 where stress points nearly fold and F^-1 makes viscosity
-/// stiff there, which a shorter step hardly changes.
+/// Usually up to 200 iterations are needed; up to 1000 where stress points are nearly folded and
+/// F^-1 makes the viscosity stiff. A shorter step hardly changes the latter.
 constexpr int most_iterations = 2000;
-/// Steps until the diagonal is computed again, which costs about as much as a force.
+/// Number of steps after which the diagonal is computed again, which costs about as much as a
+/// force.
 constexpr std::int64_t longest_age = 20;
 
-/// Where the coefficient of a particle is.
+/// Position of the coefficient of a particle.
 template <int D>
 Eigen::Vector3d place(const Body<D>& body, const State& state, Index A) {
   Eigen::Vector3d x = spatial(at(state.u, A));
@@ -29,7 +30,7 @@ Eigen::Vector3d place(const Body<D>& body, const State& state, Index A) {
   return x;
 }
 
-/// Sums of m, m x and r of a body.
+/// Sums of m, m x and r over a body.
 struct Moments {
   Real mass = 0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), momentum = Eigen::Vector3d::Zero();
@@ -38,7 +39,7 @@ struct Moments {
   }
 };
 
-/// Sums of the inertia about its centre, and of the moment of r.
+/// Inertia of a body about its centre, and the moment of r.
 struct Rotation {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
@@ -69,7 +70,7 @@ void ImplicitViscosity<D>::advance(State& state, Real dt) {
   system_.for_particles([&](Index begin, Index end) {
     std::copy(state.v.begin() + begin, state.v.begin() + end, half_.begin() + begin);
   });
-  // The guess of v_n+1, by the predicted force.
+  // First guess of v_n+1, from the predicted force.
   NodalVectors& predicted = r_;
   prediction_.predict(state.force, dt, system_.mass, predicted, system_.halo);
   system_.for_particles([&](Index begin, Index end) {
@@ -85,7 +86,7 @@ void ImplicitViscosity<D>::advance(State& state, Real dt) {
     leapfrog::drift(system_, state, -dt);
     throw;
   }
-  std::swap(state.v, half_);  // reactions are of the last half kick, which begins with that
+  std::swap(state.v, half_);  // reactions refer to the last half kick, starting at v
   system_.react(state, dt);
   std::swap(state.v, half_);
   leapfrog::settle(state, dt);
@@ -95,8 +96,9 @@ void ImplicitViscosity<D>::advance(State& state, Real dt) {
   ++steps_;
 }
 
-/// Force and velocity at the end of the step, by the guess in state.v. Every iteration changes v by
-/// a p and the force by - a C p, so that the force is that of v without another evaluation.
+/// Computes force and velocity at the end of the step, starting from the guess in state.v. Each
+/// iteration changes v by a p and the force by - a C p, so that the force always belongs to v
+/// without a new evaluation.
 template <int D>
 Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
   Report report = system_.compute_forces(state.motion(), state.forces());
@@ -113,7 +115,7 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
       0.0, [&](Index A) { return at(system_.mass, A) * sum(at(half_, A) * at(half_, A)); });
   Real rz = precondition(dt);
   p_ = z_;
-  for (int k = 0; !(rz <= tolerance * tolerance * motion); ++k) {  // also not a number
+  for (int k = 0; !(rz <= tolerance * tolerance * motion); ++k) {  // also goes on for NaN
     if (k == most_iterations) throw not_found(state, std::sqrt(rz / motion));
     const Real a = rz / apply(state, dt);
     system_.for_particles([&](Index begin, Index end) {
@@ -145,8 +147,8 @@ Report ImplicitViscosity<D>::forces_with_velocity(State& state, Real dt) {
   return report;
 }
 
-/// Friction and dampers, which act from outside, have changed with the velocity since the terms
-/// reported. Other viscous forces balance each other.
+/// Corrects the resultant of external forces for the change of the velocity since the terms
+/// reported. Only friction and dampers act from outside; other viscous forces have no resultant.
 template <int D>
 void ImplicitViscosity<D>::add_missing_drag(const State& state, Resultant& outside) const {
   if (outside.force_size == 0) return;
@@ -162,7 +164,8 @@ void ImplicitViscosity<D>::add_missing_drag(const State& state, Resultant& outsi
   }
 }
 
-/// A step that is tried again has a diagonal of its own.
+/// The error of a step whose velocity was not found. A new trial of the step will compute a new
+/// diagonal.
 template <int D>
 StepError ImplicitViscosity<D>::not_found(const State& state, Real residual) {
   age_ = longest_age;
@@ -222,9 +225,9 @@ void ImplicitViscosity<D>::tell_reads(StepReads& reads) {
   prediction_.tell_reads(reads);
 }
 
-/// The residual of each body is taken by the rigid motion with the momenta that it stands for.
-/// Rigid motions cause no viscous force, but for friction, which does not keep momenta. Nor does a
-/// body that is held, which has no rigid motion.
+/// Adds the rigid motion of each body whose momenta are the sums of the residual. Rigid motions
+/// cause no viscous force except friction, which does not conserve momenta. Held bodies are
+/// skipped, since they have no rigid motion.
 template <int D>
 void ImplicitViscosity<D>::add_missing_rigid_motion(State& state) const {
   for (const Body<D>& body : system_.bodies) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of a step of central differences: places and velocities half a step apart.
+// Parts of a step of central differences, in which positions and velocities are half a step apart.
 #pragma once
 #include "parallel/nodal_algebra.hpp"
 #include "solve/system.hpp"
 
 namespace meniscus::leapfrog {
 
-/// v += dt f / m, of a vector over all particles
+/// v += dt f / m, for vectors over all particles.
 inline void kick(NodalVectors& v, const NodalVectors& f, const std::vector<Real>& mass, Real dt) {
   sweep(static_cast<Index>(v.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(v, A) += (dt / at(mass, A)) * at(f, A);
@@ -25,7 +25,7 @@ void kick(const System<D>& system, State& state, Real dt) {
   kick_fields(state, dt);
 }
 
-/// x += dt v
+/// x += dt v for fields beside the displacement.
 inline void drift_fields(State& state, Real dt) {
   for (Unknown& field : state.fields)
     if (field.spec.evolution != Evolution::carried) add(field.x, dt, field.rate);
@@ -39,7 +39,7 @@ void drift(const System<D>& system, State& state, Real dt) {
   state.time += dt;
 }
 
-/// The first half kick of all that is inertial, and the drift that follows.
+/// The first half kick of the displacement and all inertial fields, and the drift.
 template <int D>
 void kick_and_drift(const System<D>& system, State& state, Real dt) {
   system.for_particles([&](Index begin, Index end) {
@@ -53,8 +53,8 @@ void kick_and_drift(const System<D>& system, State& state, Real dt) {
   state.time += dt;
 }
 
-/// x' = f / c of the relaxational fields. The heat of the step of dt that ends: the work of the
-/// mean of both forces on the way that the old rate led.
+/// Sets the rates x' = f / c of relaxational fields. Adds the heat of the step of dt that ends: the
+/// mean of the forces before and after it, times the old rate.
 inline void settle(State& state, Real dt) {
   for (Unknown& field : state.fields) {
     if (field.spec.evolution != Evolution::relaxational) continue;
@@ -69,8 +69,8 @@ inline void settle(State& state, Real dt) {
   }
 }
 
-/// The step of dt stands, with what its forces reported; `last_share` of its heat was that of now,
-/// the rest that of before.
+/// Accepts the step of dt with the report of its forces. The heat of the step is weighted: the new
+/// power counts `last_share`, the old one the rest.
 template <int D>
 void conclude(System<D>& system, State& state, const Report& report, Real dt, Real last_share) {
   ++state.step;

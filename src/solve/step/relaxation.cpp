@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dynamic relaxation and the judgement that a state is at rest.
+// Dynamic relaxation, and the test whether a state is at rest.
 //
-// Why this damping: a cell that is deflated over 15 us (red blood cell note 9) has the force
-// residual 8e-5 at 18 us; with FIRE, whose mixing fades and leaves stiff vibrations alone, 3e-4,
-// and still 1.2e-4 at 36 us (2.6e-5 here). A bent plate of 756 particles is left with the energy
-// 2e-4 of 0.06 after 2500 steps with zeta = 0.6, 3000 with zeta = 1, 1500 with FIRE; kinetic
-// damping, which stops at every vibration of the stiffest modes, hardly flattens it in 5000.
+// Reasons for this damping: a cell that is deflated over 15 us (red blood cell note 9) has the
+// force residual 8e-5 at 18 us and 2.6e-5 at 36 us. FIRE, whose mixing fades and hardly damps stiff
+// vibrations, leaves 3e-4 and 1.2e-4. A bent plate of 756 particles starts with the energy 0.06. It
+// still has 2e-4 after 2500 steps with zeta = 0.6, 3000 with zeta = 1, and 1500 with FIRE. Kinetic
+// damping stops at every vibration of the stiffest modes and hardly flattens the plate in 5000
+// steps.
 //
-// Why windows: that cell, with 3464 particles, ends after 2541 steps if two quarter periods must
-// have passed in which its shape did not change, and after 1246 by what the motion of a window has
-// left to go, with the same thickness ratio but for 2e-4. Coefficients have soft modes that hardly
-// move places; their periods are not waited for.
+// Reasons for windows, time intervals in which the remaining motion is estimated: with 3464
+// particles, the cell ends after 1246 steps. It ends after 2541 steps if its shape must not change
+// over two quarter periods; the thickness ratio differs by 2e-4 only. Soft modes of the
+// coefficients, which hardly move positions, need not come to rest.
 #include "solve/step/relaxation.hpp"
 
 #include "kernel/row_sums.hpp"
@@ -95,10 +96,10 @@ void Relaxation<D>::damp(State& state, Real dt) {
     for (Index A = begin; A < end; ++A) at(state.v, A) *= factor;
   });
   follow_brake(state, factor, omega * dt);
-  // What is prescribed is not braked.
+  // Prescribed velocities are not damped.
   if (system_.constraints && state.time < system_.constraints->steady_after())
     system_.constraints->restore_velocities(state);
-  // The powers of loads go with the velocity, those of viscous forces with its square.
+  // The power of loads is proportional to the velocity, the power of viscous forces to its square.
   state.books.load_power = system_.load_power(state.motion());
   state.books.heat *= factor * factor;
   judge(state, dt);
@@ -121,7 +122,7 @@ void Relaxation<D>::judge(State& state, Real dt) {
   system_.complete(state);
   const Change change = judged_window(state);
   const Real quarter = change.omega > 0 ? std::numbers::pi / (2 * change.omega) : 2 * elapsed;
-  // A window that was much too short for the mode it has shown says nothing.
+  // A window much shorter than the period of the observed mode gives no information.
   const bool shaped = window_begin_ >= steady_after() && elapsed >= 0.25 * quarter &&
                       shape_change_ <= tolerances_.shape;
   const bool settled = shaped && force_residual(state) <= tolerances_.force;
@@ -130,7 +131,7 @@ void Relaxation<D>::judge(State& state, Real dt) {
   open_window(state, ramps_ended ? 0 : std::min(0.5 * quarter, 2 * elapsed));
 }
 
-/// Whether a body is pulled, with nothing in its way that could stop it.
+/// True if a net force pulls a body and no term can stop its drift.
 template <int D>
 bool Relaxation<D>::pulled(const State& state) const {
   return std::none_of(system_.terms.begin(), system_.terms.end(),
@@ -138,11 +139,12 @@ bool Relaxation<D>::pulled(const State& state) const {
          !net_forces(system_, state).empty();
 }
 
-/// Relaxation has no part of a mode that breaks the symmetry of its scene, and comes to rest at a
-/// symmetric state whether that is stable or not.
+/// Least eigenvalue of the stiffness at rest. Relaxation of a symmetric scene never excites modes
+/// that break the symmetry, and comes to rest at a symmetric state even if that is unstable. Empty
+/// if it cannot be computed.
 template <int D>
 std::optional<Real> Relaxation<D>::stability(const State& state) const {
-  constexpr Index most_particles = D == 3 ? 1000 : 5000;  // whose factors take a second
+  constexpr Index most_particles = D == 3 ? 1000 : 5000;  // their factors take a second
   const bool has_potential =
       std::all_of(system_.terms.begin(), system_.terms.end(),
                   [&](const auto& term) { return term->potential(state.motion()).has_value(); });
@@ -166,10 +168,10 @@ typename Relaxation<D>::Change Relaxation<D>::judged_window(const State& state) 
 
   const Real clock = fluids_.clock(uncancelled_force(state)), elapsed = state.time - window_begin_;
   const Real flow = fluids_.change(window_u_, state.u) / elapsed;
-  // A fluid that swings is at a turning point for less than the time of its clock.
+  // An oscillating fluid stays near a turning point for less than its time scale.
   const bool long_enough = elapsed >= clock * (1 - 1e-9);
   shape_change_ = std::max(shape_change_, long_enough ? flow * clock : 1.0);
-  const Real slowest = std::numbers::pi / (4 * clock);  // makes windows of the length of the clock
+  const Real slowest = std::numbers::pi / (4 * clock);  // gives windows of the length `clock`
   change.omega = change.omega > 0 ? std::min(change.omega, slowest) : slowest;
   return change;
 }
@@ -195,13 +197,14 @@ typename Relaxation<D>::ModeSums Relaxation<D>::sums_of_window(const State& stat
   });
 }
 
-/// In the energy of the mode w = du, stiffness k = - du.df and mass m = du.M du: the present force
-/// is f.du/k of w away from where it vanishes, and the velocity carries on by v.M du/sqrt(k m).
+/// Change over a window. The mode w = du has the stiffness k = - du.df and the mass m = du.M du in
+/// the energy. The present force vanishes after a further motion of f.du/k times w, and the
+/// velocity moves it by v.M du/sqrt(k m).
 template <int D>
 typename Relaxation<D>::Change Relaxation<D>::change_of(const ModeSums& sums) const {
   const Real k = sums[0], m = sums[1];
   if (m == 0) return {0, 0};
-  if (k <= 0 || m < 0) return {0, 1 / tolerances_.shape};  // nothing brings it back
+  if (k <= 0 || m < 0) return {0, 1 / tolerances_.shape};  // no restoring force
   return {std::sqrt(k / m), std::hypot(sums[2] / k, sums[3] / std::sqrt(k * m))};
 }
 
@@ -248,7 +251,7 @@ Real Relaxation<D>::force_residual(const State& state) const {
 
 template <int D>
 void Relaxation<D>::archive(const Archive& a, const State& state) {
-  if (a.is_reading()) begin(state);  // the sizes
+  if (a.is_reading()) begin(state);  // sets the sizes
   a("window_displacement", window_u_, D, dimension::length);
   a("window_force", window_force_, D, of_sum(dimension::force, D));
   a("window_begin", window_begin_, dimension::time);
@@ -267,7 +270,7 @@ std::vector<Residual> Relaxation<D>::residuals(const State& state) const {
 
 namespace {
 
-/// `what` changes until a time that is not before the end.
+/// Refuses a scene in which `what` changes up to the time `until`, at or after its end.
 [[noreturn]] void refuse_change(const StepperChoice& choice, const std::string& what, Real until) {
   const std::string how_long =
       std::isfinite(until) ? fmt::format("until t = {:.6g}, not before the end {:.6g} of the scene",
@@ -293,7 +296,7 @@ std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice)
     refuse_change(choice, "a displacement of [[held]]", system.constraints->steady_after());
   const typename Relaxation<D>::Tolerances tolerances{choice.force_tolerance,
                                                       choice.shape_tolerance};
-  // A step that is given is one of the masses.
+  // A given step refers to the real masses, so no artificial inertia is used.
   if (!choice.step && is_thin_and_elastic(system, choice.fluid))
     return std::make_unique<PseudoTime<D>>(system, tolerances, choice.safety);
   return std::make_unique<Relaxation<D>>(system, tolerances, choice.fluid);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid drift, and the flow in a fluid, as dynamic relaxation judges them.
+// Rigid drift, and the flow in a fluid: criteria of rest for dynamic relaxation.
 #include "solve/step/rest.hpp"
 
 #include "body/particle_values.hpp"
@@ -14,14 +14,14 @@
 namespace meniscus {
 namespace {
 
-constexpr Real round_off_of_sums = 1e-8;  // of what cancels
+constexpr Real round_off_of_sums = 1e-8;  // relative to the terms that cancel
 
 template <int D>
 Eigen::Vector3d place_of(const Body<D>& body, const State& state, Index A) {
   return spatial<D>(at(body.particles.X(), A)) + spatial(at(state.u, body.first + A));
 }
 
-/// A velocity field about a centre.
+/// A rigid velocity field about a centre.
 struct RigidField {
   Eigen::Vector3d centre, translation, rotation;
 
@@ -30,7 +30,7 @@ struct RigidField {
   }
 };
 
-/// The rigid field with the momenta of du.
+/// The rigid velocity field with the momenta of du.
 template <int D>
 RigidField rigid_part(const System<D>& system, const Body<D>& body, const State& state,
                       const NodalVectors& du) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Step control as the body deforms.
+// Control of the step while bodies deform.
 #include "solve/step/step_controller.hpp"
 
 #include "meniscus/error.hpp"
@@ -12,13 +12,16 @@
 namespace meniscus {
 namespace {
 
-// Steps to the first new estimate, when nothing is known yet of how fast the limit changes, and the
-// fewest between later ones: an estimate of a limit that changes costs about as much as ten steps.
+// Steps to the first new estimate of the limit, when its rate of change is still unknown, and the
+// least number of steps between estimates. An estimate costs about as much as ten steps while the
+// limit changes.
 constexpr Real shortest_interval = 5;
-// Part of the first stable step below which a run that chooses its steps warns, once.
+// If the program chooses the step, it warns once when the step falls below this fraction of the
+// first stable step.
 constexpr Real much_shorter = 0.01;
 
-/// What has become of the stable step of the beginning; `viscous`: viscosity limits steps.
+/// Describes how the stable step has changed since the beginning. `viscous`: viscosity may limit
+/// the step.
 std::string describe_shorter_step(std::string_view what, Real first, const StableStep& now,
                                   bool viscous) {
   std::string text =
@@ -34,7 +37,7 @@ std::string describe_shorter_step(std::string_view what, Real first, const Stabl
 template <int D>
 void StepController<D>::begin(State& state) {
   if (estimator_.keeps_to_halo()) system_.enter_halo(state);
-  // Where u = 0 the damping of coefficients is no smooth function of u, but for v = 0.
+  // At u = 0 the damping of coefficients is not a smooth function of u, unless v = 0.
   State at_rest = state;
   std::fill(at_rest.v.begin(), at_rest.v.end(), Lanes::zero());
   stable_ = estimator_.estimate(at_rest);
@@ -69,9 +72,9 @@ void StepController<D>::reconsider(State& state) {
   estimator_.keeps_to_halo() ? system_.enter_halo(state) : system_.complete(state);
   const Real before = stable_.dt;
   stable_ = estimator_.estimate_again(state, stable_);
-  // So long that the limit changes by 2 % between estimates (with implicit viscosity, where it
-  // falls with every step of a drop that spreads, by 4 %), and at most 1.5 times as long as before,
-  // or twice where nothing has changed.
+  // Choose the interval so that the limit changes by 2 % between estimates; 4 % with implicit
+  // viscosity, where the limit falls with each step of a spreading drop. It grows at most by the
+  // factor 1.5, or 2 if the limit is steady.
   const Real tolerated = choice_.implicit_viscosity ? 0.04 : 0.02,
              slowest = tolerated / (stable_.steady ? 2 : 1.5);
   interval_ *= tolerated / std::max(slowest, std::abs(std::log(stable_.dt / before)));
@@ -93,13 +96,14 @@ void StepController<D>::reconsider(State& state) {
                            estimator_.failure(describe("fallen"), state).what());
     warned_ = true;
   }
-  // Small changes are left alone: every change of step disturbs the energy balance a little.
+  // Small changes are not made, because each change of step disturbs the energy balance a little.
   const Real wanted = std::min(choice_.safety * stable_.dt, state.demand.longest);
   if (step_ > std::min(1.02 * wanted, stable_.dt) || step_ < 0.9 * wanted) step_ = wanted;
 }
 
-/// The longest step now: safety x the stable step with the stiffness that came since the estimate,
-/// and what the terms allow.
+/// The longest step allowed now. The stiffness that was added since the last estimate shortens the
+/// stable step; the result is multiplied by the safety factor and limited by the demands of the
+/// terms.
 template <int D>
 Real StepController<D>::allowed_step(const State& state) const {
   const Real come = std::max(0.0, state.demand.stiffness - known_stiffness_);
@@ -108,8 +112,8 @@ Real StepController<D>::allowed_step(const State& state) const {
   return std::min(choice_.safety * stable, state.demand.longest);
 }
 
-/// Shortens the step where a term demands it. The demand bounds the stiffness from above, so before
-/// a considerable change the operator itself is asked.
+/// Shortens the step if a term demands it. The demand is an upper bound of the stiffness; before a
+/// considerable change, the limit is estimated again.
 template <int D>
 void StepController<D>::respect_demand(State& state) {
   constexpr Real tolerated = 1.05, margin = 0.9;
@@ -123,8 +127,8 @@ template <int D>
 Real StepController<D>::next(State& state, Real end, Real accurate) {
   if (state.step >= next_check_) reconsider(state);
   respect_demand(state);
-  // What viscosity stops within one of its steps, central differences resolve anyway; not so the
-  // forces of a field that starts away from its rest, as a director does.
+  // Motion that viscosity stops within one viscous step is resolved by central differences in any
+  // case. The large forces of a field that starts away from its rest, such as a director, are not.
   const Real least_share = choice_.implicit_viscosity ? 1e-3 : state.fields.empty() ? 0.1 : 0.03;
   const Real dt = choice_.fixed ? step_ : std::min(step_, std::max(accurate, least_share * step_));
   const Real left = end - state.time;
@@ -148,7 +152,7 @@ void StepController<D>::archive(const Archive& a) {
   Real safety = choice_.safety;
   a("fixed", fixed, dimension::time);
   a("safety", safety);
-  // What was fixed may have come to be above the limit since it was chosen.
+  // A fixed step may have become longer than the limit since it was chosen.
   require_saved(step_ > 0 && step_ <= fixed.value_or(stable_.dt), a, "step_control/step");
   require_saved(first_limit_ > 0, a, "step_control/first_limit");
   require_saved(interval_ > 0 && interval_ <= 1e9 && last_check_ >= 0 &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The limit of central differences by trial changes of the state.
+// Estimates the stable step of central differences from trial changes of the state.
 #include "solve/step/time_step.hpp"
 
 #include "meniscus/error.hpp"
@@ -15,18 +15,18 @@ namespace meniscus {
 namespace {
 
 constexpr int most_iterations = 300;
-/// A response that differs by more of M p anywhere is another one: about three times this share of
-/// the largest rates.
+/// Largest difference of two responses that count as equal, anywhere and relative to M p. It
+/// corresponds to about three times this share of the largest rates.
 constexpr Real same_response = 5e-3;
-/// Trial displacements / the spacing: so small that differences are derivatives; where forces jump,
-/// wider and wider.
+/// Sizes of trial displacements, in units of the spacing. They are so small that differences are
+/// derivatives. Where forces jump, larger sizes are tried.
 constexpr Real smallest_trial = 1e-6, widest_trial = 1e-2, wider = 100;
 
-/// The limit falls from iteration to iteration, in the end as a geometric series: what is left of
-/// it is subtracted.
+/// Extrapolates the limit, which falls from iteration to iteration and finally like a geometric
+/// series: the remaining fall is subtracted.
 struct FallingLimit {
   Real dt = 0, last_fall = 0;
-  Real scale = 1;  ///< limit / what it falls to
+  Real scale = 1;  ///< limit / extrapolated limit
   int settled = 0;
 
   static constexpr Real tolerance = 2e-3;
@@ -43,8 +43,8 @@ struct FallingLimit {
   bool found() const { return settled >= 4; }
 };
 
-/// A start with all wave lengths in it, the same on every machine; in a halo of the particles that
-/// the rank follows.
+/// A start vector with all wavelengths, the same on every machine. In a halo, only the particles
+/// that the rank follows are set.
 void make_rough(const std::shared_ptr<const Halo>& halo, std::span<NodalVector> mode,
                 int components) {
   std::uint64_t bits = 0x9e3779b97f4a7c15;
@@ -125,7 +125,7 @@ void StableStepEstimator<D>::archive(const Archive& a) {
                         system_.fields[k].spec.components);
 }
 
-/// K w by a change of the places of at most `size` spacings.
+/// Computes K w from a displacement of at most `size` spacings.
 template <int D>
 void StableStepEstimator<D>::find_stiff_forces(const State& state, Real size, TrialMode& trial) {
   const Real du = size * spacing_ / largest(trial.w);
@@ -133,7 +133,8 @@ void StableStepEstimator<D>::find_stiff_forces(const State& state, Real size, Tr
   force_change(state, trial.w, du, 0, du, trial.Kw);
 }
 
-/// C w by a velocity that displaces as much in the time 1 / `rate` of the mode (any, if that is 0).
+/// Computes C w from a velocity whose displacement in the time 1 / `rate` is equally large. If
+/// `rate` is 0, the time is 1.
 template <int D>
 void StableStepEstimator<D>::find_viscous_forces(const State& state, Real rate, TrialMode& trial) {
   const Real dv = smallest_trial * spacing_ / largest(trial.w) * (rate > 0 ? rate : 1);
@@ -141,7 +142,7 @@ void StableStepEstimator<D>::find_viscous_forces(const State& state, Real rate, 
   force_change(state, trial.w, 0, dv, dv, trial.Cw);
 }
 
-/// result = - (f(u + du w, v + dv w) - f(u, v)) / size.
+/// Computes result = - (f(u + du w, v + dv w) - f(u, v)) / size.
 template <int D>
 void StableStepEstimator<D>::force_change(const State& state, std::span<const NodalVector> w,
                                           Real du, Real dv, Real size,
@@ -165,8 +166,8 @@ void StableStepEstimator<D>::force_change(const State& state, std::span<const No
   });
 }
 
-/// The material takes its fields along to the trial places: with a field that stays behind, limits
-/// come out several times too long.
+/// Transports carried fields to the trial positions. With fields that stay behind, limits would be
+/// several times too long.
 template <int D>
 void StableStepEstimator<D>::carry_trial(const State& state) {
   for (const auto& carried : system_.carried) {
@@ -179,7 +180,7 @@ void StableStepEstimator<D>::carry_trial(const State& state) {
   }
 }
 
-/// From the mode found last; without other fields.
+/// Limit of the motion without other fields. The iteration starts from the last mode found.
 template <int D>
 StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
   const bool viscous = viscous_counts_ && system_.viscous();
@@ -201,7 +202,7 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
     const Real limit = ModeRates{k, c}.longest_step();
     if (!std::isfinite(limit)) break;
     if (iteration == 0 && std::abs(limit - mode_limit_) < FallingLimit::tolerance * limit) {
-      // The responses differ elsewhere.
+      // The mode may have changed elsewhere in the bodies.
       start_where_it_changed();
       continue;
     }
@@ -217,7 +218,8 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
   return best;
 }
 
-/// A limit that is shorter than `doubtful` is looked for again if it is that of a jump.
+/// Limit of the motion. A limit below `doubtful` that is caused by a jump of the force is searched
+/// again with larger trial displacements.
 template <int D>
 StableStep StableStepEstimator<D>::limit_without_jumps(const State& state, Real doubtful) {
   if (!may_jump_) return limit_of_motion(state);
@@ -235,7 +237,7 @@ StableStep StableStepEstimator<D>::limit_without_jumps(const State& state, Real 
   return best;
 }
 
-/// Whether the mode found last is about as stiff over a wider change of the places.
+/// True if the last mode has about the same stiffness for a larger trial displacement.
 template <int D>
 bool StableStepEstimator<D>::is_smooth(const State& state, StableStep& found) {
   constexpr Real about = 1.5;
@@ -248,7 +250,7 @@ bool StableStepEstimator<D>::is_smooth(const State& state, StableStep& found) {
   return !(ModeRates{k, found.viscosity}.longest_step() > about * found.dt);
 }
 
-/// With the mode found last and, as long, the change of the responses.
+/// Starts from the last mode plus the change of the responses, scaled to the same length.
 template <int D>
 void StableStepEstimator<D>::start_where_it_changed() {
   NodalScratch& change = trial_force_;
@@ -284,12 +286,12 @@ template <int D>
 bool StableStepEstimator<D>::responds_as_before(Real tolerated) const {
   const Index others = system_.sum_over_particles(Index{0}, [&](Index A) {
     const Lanes change = (1 / at(system_.mass, A)) * (at(response_, A) - at(known_response_, A));
-    return Index{!(sum(change * change) < tolerated * tolerated)};  // also not a number
+    return Index{!(sum(change * change) < tolerated * tolerated)};  // true for NaN, too
   });
   return others == 0;
 }
 
-/// The forces that changes are taken from.
+/// Computes the forces at the given state, from which changes are measured.
 template <int D>
 void StableStepEstimator<D>::find_base_forces(const State& state) {
   base_.resize(mode_.size());
@@ -317,7 +319,7 @@ template <int D>
 StableStep StableStepEstimator<D>::estimate_again(const State& state, const StableStep& before) {
   if (response_step_ == 0) return estimate(state);
   if (system_.viscous() || system_.constraints) {
-    // The force of the state is at another velocity, or has reactions in it.
+    // The force of the state belongs to another velocity or contains reactions.
     find_base_forces(state);
   } else {
     base_.resize(mode_.size());
@@ -334,7 +336,7 @@ StableStep StableStepEstimator<D>::estimate_again(const State& state, const Stab
     std::swap_ranges(known_response_.begin() + begin, known_response_.begin() + end,
                      response_.begin() + begin);
   });
-  constexpr Real collapsed = 0.5;  // in the time from one estimate to the next
+  constexpr Real collapsed = 0.5;  // between two estimates
   const StableStep found = limit_from_base(state, collapsed * before.dt);
   if (std::abs(found.dt - response_step_) > 0.1 * response_step_) know_response(state, found.dt);
   return found;
@@ -342,7 +344,8 @@ StableStep StableStepEstimator<D>::estimate_again(const State& state, const Stab
 
 template <int D>
 StableStep StableStepEstimator<D>::limit_from_base(const State& state, Real doubtful) {
-  // Every iteration lengthens the mode a little: in a long run it would overflow.
+  // Normalise the mode: each iteration makes it a little longer, so that it would overflow in a
+  // long run.
   const Real length = std::sqrt(dot(system_.halo, mode_, mode_));
   system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(mode_, A) /= length;
@@ -358,7 +361,7 @@ StableStep StableStepEstimator<D>::limit_from_base(const State& state, Real doub
       best.of_fields = std::min(best.of_fields, field_limit(state, k));
   best.dt = std::min(best.dt, best.of_fields);
   if (!(best.dt > 0) || !std::isfinite(best.dt)) {
-    // Names the place if a cell is folded.
+    // Throws a failure with the place if a cell is folded.
     system_.compute_forces(state.motion(), {base_, trial_});
     throw failure(
         "no stable time step can be found: the forces at the current state do not make "
@@ -383,7 +386,8 @@ StepError StableStepEstimator<D>::failure(std::string cause, const State& state)
   return StepError(system_.located({all.particle, std::move(cause)}, state.motion()));
 }
 
-/// A carried field relaxes in as many stages as its own limit asks for: it does not limit the step.
+/// Sets the number of stages of a carried field from the limit of its relaxation. The field itself
+/// does not limit the step.
 template <int D>
 void StableStepEstimator<D>::set_stages(const State& state, std::size_t number) {
   const auto forces = [&](Unknown& field) {
@@ -409,8 +413,8 @@ Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number)
   });
 }
 
-/// 2 / the largest rate of c x' = f, or 2 / the largest frequency of c x'' = f; `forces` of a
-/// trial.
+/// Limit of a field: 2 / the largest rate of c x' = f, or 2 / the largest frequency of c x'' = f.
+/// `forces` computes f of a trial field.
 template <int D>
 Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number,
                                          const std::function<void(Unknown&)>& forces) {
@@ -429,12 +433,12 @@ Real StableStepEstimator<D>::field_limit(const State& state, std::size_t number,
       const Lanes change = at(base_fields_[number], A) - at(trial.f, A);
       restoring += sum(at(mode, A) * change) / h;
       weight += at(field.capacity, A) * sum(at(mode, A) * at(mode, A));
-      // Particles of bodies without the field have no capacity, and no forces.
+      // Particles of bodies without the field have zero capacity and zero force.
       const Real c = at(field.capacity, A);
       at(mode, A) = c > 0 ? change / (h * c) : Lanes::zero();
     }
     const Real k = std::abs(restoring) / weight;
-    if (!(k > 0)) break;  // nothing brings it back: no limit
+    if (!(k > 0)) break;  // no restoring force, hence no limit
     falling.add(field.spec.evolution == Evolution::inertial ? 2 / std::sqrt(k) : 2 / k);
   }
   trial.x = field.x;

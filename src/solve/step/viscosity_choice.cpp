@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stable steps with and without what viscosity does to them.
+// Compares the stable steps with and without viscosity, and chooses explicit or implicit viscosity.
 #include "solve/step/viscosity_choice.hpp"
 
 #include "solve/step/time_step.hpp"

@@ -73,7 +73,7 @@ Mat<D> direct_along(const PointRows<D>& rows, Index q, const Lanes* d, const Vec
   return nG;
 }
 
-/// F at the particles; column K of particle A is field[K][A].
+/// F at the particles: field[K][A] is column K of F at particle A.
 template <int D>
 struct NodalGradients {
   std::array<NodalVectors, D> column;
@@ -97,7 +97,7 @@ template <int D>
 struct Found {
   std::vector<Real> curvature;
   std::vector<Vec<D>> normal;
-  std::vector<Mat<D>> F;  ///< over all stages
+  std::vector<Mat<D>> F;  ///< F from the first reference, over all stages
 };
 
 template <int D>

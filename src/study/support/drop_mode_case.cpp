@@ -98,9 +98,9 @@ struct TimeWindow {
   }
 };
 
-/// The rate s of equidistant samples of c + a exp(s t) + b exp(s' t), with s' = conj(s) or s' real,
-/// by least squares for the linear prediction from the two samples before. Of two real rates, the
-/// slow one.
+/// Rate s from equidistant samples of c + a exp(s t) + b exp(s' t), with s' = conj(s) or s' real.
+/// Least squares find the linear prediction of a sample from the two samples before it. If both
+/// rates are real, returns the slow one.
 Complex fitted_rate(const std::vector<Real>& a, Real interval) {
   Mat<3> normal = Mat<3>::Zero();
   Vec<3> right = Vec<3>::Zero();

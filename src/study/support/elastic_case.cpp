@@ -34,14 +34,14 @@ struct Stress {
   }
 };
 
-/// Adds N_A force to `load` for some points at a time, since rows of all points would take
-/// gigabytes.
+/// Adds N_A force to `load`. Points are processed in portions, because the rows of all points would
+/// take gigabytes.
 template <int D>
 class LoadSum {
  public:
   LoadSum(const Body<D>& body, NodalVectors& load) : body_(body), load_(load) {}
 
-  /// `w` is added up, too, in the fourth lane.
+  /// Adds a force at X. The weight `w` is summed in the fourth lane.
   void add(const Vec<D>& X, const Vec<D>& force, Real w) {
     points_.push_back(X);
     force_.push_back(Lanes::zero());
@@ -195,8 +195,8 @@ ElasticCase<D> elastic_case(std::unique_ptr<Body<D>> body, SmoothMap<D> exact, M
       sum.add(q.facet_X[p], Stress<D>(c.exact(q.facet_X[p]), moduli).sigma * q.facet_dA[p], 0);
   }
   sum.flush();
-  // The integration rule has fewer points than these loads. A uniform body force therefore takes
-  // the rule's integrals of shape functions, as the masses of a body do.
+  // The integration rule has fewer points than these loads. Therefore a uniform body force uses the
+  // integrals of shape functions by this rule, like the masses of a body.
   const std::vector<Real> integral = build_cell_rule(*c.body).shape_integral;
   for (Index A = 0; A < c.body->size(); ++A) {
     const Vec<D> force = -Stress<D>(c.exact(at(c.body->particles.X(), A)), moduli).divergence;

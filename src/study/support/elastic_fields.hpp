@@ -24,7 +24,7 @@ SmoothMap<D> polynomial_field(bool quadratic) {
   });
 }
 
-/// About half a wave over the body, without symmetry.
+/// A field with about half a wave over the body, without symmetry.
 template <int D>
 SmoothMap<D> smooth_field() {
   return smooth_map<D>([](const std::array<Jet<D>, D>& X) {

@@ -15,7 +15,7 @@ struct HardOutcome {
   Real steps = 0;
   Real energy_error = 0;  ///< largest error of the energy balance
   Real final_energy_error = 0;
-  Real momentum_error = 0, angular_momentum_error = 0;  ///< largest
+  Real momentum_error = 0, angular_momentum_error = 0;  ///< largest errors
   Real first_allowed_step = 0, least_allowed_step = unbounded;
   std::map<std::string, Real> least;     ///< smallest values of the watched measures
   std::string stopped;                   ///< error message; empty if the run reached its end

@@ -11,7 +11,7 @@
 namespace meniscus::study {
 
 struct HeightFunctionError {
-  Real diameter;        ///< in cells
+  Real diameter;        ///< diameter in cells
   Real mean, rms, max;  ///< relative errors of the curvature
 };
 

@@ -13,7 +13,7 @@ namespace {
 template <int D>
 using Position = std::array<Jet<D>, D>;
 
-/// Rotates (x_i, x_j) by an angle that varies with the position; x_i^2 + x_j^2 stays.
+/// Rotates (x_i, x_j) by an angle that varies with the position; x_i^2 + x_j^2 does not change.
 template <int D>
 void turn(Position<D>& x, std::size_t i, std::size_t j, const Jet<D>& angle) {
   const Jet<D> c = cos(angle), s = sin(angle), xi = x[i], xj = x[j];
@@ -21,7 +21,7 @@ void turn(Position<D>& x, std::size_t i, std::size_t j, const Jet<D>& angle) {
   x[j] = s * xi + c * xj;
 }
 
-/// Bends the x axis to a circle of radius 2 in the plane of x and the last coordinate.
+/// Bends the x axis to a circle of radius 2 about the point -2 of the last coordinate axis.
 template <int D>
 Position<D> bend(Position<D> x) {
   const Jet<D> angle = 0.5 * x[0], radius = 2.0 + x[D - 1];

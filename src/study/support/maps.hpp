@@ -12,7 +12,7 @@
 
 namespace meniscus::study {
 
-/// A map, and a path of stages to its surface. The surface at the end is that of `map`, but the
+/// A map, and a path of stages to its surface. The final surface is the surface of `map`, but the
 /// path of its points may depend on the number of stages.
 template <int D>
 struct NamedMap {

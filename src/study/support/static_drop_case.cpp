@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A drop left alone.
+// A drop at rest, without any disturbance.
 #include "study/support/static_drop_case.hpp"
 
 #include "kernel/row_sums.hpp"

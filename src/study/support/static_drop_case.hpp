@@ -24,8 +24,8 @@ struct StaticDrop {
 /// large viscosity.
 Real round_time(const StaticDrop& c);
 
-/// Motion and shape of the drop at the time `end`. `level`: cells along an edge of the core of the
-/// ball, or half of those of the disk.
+/// Measures motion and shape of the drop at the time `end`. `level`: cells along an edge of the
+/// core of the ball; for a disk, half of the cells along an edge.
 Measurement measure_static_drop(const StaticDrop& c, int level, Real end);
 
 }  // namespace meniscus::study

@@ -16,7 +16,8 @@ Real window(Real z) {
   return z < 0.5 ? 2.0 / 3 - 4 * z * z * t : 4.0 / 3 * t * t * t;
 }
 
-/// The directions of largest extent of a cloud around x, which are the tangents of a surface.
+/// The directions of largest extent of a cloud around x, which approximate the tangents of a
+/// surface.
 template <int D>
 Eigen::Matrix<Real, D, D - 1> tangents(std::span<const Vec<D>> points,
                                        const std::vector<Index>& near, const Vec<D>& x) {

@@ -9,7 +9,7 @@
 
 namespace meniscus::study {
 
-/// Replaces values at surface points by those of a local fit: a quadratic polynomial of the tangent
+/// Replaces values at surface points by local fits: a quadratic polynomial of the tangent
 /// coordinates, fitted to the points within 1.2 d_24 (2D: 1.2 d_12) with cubic-spline weights.
 template <int D>
 class SurfaceFit {

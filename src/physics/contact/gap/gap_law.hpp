@@ -13,8 +13,9 @@
 
 namespace meniscus {
 
-/// Between two bodies the gap is the distance, and e falls smoothly to zero over the last quarter
-/// of its range. Above ground the gap is measured along `up`, and the law is not changed.
+/// Law of the gap of a contact. Between two bodies the gap is the distance, and e falls smoothly to
+/// zero over the last quarter of its range. Above ground the gap is measured along `up`, and the
+/// law is not changed.
 template <int D>
 class GapLaw {
  public:
@@ -36,7 +37,7 @@ class GapLaw {
   const AdhesionPattern* pattern() const { return pattern_; }
   /// True if the adhesion is W(X, t) with X in the reference of the ground.
   bool placed() const { return pattern_ && pattern_->depends_on_place(); }
-  /// The factor W(t) of an adhesion that is the same everywhere.
+  /// The factor W(t) of an adhesion that is uniform in position.
   Real adhesion(Real time) const {
     return pattern_ && !placed() ? (*pattern_)(Eigen::Vector3d::Zero(), time) : 1;
   }
@@ -45,7 +46,7 @@ class GapLaw {
 
   struct Energy {
     Real value, slope;
-    Real unit;  ///< value / adhesion, without the core
+    Real unit;  ///< energy at unit adhesion, without the core
   };
   /// Energy per area and its derivative: e Q with Q = 1 - t^3 (10 - 15 t + 6 t^2), where t grows
   /// from 0 to 1 over the last quarter of the range.
@@ -60,8 +61,8 @@ class GapLaw {
   }
 
  private:
-  /// The state for adhesion W, from that for unit adhesion. Below the equilibrium gap the core is
-  /// added, which does not vary.
+  /// The state for the adhesion W, from the state for unit adhesion. Below the equilibrium gap the
+  /// core is added, which does not vary.
   PlaneState varied(const PlaneState& plane, Real gap, Real W) const {
     if (gap < rest_) return {plane.energy - (W - 1), plane.pressure, plane.stiffness};
     return {W * plane.energy, W * plane.pressure, W * plane.stiffness};

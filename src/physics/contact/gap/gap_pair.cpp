@@ -12,20 +12,22 @@
 namespace meniscus {
 namespace {
 
-/// With the distance d of a surface point from the nearest point of the other surface and its area
-/// A, both in the present state (CGCM note 11),
-///   E = 1/2 sum over the points of the first A e(d) + 1/2 sum over those of the second A e(d):
-/// for flat surfaces e per area, for equal treatment of both one half each. Forces are the
-/// gradient of E: a point is pushed along the normal of the distance, what it was pushed from is
-/// pushed back, so that force and torque are balanced. e is brought to zero smoothly over the last
-/// quarter of its range. Sides that face away from each other are told apart by distance alone:
-/// bodies are thicker than the range. An adhesion that varies is the same everywhere, W(t).
+/// Energy of the contact of two surfaces: each point has a distance d from the nearest point of the
+/// other surface, and a present area A (CGCM note 11).
+///   E = 1/2 sum over the points of the first A e(d) + 1/2 sum over the points of the second A
+///   e(d).
+/// The energy of flat surfaces is e per area; each body gets one half, so that both are treated
+/// alike. Forces are the gradient of E. A point is pushed along the line of its distance, and the
+/// other surface is pushed back, so that forces and torques are balanced. e goes smoothly to zero
+/// over the last quarter of its range. Only the distance distinguishes sides that face away from
+/// each other: bodies must be thicker than the range. A varying adhesion is a function of time
+/// alone, W(t).
 ///
-/// Above a ground, E = sum over the points of the first -up.V e(g), V their area vectors and g the
-/// gap along `up`, of the law as it is: what a drop gains on a wall (wetting note 10). The ground
-/// is pulled along its normal, and what it gains counts no area of its own. There the adhesion may
-/// be W(X, t), X the place in the reference of the ground below a point: E has W e(g), and what
-/// slides over the ground is pulled to more of it.
+/// With a ground, E = sum over the points of the first body of -up.V e(g), with the area vectors V
+/// of the points, the gap g along `up`, and e not modified. This is the energy of a drop on a rigid
+/// wall (wetting note 10). The ground is pulled along its normal and has no adhesion energy per
+/// area of its own. Here the adhesion may be W(X, t) with the reference position X of the ground
+/// below a point. Then E has W e(g), and a drop is pulled along the ground towards larger W.
 template <int D>
 class GapPair final : public ForceTerm, public ContactVisits {
  public:
@@ -59,7 +61,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
   Real steady_after() const override {
     return law_.pattern() && law_.pattern()->depends_on_time() ? unbounded : 0;
   }
-  /// The last force was that of this motion.
+  /// Accepts the step. The last computed force must belong to this motion.
   void commit(const Motion& motion) override {
     if (law_.pattern() && !ranks_.is_absent()) work_.commit(motion.time, supply_);
   }
@@ -111,7 +113,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
   Offset pairs() const override { return first_.pairs() + second_.pairs(); }
 
  private:
-  /// Of a rank that takes part.
+  /// Adds the force on a rank that takes part in the contact.
   Report add_known_force(const Motion& motion, Forces force) {
     Offset visited = 0;
     for (auto [side, now] : {std::pair{&first_, &now_first_}, std::pair{&second_, &now_second_}}) {
@@ -132,12 +134,12 @@ class GapPair final : public ForceTerm, public ContactVisits {
     return meniscus::forces_at(motion, side, law_, ranks_.division());
   }
   void require_adhesion() const;
-  /// The largest by the last force, at this time.
+  /// The largest adhesion at this time, at the positions of the last force.
   Real largest_adhesion(Real time) const {
     return law_.placed() ? *std::max_element(now_first_.W.begin(), now_first_.W.end())
                          : law_.adhesion(time);
   }
-  /// By the last force, at its time.
+  /// Work of the changing adhesion at the positions of the last force. `time`: time of that force.
   AdhesionSupply supply(Real time) const {
     const AdhesionPattern* W = law_.pattern();
     if (!W || (law_.placed() && !W->depends_on_time())) return {};
@@ -146,7 +148,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
                         now_first_.unit_energy() + (!law_.up() ? now_second_.unit_energy() : 0),
                         time);
   }
-  /// Over the surfaces that have energy.
+  /// Sum of a number over the surfaces that store energy.
   Real sum_of(const Motion& motion, Real (GapForces<D>::*number)() const) const {
     const Real of_first = (forces_at(motion, first_).*number)();
     return !law_.up() ? of_first + (forces_at(motion, second_).*number)() : of_first;
@@ -164,17 +166,18 @@ class GapPair final : public ForceTerm, public ContactVisits {
   std::string name_;
   GapLaw<D> law_;
   AdhesionWork work_;
-  std::string fold_;     // what it means if the ground, which is the second, folds
-  std::string overlap_;  // why the surfaces may come through
+  std::string fold_;     // advice if the ground (second body) folds
+  std::string overlap_;  // advice for surfaces that pass through each other
   bool wets_;
   GapSide<D> first_, second_;
   std::vector<Index> ground_;            // facets of the second that face up in the reference
   GapForces<D> now_first_, now_second_;  // work space of a force
-  AdhesionSupply supply_;                // by the last force
+  AdhesionSupply supply_;                // work of the adhesion, from the last force
   ContactRanks ranks_;
 };
 
-/// Before a run, that W can be taken all over the ground.
+/// Evaluates W at all corners of the ground before a run, so that a failing formula is reported
+/// early.
 template <int D>
 void GapPair<D>::require_adhesion() const try {
   for (const Index facet : ground_)
@@ -189,7 +192,8 @@ void GapPair<D>::require_adhesion() const try {
   throw InputError(error.what());
 }
 
-/// What the places and velocities of a force mean for the step.
+/// Report of the last force: external work, failures, and the limit of the step from present
+/// positions and velocities.
 template <int D>
 Report GapPair<D>::report(const Motion& motion) const {
   Report report;

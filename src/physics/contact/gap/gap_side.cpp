@@ -95,7 +95,7 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
   std::fill(forces.unit.begin(), forces.unit.end(), 0.0);
   std::fill(forces.W.begin(), forces.W.end(), 0.0);
   divided_for(
-      // A place without adhesion has to fail on all ranks, so each computes all.
+      // A position without adhesion must fail on all ranks, so each rank computes all points.
       law.placed() ? Division::to_each() : division, static_cast<Index>(active.size()),
       [&](Index k) {
         const Index c = at(active, k);

@@ -110,9 +110,10 @@ Real farthest_between(const Box<D>& a, const Box<D>& b) {
 
 }  // namespace
 
-/// Only few points of two bodies can be the nearest. A first distance is taken from the point of
-/// the first body nearest to the box around the second. Points of the first body farther than this
-/// from that box are dropped, then points of the second body farther from the box around the rest.
+/// Least distance of two bodies. Only few points can be the nearest. A first upper bound is the
+/// distance from the point of the first body nearest to the box around the second. Points of the
+/// first body farther than this from that box are dropped, then points of the second body farther
+/// from the box around the rest.
 template <int D>
 Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second) {
   constexpr Real round_off = 1e-12;
@@ -193,7 +194,7 @@ StepDemand contact_demand(const ContactInertia& contact, Real gap, const Closing
 
 std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, Real spacing,
                                           Real range) {
-  constexpr Real strong = 0.3;  // fraction of the range
+  constexpr Real strong = 0.3;  // a fraction of the range
   if (gap > strong * range || gap >= 2 * spacing) return std::nullopt;
   return fmt::format(
       "contact '{}' is under-resolved: its gap {:.4g} is below twice the distance {:.4g} of its "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building a list of clusters, and the check whether it is still valid.
+// Builds a list of clusters, and checks whether it is still valid.
 #include "physics/contact/pair/contact_list.hpp"
 
 #include <algorithm>

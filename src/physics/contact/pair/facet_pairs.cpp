@@ -26,7 +26,7 @@ Real least_distance(const Lanes* x, const Lanes* y) {
 
 template <int D>
 Real edge_by_points(const ContactPlaces<D>& places, Index cluster) {
-  Real square = 0;  // of the largest distance
+  Real square = 0;  // square of the largest distance
   for (int a = 0; a < Lanes::width; ++a)
     for (int b = 0; b < a; ++b) {
       Real between = 0;

@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// Edge of a facet, if this cluster has its two Gauss points per direction.
+/// Length of the edge of a facet, if this cluster contains its two Gauss points per direction.
 template <int D>
 Real edge_by_points(const ContactPlaces<D>& places, Index cluster);
 
@@ -20,7 +20,7 @@ template <int D>
 struct FacetRows {
   const typename ContactList<D>::Rows* facets;
   Index clusters_per_facet;
-  std::span<const Index> clusters;  ///< of the facets with partners, ascending
+  std::span<const Index> clusters;  ///< clusters of the facets with partners, ascending
 
   std::span<const Index> partners_of(Index cluster) const {
     return facets->of(cluster / clusters_per_facet);
@@ -42,8 +42,8 @@ class FacetPairs {
   /// same.
   void choose(const ContactList<D>& list, const ContactPlaces<D>& first,
               const ContactPlaces<D>& second);
-  /// The most by which points of two facets can be nearer to each other than their coarsest points.
-  /// Holds as long as no facet is larger than 1.5 times the largest `edge`.
+  /// Upper bound for how much nearer points of two facets can be than their coarsest points, as
+  /// long as no facet is larger than 1.5 times the largest `edge`.
   static Real overhang(Real edge) { return 2 * 1.5 * corner * edge; }
 
   FacetRows<D> of_first(std::size_t grade) const { return first_[grade].view(); }
@@ -52,7 +52,8 @@ class FacetPairs {
 
  private:
   using Rows = typename ContactList<D>::Rows;
-  /// Distance of a corner of a facet from the nearest of its four Gauss points, / edge.
+  /// Distance of a corner of a facet from the nearest of its four Gauss points, divided by the
+  /// edge.
   static constexpr Real corner = 0.3;
   /// The rows of one surface and grade.
   struct Chosen {
@@ -71,8 +72,8 @@ class FacetPairs {
   FacetGrades grades_;
   Real reach_;
   std::vector<Chosen> first_, second_;             // [grade]
-  std::vector<std::int8_t> grade_;                 // [pair of the list] -1: out of reach
-  std::vector<Real> own_edges_, edges_of_others_;  // [facet] of facets in the list
+  std::vector<std::int8_t> grade_;                 // [pair of the list] grade; -1: out of reach
+  std::vector<Real> own_edges_, edges_of_others_;  // [facet] edges of the facets in the list
 };
 
 }  // namespace meniscus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact of two deformable bodies by the pairs of their points: forces, the limits of steps and
-// measures.
+// Contact of two deformable bodies, summed over the pairs of their contact points: forces, limits
+// of the step, and measures.
 #include "meniscus/error.hpp"
 #include "physics/contact/contact_numbers.hpp"
 #include "physics/contact/contact_terms.hpp"
@@ -17,11 +17,11 @@
 namespace meniscus {
 namespace {
 
-/// Of the points of the first.
+/// The cluster of the first body that is nearest to the second body.
 struct NearestCluster {
   Real distance = unbounded;
   std::size_t grade = 0;
-  Index cluster = 0;  ///< among those with partners
+  Index cluster = 0;  ///< number among the clusters with partners
 };
 
 template <int D>
@@ -76,7 +76,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
     });
   }
 
-  /// The forces of the others are not the gradient of their energy.
+  /// The stored energy, if the forces are its gradient. Some forms have none.
   std::optional<Real> potential(const Motion& motion) override {
     if (!sums_->conservative()) return std::nullopt;
     return stored_energy(motion);
@@ -115,7 +115,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
 
  private:
   const Division& division() const { return visits_.ranks().division(); }
-  /// Of a rank that takes part.
+  /// Adds the force on a rank that takes part in the contact.
   Report add_known_force(const Motion& motion, Forces force) {
     const bool reports = visits_.ranks().reports();
     visits_.visit(motion);
@@ -136,7 +136,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
     }
     return reports ? report(motion) : Report();
   }
-  /// On the first, by grade.
+  /// Sums on the first body, by grade.
   std::vector<PairEvaluation<D>> evaluated(const VisitedPair<D>& visited) const {
     std::vector<PairEvaluation<D>> results;
     for (std::size_t g = 0; g < visits_.grades(); ++g) {
@@ -155,7 +155,7 @@ class PairContact final : public ForceTerm, public ContactVisits {
     return least;
   }
 
-  /// The points of one body with their changes.
+  /// The points of one body with changes of their positions.
   struct Changing {
     ContactPoints<D>& points;
     const FacetRows<D>& rows;
@@ -178,19 +178,19 @@ class PairContact final : public ForceTerm, public ContactVisits {
   Vec<D> force_on_first(const Motion& motion) const;
 
   std::string name_;
-  std::string overlap_;  // why the surfaces may come through
+  std::string overlap_;  // advice for surfaces that pass through each other
   ContactLaw law_;
   std::unique_ptr<PairSums<D>> sums_;
   LennardJones interaction_;
   PairVisits<D> visits_;
   // Work space of a force.
-  std::vector<PairEvaluation<D>> first_result_, second_result_;  // by grade
+  std::vector<PairEvaluation<D>> first_result_, second_result_;  // [grade]
   struct {
     std::vector<Index> first, second;
-  } close_;  // clusters
+  } close_;  // clusters near the other body
 };
 
-/// Clusters with points within a distance of the other body.
+/// Finds the clusters with points within a distance of the other body.
 template <int D>
 void find_close(const FacetRows<D>& rows, const std::vector<Real>& nearest, Real within,
                 std::vector<Index>& close) {
@@ -199,7 +199,7 @@ void find_close(const FacetRows<D>& rows, const std::vector<Real>& nearest, Real
     if (nearest[k] < within * within) close.push_back(rows.clusters[k]);
 }
 
-/// Of the points of a grade within a distance of each other.
+/// Speed at which the points of a grade that are within a distance of each other approach.
 template <int D>
 Real PairContact<D>::closing_speed_of(std::size_t grade, Real within, const Motion& motion) {
   const VisitedPair<D>& now = visits_.now();
@@ -210,8 +210,8 @@ Real PairContact<D>::closing_speed_of(std::size_t grade, Real within, const Moti
                           Vec<D>::Zero(), motion);
 }
 
-/// What the places and velocities of a force mean for the step: by the present motion alone, not by
-/// what else the list has.
+/// Report of the last force: failures, and the limit of the step from present positions and
+/// velocities. Pairs of the list that are out of reach have no influence.
 template <int D>
 Report PairContact<D>::report(const Motion& motion) {
   Report report;

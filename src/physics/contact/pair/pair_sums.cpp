@@ -83,7 +83,7 @@ class PairSumsOf final : public PairSums<D> {
 
   Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
               const ContactPlaces<D>& others, const Division& division) const override {
-    // Over all clusters, so that the order of summation does not depend on which are active.
+    // Sum over all clusters, so that the order of summation does not depend on the active ones.
     return division.sum(clusters, 0.0, [&](Index c) {
       Lanes T[D], S[1];
       T[0] = Lanes::zero();

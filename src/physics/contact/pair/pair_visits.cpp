@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Updates the contact points of two bodies for a motion, where they may be within reach.
+// Updates the contact points of two bodies that may be within reach of each other.
 #include "physics/contact/pair/pair_visits.hpp"
 
 #include "physics/contact/points/contact_resolution.hpp"
@@ -29,7 +29,8 @@ GradedPoints<D> points_of(const ContactBody<D>& b, const ContactChoice& choice, 
   return graded_contact_points(b.body, b.beta, choice, side, grades);
 }
 
-/// Zero if facets have one grade.
+/// Upper bound for how much nearer points of two facets can be than their coarsest points. Zero if
+/// facets have one grade.
 template <int D>
 Real overhang(const ContactBody<D>& first, const ContactBody<D>& second,
               const FacetGrades& grades) {

@@ -22,7 +22,7 @@ using GradedPoints = std::vector<ContactPoints<D>>;
 template <int D>
 struct VisitedPair {
   std::vector<ContactPlaces<D>> first, second;
-  FacetPairs<D> facets;        ///< used with several grades
+  FacetPairs<D> facets;        ///< used if there are several grades
   const ContactList<D>* list;  ///< list of the coarsest points
 
   /// The clusters of a grade that have partners, and their partners.
@@ -96,8 +96,8 @@ class PairVisits {
   FacetGrades grades_;
   GradedPoints<D> first_, second_;
   ContactRanks ranks_;
-  ContactList<D> list_;                       // of the coarsest points
-  MovedSince<D> first_since_, second_since_;  // since the list was built
+  ContactList<D> list_;                       // list of the coarsest points
+  MovedSince<D> first_since_, second_since_;  // displacements since the list was built
   VisitedPair<D> now_;
   std::optional<std::int64_t> told_list_;  // list_.builds() at tell_reads()
 };

@@ -128,7 +128,7 @@ typename ContactFacets<D>::Foot ContactFacets<D>::foot(const Places& places, con
   // middle.
   constexpr Real round_off = 1e-12;
   constexpr int middle = Lanes::width - 1;  // index of the middle in the samples
-  thread_local std::vector<Real> square;    // of the distances of the middles
+  thread_local std::vector<Real> square;    // squared distances of the middles
   square.resize(facets.size());
   Real least = unbounded;
   for (std::size_t f = 0; f < facets.size(); ++f) {

@@ -236,7 +236,7 @@ void ContactPoints<D>::take_inertia() {
     if (carried[A] > 0) made_->inertia = std::min(made_->inertia, body_->mass[A] / carried[A]);
 }
 
-/// Takes the shared points of this name from another contact, or makes them with make().
+/// Uses the points of this name that another contact has made, or makes them with make().
 template <int D>
 template <class Make>
 void ContactPoints<D>::share(const std::string& name, Make&& make) {

@@ -27,7 +27,7 @@ int ContactResolution::enough_points() const {
 }
 
 Real ContactResolution::longest_spacing() const {
-  constexpr Real reach = 6;  // in equilibrium gaps; about 4 sigma0 for Lennard-Jones
+  constexpr Real reach = 6;  // unit: equilibrium gaps; about 4 sigma0 for Lennard-Jones
   return reach * gap;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Winding numbers of polyhedra, and bodies that are inside of each other.
+// Winding numbers of polyhedra, and bodies that contain each other.
 #include "physics/contact/points/containment.hpp"
 
 #include "body/particle_values.hpp"
@@ -13,7 +13,7 @@
 namespace meniscus {
 namespace {
 
-/// Angle (3D: solid angle) under which x sees a simplex, positive from behind.
+/// Angle (3D: solid angle) under which a simplex is seen from x, positive if seen from behind.
 Real angle(const std::array<Vec<2>, 2>& segment, const Vec<2>& x) {
   const Vec<2> a = segment[0] - x, b = segment[1] - x;
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
@@ -24,7 +24,7 @@ Real angle(const std::array<Vec<3>, 3>& triangle, const Vec<3>& x) {
   return 2 * std::atan2(a.dot(b.cross(c)), A * B * C + a.dot(b) * C + b.dot(c) * A + c.dot(a) * B);
 }
 
-/// Outward, as long as the simplex is large.
+/// Outward area vector; its length is the size of the simplex.
 Vec<2> area_vector(const std::array<Vec<2>, 2>& segment) {
   const Vec<2> along = segment[1] - segment[0];
   return {along.y(), -along.x()};
@@ -38,8 +38,8 @@ bool overlap(const Box<D>& a, const Box<D>& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-/// The first particle of a body that is inside of the other one. Those below the surface count as
-/// well: two equal bodies may lie on each other.
+/// The first particle of a body that is inside the other body. Particles below the surface also
+/// count, because two equal bodies may lie on each other.
 template <int D>
 std::optional<Failure> particle_inside(const PlacedBody<D>& placed, const PlacedBody<D>& other) {
   const Polyhedron<D> surface(other);

@@ -83,7 +83,7 @@ class GapContact final : public ContactModel<D> {
   PlaneContact flat(bool, const ContactSurfaces& surfaces) const override {
     return law_(surfaces)->flat();
   }
-  /// The largest of a thousand values in time, at the centre of the first body.
+  /// The largest adhesion of a thousand times, at the centre of the first body.
   Real greatest_adhesion(const ContactSurfaces& surfaces, Real end) const override {
     constexpr int times = 1000;
     const auto law = law_(surfaces);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances from which on fewer points are enough.
+// Distances beyond which fewer points per facet are enough.
 #include "physics/contact/points/facet_grades.hpp"
 
 #include <cmath>
@@ -11,14 +11,15 @@ Real factorial(int n) {
   return std::tgamma(n + 1.0);
 }
 
-/// c_n: of n Gauss points for a^-k over a length h, relative, times (a/h)^(2n).
+/// The coefficient c_n: relative error of n Gauss points for a^-k over a length h, times
+/// (a/h)^(2n).
 Real gauss_error(int n, int k) {
   return std::pow(factorial(n), 4) * factorial(2 * n + k - 1) /
          (factorial(k - 1) * (2 * n + 1) * std::pow(factorial(2 * n), 3));
 }
 
-/// The distance from which on `error`, relative and a function of the distance that falls with it,
-/// does not change the pressure by more than a part of the largest traction.
+/// The distance beyond which a quadrature error changes the pressure by at most `bearable` times
+/// the largest traction. `error`: the relative error as a function of the distance, decreasing.
 template <class F>
 Real distance_for(const Interaction& interaction, Real bearable, F&& error) {
   const PlaneContact flat = interaction.flat();
@@ -29,7 +30,7 @@ Real distance_for(const Interaction& interaction, Real bearable, F&& error) {
   // has no such distance: then `far` becomes infinite and no grade is used.
   Real near = flat.peak_gap, far = near;
   while (far > 0 && std::isfinite(far) && !enough(far)) far *= 2;
-  constexpr int most = 100;  // halvings: the digits of a number are used up by then
+  constexpr int most = 100;  // halvings; enough for all digits of a number
   for (int step = 0; step < most && far - near > 1e-6 * far; ++step) {
     const Real middle = (near + far) / 2;
     (enough(middle) ? far : near) = middle;
@@ -49,7 +50,8 @@ void FacetGrades::add_grades(Real part, F&& distance_for) {
 
 FacetGrades::FacetGrades(int points, const Interaction& interaction, Real edge)
     : FacetGrades(points) {
-  // A corner of a facet is nearer than the nearest of four Gauss points by as much at most.
+  // A corner of a facet may be nearer than the nearest of its four Gauss points by this share of
+  // the edge.
   constexpr Real corner = 0.3, bearable = 1e-6;
   if (!interaction.far_power()) return;
   add_grades(0.5, [&](int n) {

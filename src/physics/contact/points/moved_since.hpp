@@ -9,8 +9,7 @@
 namespace meniscus {
 
 /// No point moves farther than ContactPoints::gain() times the largest change of a displacement
-/// coefficient. Points known to be far from a partner need not be moved to show that they still
-/// are.
+/// coefficient. So points far from a partner need not be computed to show that they are still far.
 template <int D>
 class MovedSince {
  public:
@@ -36,7 +35,7 @@ class MovedSince {
   std::size_t bytes() const { return u_.size() * sizeof(NodalVector); }
 
  private:
-  NodalVectors u_;  // at begin(), of the particles that move the points
+  NodalVectors u_;  // displacements at begin() of particles that move points
 };
 
 }  // namespace meniscus

@@ -30,14 +30,15 @@ class PatchPoints {
   /// is_wanted[node] = 1 for the nodes of the patch of a point.
   void want(Index point, std::span<std::uint8_t> is_wanted) const;
 
-  /// The value at a point of a field with these values at the nodes, e.g. its position.
+  /// The value at a point of a field with these nodal values, e.g. its position.
   Vec<D> place(Index point, const NodalVectors& nodes) const;
   /// The outward area vector m dA.
   Vec<D> area_vector(Index point, const NodalVectors& nodes) const;
   /// Velocity at the node nearest to the point.
   Lanes velocity_nearby(Index point, const NodalVector* v) const;
-  /// Calls f(A, value) with the derivative of the position of a point by the displacement of
-  /// particle A. A particle comes several times, with one part for each node of the patch.
+  /// Calls f(A, value) with the derivative of the position of a point with respect to the
+  /// displacement of particle A. A particle may occur several times, once for each node of the
+  /// patch; the values add up.
   template <class F>
   void for_shape_functions(Index point, F&& f) const {
     const PointRows<D>& rows = surface_.rows();
@@ -48,11 +49,11 @@ class PatchPoints {
     }
   }
 
-  /// Patches come in groups of four.
+  /// Patches are in groups of four.
   Index group_count() const { return surface_.group_count(); }
   Index group(Index point) const { return patch(point) / Lanes::width; }
-  /// For the points of a group, collect the derivatives of an energy: T by the position, S by the
-  /// area vector m dA.
+  /// Collects the derivatives of an energy for the points of a group: T with respect to the
+  /// position, S with respect to the area vector m dA.
   void begin_force(Index group);
   void add(Index point, const Vec<D>& T, const Vec<D>& S, const NodalVectors& nodes);
   /// force_A -= the collected derivatives.
@@ -78,13 +79,13 @@ class PatchPoints {
   const PatchFunctions<D>& functions(Index point) const {
     return at(functions_, point % per_patch());
   }
-  /// dx/dxi_k
+  /// Tangents dx/dxi_k.
   std::array<Vec<D>, D - 1> tangents(Index point, const NodalVectors& nodes) const;
 
   SurfacePatches<D> surface_;
   std::vector<PatchFunctions<D>> functions_;
   NodalVectors reference_;
-  AlignedVector<Lanes> gradient_;  // [group of patches][a][i], a lane per patch
+  AlignedVector<Lanes> gradient_;  // derivatives, [group of patches][a][i], a lane per patch
 };
 
 }  // namespace meniscus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cylinder and point: complete elliptic integrals (`integrated`) or rational functions (`planar`)
-// near the cylinder, power series far away.
+// Field of a cylinder at a point: complete elliptic integrals (`integrated`) or rational functions
+// (`planar`) near the cylinder, power series far away.
 #include "physics/contact/rigid/round_field.hpp"
 
 #include <array>
@@ -16,7 +16,7 @@ struct Elliptic {
 Elliptic complete_elliptic(Real one_minus_m) {
   constexpr Real pi = std::numbers::pi;
   Real a = 1, b = std::sqrt(one_minus_m), weight = 0.5, sum = (1 - one_minus_m) / 2;
-  while (a - b > 1e-8 * a) {  // the next difference is about the square of this one
+  while (a - b > 1e-8 * a) {  // the difference is about squared in each step
     const Real c = (a - b) / 2, mean = (a + b) / 2;
     b = std::sqrt(a * b);
     a = mean;
@@ -28,7 +28,7 @@ Elliptic complete_elliptic(Real one_minus_m) {
   return {K, K * (1 - sum - 2 * weight * last * last)};
 }
 
-/// The combinations of integrals over the circle of radius R at the distance a from its centre.
+/// Combinations of the integrals over a circle of radius R, at the distance a from its centre.
 class Circle {
  public:
   struct Moments {
@@ -71,8 +71,8 @@ class Circle {
       at(I_, k + 1) = ((2 * nu - 1) * A * at(I_, k) - (nu - 1) * at(I_, k - 1)) / (nu * Q);
   }
 
-  /// With the ratio y < 1 of the radii, the larger radius b, nu = p/2, g_k = (nu)_k/k! and f_k =
-  /// (nu - 1)_k/k!, all terms have one sign:
+  /// Series for the ratio y < 1 of the radii. With the larger radius b, nu = p/2, g_k = (nu)_k/k!
+  /// and f_k = (nu - 1)_k/k!, all terms have the same sign:
   ///
   ///   J_p = pi b^-p sum_(k>=0) g_(k+1) g_k y^(2k+1)
   ///   U   = 2 pi b^(2-p) sum_(k>=1) g_(k-1) f_k y^(2k) outside, -2 pi b^(2-p) sum_(k>=0) g_k f_k
@@ -97,7 +97,7 @@ class Circle {
 
   Real a_, R_;
   bool far_;
-  std::array<Real, 7> I_{};  ///< of p = odd + 2 k
+  std::array<Real, 7> I_{};  ///< [k] I_p for p = odd + 2 k
 };
 
 }  // namespace

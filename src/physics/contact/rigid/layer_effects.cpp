@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Varying adhesion and friction of all clusters beside a rigid partner.
+// Varying adhesion and friction of all contact points beside a rigid partner.
 #include "physics/contact/rigid/layer_effects.hpp"
 
 #include "meniscus/error.hpp"

@@ -16,7 +16,7 @@ template <int D>
 WallSums add_effects(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
                      const Motion& motion, PartnerLayers<D>& layers);
 
-/// Sets T to friction alone, for near points at the positions of the layers, with the velocity of
+/// Sets T to friction only, for near points at the positions of the layers, with the velocity of
 /// this motion.
 template <int D>
 void take_friction(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A body beside a rigid partner: its contact points in layers, one for each grade, and the forces
-// on them.
+// A body beside a rigid partner: its contact points in layers, one per grade, and their forces.
 #pragma once
 #include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_ranks.hpp"
@@ -13,18 +12,18 @@
 
 namespace meniscus {
 
-/// The parts that do not change in a run.
+/// The parts of a contact with a rigid partner that are constant during a run.
 template <int D>
 struct BodyAndPartner {
   MovingPartner<D> partner;
   std::shared_ptr<const Interaction> interaction;
   ContactForm form;
   FacetGrades grades;
-  std::vector<ContactPoints<D>> points;  ///< of the body, [grade]
+  std::vector<ContactPoints<D>> points;  ///< contact points of the body, [grade]
   ContactRanks ranks;
-  /// Each rank moves and visits the clusters whose forces it adds up. With to_each(), every rank
-  /// visits all of them: if few ranks have the body, and on patches, whose forces reach the
-  /// particles through nodes.
+  /// Each rank moves and visits the clusters whose forces it sums. With to_each(), every rank
+  /// visits all clusters. This is needed if few ranks have the body, and on patches, whose forces
+  /// reach the particles through nodes.
   Division division;
 
   BodyAndPartner(const ContactBody<D>& body, MovingPartner<D> moving_partner,
@@ -58,13 +57,13 @@ struct BodyAndPartner {
     }
     return moved;
   }
-  /// The division for work that all ranks have to do for the same clusters.
+  /// The division of work that all ranks have to do for the same clusters.
   Division parts() const { return division.is_to_each() ? ranks.division() : Division::to_each(); }
-  /// True if no rank has such clusters, given that this rank has none.
+  /// True if no rank has any of such clusters, given that this rank has none.
   bool without(const std::vector<Index>& clusters) const {
     return clusters.empty() && (division.is_to_each() || meniscus::ranks().alone());
   }
-  /// The largest of the values of all ranks, if each looked at a part.
+  /// The largest value of all ranks, if each rank has computed a part.
   Real largest(Real mine) const {
     if (ranks.division().is_to_each() || meniscus::ranks().alone()) return mine;
     const std::vector<Real> all = said_by_ranks(mine);
@@ -87,7 +86,7 @@ struct PartnerLayer {
   std::vector<Index> near;  ///< visited clusters within the range
   ContactPlaces<D> places;
   AlignedVector<Lanes> T, S;
-  AlignedVector<Lanes> distances;  ///< [cluster] from the surface of the partner; unbounded if not
+  AlignedVector<Lanes> distances;  ///< [cluster] distance from the partner; unbounded if not
                                    ///< visited
 
   /// A layer of a grade in which all clusters of this rank are visited.
@@ -114,7 +113,7 @@ struct PartnerLayer {
   std::size_t bytes() const { return places.bytes() + (T.size() + S.size()) * sizeof(Lanes); }
 };
 
-/// [grade]. The points of a facet are visited in one of the grades.
+/// Layers by grade. The points of a facet are visited in one of the grades.
 template <int D>
 using PartnerLayers = std::vector<PartnerLayer<D>>;
 

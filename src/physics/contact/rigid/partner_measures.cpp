@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over the contact points beside a rigid partner, and the measures that are made of them.
+// Sums over the contact points beside a rigid partner, and measures based on these sums.
 #include "physics/contact/rigid/partner_measures.hpp"
 
 #include "numbers/dense.hpp"
@@ -9,7 +9,8 @@
 namespace meniscus {
 namespace {
 
-/// By the interaction of uniform strength.
+/// Contact points with the forces of the interaction of uniform strength, without its other
+/// effects.
 template <int D>
 PartnerLayers<D> layers_without_effects(const BodyAndPartner<D>& pair, const Motion& motion) {
   PartnerLayers<D> layers = layers_at_rest(pair);
@@ -18,7 +19,7 @@ PartnerLayers<D> layers_without_effects(const BodyAndPartner<D>& pair, const Mot
   return layers;
 }
 
-/// Of a lane.
+/// The vector of one lane.
 template <int D>
 Eigen::Vector3d vector_of(const Lanes* field, int lane) {
   Vec<D> x;

@@ -5,9 +5,9 @@
 namespace meniscus {
 namespace {
 
-/// dT = (grad grad S dx) V + grad S dV and dS = grad S dx; or dT = (grad U dx) V + U dV for the
-/// pressure form. Derivatives of the field are differences of fourth order over a small part of the
-/// gap.
+/// Adds the tangent. Changes of forces are dT = (grad grad S dx) V + grad S dV and dS = grad S dx;
+/// for the pressure form, dT = (grad U dx) V + U dV. Derivatives of the field are fourth-order
+/// differences over a small part of the gap.
 template <int D>
 void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& pair,
                             const PartnerLayer<D>& layer, const Motion& motion,

@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// Keeps the clusters of the list while no other point can have come within the range.
+/// Keeps the clusters of the list as long as no other point can be within the range.
 template <int D>
 void choose_within_reach(const BodyAndPartner<D>& pair, const Motion& motion, ReachList<D>& list,
                          PartnerLayer<D>& layer) {
@@ -26,7 +26,7 @@ void choose_within_reach(const BodyAndPartner<D>& pair, const Motion& motion, Re
     if (layer.nearest_of(c) < list.distance()) layer.visited.push_back(c);
 }
 
-/// The nearest of the points of this rank.
+/// The nearest point among the points of this rank.
 template <int D>
 NearestPoint nearest_point(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
   NearestPoint nearest;
@@ -40,7 +40,8 @@ NearestPoint nearest_point(const BodyAndPartner<D>& pair, const PartnerLayers<D>
   return nearest;
 }
 
-/// Joins the results of all ranks. Of points at the same distance the first is taken.
+/// Joins the results of all ranks. If several points are at the same distance, the first one is
+/// taken.
 template <int D>
 VisitedPoints of_all_ranks(const BodyAndPartner<D>& pair, const VisitedPoints& mine) {
   if (pair.division.is_to_each() || ranks().alone()) return mine;
@@ -105,7 +106,7 @@ VisitedPoints visited_points(const BodyAndPartner<D>& pair, const Motion& motion
     mine.count += static_cast<Offset>(layer.visited.size()) * Lanes::width;
   const VisitedPoints all = of_all_ranks(pair, mine);
   if (all.nearest.distance < pair.interaction->range() || !pair.interaction->ends()) return all;
-  // Distances of points out of reach are out of date: they are from the last build of the list.
+  // The distances of points out of reach are from the last build of the list.
   if (!pair.finest().follows_all()) throw HaloOutgrown();
   take_distances(pair, 0, motion, layers.front());
   mine.nearest = nearest_point(pair, layers);

@@ -7,8 +7,9 @@
 
 namespace meniscus {
 
-/// For an interaction that ends, chooses the clusters that may be within its range, while the list
-/// is valid. For others, chooses clusters by the grades of facets.
+/// Chooses the visited clusters. For an interaction of finite range, these are the clusters that
+/// may be within the range while the list is valid. For others, clusters are chosen by the grades
+/// of facets.
 template <int D>
 void choose_visited(const BodyAndPartner<D>& pair, const Motion& motion, ReachList<D>& list,
                     PartnerLayers<D>& layers);
@@ -34,8 +35,8 @@ struct VisitedPoints {
   NearestPoint nearest;
   Offset count = 0;
 };
-/// If no point is within the range, the distances of all points are updated to this motion, visited
-/// or not.
+/// Returns the nearest point and the number of visited points. If no point is within the range, the
+/// distances of all points are updated to this motion, visited or not.
 template <int D>
 VisitedPoints visited_points(const BodyAndPartner<D>& pair, const Motion& motion,
                              PartnerLayers<D>& layers);

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The work that moves a rigid partner.
+// The work needed to move a rigid partner.
 #pragma once
 #include "state/archive.hpp"
 
 namespace meniscus {
 
-/// Work between accepted steps: the mean force of both times dot the displacement of the partner.
-/// In the first step of a run only the force at its end is known and is used for the whole step.
-/// The work is of second order in the step, also if a partner starts or stops and its power jumps.
+/// Work between accepted steps: the mean of the forces before and after the step, times the
+/// displacement of the partner. In the first step of a run only the force at its end is known,
+/// which is then used for the whole step. The work is second-order accurate in the step, also if a
+/// partner starts or stops and its power jumps.
 class PartnerWork {
  public:
-  /// Has to be called at the begin of a run, with the shift of the partner.
+  /// Sets the displacement of the partner; must be called at the beginning of a run.
   void begin(const Eigen::Vector3d& shift) {
     if (!begun_) shift_ = shift;
     begun_ = true;
   }
-  /// Work since the last accepted step, for the current shift of the partner and force on it.
+  /// Work since the last accepted step, for the present displacement of the partner and the force
+  /// on it.
   Real since_step(const Eigen::Vector3d& shift, const Eigen::Vector3d& force) const {
     return (stands_ ? (0.5 * (force_ + force)).eval() : force).dot(shift - shift_);
   }
@@ -25,7 +27,7 @@ class PartnerWork {
     force_ = force;
     stands_ = true;
   }
-  /// D: dimension of the scene, which sets the unit of forces.
+  /// D: dimension of the scene, which determines the unit of forces.
   void archive(const Archive& a, int D) {
     a("partner_begun", begun_);
     a("partner_stands", stands_);
@@ -35,7 +37,7 @@ class PartnerWork {
 
  private:
   bool begun_ = false, stands_ = false;
-  // At the last accepted step.
+  // Values at the last accepted step.
   Eigen::Vector3d shift_ = Eigen::Vector3d::Zero(), force_ = Eigen::Vector3d::Zero();
 };
 

@@ -7,8 +7,8 @@
 namespace meniscus {
 
 /// U of a half space without cut-off at the distance a, per density beta2: U(a) = epsilon sigma0^(3
-/// - planar) (A z^-m - B z^-n) with z = a/sigma0 (CGCM note 3.1). `space` and `integrated` give the
-/// same.
+/// - planar) (A z^-m - B z^-n) with z = a/sigma0 (CGCM note 3.1). The kernels `space` and
+/// `integrated` give the same U.
 class PlaneField {
  public:
   explicit PlaneField(const ContactLaw& law) : sigma0_(law.sigma0) {
@@ -21,8 +21,8 @@ class PlaneField {
     unit_ = law.epsilon * law.sigma0 * law.sigma0 * (planar ? 1 : law.sigma0);
   }
 
-  /// The k-th derivative of U for k = 0, 1 or 2; for k = -1 minus the integral from a to infinity,
-  /// which is S along the normal.
+  /// The k-th derivative of U for k = 0, 1 or 2. For k = -1, minus the integral of U from a to
+  /// infinity, which is S along the normal.
   template <class T>
   T derivative(int k, T a) const {
     const T z = a / sigma0_;
@@ -46,7 +46,7 @@ class PlaneField {
   }
 
  private:
-  /// d^k/dz^k z^-p.
+  /// The derivative d^k/dz^k z^-p.
   template <class T>
   static T power(int p, int k, T z) {
     Real factor = k < 0 ? Real(1) / (1 - p) : 1;
@@ -61,8 +61,8 @@ class PlaneField {
   int m_, n_;
 };
 
-/// Like PlaneField, but U is continued linearly below the smallest gap and through the surface. It
-/// is repulsive there, its slope is continuous, and S is its integral.
+/// Like PlaneField, but below the smallest gap and inside the surface, U continues linearly. U is
+/// repulsive there, its slope is continuous, and S is its integral.
 class GuardedPlane {
  public:
   explicit GuardedPlane(const ContactLaw& law)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Validity of the list of clusters that may interact with a rigid partner, for an interaction that
-// ends at a range.
+// Validity of the neighbour list of a rigid partner: the clusters that may interact with it. For
+// interactions of finite range.
 #pragma once
 #include "physics/contact/points/moved_since.hpp"
 
 namespace meniscus {
 
-/// The list has the clusters within twice the range. It is valid until the moves of a point and of
-/// the partner can add up to the range.
+/// The list contains the clusters within twice the range. It is valid while the displacements of
+/// any point and of the partner since then add up to less than the range.
 template <int D>
 class ReachList {
  public:
@@ -17,7 +17,8 @@ class ReachList {
     const Real left = range_ * (1 - 1e-12) - (shift - shift_).norm();
     return left > 0 && since_.farthest(points, motion) <= left;
   }
-  /// Has to be called at the motion at which the clusters within distance() were found.
+  /// Starts a new list. Must be called at the motion for which the clusters within distance() were
+  /// found.
   void begin(const ContactPoints<D>& points, const Motion& motion, const Vec<D>& shift) {
     since_.begin(points, motion);
     shift_ = shift;
@@ -30,7 +31,7 @@ class ReachList {
 
  private:
   Real range_;
-  MovedSince<D> since_;  // since begin()
+  MovedSince<D> since_;  // displacements since begin()
   Vec<D> shift_ = Vec<D>::Zero();
   std::int64_t times_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of the numbers of rigid partners.
+// Checks the numbers of rigid partners.
 #pragma once
 #include "meniscus/error.hpp"
 #include "physics/contact/contact_law.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact of a deformable body with a rigid partner in closed form.
+// Contact of a deformable body with a rigid partner, whose field is known in closed form.
 #include "meniscus/error.hpp"
 #include "physics/contact/contact_numbers.hpp"
 #include "physics/contact/contact_terms.hpp"
@@ -17,7 +17,8 @@
 namespace meniscus {
 namespace {
 
-/// From when on the partner stays where it is, to 1e-4 of the run; infinite if it never does.
+/// Time after which the partner stays at rest, with the resolution of 1e-4 of the run. Infinite if
+/// it never does.
 template <int D>
 Real end_of_motion(const MovingPartner<D>& partner) {
   if (!partner.motion.moves()) return 0;
@@ -57,7 +58,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     return pair_.ranks.report_of([&] { return add_known_force(motion, force); });
   }
 
-  /// Adhesion that varies, and friction, have the difference of their forces.
+  /// Adds the exact tangent. With varying adhesion or friction, a difference of forces replaces it.
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     if (effects_.any()) return ForceTerm::add_tangent(motion, change, force);
     choose_visited(pair_, motion, list_, layers_);
@@ -82,7 +83,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   }
   Real steady_after() const override { return steady_after_; }
 
-  /// The last force was that of this motion.
+  /// Accepts the step. The last computed force must belong to this motion.
   void commit(const Motion& motion) override {
     if (pair_.ranks.is_absent()) return;
     effects_.commit(motion.time, sums_);
@@ -118,7 +119,8 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   bool stops_drift() const override { return true; }
 
   bool viscous() const override { return effects_.rubs(); }
-  /// Friction by this velocity at the places of the last force, whose T are not needed any more.
+  /// Adds friction with this velocity at the positions of the last force. Overwrites T of that
+  /// force.
   void add_viscous(const Motion& motion, Forces force) override {
     if (pair_.ranks.is_absent()) return;
     take_friction(pair_, effects_, motion, layers_);
@@ -127,8 +129,8 @@ class RigidContact final : public ForceTerm, public ContactVisits {
         pair_.points[g].add_force(layers_[g].places, layers_[g].near, layers_[g].T, {}, force);
   }
 
-  /// Fields of planes and spheres are smooth over many gaps, and exact: few points do no harm
-  /// there.
+  /// Warns if the contact points are too coarse for the gap. Not for planes and spheres: their
+  /// fields are exact and smooth over many gaps, so few points suffice.
   std::optional<std::string> warning(const Motion& motion) const override {
     if (pair_.partner.surface && pair_.partner.surface->round()) return std::nullopt;
     return unresolved_gap(name_, gap_at(pair_, motion), pair_.finest().spacing(),
@@ -152,7 +154,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   }
 
  private:
-  /// Of a rank that takes part.
+  /// Adds the force on a rank that takes part in the contact.
   Report add_known_force(const Motion& motion, Forces force) {
     choose_visited(pair_, motion, list_, layers_);
     take_forces(pair_, motion, layers_);
@@ -168,8 +170,8 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     count(visited.count);
     return report(motion, visited.nearest);
   }
-  /// Of an interaction that ends, a list of the clusters that may feel the partner, of which there
-  /// are some that do; where there are none, the distances of all points are asked for.
+  /// For an interaction of finite range: number of the neighbour list, and whether any point is in
+  /// range. If none is, the distances of all points are needed.
   struct VisitedParts {
     std::int64_t list;
     bool touches;
@@ -184,23 +186,23 @@ class RigidContact final : public ForceTerm, public ContactVisits {
                         const Motion& motion);
 
   std::string name_;
-  std::string overlap_;  // why the surfaces may come through
+  std::string overlap_;  // advice for surfaces that pass through each other
   bool wets_;
   BodyAndPartner<D> pair_;
   WallEffects<D> effects_;
   Real steady_after_;
-  // Of a force.
+  // Results and work space of the last force.
   PartnerLayers<D> layers_;
   WallSums sums_;
   Resultant resultant_;
-  bool touches_ = false;  // some point is within the range
+  bool touches_ = false;  // true if some point is within the range
   PartnerWork work_;
   ReachList<D> list_;
-  std::optional<VisitedParts> told_;  // when ranks shared steps
-  std::vector<Index> close_;          // clusters that decide how fast the gap closes
+  std::optional<VisitedParts> told_;  // visited parts at tell_reads()
+  std::vector<Index> close_;          // clusters that determine the closing speed
 };
 
-/// The work of the partner, and what the places and velocities of a force mean for the step.
+/// Report of the last force: work of the partner, failures, and the limit of the step.
 template <int D>
 Report RigidContact<D>::report(const Motion& motion, const NearestPoint& nearest) {
   Report report;
@@ -244,7 +246,8 @@ Failure RigidContact<D>::describe_overlap(const NearestPoint& nearest, Real time
           true};
 }
 
-/// Of the points of a grade within a distance of the partner that is below the range.
+/// Speed at which the points of a grade approach the partner. Only points within a distance below
+/// the range count.
 template <int D>
 Real RigidContact<D>::closing_speed_of(std::size_t grade, Real within, const Vec<D>& velocity,
                                        const Motion& motion) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid bodies with straight edges in plane strain (polygons and frames) as sums over their edges.
+// Rigid bodies with straight edges in plane strain (polygons and frames); their fields are sums
+// over edges.
 #include "physics/contact/rigid/plane_field.hpp"
 #include "physics/contact/rigid/rigid_checks.hpp"
 #include "physics/contact/rigid/rigid_partner.hpp"
@@ -17,7 +18,7 @@ using Point = Vec<2>;
 struct Edge {
   Point begin, tangent, normal;
   Real length;
-  Point normal_before, normal_after;  ///< of the neighbouring edges
+  Point normal_before, normal_after;  ///< normals of the neighbouring edges
 };
 
 std::vector<Edge> edges_of(const std::vector<Point>& polygon) {
@@ -43,7 +44,7 @@ std::vector<Edge> edges_of(const std::vector<Point>& polygon) {
   return edges;
 }
 
-/// The nearest point of the surface, the outward direction there, and the distance along it.
+/// The nearest point of the surface, the outward normal there, and the signed distance.
 struct Foot {
   Point place, normal;
   Real distance;
@@ -87,7 +88,8 @@ class Polygons final : public RigidPartner<2> {
     return f;
   }
 
-  /// Like foot(). If the nearest point of a lane is a corner, lanes are done one by one.
+  /// Signed distances of four positions, as foot() computes them. If the nearest point of a lane is
+  /// a corner, lanes are computed one by one.
   Lanes distances(const LanePlace<2>& x) const override {
     Lanes least = unbounded, signed_distance = least, corner = Lanes::zero();
     for (const Edge& edge : edges_) {
@@ -103,13 +105,14 @@ class Polygons final : public RigidPartner<2> {
   }
 
  private:
-  /// Coordinates along the edge from its begin, and along its normal.
+  /// Coordinates relative to the beginning of an edge: along the edge, and along its normal.
   static std::pair<Lanes, Lanes> from_edge(const Edge& edge, const LanePlace<2>& x) {
     const Lanes a = x[0] - edge.begin[0], b = x[1] - edge.begin[1];
     return {edge.tangent[0] * a + edge.tangent[1] * b, edge.normal[0] * a + edge.normal[1] * b};
   }
 
-  /// S = beta sum m INT u dl, grad S = beta sum m (x) INT psi r dl over the edges.
+  /// The field S = beta sum m INT u dl, grad S = beta sum m (x) INT psi r dl, summed over the
+  /// edges.
   RigidField<2> exact(const Point& x) const {
     RigidField<2> sum{0, Point::Zero(), Mat<2>::Zero()};
     for (const Edge& edge : edges_) {
@@ -125,8 +128,9 @@ class Polygons final : public RigidPartner<2> {
     return sum;
   }
 
-  /// The field continued from the smallest gap above the foot like that of a half plane. The
-  /// gradient is exact over straight edges and approximate around corners.
+  /// The field below the smallest gap. It continues the field at the smallest gap above the foot in
+  /// the same way as for a half plane. The gradient is exact over straight edges and approximate
+  /// around corners.
   RigidField<2> continued(const Foot& f) const {
     RigidField<2> sum = exact(f.place + core_ * f.normal);
     const Real d = f.distance - core_, U = plane_.U(core_);
@@ -153,7 +157,7 @@ class Polygons final : public RigidPartner<2> {
     return foot_on(*nearest, along, x);
   }
 
-  /// At a corner the mean of both normals decides between outside and inside.
+  /// The foot on one edge. At a corner, the mean of both normals decides whether x is outside.
   static Foot foot_on(const Edge& edge, Real along, const Point& x) {
     const Point place = edge.begin + along * edge.tangent, from = x - place;
     const Real distance = from.norm();
@@ -188,7 +192,7 @@ std::unique_ptr<RigidPartner<2>> rigid_frame(const ContactLaw& law, Real beta, c
     return std::vector<Point>{a, {b.x(), a.y()}, b, {a.x(), b.y()}};
   };
   std::vector<Point> inside = counter_clockwise(low, high);
-  std::reverse(inside.begin(), inside.end());  // a hole
+  std::reverse(inside.begin(), inside.end());  // the opening of a frame is a hole
   std::vector<std::vector<Point>> polygons{inside};
   if (std::isfinite(thickness))
     polygons.push_back(

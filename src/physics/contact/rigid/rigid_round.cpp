@@ -19,7 +19,7 @@ class RoundPartner final : public RigidPartner<D> {
         centre_(centre),
         radius_(radius),
         cavity_(cavity),
-        beta_(cavity ? -beta : beta),  // all space less the ball
+        beta_(cavity ? -beta : beta),  // a cavity is all space minus the ball
         core_(cavity ? radius - law.guard * law.sigma0 : radius + law.guard * law.sigma0) {
     at_core_ = exact_.at(core_);
     slope_ = exact_.slope(core_);
@@ -44,8 +44,8 @@ class RoundPartner final : public RigidPartner<D> {
  private:
   bool inside_core(Real a) const { return cavity_ ? a > core_ : a < core_; }
 
-  /// The field continued from the smallest gap: U = U_c + U_c' (a - a_c), and a^D tangent = a^(D-1)
-  /// S from the integral of a^(D-1) U.
+  /// The field below the smallest gap: U continues linearly, U = U_c + U_c' (a - a_c). a^D tangent
+  /// = a^(D-1) S follows from the integral of a^(D-1) U.
   RadialField continued(Real a) const {
     const Real U0 = at_core_.U - slope_ * core_, c = core_;
     const auto flux = [&](Real r) { return std::pow(r, D) * (U0 / D + slope_ * r / (D + 1)); };

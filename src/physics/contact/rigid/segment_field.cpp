@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// F_p = INT (X^2 + h^2)^(-p/2) dX over a segment, for the four powers of u and psi.
+// Integrals F_p = INT (X^2 + h^2)^(-p/2) dX over a segment, for the four powers of u and psi.
 //
-// The note's polynomials in t = X/r lose all digits if 1 - t or h is small. Here F_p is made of
-// tails G_p(X) = INT_X^inf, X >= 0, which are products and sums of terms of one size. For short
-// segments the difference of two tails would cancel, and a Gauss rule is used.
+// The polynomials of the note in t = X/r lose all digits if 1 - t or h is small. Here F_p is
+// computed from tails G_p(X) = INT_X^inf, X >= 0, whose terms are all of similar size. For short
+// segments the difference of two tails would cancel; a Gauss rule replaces it.
 #include "physics/contact/rigid/segment_field.hpp"
 
 #include "body/grid/gauss.hpp"
@@ -16,7 +16,7 @@
 namespace meniscus {
 namespace {
 
-/// Integrals of r^-p for the powers p of u and of psi. T is Real or Lanes in this file.
+/// Integrals of r^-p for the powers p in u and psi. In this file T is Real or Lanes.
 template <class T>
 struct Powers {
   T u12, u6, psi12, psi6;
@@ -35,7 +35,7 @@ const GaussRule& rule() {
   return points;
 }
 
-/// The Gauss rule on [0, 1], four points at once.
+/// Gauss rule on [0, 1] with 20 points in groups of four.
 struct LaneRule {
   std::array<Lanes, 5> s, w;
 
@@ -47,15 +47,15 @@ struct LaneRule {
   }
 };
 
-/// Distance between (0, h) and (X, 0). std::hypot, which avoids overflow, would cost a quarter of
-/// the time of a frame.
+/// Distance between (0, h) and (X, 0). Faster than std::hypot, whose protection from overflow is
+/// not needed.
 template <class T>
 T distance(T X, T h) {
   using std::sqrt;
   return sqrt(X * X + h * h);
 }
 
-/// r^-p at one point, p = 9, 3, 11, 5 if odd, else 10, 4, 12, 6.
+/// r^-p at one point: p = 9, 3, 11, 5 if odd, else p = 10, 4, 12, 6.
 template <class T>
 Powers<T> at_point(bool odd, T X, T h) {
   using std::sqrt;
@@ -64,8 +64,9 @@ Powers<T> at_point(bool odd, T X, T h) {
   return {q5 * r, q2 * r, q5 * q * r, q2 * q * r};
 }
 
-/// With w = 1/(r (r + X)), q = h^2 w = 1 - X/r and m = (p - 3)/2, G_p = h^(1-p) INT_0^q (t (2 -
-/// t))^m dt = w^(m+1) sum_k binomial(m, k) 2^(m-k) (-q)^k/(m + k + 1).
+/// Tails G_p for odd p. Let w = 1/(r (r + X)), q = h^2 w = 1 - X/r and m = (p - 3)/2. Then G_p =
+/// h^(1-p) INT_0^q (t (2 - t))^m dt, which is w^(m+1) sum_k binomial(m, k) 2^(m-k) (-q)^k/(m + k +
+/// 1).
 template <class T>
 Powers<T> odd_tail(T X, T h) {
   const T r = distance(X, h), w = 1.0 / (r * (r + X)), q = h * h * w;
@@ -75,8 +76,8 @@ Powers<T> odd_tail(T X, T h) {
   return {w4 * m3, w, w4 * w * m4, w2 * (1.0 - q / 3.0)};
 }
 
-/// With v = 1/(r + X) and n = p - 2, by the tangent of half the angle, G_p = (2 v)^(n+1) INT_0^1
-/// s^n/(1 + h^2 v^2 s^2)^(n+1) ds.
+/// Tails G_p for even p. With v = 1/(r + X) and n = p - 2, the substitution by the tangent of half
+/// the angle gives G_p = (2 v)^(n+1) INT_0^1 s^n/(1 + h^2 v^2 s^2)^(n+1) ds.
 Powers<Real> even_tail(Real X, Real h) {
   static const LaneRule points;
   const Real v = 1 / (distance(X, h) + X), h2v2 = (h * v) * (h * v);
@@ -108,7 +109,8 @@ Powers<Lanes> tail(bool odd, Lanes X, Lanes h) {
   return f;
 }
 
-/// For a segment no longer than its distance from the point: 20 Gauss points are exact to rounding.
+/// Integral over a segment no longer than its distance from the point: 20 Gauss points are exact to
+/// rounding.
 template <class T>
 Powers<T> short_segment(bool odd, T begin, T end, T h) {
   Powers<T> f{0.0, 0.0, 0.0, 0.0};
@@ -129,7 +131,7 @@ Powers<Real> over_segment(bool odd, Real begin, Real end, Real h) {
   return f.add(2, tail(odd, 0, h)).add(-1, tail(odd, -begin, h)).add(-1, tail(odd, end, h));
 }
 
-/// Computes in all lanes whatever one of them needs.
+/// Integrals for four segments. Each formula that one lane needs is computed in all lanes.
 Powers<Lanes> over_segment(bool odd, Lanes begin, Lanes end, Lanes h) {
   const Lanes zero = Lanes::zero(), beside = max(max(begin, -end), zero);
   const auto few = end.v - begin.v <= distance(beside, h).v;

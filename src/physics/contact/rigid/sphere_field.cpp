@@ -5,7 +5,7 @@
 namespace meniscus {
 namespace {
 
-/// sum over k = 1 ... 13 of c_k y^(2k-2), c_k = 4 k (k + 1)/(3 (2k + 1)).
+/// The series sum over k = 1 ... 13 of c_k y^(2k-2), c_k = 4 k (k + 1)/(3 (2k + 1)).
 Real attraction_series(Real y) {
   Real sum = 0;
   for (int k = 13; k > 0; --k) sum = sum * (y * y) + 4.0 * k * (k + 1) / (3 * (2 * k + 1));
@@ -37,8 +37,8 @@ Real SphereField::slope(Real distance) const {
   return unit_ / sigma0_ * (repulsion + 16 * R3 * a / d4);
 }
 
-/// The part of S/a with sigma0^6, over pi epsilon. Its terms cancel if the radii are very
-/// different; a series is used there.
+/// The part of S/a with sigma0^6, divided by pi epsilon. If the radii are very different, its terms
+/// cancel, and a series is used.
 Real SphereField::attraction(Real a) const {
   const Real y = a > R_ ? R_ / a : a / R_;
   if (y < 0.25)

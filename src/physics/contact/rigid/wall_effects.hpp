@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Effects of a rigid partner on contact points beside the interaction of uniform strength: adhesion
-// that varies over the partner and with time, and friction.
+// Effects of a rigid partner in addition to the interaction of uniform strength: adhesion that
+// varies with position and time, and friction.
 #pragma once
 #include "meniscus/physics/partner_registry.hpp"
 #include "physics/contact/adhesion_work.hpp"
@@ -12,8 +12,8 @@
 
 namespace meniscus {
 
-/// Four points: positions and velocities relative to the partner, area vectors, distances, and
-/// their forces so far.
+/// Four contact points: positions and velocities relative to the partner, area vectors, distances,
+/// and the forces computed so far.
 template <int D>
 struct WallPoints {
   std::array<Vec<D>, Lanes::width> x, v, V;
@@ -21,11 +21,11 @@ struct WallPoints {
   Lanes *T, *S;  ///< [i] dE/dx and dE/dV, as in contact_points.hpp
 };
 
-/// Sums over all points.
+/// Sums of the effects over all contact points.
 struct WallSums {
-  AdhesionSupply supply;  ///< of adhesion that changes with time
+  AdhesionSupply supply;  ///< work of an adhesion that changes with time
   Real heat = 0;          ///< power of friction
-  Real adhesion = 0;      ///< the largest
+  Real adhesion = 0;      ///< largest adhesion of a point
 
   friend WallSums operator+(const WallSums& a, const WallSums& b) {
     return {a.supply + b.supply, a.heat + b.heat, std::max(a.adhesion, b.adhesion)};
@@ -47,16 +47,16 @@ class WallEffects {
   const AdhesionPattern* pattern() const { return pattern_; }
   /// True if the stiffness at that gap comes from the varying adhesion, not from the fixed core.
   bool varies_at(Real gap) const { return pattern_ && gap >= flat_.equilibrium_gap; }
-  /// The energy per area in full contact for a factor W = 1.
+  /// Energy per area in full contact for the factor W = 1.
   Real adhesion() const { return pattern_ ? 1 : flat_.adhesion; }
 
-  /// The energy of unit adhesion of a point at x with the area vector V and the field S, without
-  /// the core, whose strength is not proportional to W.
+  /// Energy, at unit adhesion, of a point at x with the area vector V and the field S. The core is
+  /// left out, because its strength is not proportional to W.
   Real unit_energy(const Vec<D>& x, Real distance, const Vec<D>& V, const Vec<D>& S) const {
     return distance < flat_.equilibrium_gap ? surface_->foot(x).normal.dot(V) : S.dot(V);
   }
 
-  /// Adds the effects at `time` to the forces of the points.
+  /// Adds the effects at `time` to the forces of four points.
   WallSums add(WallPoints<D>& points, Real time) const {
     WallSums sums;
     for (int lane = 0; lane < Lanes::width; ++lane) {
@@ -66,7 +66,7 @@ class WallEffects {
     }
     return sums;
   }
-  /// Adds friction alone; returns its heat.
+  /// Adds friction only. Returns its heat.
   Real rub(WallPoints<D>& points) const {
     Real heat = 0;
     for (int lane = 0; lane < Lanes::width; ++lane)
@@ -74,7 +74,7 @@ class WallEffects {
     return heat;
   }
 
-  /// The area chi with friction, and the sum of the velocity along the partner over it.
+  /// Sum of the areas with friction (weight chi), and the integral of the slip velocity over them.
   std::pair<Real, Vec<D>> slip(const WallPoints<D>& points) const {
     std::pair<Real, Vec<D>> sum{0, Vec<D>::Zero()};
     for (int lane = 0; lane < Lanes::width; ++lane) {
@@ -86,11 +86,11 @@ class WallEffects {
     return sum;
   }
 
-  /// Work of varying adhesion since the last accepted step.
+  /// Work of the changing adhesion since the last accepted step.
   Real work(const WallSums& sums) const { return work_.since_step(sums.supply); }
-  /// Has to be called at the begin of a run.
+  /// Sets the start time; must be called at the beginning of a run.
   void begin(Real time) { work_.begin(time); }
-  /// Accepts the step to `time`, which has these sums.
+  /// Accepts the step that ends at `time` and has these sums.
   void commit(Real time, const WallSums& sums) { work_.commit(time, sums.supply); }
   void archive(const Archive& a) {
     if (keeps_work()) work_.archive(a, D);
@@ -101,12 +101,12 @@ class WallEffects {
 
  private:
   bool keeps_work() const { return pattern_ && pattern_->depends_on_time(); }
-  /// Changes the forces of unit adhesion to those of W(x, t): E = W e, so that
+  /// Replaces the forces at unit adhesion by the forces at W(x, t). The energy is E = W e, so that
   ///
   ///   dE/dV = W S,   dE/dx = W T + (S.V) grad W.
   ///
-  /// Below the equilibrium gap the core is added, which does not vary: there the adhesion has the
-  /// field n.
+  /// Below the equilibrium gap, the core is added to the adhesion. The core does not vary; there
+  /// the field of the adhesion is n.
   WallSums vary(WallPoints<D>& points, int lane, Real time) const {
     const Eigen::Vector3d x = spatial<D>(at(points.x, lane));
     const Real W = (*pattern_)(x, time);
@@ -133,7 +133,7 @@ class WallEffects {
     return sums;
   }
 
-  /// At a point: chi, the area that faces the partner, and the velocity along it.
+  /// Slip at a point: chi, the area that faces the partner, and the velocity along the partner.
   struct Slipping {
     Real chi, faced;
     Vec<D> velocity;
@@ -152,14 +152,15 @@ class WallEffects {
     return drag * slip.velocity.squaredNorm();
   }
 
-  /// chi: 1 in contact, falling smoothly to 0 with the energy of the interaction.
+  /// The weight chi: 1 in contact; beyond, it falls smoothly to 0 with the energy of the
+  /// interaction.
   Real wetted(Real gap) const {
     if (gap <= flat_.equilibrium_gap) return 1;
     return std::clamp(-interaction_.at(gap).energy / adhesion(), 0.0, 1.0);
   }
 
   const Interaction& interaction_;
-  const AdhesionPattern* pattern_;  // null if uniform and constant
+  const AdhesionPattern* pattern_;  // null if adhesion is uniform and constant
   std::shared_ptr<const PartnerShape<D>> surface_;
   Real friction_;
   PlaneContact flat_;

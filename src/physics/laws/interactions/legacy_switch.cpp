@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wetting as in the dissertation: triangles of the surface switch their tension where they touch a
-// wall, and a Lennard-Jones wall pulls along its normal. For replication only (wetting note 5).
+// Wetting as in the dissertation: surface triangles that touch a wall switch their tension, and a
+// Lennard-Jones wall pulls along its normal. For replication only (wetting note 5).
 #include "body/surface/boundary_simplices.hpp"
 #include "input/optional_rows.hpp"
 #include "kernel/row_sums.hpp"
@@ -17,13 +17,13 @@
 namespace meniscus {
 namespace {
 
-/// A triangle (2D: segment) between the places of boundary particles is wet where all of these are
-/// nearer to the wall than the switch gap. With gamma_L = gamma (1 - cos theta)/2 and gamma_G =
-/// gamma (1 + cos theta)/2 a wet one has the tension gamma_L in the place of gamma (case d), and
-/// an edge between a wet one and one that is not is pulled along the wall, away from the wet side,
-/// by gamma_G (case c). Together: the gradient, at the triangles that are wet now, of
-///   E = sum over wet triangles of (gamma_L - gamma) A - gamma_G A', A' the area along the wall,
-/// which jumps where one switches.
+/// Tensions that switch. A triangle (2D: segment) between boundary particles is wet if all its
+/// corners are nearer to the wall than the switch gap. With gamma_L = gamma (1 - cos theta)/2 and
+/// gamma_G = gamma (1 + cos theta)/2, a wet triangle has the tension gamma_L instead of gamma (case
+/// d). An edge between a wet and a dry triangle is pulled along the wall, away from the wet side,
+/// by gamma_G (case c). Together they are the gradient, with the wet triangles kept fixed, of
+///   E = sum over wet triangles of (gamma_L - gamma) A - gamma_G A',
+/// with the area A' along the wall. E jumps when a triangle switches.
 template <int D>
 class LegacySwitch final : public ForceTerm {
  public:
@@ -62,8 +62,8 @@ class LegacySwitch final : public ForceTerm {
     return report;
   }
 
-  /// What was wet and is not any more, or the other way round, is counted, with the energy that is
-  /// lost: what vanishes from the stored energy and is neither heat nor work.
+  /// Counts the triangles that became wet or dry in this step, and adds the stored energy that
+  /// disappears with these switches. This energy becomes neither heat nor work.
   void commit(const Motion& motion) override {
     traction_->commit(motion);
     find_places(motion, x_);
@@ -145,10 +145,10 @@ class LegacySwitch final : public ForceTerm {
       return plan_.shape->foot(at(x, B) - shift).distance < gap_;
     });
   }
-  /// Of a wet triangle.
+  /// Energy and forces of a wet triangle.
   Pull pull_of(const Corners& x) const {
     const FlatPull<D> own = flat_pull<D>(x);
-    const Vec<D> n = plan_.shape->foot(x[0]).normal;  // of a plane, the same everywhere
+    const Vec<D> n = plan_.shape->foot(x[0]).normal;  // the normal of a plane is uniform
     Pull pull{tensions_.change * own.area, own.force};
     for (auto& force : pull.force) force *= tensions_.change;
     // A' = - n . area vector, and its gradient.
@@ -172,7 +172,7 @@ class LegacySwitch final : public ForceTerm {
   Real gap_;
   std::unique_ptr<ForceTerm> traction_;
   BoundarySimplices<D> boundary_;
-  std::vector<Real> committed_;  // [simplex] 1 wet, 0 dry at the last step that stands
+  std::vector<Real> committed_;  // [simplex] 1: wet, 0: dry, at the last accepted step
   std::int64_t switches_ = 0;
   Real lost_ = 0;
   // Work space of a force.
@@ -244,7 +244,7 @@ class Model final : public ContactModel<D> {
         body, plan, typename LegacySwitch<D>::Tensions{-line, line}, switch_gap(),
         rigid_contact<D>({body, 1}, std::move(partner), law_, choice));
   }
-  /// Of the Lennard-Jones wall.
+  /// Equilibrium with the Lennard-Jones wall.
   PlaneContact flat(bool, const ContactSurfaces&) const override { return plane_contact(law_, 1); }
   Real greatest_pressure(bool, const ContactSurfaces&) const override {
     return plane_state(law_, 1, law_.guard * law_.sigma0).pressure;

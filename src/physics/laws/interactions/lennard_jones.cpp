@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lennard-Jones between the particles of two bodies, smeared out over both, or over a rigid
-// partner.
+// Lennard-Jones interaction between the particles of two bodies, or of a body and a rigid partner,
+// with continuous densities.
 #include "input/optional_rows.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "physics/contact/contact_numbers.hpp"
@@ -13,11 +13,11 @@ constexpr Dimension per_volume{-3, 0, 0}, per_area{-2, 0, 0};
 struct Keys {
   std::string kernel;
   Real epsilon = 0, sigma0 = 0, cutoff = 0, least_gap = 0;
-  Real beta = 0, beta_other = 0;  // of the first body, and of the other side
+  Real beta = 0, beta_other = 0;  // densities of the first body and of the other side
   static Rows<Keys> rows();
 };
 
-/// Interaction energy and densities per area have other units in the planar kernel.
+/// The key epsilon. In the planar kernel, energies and densities per area have other units.
 Row<Keys> epsilon_row() {
   Row<Keys> row = real_row("epsilon", &Keys::epsilon, dimension::energy, range::positive,
                            "depth of the potential phi; kernel = \"planar\": per depth, N");
@@ -81,9 +81,9 @@ Rows<Keys> Keys::rows() {
           beta_other_row(), cutoff_row(),  least_gap_row()};
 }
 
-/// Keys whose epsilon follows from an adhesion.
+/// Keys of the interaction whose epsilon follows from the adhesion.
 struct ScaledKeys : Keys {
-  std::optional<Real> angle, work;  // one of them
+  std::optional<Real> angle, work;  // exactly one of them is given
 
   static Rows<ScaledKeys> rows() {
     return {optional_row("contact_angle", &ScaledKeys::angle, dimension::degrees, {1, 179},
@@ -119,7 +119,7 @@ template <int D>
 class Model final : public ContactModel<D> {
  public:
   explicit Model(Keys keys) : k_(std::move(keys)) {}
-  /// With the epsilon of an adhesion.
+  /// A model whose epsilon follows from the adhesion.
   explicit Model(ScaledKeys keys) : k_(keys), scaled_(std::move(keys)) {
     k_.beta = k_.beta_other = 1;
   }
@@ -158,7 +158,8 @@ class Model final : public ContactModel<D> {
   std::optional<std::string> doubt(const ContactSurfaces&) const override { return std::nullopt; }
 
  private:
-  /// Throws InputError where an angle has no surface tension.
+  /// The law with numbers for these surfaces. Throws InputError if an angle is given for a body
+  /// without surface tension.
   ContactLaw law(bool rigid, const ContactSurfaces& surfaces) const {
     ContactLaw law;
     law.kernel = D == 3 ? PairKernel::space : pair_kernel_named(k_.kernel);

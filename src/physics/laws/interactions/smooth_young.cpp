@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wetting by Young's law: the energy of a surface falls by the adhesion W where it touches the
-// wall, smoothly over a range.
+// Wetting by Young's law: the energy of a surface falls by the adhesion W over a smooth range where
+// the surface touches the wall.
 #include "input/optional_rows.hpp"
 #include "meniscus/error.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
@@ -15,21 +15,22 @@
 namespace meniscus {
 namespace {
 
-/// With t = (g - offset) / range (wetting note 1),
+/// Energy per area e as a function of the gap g, with t = (g - offset) / range (wetting note 1):
 ///   e = - W (1 - 10 t^3 + 15 t^4 - 6 t^5) for 0 < t < 1, zero beyond;
-///   e = - W + C k |t|^3 / 3 for t < 0: no deeper than the load asks for. C = W or, where that is
-/// more, the tension gamma + min(gamma, gamma_2) - W that is left of both surfaces: it presses also
-/// where little adheres. Where W varies, C is what W is at most without complete wetting: the wall
-/// is one also where nothing adheres. k = 100, or more where the offset is short: a surface that
-/// falls into the well must not come through.
+///   e = - W + C k |t|^3 / 3 for t < 0 (the core, a penalty that limits the penetration under
+///   load).
+/// C is the larger of W and gamma + min(gamma, gamma_2) - W, the tension that is left of both
+/// surfaces; so the core also resists where adhesion is weak. If W varies, C is the largest W
+/// without complete wetting, 2 gamma. k = 100, or more for a short offset, so that a surface pulled
+/// into the well cannot pass through the wall.
 struct SmoothYoung final : Interaction {
   static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nrange = 0.3\n";
-  std::optional<Expression> angle, work, actin;  // as given
+  std::optional<Expression> angle, work, actin;  // input values
   std::optional<Real> depth, film;
   Real W = 0, ell = 0, g0 = 0;                     // adhesion, range, offset
   Real core = 0;                                   // C k
-  Real W_below = 0;                                // below the centre of the body, at the start
-  std::shared_ptr<const AdhesionPattern> varying;  // then W is 1
+  Real W_below = 0;                                // W below the centre of the body, at the start
+  std::shared_ptr<const AdhesionPattern> varying;  // if W varies; the member W is then 1
 
   static Rows<SmoothYoung> rows() {
     return {
@@ -58,8 +59,8 @@ struct SmoothYoung final : Interaction {
                                       : "and contact_angle are missing; one of them is needed");
   }
 
-  /// With numbers for these surfaces. Throws InputError where the angle has no surface tension, or
-  /// where there is no adhesion.
+  /// This law with numbers for the given surfaces. Throws InputError if an angle is given without
+  /// surface tension, or if there is no adhesion.
   std::shared_ptr<const Interaction> fitted(const ContactSurfaces& surfaces) const {
     auto law = std::make_shared<SmoothYoung>(*this);
     law->ell = depth.value_or(surfaces.facet / 2);
@@ -75,7 +76,7 @@ struct SmoothYoung final : Interaction {
       throw InputError(fmt::format("{}: adhesion and actin are {:.4g} together{}; allowed is > 0",
                                    surfaces.place, law->W,
                                    formulas.constant() ? "" : " below the centre of the body"));
-    // At least_gap() the core has taken up 1.6 C.
+    // At least_gap() the energy of the core is 1.6 C.
     const Real depth_of_core = 0.75 * law->g0 / law->ell;
     const Real k = std::max(100.0, 4.8 / (depth_of_core * depth_of_core * depth_of_core));
     const Real gamma = surfaces.gamma.value_or(0),
@@ -99,7 +100,7 @@ struct SmoothYoung final : Interaction {
   bool hardens() const override { return false; }
   bool ends() const override { return true; }
   PlaneContact flat() const override {
-    const Real softest = (3 + std::numbers::sqrt3_v<Real>) / 6;  // largest -K
+    const Real softest = (3 + std::numbers::sqrt3_v<Real>) / 6;  // here -K is largest
     const Real softening = -at(g0 + softest * ell).stiffness * W_below / W;
     return {g0, W_below,   1.875 * W_below / ell, g0 + ell / 2,
             0,  softening, g0 + softest * ell,    W_below};

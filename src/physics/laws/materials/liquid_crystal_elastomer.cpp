@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Liquid crystal elastomer without stress in its reference: the neo-classical energy (Fan 2014,
-// (4.29), corrected in constitutive note 4.1) of a director h that follows the deformation, with an
+// Liquid crystal elastomer without stress in its reference: neo-classical energy with a director h
+// that follows the deformation (Fan 2014, (4.29), corrected in constitutive note 4.1). It has an
 // active stress (4.28).
 //
-//   W = mu/2 [tr(l0 F^T l^-1 F) - 3] - mu ln J + U(J) + active part
-//   l0 = I + (s0 - 1) h0 h0,  l^-1 = I - (s - 1)/s h h,  |h0| = |h| = 1
+//   W = mu/2 [tr(l0 F^T l^-1 F) - 3] - mu ln J + U(J) + active part;
+//   l0 = I + (s0 - 1) h0 h0,  l^-1 = I - (s - 1)/s h h,  |h0| = |h| = 1.
 //
-// The director is not free (its Frank length is far below the particles' spacing), so that h is a
-// function of F and P = dW/dF is the total derivative: Kirchhoff's stress is symmetric.
+// The director is not a degree of freedom, because its Frank length is far below the particle
+// spacing. h is a function of F, and P = dW/dF is the total derivative; the Kirchhoff stress is
+// symmetric.
 #include "input/ramp.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
@@ -33,7 +34,7 @@ template <class T>
   const auto row = [&](int i) { return A(i, 0) * x[0] + A(i, 1) * x[1] + A(i, 2) * x[2]; };
   return {row(0), row(1), row(2)};
 }
-/// a b + c d, dyads
+/// a b + c d, a sum of dyads.
 template <class T>
 [[gnu::always_inline]] inline Tensor<T> dyads(const Vector<T>& a, const Vector<T>& b,
                                               const Vector<T>& c, const Vector<T>& d) {
@@ -58,7 +59,7 @@ struct LiquidCrystalElastomer {
   Follows follows = Follows::normal;
   VolumeEnergy volume_energy = VolumeEnergy::quadratic;
   std::array<Real, 3> director{0, 0, 1};  ///< h0
-  // At the present time:
+  // Values at the present time, set by at_time():
   Real step_change = 0, step_rate = 0;  ///< s - s0, ds/dt
   Real zeta = 0, zeta_rate = 0;
 
@@ -66,10 +67,10 @@ struct LiquidCrystalElastomer {
 
   std::optional<std::string> note(Real spacing) const;
 
-  /// Of a wave along the director or across it; up to (s - 1) mu more between them.
+  /// P-wave modulus along the director or across it. In between it is up to (s - 1) mu larger.
   Real p_wave_modulus() const { return bulk_modulus + 2 * mu; }
 
-  /// Of the isotropic part, mu and K + 2/3 mu.
+  /// Ratio of the bulk modulus K + 2/3 mu to the shear modulus mu of the isotropic part.
   Real bulk_over_shear() const { return bulk_modulus / mu + 2.0 / 3.0; }
 
   Real steady_after() const {
@@ -87,11 +88,12 @@ struct LiquidCrystalElastomer {
     return now;
   }
 
-  /// With h of the tilt d and the stretch q (normal) or of the shear e and the stretch p
-  /// (convected), described below:
-  ///   W = W_neo-Hooke + mu/2 (s0 - 1) |d|^2 + mu/2 (s0/s - 1)(|q|^2 - 1) - zeta ln |q|
-  ///   W = W_neo-Hooke - mu/2 (1 - 1/s) |e|^2/|p|^2 + mu/2 (s0/s - 1)(|p|^2 - 1) - zeta ln |p|
-  /// where |q|, |p| = 1 is taken as the zero of what the ramps change.
+  /// Energy per reference volume, with the vectors d (tilt) and q (stretch) for `normal`, or e
+  /// (shear) and p (stretch) for `convected`; they are described below.
+  ///   normal:     W = W_neo-Hooke + mu/2 (s0 - 1) |d|^2 + mu/2 (s0/s - 1)(|q|^2 - 1) - zeta ln
+  ///   |q|; convected:  W = W_neo-Hooke - mu/2 (1 - 1/s) |e|^2/|p|^2 + mu/2 (s0/s - 1)(|p|^2 - 1)
+  ///               - zeta ln |p|.
+  /// The energy terms with ramps (s, zeta) are zero at |q| = 1 or |p| = 1.
   template <class T>
   T energy_density(const Tensor<T>& H) const {
     if (follows == Follows::convected) {
@@ -138,9 +140,9 @@ struct LiquidCrystalElastomer {
   }
 
  private:
-  /// h along n = F^-T h0, the normal of the layers: the material line p = F h0 is q + d, q along n
-  /// and d, the tilt, across it. With c = cof F h0 = J n and w = p - c, which are small or exact
-  /// near the reference, d = (I - c c/|c|^2) w, and |q| = J/|c| = 1/|n|.
+  /// Director h along n = F^-T h0, the normal of the layers. The material line p = F h0 is q + d: q
+  /// along n, and d, the tilt, across it. Let c = cof F h0 = J n and w = p - c, which are small or
+  /// exact near the reference. Then d = (I - c c/|c|^2) w, and |q| = J/|c| = 1/|n|.
   template <class T>
   struct Normal {
     Tensor<T> cof_less_identity;
@@ -170,7 +172,7 @@ struct LiquidCrystalElastomer {
     }
   };
 
-  /// h along p = F h0; e = (I - h0 h0) F^T F h0 is the shear of the planes across h0.
+  /// Director h along p = F h0. e = (I - h0 h0) F^T F h0 is the shear of the planes across h0.
   template <class T>
   struct Line {
     Vector<T> p, e;
@@ -193,7 +195,7 @@ struct LiquidCrystalElastomer {
   }
   /// 1 - 1/s
   Real softness() const { return 1 - 1 / (step_length + step_change); }
-  /// mu (s0/s - 1): tension along h when s has left s0.
+  /// mu (s0/s - 1): the tension along h when s differs from s0.
   Real unbalance() const { return -mu * step_change / (step_length + step_change); }
 
   template <class T>
@@ -201,7 +203,7 @@ struct LiquidCrystalElastomer {
     return 0.5 * unbalance() * square_change - 0.5 * zeta * log1p(square_change);
   }
 
-  /// mu/2 (|F|^2 - 3) - mu ln J + U(J), the first orders cancelled by hand.
+  /// mu/2 (|F|^2 - 3) - mu ln J + U(J); first-order parts are cancelled analytically.
   template <class T>
   T neo_hooke_energy(const Tensor<T>& H) const {
     const T theta = volume_change(H);  // J - 1
@@ -221,7 +223,8 @@ struct LiquidCrystalElastomer {
   }
 };
 
-/// One of the texts `names`, the first by default, as a value of an enum in the same order.
+/// Input key of an enum. Its values have the texts `names` in the order of the enum; the first is
+/// the default.
 template <class E>
 Row<LiquidCrystalElastomer> enum_row(std::string key, E LiquidCrystalElastomer::*member,
                                      std::vector<std::string> names, std::string meaning) {
@@ -262,8 +265,8 @@ Rows<LiquidCrystalElastomer> LiquidCrystalElastomer::rows() {
                        "kappa of Frank elasticity, which is reported, not simulated", 0, 0)};
 }
 
-/// Frank energy density of a director that turns by a radian per spacing: K/(2 spacing^2), K =
-/// kappa (s - 1)^2/s (constitutive note 4.1).
+/// Note with the Frank energy density of a director that turns by a radian per spacing: K/(2
+/// spacing^2) with K = kappa (s - 1)^2/s (constitutive note 4.1).
 std::optional<std::string> LiquidCrystalElastomer::note(Real spacing) const {
   if (frank_constant == 0) return {};
   const Real length = std::sqrt(frank_constant / mu) / spacing;

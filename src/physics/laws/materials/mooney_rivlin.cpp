@@ -41,8 +41,9 @@ struct MooneyRivlin {
   Real p_wave_modulus() const { return 4 * lambda + 8.0 / 3.0 * (c1 + c2); }
   Real bulk_over_shear() const { return 2 * lambda / (c1 + c2); }
 
-  /// In L = ln J, x = 2 L/3 and g = tr E - L, whose first-order parts cancel by hand:
-  /// I1 - 3 I3^(1/3) = 2 g - 3 (e^x - 1 - x), I2 - 3 I3^(2/3) = 4 (g + II_E) - 3 (e^2x - 1 - 2 x).
+  /// Energy per reference volume. With L = ln J, x = 2 L/3 and g = tr E - L, the first-order parts
+  /// cancel analytically: I1 - 3 I3^(1/3) = 2 g - 3 (e^x - 1 - x), I2 - 3 I3^(2/3) = 4 (g + II_E) -
+  /// 3 (e^2x - 1 - 2 x).
   template <class T>
   T energy_density(const Tensor<T>& H) const {
     const T theta = volume_change(H), L = log1p(theta), x = (2.0 / 3.0) * L;
@@ -53,9 +54,10 @@ struct MooneyRivlin {
            2.0 * lambda * L * L;
   }
 
-  /// P = 2 F [(c1 + c2 I1) I - c2 C - beta C^-1], beta = c1 I3^(1/3) + 2 c2 I3^(2/3) - lambda ln I3
-  ///   = 2 k (F - F^-T) + 4 c2 F (tr(E) I - E) - 2 b F^-T with k = c1 + 2 c2 and b = beta - k;
-  /// F - F^-T without cancellation as in neo_hookean.
+  /// The stress P = 2 F [(c1 + c2 I1) I - c2 C - beta C^-1], beta = c1 I3^(1/3) + 2 c2 I3^(2/3) -
+  /// lambda ln I3. It is computed with k = c1 + 2 c2 and b = beta - k as
+  ///   P = 2 k (F - F^-T) + 4 c2 F (tr(E) I - E) - 2 b F^-T.
+  /// F - F^-T is computed without cancellation, like in neo_hookean.cpp.
   template <class T>
   [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     const T theta = volume_change(H), L = log1p(theta);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nematic liquid crystal: a Newtonian fluid with a director (Fan 2014, (4.18)-(4.27), corrected in
-// cells note 5). The stress of the fluid is that of the law "newtonian"; the director is a field of
-// its own.
+// cells note 5). The law "newtonian" gives the stress of the fluid; the director is a separate
+// field.
 #include "body/particle_values.hpp"
 #include "meniscus/physics/law_registry.hpp"
 
@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* fluid_law = "newtonian";
 constexpr const char* director_key = "initial_director";
-/// A director is about a unit vector; one given without its length is found by this.
+/// Largest accepted length of an initial director. Directors are about unit vectors; a longer one
+/// was given without being normalised.
 constexpr Real longest_director = 2;
 
 struct NematicKeys : NematicNumbers {
@@ -37,7 +38,7 @@ struct NematicKeys : NematicNumbers {
   }
 };
 
-/// Along the last axis.
+/// The unit vector along the last axis.
 std::vector<Expression> upright(int dimension) {
   std::vector<Expression> axis(static_cast<std::size_t>(dimension), 0.0);
   axis.back() = 1.0;
@@ -70,8 +71,8 @@ class Nematic final : public Material<D> {
   bool carries_director() const override { return true; }
 
  private:
-  /// sum_P V_P N_A(X_P): with these, what is uniform relaxes uniformly. The floor is that of lumped
-  /// masses.
+  /// Volumes sum_P V_P N_A(X_P) of the particles. With these volumes uniform states relax
+  /// uniformly. A particle has at least 0.3 of the volume of its cell, like lumped masses.
   static std::vector<Real> volumes(const Body<D>& body) {
     constexpr Real floor = 0.3;
     std::vector<Real> volume(static_cast<std::size_t>(body.size()), 0.0);
@@ -84,7 +85,8 @@ class Nematic final : public Material<D> {
       at(volume, A) = std::max(at(volume, A), floor * first_volume(body, A));
     return volume;
   }
-  /// Of a nodal cell, and the mean spacing, in the reference of the scene.
+  /// Volume of a nodal cell in the reference of the scene; first_spacing() is the mean spacing
+  /// there.
   static Real first_volume(const Body<D>& body, Index A) {
     return body.cells.volume(A) / body.volume_ratio(A);
   }

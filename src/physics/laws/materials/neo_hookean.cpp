@@ -14,7 +14,8 @@ struct NeoHookean : LameSolid {
       "lambda/2 ln^2 J, as FEBio, have another one, which differs by 14 % at 20 % strain";
   static Rows<NeoHookean> rows() { return rows_of<NeoHookean>(); }
 
-  /// With (I1 - 3)/2 = tr H + H:H/2 the first-order parts of (I1 - 3)/2 and ln J cancel by hand.
+  /// Energy per reference volume. With (I1 - 3)/2 = tr H + H:H/2, the first-order parts of (I1 -
+  /// 3)/2 and ln J cancel analytically.
   template <class T>
   T energy_density(const Tensor<T>& H) const {
     const T theta = volume_change(H);  // J - 1
@@ -22,8 +23,8 @@ struct NeoHookean : LameSolid {
     return mu * isochoric + 0.5 * lambda * theta * theta;
   }
 
-  /// P = mu (F - F^-T) + lambda (J - 1) cof F. With F^-T = cof F/J, J = 1 + theta and
-  /// cof F = (1 + tr H) I - H^T + cof H nothing of order one is left to cancel.
+  /// P = mu (F - F^-T) + lambda (J - 1) cof F. With F^-T = cof F/J, J = 1 + theta and cof F = (1 +
+  /// tr H) I - H^T + cof H, no terms of order one cancel.
   template <class T>
   [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     const T theta = volume_change(H);

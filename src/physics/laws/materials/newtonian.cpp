@@ -8,10 +8,11 @@
 namespace meniscus {
 namespace {
 
-/// Energy per reference volume and mean stress sigma_m = -p = U'(J), all with U''(1) = kappa:
-///   linear  U = kappa/2 (J - 1)^2                             sigma_m = kappa (J - 1)
-///   log     U = kappa (J ln J - J + 1)                        sigma_m = kappa ln J
-///   tait    U = kappa/n [(J^(1-n) - 1)/(n - 1) + J - 1]       sigma_m = -kappa/n (J^-n - 1)
+/// Equations of state: energy per reference volume U and mean stress sigma_m = -p = U'(J). U''(1) =
+/// kappa in each:
+///   linear  U = kappa/2 (J - 1)^2;                             sigma_m = kappa (J - 1);
+///   log     U = kappa (J ln J - J + 1);                        sigma_m = kappa ln J;
+///   tait    U = kappa/n [(J^(1-n) - 1)/(n - 1) + J - 1];       sigma_m = -kappa/n (J^-n - 1).
 enum class EquationOfState { linear, log, tait };
 constexpr std::array<const char*, 3> equation_names{"linear", "log", "tait"};
 
@@ -73,7 +74,7 @@ struct Newtonian {
     return -bulk_modulus / exponent * expm1(-exponent * log1p(theta));
   }
 
-  /// m of U'' = kappa J^(m - 2).
+  /// The exponent m in U'' = kappa J^(m - 2).
   Real volumetric_degree() const {
     switch (equation_of_state) {
       case EquationOfState::linear:

@@ -16,14 +16,14 @@ struct StVenantKirchhoff : LameSolid {
       "W = lambda/2 tr^2 E + mu E:E, E = (F^T F - I)/2; for small strains, unstable in compression";
   static Rows<StVenantKirchhoff> rows() { return rows_of<StVenantKirchhoff>(); }
 
-  /// W = lambda/2 tr^2 E + mu E:E.
+  /// Energy per reference volume, W = lambda/2 tr^2 E + mu E:E.
   template <class T>
   T energy_density(const Tensor<T>& H) const {
     const Tensor<T> E = green_strain(H);
     return 0.5 * lambda * trace(E) * trace(E) + mu * contract(E, E);
   }
 
-  /// P = F S with S = lambda tr(E) I + 2 mu E.
+  /// The stress P = F S with S = lambda tr(E) I + 2 mu E.
   template <class T>
   [[gnu::always_inline]] Tensor<T> stress(const Tensor<T>& H) const {
     const Tensor<T> E = green_strain(H);
@@ -31,8 +31,9 @@ struct StVenantKirchhoff : LameSolid {
     return S + H * S;
   }
 
-  /// Sufficient for ellipticity: min eig S + mu min stretch^2 > 0. S, E and C have the same axes,
-  /// so the least eigenvalue of E decides; exact for hydrostatic compression.
+  /// Warns of lost ellipticity. min eig S + mu min stretch^2 > 0 is sufficient for ellipticity. S,
+  /// E and C have the same axes, so the least eigenvalue of E decides; the criterion is exact for
+  /// hydrostatic compression.
   std::optional<std::string> warning(const Tensor<Real>& H) const {
     const Tensor<Real> E = green_strain(H);
     Eigen::Matrix3d strain;

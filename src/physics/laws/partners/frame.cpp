@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid frame around a rectangle.
+// Partner: the rigid walls around a rectangular room.
 #include "meniscus/physics/partner_registry.hpp"
 
 #include <fmt/core.h>
@@ -28,7 +28,7 @@ struct Frame final : PartnerShape<2> {
         block.problem("high", fmt::format("{}: {:.6g} is not above {:.6g} of low; allowed is more",
                                           i == 0 ? "x" : "y", at(high, i), at(low, i)));
   }
-  /// Of the nearest of the four walls, seen from inside the room.
+  /// Distance and normal of the nearest of the four walls, seen from inside the room.
   Foot foot(const Vec<2>& x) const override {
     Foot nearest{std::numeric_limits<Real>::infinity(), Vec<2>::Zero(), Mat<2>::Zero()};
     for (int i = 0; i < 2; ++i) {
@@ -42,7 +42,7 @@ struct Frame final : PartnerShape<2> {
     const Vec<2> a = Vec<2>::Map(low.data()), b = Vec<2>::Map(high.data());
     return {{a, {b.x(), a.y()}, b, {a.x(), b.y()}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
   }
-  /// The middle of the corners of walls that end somewhere.
+  /// Middles of the corners of walls with finite thickness.
   std::vector<Vec<2>> places() const override {
     if (!(thickness > 0)) return {};
     const Vec<2> a = Vec<2>::Map(low.data()) - Vec<2>::Constant(thickness / 2),

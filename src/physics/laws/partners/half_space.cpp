@@ -30,7 +30,7 @@ struct HalfSpace final : PartnerShape<D> {
     return {n.dot(x - Vec<D>::Map(point.data())), n, Mat<D>::Zero()};
   }
   bool flat() const override { return true; }
-  /// A square (2D: a line) twice as wide as the box.
+  /// Draws the plane as a square (2D: a line) twice as wide as the box.
   typename PartnerShape<D>::Drawing drawing(const Box<D>& box) const override {
     const auto foot = this->foot(box.centre());
     const Vec<D> middle = box.centre() - foot.distance * foot.normal;

@@ -29,7 +29,7 @@ struct Round final : PartnerShape<D> {
     return {sign * (r - radius), sign * k, r > 0 ? Mat<D>(sign / r * across) : Mat<D>::Zero()};
   }
   bool round() const override { return true; }
-  /// Meridians from pole to pole; in 2D a polygon.
+  /// Draws the surface by meridians from pole to pole (2D: a polygon).
   typename PartnerShape<D>::Drawing drawing(const Box<D>&) const override {
     constexpr Index around = 64, along = D == 3 ? 32 : 1;
     constexpr Real pi = std::numbers::pi;

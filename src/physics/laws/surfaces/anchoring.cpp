@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Anchoring of a director h to the normal n of the surface (cells note 5.3). With m = cof(F) N, per
-// reference area,
-//   polar   w = W/2 |h - n|^2 Js       = W/2 [(|h|^2 + 1) Js - 2 h.m]
-//   apolar  w = W/2 (|h|^2 - (h.n)^2) Js = W/2 [|h|^2 Js - (h.m)^2/Js]
-// and P = dw/dF = [(y.m) cof F - m (cof F)^T y]/J, y = dw/dm. In the apolar energy |h|^2 stands for
-// the 1 that would reward a director for being long.
+// Anchoring of a director h to the normal n of the surface (cells note 5.3). The energy per
+// reference area, with m = cof(F) N, is
+//   polar:   w = W/2 |h - n|^2 Js       = W/2 [(|h|^2 + 1) Js - 2 h.m];
+//   apolar:  w = W/2 (|h|^2 - (h.n)^2) Js = W/2 [|h|^2 Js - (h.m)^2/Js].
+// The stress is P = dw/dF = [(y.m) cof F - m (cof F)^T y]/J, y = dw/dm. The apolar energy contains
+// |h|^2 instead of 1; with 1, the energy would fall with the length of the director.
 #include "kernel/row_sums.hpp"
 #include "meniscus/physics/surface_registry.hpp"
 
@@ -26,7 +26,7 @@ struct AnchoringKeys {
   }
 };
 
-/// A vector at four points, a lane each.
+/// A vector at four points, one point per lane.
 using Vectors = std::array<Lanes, 3>;
 
 Lanes dot(const Vectors& a, const Vectors& b) {
@@ -95,7 +95,8 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
     return body_.division.sum(surface_.groups(), 0.0,
                               [&](Index g) { return energy(g, at(held_, g), x); });
   }
-  /// dw/dh = W (Js h - m), or W (Js h - (h.n) m).
+  /// Adds the force of the director at fixed positions, from dw/dh = W (Js h - m) (polar) or W (Js
+  /// h - (h.n) m) (apolar).
   void add_held_force(const NodalVector* x, std::span<NodalVector> f) override {
     const PointRows<D>& rows = surface_.points.rows;
     windows_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
@@ -124,7 +125,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
   Offset pairs() const override { return 2 * surface_.points.pairs(); }
 
  private:
-  /// Of a group of points.
+  /// Area vectors and stretches of a group of four points.
   struct Held {
     Vectors m;
     Lanes stretch;
@@ -149,7 +150,8 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
            sum(surface_.points.weight(g) *
                (polar_ ? (square + 1.0) * Js - 2.0 * along : square * Js - along * along / Js));
   }
-  /// y = dw/dm: W/2 [(|h|^2 + 1) n - 2 h], or W/2 [(|h|^2 + (h.n)^2) n - 2 (h.n) h].
+  /// y = dw/dm: W/2 [(|h|^2 + 1) n - 2 h] (polar) or W/2 [(|h|^2 + (h.n)^2) n - 2 (h.n) h]
+  /// (apolar).
   Vectors slope(const Vectors& m, const Lanes& stretch, const Vectors& h) const {
     const Lanes along = dot(h, m) / stretch, square = dot(h, h),
                 of_n = strength_ / 2 * (polar_ ? square + 1.0 : square + along * along) / stretch,
@@ -164,7 +166,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
   bool polar_;
   SurfaceRule<D> surface_;
   ForceWindows windows_;
-  AlignedVector<Held> held_;  // [group], of the places held
+  AlignedVector<Held> held_;  // [group] at the held positions
   std::size_t field_ = 0;
 };
 
@@ -178,7 +180,7 @@ class AnchoringMaterial final : public SurfaceMaterial {
   std::unique_ptr<ForceTerm> build(const Body<3>& body, int points) const override {
     return std::make_unique<Anchoring<3>>(body, keys_.strength, keys_.sense == "polar", points);
   }
-  /// Its energy is per present area.
+  /// The energy is per present area, so a remap does not change it.
   bool keeps_reference() const override { return false; }
 
  private:

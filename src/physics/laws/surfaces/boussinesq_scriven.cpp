@@ -6,7 +6,7 @@
 namespace meniscus {
 namespace {
 
-/// N s/m
+/// Dimension of surface viscosity, N s/m.
 constexpr Dimension surface_viscosity{0, -1, 1};
 
 struct BoussinesqScriven {
@@ -23,7 +23,7 @@ struct BoussinesqScriven {
                      "knows the sum of both only")};
   }
 
-  /// grad v p = F_rate e^T.
+  /// The stress P; uses grad v p = F_rate e^T.
   template <class T>
   [[gnu::always_inline]] Tensor<T> stress(const SurfaceState<T>& s, const Tensor<T>& F_rate,
                                           T weight) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elastic surface of Gurtin and Murdoch with a skin of the type of St.Venant and Kirchhoff:
-// w = lambda/2 (tr Es)^2 + mu tr Es^2, P = Fs (lambda tr Es I + 2 mu Es) (cells note 1). Tension
-// is another law beside it.
+// Elastic surface of Gurtin and Murdoch with a skin of the St.Venant-Kirchhoff type: w = lambda/2
+// (tr Es)^2 + mu tr Es^2, P = Fs (lambda tr Es I + 2 mu Es) (cells note 1). Tension is a separate
+// law.
 #include "meniscus/physics/surface_registry.hpp"
 
 #include <algorithm>

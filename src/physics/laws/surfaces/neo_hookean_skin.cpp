@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elastic surface of the neo-Hookean type, for large strains: w = mu/2 (tr Cs - 2 - 2 ln Js) +
-// lambda/2 (ln Js)^2, P = mu Fs + (lambda ln Js - mu) e (cells note 1). Tension is another law
-// beside it.
+// lambda/2 (ln Js)^2, P = mu Fs + (lambda ln Js - mu) e (cells note 1). Tension is a separate law.
 #include "meniscus/physics/surface_registry.hpp"
 
 #include <algorithm>
@@ -25,7 +24,7 @@ struct NeoHookeanSkin {
     return std::min(mu, lambda + 2 * mu);
   }
 
-  /// tr Cs - 2 = 2 tr Es.
+  /// Energy per reference area; uses tr Cs - 2 = 2 tr Es.
   template <class T>
   T energy_density(const SurfaceState<T>& s) const {
     const T log_stretch = log1p(s.stretch - 1.0);

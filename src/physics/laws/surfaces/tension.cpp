@@ -20,7 +20,7 @@ struct Tension {
     return gamma * s.stretch;
   }
 
-  /// dw/dF = gamma Js (I - n n) F^-T = gamma (Js/J) (cof F - m (m . cof F) / Js^2).
+  /// The stress P = dw/dF = gamma Js (I - n n) F^-T = gamma (Js/J) (cof F - m (m . cof F) / Js^2).
   template <class T>
   [[gnu::always_inline]] Tensor<T> stress(const SurfaceState<T>& s, T weight) const {
     const T factor = gamma * weight * s.stretch / (1.0 + volume_change(s.H));

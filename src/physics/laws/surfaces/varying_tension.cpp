@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surface tension that varies with the material point or with the place, and with time (cells
-// note 3): f_A = - sum_q gamma da e grad N_A. Of material points it is the gradient of the energy
-// sum gamma da; of places it is not, and what the outside does, sum da Dgamma/Dt, is booked as
-// external work.
+// Surface tension that varies with the material point or the position, and with time (cells note
+// 3): f_A = - sum_q gamma da e grad N_A. If it depends on material points only, the force is the
+// gradient of the energy sum gamma da. If it depends on positions, it is not, and the external work
+// sum da Dgamma/Dt is booked.
 #include "input/expression.hpp"
 #include "meniscus/physics/surface_registry.hpp"
 #include "parallel/divided.hpp"
@@ -89,7 +89,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
     });
   }
 
-  /// The last force was that of this motion.
+  /// Accepts the step. The last computed force must belong to this motion.
   void commit(const Motion&) override {
     if (changes_) last_ = now_;
   }
@@ -145,7 +145,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
   struct Points {
     std::vector<Real> gamma, area;
 
-    /// In whole groups of four.
+    /// Sets the size, rounded up to whole groups of four.
     void resize(std::size_t points) {
       gamma.assign((points + 3) / 4 * 4, 0.0);
       area = gamma;
@@ -159,7 +159,8 @@ class VaryingTension final : public ForceTerm, public VariedTension {
     }
   };
 
-  /// One thread: formulas take turns anyway.
+  /// Evaluates the tension at all points. One thread suffices, because a formula is evaluated by
+  /// one thread at a time.
   void evaluate(const Motion& motion, std::vector<Real>& gamma) const {
     const NodalVector* u = motion.u.data() + body_.first;
     for (Index q = 0; q < surface_.points.rows.size(); ++q) {
@@ -172,7 +173,8 @@ class VaryingTension final : public ForceTerm, public VariedTension {
     }
   }
 
-  /// sum of the mean area times the change of the tension since the last step that stands.
+  /// External work: the sum of the mean area times the change of the tension since the last
+  /// accepted step.
   Real supplied() {
     if (!begun_) {
       last_ = now_;
@@ -186,7 +188,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
   const Body<D>& body_;
   Expression formula_;
   bool of_place_;
-  bool changes_;  // gamma at a point of the surface
+  bool changes_;  // true if gamma at a surface point changes in time
   bool begun_ = false;
   SurfaceRule<D> surface_;
   ForceWindows windows_;
