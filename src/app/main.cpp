@@ -231,92 +231,101 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
   return fmt::format("'{}' is no command; {}", given, allowed_names(given, names));
 }
 
-int dispatch(int argc, char** argv) {
-  CLI::App app("Meniscus: a meshfree simulator of drops, solids and cells");
-  app.require_subcommand(1);
-  const std::string exit_codes =
-      "Exit codes: 0 ok, 1 internal error, 2 usage, 3 input, 4 numerical failure, 5 files,\n"
-      "7 an expectation of the scene or study was missed, 128 + n stopped by signal n after a "
-      "checkpoint\n"
-      "(130 Ctrl-C, 143 SIGTERM; SIGHUP, SIGUSR1 and SIGXCPU too; 142 the limit on wall-clock "
-      "time).\n"
-      "A second signal ends at once.";
-  app.footer(exit_codes);
-  app.set_version_flag("--version", version_text, "as the command version");
+constexpr const char* exit_codes =
+    "Exit codes: 0 ok, 1 internal error, 2 usage, 3 input, 4 numerical failure, 5 files,\n"
+    "7 an expectation of the scene or study was missed, 128 + n stopped by signal n after a "
+    "checkpoint\n"
+    "(130 Ctrl-C, 143 SIGTERM; SIGHUP, SIGUSR1 and SIGXCPU too; 142 the limit on wall-clock "
+    "time).\n"
+    "A second signal ends at once.";
+
+/// The command line: its commands with their options, and the requests that they fill.
+struct CommandLine {
+  CLI::App app{"Meniscus: a meshfree simulator of drops, solids and cells"};
   RunRequest request;
-  request.command_line = portable_command_line(argc, argv);
-  std::string file;
-
-  CLI::App* run_command = app.add_subcommand("run", "run a scene");
-  add_scene_options(*run_command, request);
-  add_run_options(*run_command, request);
-  CLI::App* check_command = app.add_subcommand("check", "do everything short of running");
-  add_scene_options(*check_command, request);
-  CLI::App* keys_command = app.add_subcommand("keys", "print every key of a scene");
   KeysRequest keys_request;
-  add_keys_options(*keys_command, keys_request);
-  CLI::App* info_command =
-      app.add_subcommand("info", "print what is in a result file or checkpoint");
-  info_command->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")
-      ->required()
-      ->check(not_empty());
-  // meniscus-study parses the options of this command, including --help.
-  CLI::App* study_command =
-      app.add_subcommand("study", "error, observed order, time and memory of a family of methods");
-  study_command->prefix_command()->set_help_flag();
-  // Python scripts parse the options of `plot` and `report`.
-  CLI::App* plot_command =
-      app.add_subcommand("plot", "pictures or a movie of a run or study: meniscus plot DIR");
-  plot_command->prefix_command()->set_help_flag();
-  CLI::App* report_command =
-      app.add_subcommand("report", "one page about a run: meniscus report DIR");
-  report_command->prefix_command()->set_help_flag();
-  CLI::App* help_command = app.add_subcommand("help", "print a topic of the guide");
-  std::string topic;
-  help_command->add_option("TOPIC", topic, "contact, units, restart, ...; a list if not given");
-  CLI::App* new_command =
-      app.add_subcommand("new", "write a scene to begin with, as one of the gallery, explained");
   NewRequest new_request;
-  add_new_options(*new_command, new_request);
-  CLI::App* sweep_command =
-      app.add_subcommand("sweep", "run a scene with all combinations of values of some keys");
   SweepRequest sweep_request;
-  add_sweep_options(*sweep_command, sweep_request);
-  CLI::App* completion_command =
-      app.add_subcommand("completion", "print the completion of bash for this program");
-  CLI::App* manual_command = app.add_subcommand("manual", "print the manual page, for man");
-  CLI::App* version_command = app.add_subcommand("version", "print version and build");
+  std::string file, topic;
+  CLI::App *run, *check, *keys, *info, *study, *plot, *report, *help, *begin, *sweep, *completion,
+      *manual, *version;
 
-  if (const auto refusal = unknown_command(app, argc, argv)) {
+  CommandLine() {
+    app.require_subcommand(1);
+    app.footer(exit_codes);
+    app.set_version_flag("--version", version_text, "as the command version");
+    run = app.add_subcommand("run", "run a scene");
+    add_scene_options(*run, request);
+    add_run_options(*run, request);
+    check = app.add_subcommand("check", "do everything short of running");
+    add_scene_options(*check, request);
+    keys = app.add_subcommand("keys", "print every key of a scene");
+    add_keys_options(*keys, keys_request);
+    info = app.add_subcommand("info", "print what is in a result file or checkpoint");
+    info->add_option("FILE", file, "run.h5, a checkpoint, or the directory of a run")
+        ->required()
+        ->check(not_empty());
+    study = add_other("study", "error, observed order, time and memory of a family of methods");
+    plot = add_other("plot", "pictures or a movie of a run or study: meniscus plot DIR");
+    report = add_other("report", "one page about a run: meniscus report DIR");
+    help = app.add_subcommand("help", "print a topic of the guide");
+    help->add_option("TOPIC", topic, "contact, units, restart, ...; a list if not given");
+    begin =
+        app.add_subcommand("new", "write a scene to begin with, as one of the gallery, explained");
+    add_new_options(*begin, new_request);
+    sweep = app.add_subcommand("sweep", "run a scene with all combinations of values of some keys");
+    add_sweep_options(*sweep, sweep_request);
+    completion = app.add_subcommand("completion", "print the completion of bash for this program");
+    manual = app.add_subcommand("manual", "print the manual page, for man");
+    version = app.add_subcommand("version", "print version and build");
+  }
+
+ private:
+  /// A command of another program, whose options, help included, are read there.
+  CLI::App* add_other(const char* name, const char* meaning) {
+    CLI::App* command = app.add_subcommand(name, meaning);
+    command->prefix_command()->set_help_flag();
+    return command;
+  }
+};
+
+/// Runs the command that was parsed; returns the exit code.
+int execute(const CommandLine& line, char** argv) {
+  if (line.run->parsed() || line.check->parsed() || line.sweep->parsed()) begin_with_settings(argv);
+  if (line.run->parsed()) return run_with_ranks(line.request, argv);
+  if (line.check->parsed()) check(line.request);
+  if (line.study->parsed()) hand_over_to_studies(argv);
+  if (line.plot->parsed()) hand_over_to_python("plot", argv);
+  if (line.report->parsed()) hand_over_to_python("report", argv);
+  if (line.keys->parsed()) print_reference(line.keys_request);
+  if (line.info->parsed()) print_text(describe_file(line.file));
+  if (line.version->parsed()) say("{}\n", version_text());
+  if (line.help->parsed()) print_help(line.topic, line.app);
+  if (line.sweep->parsed()) return sweep(line.sweep_request);
+  if (line.completion->parsed()) print_text(bash_completion(texts_of(line.app)));
+  if (line.manual->parsed())
+    print_text(manual_page(texts_of(line.app), build().version, line.app.get_description() + ".",
+                           exit_codes));
+  require_printed();
+  return exit_ok;
+}
+
+int dispatch(int argc, char** argv) {
+  CommandLine line;
+  line.request.command_line = portable_command_line(argc, argv);
+  if (const auto refusal = unknown_command(line.app, argc, argv)) {
     print_complaint(*refusal);
     return exit_usage;
   }
   try {
-    app.parse(argc, argv);
-    if (launch().size > 1 && !run_command->parsed())
+    line.app.parse(argc, argv);
+    if (launch().size > 1 && !line.run->parsed())
       throw InputError("several ranks can only run a scene: mpirun ... meniscus run SCENE");
-    if (new_command->parsed()) write_new_scene(new_request);
+    if (line.begin->parsed()) write_new_scene(line.new_request);
   } catch (const CLI::ParseError& e) {
-    return answered(app, e);
+    return answered(line.app, e);
   }
-  if (run_command->parsed() || check_command->parsed() || sweep_command->parsed())
-    begin_with_settings(argv);
-  if (run_command->parsed()) return run_with_ranks(request, argv);
-  if (check_command->parsed()) check(request);
-  if (study_command->parsed()) hand_over_to_studies(argv);
-  if (plot_command->parsed()) hand_over_to_python("plot", argv);
-  if (report_command->parsed()) hand_over_to_python("report", argv);
-  if (keys_command->parsed()) print_reference(keys_request);
-  if (info_command->parsed()) print_text(describe_file(file));
-  if (version_command->parsed()) say("{}\n", version_text());
-  if (help_command->parsed()) print_help(topic, app);
-  if (sweep_command->parsed()) return sweep(sweep_request);
-  if (completion_command->parsed()) print_text(bash_completion(texts_of(app)));
-  if (manual_command->parsed())
-    print_text(
-        manual_page(texts_of(app), build().version, app.get_description() + ".", exit_codes));
-  require_printed();
-  return exit_ok;
+  return execute(line, argv);
 }
 
 }  // namespace

@@ -75,6 +75,20 @@ std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& l
   return std::nullopt;
 }
 
+/// After a numerical failure: logs the cause and writes what is known to be right. Returns the exit
+/// code.
+template <int D>
+int end_failed(const SolveError& error, bool quiet, Recorder<D>& recorder, RunLog& log) {
+  log.error(error.what());
+  if (!ranks().all_come()) {  // no more collective calls from here on
+    keep_complaint(error.what());
+    return exit_numerical;
+  }
+  repeat_warnings(quiet, log);
+  recorder.write_last_good_frame();
+  return exit_numerical;
+}
+
 /// Makes the run and records it in its directory, which is already open.
 template <int D>
 int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance& origin,
@@ -110,14 +124,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
     signal = interruption.requested();
   } catch (const SolveError& e) {
     progress.finish();
-    log.error(e.what());
-    if (!ranks().all_come()) {  // no more collective calls from here on
-      keep_complaint(e.what());
-      return exit_numerical;
-    }
-    repeat_warnings(request.quiet, log);
-    recorder.write_last_good_frame();
-    return exit_numerical;
+    return end_failed(e, request.quiet, recorder, log);
   }
   progress.finish();
   if (!has_begun) {

@@ -9,6 +9,15 @@
 #include <bit>
 
 namespace meniscus {
+
+/// Points of a facet, one per lane, with their normals times weights.
+template <int D>
+struct FourFacetPoints {
+  std::array<Lanes, D> X;
+  std::array<Lanes, 4> dA;
+  int count;
+};
+
 namespace {
 
 /// Relative differences below this are rounding.
@@ -88,14 +97,6 @@ void fill_up(CellSamples<D>& samples) {
     samples.key.emplace_back().fill(-1);
   }
 }
-
-/// Points of a facet, one per lane, with their normals times weights.
-template <int D>
-struct FourFacetPoints {
-  std::array<Lanes, D> X;
-  std::array<Lanes, 4> dA;
-  int count;
-};
 
 /// Appends points that integrate polynomials exactly over a facet of the octant at `corner`: the
 /// end of direction k, or, if `outer`, its beginning on the boundary of the body.
@@ -264,14 +265,16 @@ void NodalCells<D>::sample_facet(Index node, std::span<const FacetPart> parts,
   missing_of_facet(parts, Sharing::parts, samples);
 }
 
+/// Sets the points of the last facet of `samples`, in ascending order and with their centre.
+/// `exact` gets Gauss points for the exact moments of the facet, unless the points themselves are
+/// exact.
 template <int D>
-Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing sharing,
-                                     CellSamples<D>& samples) const {
+void NodalCells<D>::gather_facet_points(std::span<const FacetPart> parts, Sharing sharing,
+                                        std::vector<FourFacetPoints<D>>& exact,
+                                        CellSamples<D>& samples) const {
   auto& facet = samples.facets.back();
   auto& points = samples.facet_points;
   points.resize(facet.begin);
-  thread_local std::vector<FourFacetPoints<D>> exact;
-  exact.clear();
   const bool outer = facet.neighbor == no_neighbor;
   facet.exact = !outer && are_even(parts, parts.front().k);
   if (sharing == Sharing::whole) fill_up(samples);
@@ -304,8 +307,17 @@ Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing s
   facet.centre.setZero();
   for (const auto& point : own_points) facet.centre += samples.X[point.number];
   facet.centre /= static_cast<Real>(own_points.size());
-  if (facet.exact) return 0;
+}
 
+template <int D>
+Real NodalCells<D>::missing_of_facet(std::span<const FacetPart> parts, Sharing sharing,
+                                     CellSamples<D>& samples) const {
+  thread_local std::vector<FourFacetPoints<D>> exact;
+  exact.clear();
+  gather_facet_points(parts, sharing, exact, samples);
+  auto& facet = samples.facets.back();
+  if (facet.exact) return 0;
+  const std::span own_points(samples.facet_points.data() + facet.begin, facet.end - facet.begin);
   std::array<Lanes, std::tuple_size_v<typename CellSamples<D>::template Missing<3>>> missing;
   missing.fill(Lanes::zero());
   const auto add = [&](const Vec<D>& X, Lanes dA) {  // a lane per component

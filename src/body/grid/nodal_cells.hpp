@@ -79,6 +79,9 @@ struct CellSamples {
   }
 };
 
+template <int D>
+struct FourFacetPoints;  // in cell_samples.cpp
+
 /// Volumes, centroids, covariances and quadratures of the nodal cells of a grid, by node number.
 template <int D>
 class NodalCells {
@@ -132,6 +135,8 @@ class NodalCells {
   /// Fill the samples. Return the largest difference from the exact moments, relative to their
   /// size.
   Real missing_of_volume(Index node, Sharing sharing, CellSamples<D>& samples) const;
+  void gather_facet_points(std::span<const FacetPart> parts, Sharing sharing,
+                           std::vector<FourFacetPoints<D>>& exact, CellSamples<D>& samples) const;
   Real missing_of_facet(std::span<const FacetPart> parts, Sharing sharing,
                         CellSamples<D>& samples) const;
   void facet_points(Index node, CellQuadrature<D>& q) const;

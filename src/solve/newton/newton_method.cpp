@@ -260,6 +260,16 @@ typename NewtonMethod<D>::Solution NewtonMethod<D>::solve(const Start& start) {
   return solution;
 }
 
+/// Limits the direction to a few spacings; returns the factor by which it was too long, or 1.
+template <int D>
+Real NewtonMethod<D>::shorten_direction() {
+  constexpr Real longest = 2;  // in spacings
+  const Real length = largest(s_) / (longest * spacing_);
+  if (!(length > 1)) return 1;
+  for (NodalVector& w : s_) w /= length;
+  return length;
+}
+
 template <int D>
 void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& point) {
   const Real floor = std::max(start.idle, 1e-18 * preconditioner_->elements().energy_scale());
@@ -310,12 +320,7 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
       leave_saddle();
       decrement = 0;
     }
-    constexpr Real longest = 2;  // in spacings
-    const Real length = largest(s_) / (longest * spacing_);
-    if (length > 1) {
-      for (NodalVector& w : s_) w /= length;
-      decrement /= length;
-    }
+    decrement /= shorten_direction();
     if (search(start.time, point, decrement)) continue;
     if (small) return;  // the energy is flat to the last digit
     if (step_ && solution.iterations > 0)

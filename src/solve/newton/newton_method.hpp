@@ -99,6 +99,7 @@ class NewtonMethod {
   /// Line search: u += a s_ with a = 1, 1/2, ... until the potential decreases by a given fraction
   /// of the expected decrease. Returns false if it never does.
   bool search(Real time, Point& point, Real decrement);
+  Real shorten_direction();
   void iterate(const Start& start, Solution& solution, Point& point);
   /// Sets s_ along p_, in the downhill direction.
   void leave_saddle();

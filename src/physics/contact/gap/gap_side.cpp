@@ -82,6 +82,34 @@ Real GapForces<D>::force_on_facets(int i) const {
   return sum;
 }
 
+namespace {
+
+/// Adds the forces of the points to the corners of the facets they act on, and finds the smallest
+/// gap. Sequential, since many points pull the same corner.
+template <int D>
+void pull_corners(const GapSide<D>& side, std::span<const Index> active, GapForces<D>& forces) {
+  std::fill(forces.pull.begin(), forces.pull.end(), Vec<D>::Zero());
+  forces.gap = unbounded;
+  forces.near.clear();
+  for (const Index c : active)
+    for (int lane = 0; lane < side.points.points_in(c); ++lane) {
+      const Index q = c * Lanes::width + lane;
+      const auto& foot = at(forces.foot, q);
+      if (foot.facet < 0) continue;
+      if (forces.near.empty() || forces.near.back() != c) forces.near.push_back(c);
+      if (foot.distance < forces.gap) {
+        forces.gap = foot.distance;
+        forces.nearest = q;
+      }
+      Vec<D> T;
+      for (int i = 0; i < D; ++i) T[i] = at(forces.T, c * D + i)[lane];
+      for (std::size_t k = 0; k < D; ++k)
+        at(forces.pull, side.facets.corners_of(foot.facet)[k]) += foot.share[k] * T;
+    }
+}
+
+}  // namespace
+
 template <int D>
 void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
                  const Motion& motion, const Division& division, GapForces<D>& forces) {
@@ -132,25 +160,7 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
       },
       [&](Index k) { return OfCluster<D>(forces, at(active, k)); },
       [&](Index k, const OfCluster<D>& of_other) { of_other.put(at(active, k), forces); }, 4);
-  // Sequential, since many points pull the same corner.
-  std::fill(forces.pull.begin(), forces.pull.end(), Vec<D>::Zero());
-  forces.gap = unbounded;
-  forces.near.clear();
-  for (const Index c : active)
-    for (int lane = 0; lane < side.points.points_in(c); ++lane) {
-      const Index q = c * Lanes::width + lane;
-      const auto& foot = at(forces.foot, q);
-      if (foot.facet < 0) continue;
-      if (forces.near.empty() || forces.near.back() != c) forces.near.push_back(c);
-      if (foot.distance < forces.gap) {
-        forces.gap = foot.distance;
-        forces.nearest = q;
-      }
-      Vec<D> T;
-      for (int i = 0; i < D; ++i) T[i] = at(forces.T, c * D + i)[lane];
-      for (std::size_t k = 0; k < D; ++k)
-        at(forces.pull, side.facets.corners_of(foot.facet)[k]) += foot.share[k] * T;
-    }
+  pull_corners<D>(side, active, forces);
 }
 
 template <int D>
