@@ -12,7 +12,7 @@
     run.history["drop.aspect"]                    # over run.history["time"]
     pandas.DataFrame(run.history)                 # if you like
 
-A run whose bodies were referred anew has files run.h5, run.1.h5, ...: its frames follow each other here,
+A run whose bodies were remapped has files run.h5, run.1.h5, ...: its frames follow each other here,
 and `body(name, frame)` is the body in the reference of that frame. It may still be going on: what is
 there when it is opened is read.
 """

@@ -59,8 +59,8 @@ struct Remaps final : Load<D> {
 
 const bool registered =
     register_load<Remaps>("remap", Stage::volume,
-                          "a body that flows far is referred anew to where it is: its steps "
-                          "are long again, as if it had just begun");
+                          "a body that flows far is remapped: its present shape becomes the "
+                          "reference, and steps are long again");
 
 }  // namespace
 }  // namespace meniscus::remap_load

@@ -190,7 +190,7 @@ typename Epochs<D>::Remapped Epochs<D>::advance() {
       new_epoch({{planned.body, seeds(planned, b)}});
       result.new_epoch = true;
       result.notes.push_back(fmt::format(
-          "{} is referred anew, epoch {}: the energy changes by {:.3g} {}", what,
+          "{} is remapped, epoch {}: the energy changes by {:.3g} {}", what,
           simulation_->state().epoch, simulation_->state().books.remapped - ledger.remapped,
           scene_->symbol_of_sum(dimension::energy)));
       if (const auto doubt = doubt_of_remap(*simulation_, ledger, audit.energy_scale))

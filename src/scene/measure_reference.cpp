@@ -108,7 +108,7 @@ void print_measures(std::ostream& out) {
   out << "Measures, numbers over time: the names of them in output.measures and in \"of\" of\n"
          "[expect.*]. BODY is the name of a body, NAME that of a contact, probe, face, ... Units "
          "are\n"
-         "those of SI; in the plane a sum over a body is per unit depth. A name that a scene does "
+         "those of SI; in 2D a sum over a body is per unit depth. A name that a scene does "
          "not\n"
          "have is refused with a list of those it has.\n";
   std::size_t widest = 0, widest_unit = 0;

@@ -86,7 +86,7 @@ void require_remappable(const Scene<D>& scene, const std::string& body) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (const std::string& why = scene.bodies[b].kept_reference;
         scene.system.bodies[b].name == body && !why.empty())
-      throw InputError(fmt::format("body '{}' cannot be referred anew: {}", body, why));
+      throw InputError(fmt::format("body '{}' cannot be remapped: {}", body, why));
 }
 
 template <int D>

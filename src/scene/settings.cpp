@@ -135,7 +135,7 @@ Rows<BodySettings> BodySettings::rows() {
                  "which length support_factor multiplies: the distance to the neighbour of rank "
                  "support_rank, which grows at faces, or the mean diagonal of the cells around the "
                  "particle, which does not; in a lattice both are the same. automatic: cells for "
-                 "solids in 3D and nematics in the plane, else neighbours",
+                 "solids in 3D and nematics in 2D, else neighbours",
                  "automatic"),
       integer_row("support_rank", &S::support_rank, {0, 200},
                   "rank of that neighbour; 0: 20 in 3D, 8 in 2D", 0),

@@ -67,7 +67,7 @@ void stretched(HardCases& cases, bool full) {
       cases.require(name, "volume / reference volume", outcome.measure("body.volume") / 4.18879,
                     {0.988, 0.992});
     }
-  const std::string flat = "drop 1 : 4 in the plane";
+  const std::string flat = "drop 1 : 4 in 2D";
   is_round(cases, flat,
            cases.stays_stable(flat,
                               drop(fmt::format("shape = \"ellipse\"\nsemi_axes = [0.5, 2]\ncore = "

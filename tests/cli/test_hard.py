@@ -199,7 +199,7 @@ TABLE = [
     ("start inside", head(1) + disk("small", (0.1, 0), 0.4) + TARGET + contact(["small", "large"], sigma0=0.1), 3,
      "is inside of body"),
     ("points that miss each other", head(0.45) + THROWN + TARGET +
-     contact(["small", "large"], "points = 2", sigma0=0.001), 3, "unfelt"),
+     contact(["small", "large"], "points = 2", sigma0=0.001), 3, "go through each other"),
     ("through a surface", head(0.4) + disk("left", (-1.2, 0), 1, (1.5, 0), core=6) +
      disk("right", (1.2, 0.3), 1, (-1.5, 0), core=6) + contact(["left", "right"], "points = 2", sigma0=0.05), 4,
      "particle"),

@@ -96,8 +96,8 @@ TEST(ContactResolution, FollowsGapAndFacet) {
   EXPECT_EQ(wide.enough_points(), 2);
   EXPECT_LE(rigid.enough_points(), 4);
   EXPECT_EQ(hopeless.enough_points(), 8);
-  EXPECT_TRUE(hopeless.unfelt(8));
-  EXPECT_FALSE(coarse.unfelt(1));
+  EXPECT_TRUE(hopeless.points_miss(8));
+  EXPECT_FALSE(coarse.points_miss(1));
 }
 
 /// An interaction without far_power(), so that all points are used at any distance.

@@ -113,11 +113,11 @@ template <int D>
 void Contact<D>::require_points_to_meet(const Assembly<D>& assembly) const {
   const ContactResolution r = resolution(assembly);
   const int chosen = points_chosen(assembly);
-  if (!r.unfelt(chosen)) return;
+  if (!r.points_miss(chosen)) return;
   throw InputError(fmt::format(
       "{}: the contact points of '{}' and '{}' are {:.3g} apart, {} per direction and facet, where "
-      "their equilibrium gap is {:.3g}: they would pass between each other unfelt; allowed are "
-      "distances up to {:.3g} (finer bodies, or an interaction of longer reach)",
+      "their equilibrium gap is {:.3g}: the bodies would go through each other without a force; "
+      "allowed are distances up to {:.3g} (finer bodies, or an interaction of longer reach)",
       this->place, bodies[0], bodies[1], r.facet / chosen, chosen, r.gap, r.longest_spacing()));
 }
 

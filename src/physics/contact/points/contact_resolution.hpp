@@ -23,7 +23,7 @@ struct ContactResolution {
   /// force.
   Real longest_spacing() const;
   /// True if two deformable bodies can pass through each other without a force.
-  bool unfelt(int points) const { return !rigid && facet / points > longest_spacing(); }
+  bool points_miss(int points) const { return !rigid && facet / points > longest_spacing(); }
 };
 
 /// A exp(-B gap/spacing). A and B come from surfaces of 96 facets with 2 to 8 Gauss points per

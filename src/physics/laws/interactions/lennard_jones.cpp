@@ -55,7 +55,7 @@ Row<Keys> beta_other_row() {
 
 Row<Keys> kernel_row() {
   return choice_row("kernel", &Keys::kernel, {"integrated", "planar"},
-                    "plane strain: phi integrated along the third axis, or phi in the plane; "
+                    "plane strain: phi integrated along the third axis, or phi in 2D; "
                     "without meaning in 3D",
                     "integrated");
 }
