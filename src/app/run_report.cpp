@@ -132,7 +132,7 @@ void report_ranks(const System<D>& system, std::int64_t steps, RunLog& log) {
                              "ghosts",
                              ranks().largest(system.halo->size()), system.size(),
                              ranks().largest(system.halo->ghosts()))
-               : "all ranks make their steps on all particles");
+               : "all ranks make their steps on all particles because of " + system.without_halo);
   const Traffic sent = ranks().traffic();
   const std::int64_t messages = ranks().largest(sent.messages), bytes = ranks().largest(sent.bytes),
                      memory = ranks().largest(static_cast<std::int64_t>(peak_memory())),

@@ -101,7 +101,10 @@ void Simulation<D>::share_steps() {
   scene_.system.halo.reset();
   StepReads reads(scene_.system.size());
   if (!stepper_->chooses_step()) controller_->tell_reads(reads);
-  if (stepper_->tell_reads(reads)) scene_.system.share_steps(std::move(reads));
+  if (stepper_->tell_reads(reads))
+    scene_.system.share_steps(std::move(reads));
+  else
+    scene_.system.without_halo = "solver = \"" + scene_.time.solver + "\"";
 }
 
 /// If the scene leaves the viscosity automatic, chooses explicit or implicit for the present state.

@@ -46,9 +46,11 @@ Real System<D>::steady_after() const {
 template <int D>
 void System<D>::share_steps(StepReads reads) {
   halo.reset();
-  if (ranks().alone() || !fields.empty() || !carried.empty()) return;
+  if (ranks().alone()) return;
+  without_halo = fields.empty() ? "" : "the field '" + fields.front().spec.name + "'";
   for (const auto& term : terms)
-    if (!term->tell_reads(reads)) return;
+    if (without_halo.empty() && !term->tell_reads(reads)) without_halo = term->name();
+  if (!without_halo.empty()) return;
   if (constraints) reads.particles(constraints->particles(), 0);
   std::vector<Index> first;
   std::vector<Division> division;
@@ -62,6 +64,7 @@ void System<D>::share_steps(StepReads reads) {
     reads.particles(body.at_particles.of_rows(own.begin, own.end), body.first);
   }
   halo = reads.share(std::move(owners));
+  if (!halo) without_halo = "forces that read all particles on every rank";
 }
 
 template <int D>

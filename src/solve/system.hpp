@@ -10,6 +10,7 @@
 
 #include <deque>
 #include <memory>
+#include <string>
 
 namespace meniscus {
 
@@ -25,6 +26,8 @@ struct System {
 
   /// Halo for steps on several ranks. Null if steps are made on all particles.
   std::shared_ptr<Halo> halo = {};
+  /// The reason why there is no halo, e.g. the name of a term; empty if there is a halo.
+  std::string without_halo = {};
 
   Index size() const { return static_cast<Index>(mass.size()); }
   /// Adds an unknown field with initial value zero; returns its number in Motion and Forces. If two

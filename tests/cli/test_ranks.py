@@ -417,6 +417,8 @@ class SameBits(RanksTest):
 
     def test_newton(self):
         self.assert_same_bits((2,), self.scene(BENT_SHEET))
+        self.assertIn('make their steps on all particles because of solver = "newton"',
+                      self.log("ranks2"))
 
     def test_contact_without_some_ranks(self):
         """Beside a rigid partner, a rank knows only its own points, and may have none."""
@@ -429,6 +431,9 @@ class SameBits(RanksTest):
                 self.directory = self.directory / scene
                 self.directory.mkdir()
                 self.assert_same_bits((2,), INPUTS / f"{scene}.toml", *options)
+                if scene == "nematic_drop":
+                    self.assertIn("on all particles because of the field 'director'",
+                                  self.log("ranks2"))
                 self.directory = self.directory.parent
 
     def test_one_rank(self):
