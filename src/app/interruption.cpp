@@ -37,9 +37,9 @@ Nanoseconds now() {
   return Nanoseconds{1'000'000'000} * time.tv_sec + time.tv_nsec;
 }
 
-/// Signal handler. The first signal asks the run to stop; a later one ends the program at once. The
-/// same signal within a second counts once, because `timeout` sends its signal to the program and
-/// then to the process group.
+/// Signal handler. The first signal asks the run to stop; a later one ends the program at once.
+/// Signals within one second of the first are ignored, because `timeout` sends its signal to the
+/// program and then to the process group.
 void note(int signal) {
   constexpr Nanoseconds same_request = 1'000'000'000;
   if (!caught) {

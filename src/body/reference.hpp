@@ -35,7 +35,8 @@ struct Reference {
   void archive(const Archive& a);
 };
 
-/// References by the name of the body. A body without an entry has the reference of its scene.
+/// Reference configurations by the name of the body, after remaps. A body without an entry starts
+/// from the shape that the scene describes.
 template <int D>
 using References = std::map<std::string, std::shared_ptr<const Reference<D>>>;
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace meniscus::body_force_load {
+namespace meniscus::body_force_table {
 namespace {
 
 template <int D>
@@ -42,4 +42,4 @@ const bool registered =
     register_load<BodyForce>("body_force", Stage::volume, "force per mass, e.g. gravity");
 
 }  // namespace
-}  // namespace meniscus::body_force_load
+}  // namespace meniscus::body_force_table

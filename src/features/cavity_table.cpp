@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-namespace meniscus::cavity_load {
+namespace meniscus::cavity_table {
 namespace {
 
 struct Keys {
@@ -64,4 +64,4 @@ const bool registered =
     register_load<Cavity>("cavity", Stage::surface, "what fills a closed surface");
 
 }  // namespace
-}  // namespace meniscus::cavity_load
+}  // namespace meniscus::cavity_table

@@ -3,7 +3,7 @@
 #include "measure/shape_measures.hpp"
 #include "meniscus/scene/assembly.hpp"
 
-namespace meniscus::exact_load {
+namespace meniscus::exact_table {
 namespace {
 
 template <int D>
@@ -40,4 +40,4 @@ const bool registered =
     register_load<Exact>("exact", Stage::volume, "measure: error against a known motion");
 
 }  // namespace
-}  // namespace meniscus::exact_load
+}  // namespace meniscus::exact_table

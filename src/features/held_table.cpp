@@ -15,7 +15,7 @@
 #include <cmath>
 #include <limits>
 
-namespace meniscus::held_load {
+namespace meniscus::held_table {
 namespace {
 
 /// The prescribed displacement of reference positions: a rotation about an axis and a translation,
@@ -237,4 +237,4 @@ const bool registered =
     register_load<Held>("held", Stage::surface, "a face that is held, or moved");
 
 }  // namespace
-}  // namespace meniscus::held_load
+}  // namespace meniscus::held_table

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace meniscus::probe_load {
+namespace meniscus::probe_table {
 namespace {
 
 /// Positions in the present reference of the points that were at X in the reference of the scene.
@@ -316,4 +316,4 @@ const bool registered =
     register_load<Probe>("probe", Stage::measure, "fields at a point of a body, or along a line");
 
 }  // namespace
-}  // namespace meniscus::probe_load
+}  // namespace meniscus::probe_table

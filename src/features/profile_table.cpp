@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-namespace meniscus::profile_load {
+namespace meniscus::profile_table {
 namespace {
 
 struct Profile final : Load<3> {
@@ -42,4 +42,4 @@ const bool registered = register_load_in<3, Profile>("profile", Stage::surface,
                                                      "measure: distance from a known profile (3D)");
 
 }  // namespace
-}  // namespace meniscus::profile_load
+}  // namespace meniscus::profile_table

@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-namespace meniscus::remap_load {
+namespace meniscus::remap_table {
 namespace {
 
 template <int D>
@@ -63,4 +63,4 @@ const bool registered =
                           "reference, and steps are long again");
 
 }  // namespace
-}  // namespace meniscus::remap_load
+}  // namespace meniscus::remap_table

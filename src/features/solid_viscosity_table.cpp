@@ -3,7 +3,7 @@
 #include "meniscus/scene/assembly.hpp"
 #include "physics/internal/solid_viscosity.hpp"
 
-namespace meniscus::solid_viscosity_load {
+namespace meniscus::solid_viscosity_table {
 namespace {
 
 template <int D>
@@ -35,4 +35,4 @@ const bool registered = register_load<SolidViscosity>(
     "solid_viscosity", Stage::volume, "viscous stress beside that of a material (Kelvin, Voigt)");
 
 }  // namespace
-}  // namespace meniscus::solid_viscosity_load
+}  // namespace meniscus::solid_viscosity_table

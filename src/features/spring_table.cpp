@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace meniscus::spring_load {
+namespace meniscus::spring_table {
 namespace {
 
 template <int D>
@@ -134,4 +134,4 @@ const bool registered =
     register_load<Spring>("spring", Stage::surface, "springs and dampers on a face or at a place");
 
 }  // namespace
-}  // namespace meniscus::spring_load
+}  // namespace meniscus::spring_table

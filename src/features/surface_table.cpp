@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace meniscus::surface_load {
+namespace meniscus::surface_table {
 namespace {
 
 struct Keys {
@@ -129,4 +129,4 @@ const bool registered = register_load<Surface>(
     "surface", Stage::surface, "the whole surface of a body by a law; several laws add up");
 
 }  // namespace
-}  // namespace meniscus::surface_load
+}  // namespace meniscus::surface_table

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace meniscus::surface_tension_load {
+namespace meniscus::surface_tension_table {
 namespace {
 
 struct Keys {
@@ -125,4 +125,4 @@ const bool registered = register_load<SurfaceTension>("surface_tension", Stage::
                                                       "tension of the whole surface of a body");
 
 }  // namespace
-}  // namespace meniscus::surface_tension_load
+}  // namespace meniscus::surface_tension_table

@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-namespace meniscus::traction_load {
+namespace meniscus::traction_table {
 namespace {
 
 template <int D>
@@ -68,4 +68,4 @@ const bool registered = register_load<Traction>("traction", Stage::surface,
                                                 "a force per area, or a pressure, on a face");
 
 }  // namespace
-}  // namespace meniscus::traction_load
+}  // namespace meniscus::traction_table

@@ -94,8 +94,10 @@ struct Block::Node {
     }
   }
 
-  /// Reads a key and converts its value. Returns the fallback if the key is absent; after a
-  /// problem, the fallback or else `harmless`. `allowed` ends the message about a missing key.
+  /// Reads a key and converts its value. Returns `fallback` if the key is absent. If the value is
+  /// wrong, or if the key is absent and has no fallback, notes the problem and returns `fallback`
+  /// or else `harmless`. `allowed` says in messages what values the key may have. `unit` is the
+  /// unit of the default in the list of keys.
   template <class T, class Convert>
   T read(std::string_view key, const std::string& allowed, const std::string& unit,
          const std::optional<T>& fallback, const T& harmless, Convert convert);
@@ -116,7 +118,8 @@ struct Block::Node {
   /// Notes problems in the formulas of functions. Called after the constants have been read.
   void check_functions();
 
-  /// Appends this table and its sub-tables as TOML. `header` is the full name of the table.
+  /// Appends this table and its sub-tables as TOML. `header` is the full name of the table, and
+  /// `in_array` is true for an entry of an array of tables.
   void write(std::string& toml, const std::string& header, bool in_array) const;
 };
 

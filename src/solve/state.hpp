@@ -32,7 +32,8 @@ struct Books {
   /// Adds a step of dt that ended with these powers. A part `last_share` of its heat is at the new
   /// power, the rest at the power before.
   void add(const Report& report, Real load_power, Real dt, Real last_share = 0.5);
-  /// Adds the impulse of an external force and moment that acted for the time dt.
+  /// Adds force dt to `momentum` and moment dt to `angular_momentum`. `by` holds the external force
+  /// and moment that acted for the time dt.
   void push(const Resultant& by, Real dt);
   /// Accounts for velocities that were all multiplied by a factor, as by damping.
   void scale_momenta(Real factor);

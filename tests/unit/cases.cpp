@@ -26,8 +26,9 @@ std::string nematic_drop(int D) {
   return example_heading(D) + example_ball(D, "drop") + moving(D) + example_nematic(D);
 }
 
-/// Variants for items that need more than one example, or whose forces have more properties than
-/// the forces of other loads.
+/// Additional scenes: for loads and laws that one example does not cover, and for loads whose
+/// forces have more or fewer properties than the default. `Claims` lists the properties that are
+/// tested.
 std::vector<Case> variants(int D) {
   const Claims all{true, true}, none;
   std::vector<Case> cases;

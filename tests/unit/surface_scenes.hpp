@@ -31,7 +31,8 @@ inline std::string law_of(const std::string& type, const std::string& numbers) {
   return "[[surface]]\nbody = \"b\"\n[surface.law]\ntype = \"" + type + "\"\n" + numbers;
 }
 
-/// The stretch v at which the forces do no work in a change of v; found by the secant method.
+/// Stretch v of the first body at which a uniform dilation x = v X is in equilibrium: the virtual
+/// power sum_A f_A . X_A of the forces is zero. Found by the secant method.
 template <int D>
 Real stretch_without_power(Scene<D>& scene) {
   const Body<D>& body = scene.system.bodies.front();

@@ -137,7 +137,8 @@ TEST(Containment, AStartInsideIsRefused) {
 
 TEST(Containment, PointsThatMissEachOtherAreRefused) {
   expect_end(end_of(thrown + target, both + "sigma0 = 0.001\npoints = 2\n"),
-             {"refused: ", "contact[0]", "'one' and 'two'", "go through each other", "allowed are distances"});
+             {"refused: ", "contact[0]", "'one' and 'two'", "go through each other",
+              "allowed are distances"});
 }
 
 /// The repulsion is far too weak and acts between points that miss each other.

@@ -148,7 +148,8 @@ TEST(MomentumBooks, ARemapKeepsThem) {
   EXPECT_LT(epochs.simulation().audit().angular_momentum_error(ledger), 1e-12);
 }
 
-/// A force on one particle that is missing in the report.
+/// Adds a force to particle 0 but returns an empty Report, so that the audit of momentum must find
+/// an error.
 class Ghost final : public ForceTerm {
  public:
   std::string name() const override { return "ghost"; }

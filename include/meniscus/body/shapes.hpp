@@ -39,7 +39,7 @@ struct Ellipsoid {
   Geometry<3> geometry() const;
 };
 
-/// The half of Ball with z >= 0, centred at its flat face.
+/// The half of Ball with z >= 0, or z <= 0 with `below`, centred at its flat face.
 struct HalfSphere {
   static constexpr const char* name = "half_sphere";
   static constexpr const char* meaning = "half ball above its flat face z = 0, or below it";

@@ -50,9 +50,12 @@ class CarriedField {
 
   /// Adds an energy of the field. `energy` must outlive this object.
   void add(FieldEnergy& energy) { energies_.push_back(&energy); }
+  /// Sets the displacements `u` of the body at which held_energy() and held_force() are computed.
   void hold_places(const NodalVector* u);
-  /// Sum of all energies at the fixed positions.
+  /// Sum of all energies added with add(), for the values x [particle of the body] of the field at
+  /// the positions of the last hold_places().
   Real held_energy(const NodalVector* x) const;
+  /// Sets f [particle of the body] to minus the gradient of held_energy() with respect to x.
   void held_force(const NodalVector* x, std::span<NodalVector> f) const;
 
   /// Begins a step at the displacements `u` of all particles.

@@ -188,15 +188,14 @@ class MaterialOf final : public Material<D> {
         if constexpr (std::is_same_v<Rule, CellRule<D>>)
           return std::make_unique<InternalForce<D, ReferredFluid<D, L>, Rule>>(
               body, std::move(rule), referred(body, points), std::move(surface));
-        throw InputError(fmt::format(
-            "body '{}': only integration = \"q_scni\" can be remapped", body.name));
+        throw InputError(
+            fmt::format("body '{}': only integration = \"q_scni\" can be remapped", body.name));
       }
       return force_of(body, std::move(rule), std::move(points), std::move(surface));
     } else {
       if (body.reference && !body.reference->undeformed())
         throw InputError(fmt::format(
-            "body '{}': a solid cannot be remapped, its stress depends on more than J",
-            body.name));
+            "body '{}': a solid cannot be remapped, its stress depends on more than J", body.name));
       if constexpr (std::is_same_v<Rule, CellRule<D>>)
         if (averaged)
           return force_of(body, std::move(rule),

@@ -92,7 +92,9 @@ class StressPointForce : public ForceTerm {
   Real follow_enclosed(const NodalVector* u) {
     return surface_ ? surface_->follow(Size::volume, u) / surface_->reference(Size::volume) - 1 : 0;
   }
-  /// Adds the forces of an energy with the derivative `slope` with respect to J_e.
+  /// Adds the forces -slope dJ_e/du of an energy E(J_e) to the particles of the body. J_e is the
+  /// volume inside the surface patches divided by its reference value, and `slope` is dE/dJ_e. Uses
+  /// the gradient of the last follow_enclosed(). Does nothing without patches.
   void pull_on_surface(Real slope, std::span<NodalVector> all) {
     if (surface_)
       surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));

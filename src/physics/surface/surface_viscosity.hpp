@@ -29,7 +29,8 @@ class SurfaceViscosity final : public SurfaceTerm<D, L> {
     });
     return this->report_of(said_, motion, force);
   }
-  /// The whole force is linear in the velocity. The heat is left in chunk reports and not used.
+  /// Calls add_force(), since the whole force is linear in the velocity. The caller needs no heat,
+  /// so the heat of the chunks is not summed.
   void add_viscous(const Motion& motion, Forces force) override {
     force.leave_chunks = true;
     add_force(motion, force);

@@ -332,8 +332,10 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
   }
 }
 
-/// Returns false if the equilibrium was unstable and has been left. If the method returns to it
-/// several times, its energy is flat to round-off, and it is accepted.
+/// Tests whether the equilibrium at `point` is stable. If not, moves `point` along the unstable
+/// mode and returns false, and Newton's method continues from there. Returns true if the
+/// equilibrium is stable, if `point` is a step of implicit Euler, if no lower energy is found along
+/// the mode, or after several unstable equilibria, whose energy is then flat to round-off.
 template <int D>
 bool NewtonMethod<D>::stays(Real time, Point& point, Solution& solution) {
   constexpr int often = 3;

@@ -141,7 +141,7 @@ bool Relaxation<D>::pulled(const State& state) const {
 
 /// Least eigenvalue of the stiffness at rest. Relaxation of a symmetric scene never excites modes
 /// that break the symmetry, and comes to rest at a symmetric state even if that is unstable. Empty
-/// if it cannot be computed.
+/// for fluids, for directors, for a term without potential, and for many particles.
 template <int D>
 std::optional<Real> Relaxation<D>::stability(const State& state) const {
   constexpr Index most_particles = D == 3 ? 1000 : 5000;  // their factors take a second

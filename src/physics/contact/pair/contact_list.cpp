@@ -136,7 +136,8 @@ void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const
   take_rows(own, clusters, division);
 }
 
-/// Finds the clusters of the second cloud that meet a box. Returns the radius of the largest.
+/// Finds the clusters of the second cloud that intersect `box`, and builds the neighbour search on
+/// their centres. Returns the largest radius of the clusters found.
 template <int D>
 Real ContactList<D>::find_met(const Box<D>& box, std::span<const Lanes> second) {
   Real radius = 0;

@@ -5,8 +5,9 @@
 
 namespace meniscus {
 
-/// Field per density beta2 at the distance a from the centre. S = a tangent k with the radial
-/// direction k, and grad S = tangent (I - k(x)k) + (U - (D - 1) tangent) k(x)k since div S = U.
+/// Potential U of a round rigid body with unit particle density, and the vector S with div S = U
+/// (see RigidField), at the distance a from the centre. k is the unit vector from the centre to the
+/// point: S = a tangent k and grad S = tangent (I - k(x)k) + (U - (D - 1) tangent) k(x)k.
 struct RadialField {
   Real U, tangent;
 };
@@ -28,7 +29,8 @@ class SphereField {
   Real sigma0_, R_, unit_;
 };
 
-/// The field of a cylinder normal to the plane (CGCM note 3.3).
+/// The field of an infinite cylinder of radius R at the distance a from its axis, in 2D (CGCM note
+/// 3.3). With a law that is not `integrated` along the axis it is the field of a disk.
 ///
 /// r is the distance of the point from a point of the circle. The integrals are I_p = INT_0^pi r^-p
 /// dt and J_p = INT_0^pi cos(t) r^-p dt. With the powers c r^-p of psi and phi (p = 12 and 6, less
