@@ -59,11 +59,11 @@ auto ParticleSet<D>::press(const Mat<D>& stretch, std::span<const Vec<D>> X)
 }
 
 template <int D>
-ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window,
-                            const Mat<D>& stretch)
+ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule,
+                            KernelFunction kernel_function, const Mat<D>& stretch)
     : X_(std::move(X)),
       support_(X_.size()),
-      window_(window),
+      kernel_function_(kernel_function),
       search_(NeighborSearch<D>::in_order(X_)),
       pressed_(press(stretch, X_)) {
   const OwnItems own = evenly.own_rows(size());
@@ -77,22 +77,22 @@ ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, 
 }
 
 template <int D>
-ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
+ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, Real support, KernelFunction kernel_function,
                             const Mat<D>& stretch)
     : X_(std::move(X)),
       support_(X_.size(), support),
       largest_support_(support),
-      window_(window),
+      kernel_function_(kernel_function),
       search_(NeighborSearch<D>::in_order(X_)),
       pressed_(press(stretch, X_)) {}
 
 template <int D>
-ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support, Window window,
-                            const Mat<D>& stretch)
+ParticleSet<D>::ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support,
+                            KernelFunction kernel_function, const Mat<D>& stretch)
     : X_(std::move(X)),
       support_(support.begin(), support.end()),
       largest_support_(*std::max_element(support_.begin(), support_.end())),
-      window_(window),
+      kernel_function_(kernel_function),
       search_(NeighborSearch<D>::in_order(X_)),
       pressed_(press(stretch, X_)) {}
 
@@ -169,8 +169,8 @@ void ParticleSet<D>::find_quality(std::span<const Vec<D>> points, std::span<cons
   const OwnItems own = evenly.own_rows(static_cast<Index>(found.size()));
   parallel_for(own, [&](Index batch) {
     thread_local std::vector<Candidate<D>> reaching;
-    thread_local ReproducingKernel<D> kernel(window_);
-    kernel.use(window_);
+    thread_local ReproducingKernel<D> kernel(kernel_function_);
+    kernel.use(kernel_function_);
     const Index end = std::min(count, (batch + 1) * together);
     for (Index first = batch * together, next = first; first < end; first = next) {
       std::array<Vec<D>, together> x;

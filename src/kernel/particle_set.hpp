@@ -27,20 +27,20 @@ class ParticleSet {
   };
 
   /// Sets the supports by `rule`. The stretch U is symmetric with det U = 1.
-  ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, Window window,
+  ParticleSet(std::vector<Vec<D>> X, const AdaptiveSupport& rule, KernelFunction kernel_function,
               const Mat<D>& stretch = Mat<D>::Identity());
   /// Gives all particles the same support.
-  ParticleSet(std::vector<Vec<D>> X, Real support, Window window,
+  ParticleSet(std::vector<Vec<D>> X, Real support, KernelFunction kernel_function,
               const Mat<D>& stretch = Mat<D>::Identity());
 
   /// Sets the supports to support[particle].
-  ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support, Window window,
+  ParticleSet(std::vector<Vec<D>> X, std::span<const Real> support, KernelFunction kernel_function,
               const Mat<D>& stretch = Mat<D>::Identity());
 
   Index size() const { return static_cast<Index>(X_.size()); }
   std::span<const Vec<D>> X() const { return X_; }
   std::span<const Real> support() const { return support_; }
-  Window window() const { return window_; }
+  KernelFunction kernel_function() const { return kernel_function_; }
   const NeighborSearch<D>& search() const { return search_; }
 
   /// U^-1, or null without a stretch.
@@ -107,7 +107,7 @@ class ParticleSet {
   std::vector<Real> support_;
   std::vector<Real> limit_;  // [particle]; empty without limits
   Real largest_support_ = 0;
-  Window window_;
+  KernelFunction kernel_function_;
   NeighborSearch<D> search_;
   std::optional<Pressed> pressed_;
 };

@@ -85,8 +85,9 @@ PointRows<D> group_rows(const ParticleSet<D>& particles, std::span<const Vec<D>>
 
   // The limit is known for the quadratic basis. A cubic basis is worse conditioned.
   const Real least = Degree > 2 ? 1e-6 : ParticleSet<D>::unusable_quality;
-  thread_local ReproducingKernel<D, Degree> kernel(particles.window());  // keeps its buffers
-  kernel.use(particles.window());
+  thread_local ReproducingKernel<D, Degree> kernel(
+      particles.kernel_function());  // keeps its buffers
+  kernel.use(particles.kernel_function());
   if (candidates.size() < static_cast<std::size_t>(kernel.basis_size))
     particles.require_quality(0, batch[0], body);
   kernel.evaluate(particles.kernel_places(batch), candidates, order);

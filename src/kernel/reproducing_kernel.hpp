@@ -3,8 +3,8 @@
 // evaluation points at once. The derivatives of the moment matrix are never formed (RKPM note 2.1,
 // fixed-origin form).
 #pragma once
+#include "kernel/kernel_function.hpp"
 #include "kernel/monomials.hpp"
-#include "kernel/window.hpp"
 
 #include <span>
 #include <vector>
@@ -38,8 +38,8 @@ class ReproducingKernel {
   static constexpr int basis_size = monomial_count(D, Degree);
   using BasisVector = std::array<Lanes, static_cast<std::size_t>(basis_size)>;
 
-  explicit ReproducingKernel(Window window) : window_(window) {}
-  void use(Window window) { window_ = window; }
+  explicit ReproducingKernel(KernelFunction kernel_function) : kernel_function_(kernel_function) {}
+  void use(KernelFunction kernel_function) { kernel_function_ = kernel_function; }
 
   /// Evaluates at four points (for fewer points, repeat one). Results are valid until the next
   /// call.
@@ -78,8 +78,8 @@ class ReproducingKernel {
   };
 
   template <class W>
-  void evaluate_windows(const std::array<Vec<D>, 4>& points,
-                        std::span<const Candidate<D>> candidates, Derivatives order, Real H);
+  void evaluate_functions(const std::array<Vec<D>, 4>& points,
+                          std::span<const Candidate<D>> candidates, Derivatives order, Real H);
   template <Derivatives order>
   void evaluate_order(const std::array<Vec<D>, 4>& points,
                       std::span<const Candidate<D>> candidates);
@@ -91,7 +91,7 @@ class ReproducingKernel {
   std::array<BasisVector, static_cast<std::size_t>(hessian_count(D))> second_right_hand_sides(
       const BasisVector& c, const std::array<BasisVector, D>& c_i) const;
 
-  Window window_;
+  KernelFunction kernel_function_;
   std::vector<Kernel> kernel_;  // [candidate], padded to an even number
   std::vector<Lanes> value_, gradient_, hessian_, functional_;
   std::vector<BasisVector> solved_;  // M^-1 b

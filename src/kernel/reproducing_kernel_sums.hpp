@@ -112,9 +112,9 @@ auto ReproducingKernel<D, Degree>::solve(const BasisVector& right_hand_side) con
 
 template <int D, int Degree>
 template <class W>
-void ReproducingKernel<D, Degree>::evaluate_windows(const std::array<Vec<D>, 4>& points,
-                                                    std::span<const Candidate<D>> candidates,
-                                                    Derivatives order, Real H) {
+void ReproducingKernel<D, Degree>::evaluate_functions(const std::array<Vec<D>, 4>& points,
+                                                      std::span<const Candidate<D>> candidates,
+                                                      Derivatives order, Real H) {
   std::array<Lanes, D> x;
   for (int i = 0; i < D; ++i) at(x, i) = {points[0][i], points[1][i], points[2][i], points[3][i]};
   const Real inverse_H = 1 / H;
@@ -129,7 +129,7 @@ void ReproducingKernel<D, Degree>::evaluate_windows(const std::array<Vec<D>, 4>&
       s2 += at(kernel.s, i) * at(kernel.s, i);
     }
     const Real ratio = H / c.support;
-    const WindowValue w = W::at(sqrt(s2) * ratio);
+    const KernelValue w = W::at(sqrt(s2) * ratio);
     kernel.phi = w.phi;
     if (order == Derivatives::none) continue;
     kernel.a = w.alpha * (ratio * ratio);
@@ -218,8 +218,9 @@ void ReproducingKernel<D, Degree>::evaluate_order(const std::array<Vec<D>, 4>& p
   Real H = 0;
   for (const auto& candidate : candidates) H = std::max(H, candidate.support);
   scale_of_places_ = H;
-  with_window(window_,
-              [&](auto w) { evaluate_windows<decltype(w)>(points, candidates, order, H); });
+  with_kernel_function(kernel_function_, [&](auto w) {
+    evaluate_functions<decltype(w)>(points, candidates, order, H);
+  });
   sum_moments();
   factorise_moments();
 

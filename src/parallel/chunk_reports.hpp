@@ -2,7 +2,7 @@
 // Results of a force term per chunk of rows, beside forces, and the exchange that brings those of
 // all terms to all ranks at once.
 #pragma once
-#include "parallel/force_windows.hpp"
+#include "parallel/chunk_sums.hpp"
 #include "parallel/shared_items.hpp"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct ChunkReport {
 /// The reports of all chunks of a set of rows, [chunk].
 class ChunkReports {
  public:
-  explicit ChunkReports(const ForceWindows& windows)
-      : division_(windows.division()), said_(static_cast<std::size_t>(windows.chunks())) {}
+  explicit ChunkReports(const ChunkSums& chunk_sums)
+      : division_(chunk_sums.division()), said_(static_cast<std::size_t>(chunk_sums.chunks())) {}
 
   ChunkReport& operator[](int chunk) { return at(said_, chunk); }
   Index size() const { return static_cast<Index>(said_.size()); }

@@ -6,15 +6,15 @@
 
 namespace meniscus {
 
-void StepReads::rows(ForceWindows& windows, Index first) {
-  windows.mark_touched(std::span(read_).subspan(static_cast<std::size_t>(first)));
-  sums(windows, first);
+void StepReads::rows(ChunkSums& chunk_sums, Index first) {
+  chunk_sums.mark_touched(std::span(read_).subspan(static_cast<std::size_t>(first)));
+  sums(chunk_sums, first);
 }
 
-void StepReads::sums(ForceWindows& windows, Index first) {
-  windows.mark_summed(std::span(read_).subspan(static_cast<std::size_t>(first)));
-  if (std::find(windows_.begin(), windows_.end(), &windows) == windows_.end())
-    windows_.push_back(&windows);
+void StepReads::sums(ChunkSums& chunk_sums, Index first) {
+  chunk_sums.mark_summed(std::span(read_).subspan(static_cast<std::size_t>(first)));
+  if (std::find(chunk_sums_.begin(), chunk_sums_.end(), &chunk_sums) == chunk_sums_.end())
+    chunk_sums_.push_back(&chunk_sums);
 }
 
 void StepReads::particles(std::span<const Index> numbers, Index first) {
@@ -33,7 +33,7 @@ std::shared_ptr<Halo> StepReads::share(ParticleOwners owners) {
   const auto halo = std::make_shared<Halo>(std::move(read_), std::move(owners));
   if (!halo->is_partial()) return nullptr;
   halo->keep(std::move(kept_));
-  for (ForceWindows* windows : windows_) windows->keep_to(halo);
+  for (ChunkSums* sums : chunk_sums_) sums->keep_to(halo);
   for (const auto& learn : learners_) learn(halo);
   return halo;
 }

@@ -2,7 +2,7 @@
 // The particles whose motion a rank reads in a step. The stepper and each force term register the
 // particles that they read; the halo is made from all of them (scaling note 2.3).
 #pragma once
-#include "parallel/force_windows.hpp"
+#include "parallel/chunk_sums.hpp"
 #include "parallel/halo.hpp"
 
 #include <functional>
@@ -20,11 +20,11 @@ class StepReads {
   explicit StepReads(Index particles) : read_(static_cast<std::size_t>(particles), 0) {}
 
   /// Marks the particles that the rows of this rank touch, and the particles over which it adds up
-  /// windows. Both are numbered from `first` on. `windows` gets the halo from share().
-  void rows(ForceWindows& windows, Index first);
-  /// Registers only the particles over which this rank adds up windows, for rows that read no
+  /// chunk sums. Both are numbered from `first` on. `chunk_sums` gets the halo from share().
+  void rows(ChunkSums& chunk_sums, Index first);
+  /// Registers only the particles over which this rank adds up chunk_sums, for rows that read no
   /// motion.
-  void sums(ForceWindows& windows, Index first);
+  void sums(ChunkSums& chunk_sums, Index first);
   /// Marks these particles, numbered from `first` on. They are usually the same on all ranks.
   void particles(std::span<const Index> numbers, Index first);
   /// Marks the particles begin, ..., end - 1.
@@ -41,7 +41,7 @@ class StepReads {
 
  private:
   std::vector<std::uint8_t> read_;      // [particle]
-  std::vector<ForceWindows*> windows_;  // without repetition, in order of registration
+  std::vector<ChunkSums*> chunk_sums_;  // without repetition, in order of registration
   std::vector<NodalVectors*> kept_;
   std::vector<std::function<void(const SharedHalo&)>> learners_;
 };

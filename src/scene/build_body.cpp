@@ -20,24 +20,25 @@ namespace {
 
 template <int D>
 ParticleSet<D> make_particles(const BodySettings& settings, const Geometry<D>& geometry) {
-  Window window{};
-  for (std::size_t k = 0; k < window_names.size(); ++k)
-    if (window_names[k] == settings.window) window = static_cast<Window>(k);
+  KernelFunction kernel_function{};
+  for (std::size_t k = 0; k < kernel_function_names.size(); ++k)
+    if (kernel_function_names[k] == settings.window)
+      kernel_function = static_cast<KernelFunction>(k);
   // Supports follow the mean shape of the cells in round bodies only. In bodies with edges or a
   // cavity, the shape of cells serves their walls.
   const bool round = geometry.surface->smooth() && !is_hollow(geometry);
   const Mat<D> stretch = round ? mean_stretch(geometry.grid) : Mat<D>(Mat<D>::Identity());
   if (settings.support_spacings > 0)
-    return {geometry.grid.X, settings.support_spacings * mean_spacing(geometry.grid), window,
-            stretch};
+    return {geometry.grid.X, settings.support_spacings * mean_spacing(geometry.grid),
+            kernel_function, stretch};
   if (settings.support_by == "cells")
     return {geometry.grid.X,
-            supports_by_cells(geometry.grid, stretch, settings.support_factor.value()), window,
-            stretch};
+            supports_by_cells(geometry.grid, stretch, settings.support_factor.value()),
+            kernel_function, stretch};
   typename ParticleSet<D>::AdaptiveSupport rule;
   rule.factor = settings.support_factor.value();
   if (settings.support_rank > 0) rule.rank = settings.support_rank;
-  return {geometry.grid.X, rule, window, stretch};
+  return {geometry.grid.X, rule, kernel_function, stretch};
 }
 
 /// Points at which the quality of shape functions is checked: particles, cell centres, and one

@@ -3,7 +3,7 @@
 #include "scene/settings.hpp"
 
 #include "input/optional_rows.hpp"
-#include "kernel/window.hpp"
+#include "kernel/kernel_function.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/scene/load.hpp"
@@ -16,8 +16,8 @@
 namespace meniscus {
 namespace {
 
-std::vector<std::string> windows() {
-  return {window_names.begin(), window_names.end()};
+std::vector<std::string> kernel_functions() {
+  return {kernel_function_names.begin(), kernel_function_names.end()};
 }
 
 /// True if a multiple of `every` lies in (before, now].
@@ -125,7 +125,8 @@ Rows<BodySettings> BodySettings::rows() {
                  "ones up to a sixth longer; forces differ by about 1e-7 of the stress, momentum "
                  "and angular momentum are kept as in double",
                  "double"),
-      choice_row("window", &S::window, windows(), "window function of the kernel", "cubic_spline"),
+      choice_row("window", &S::window, kernel_functions(), "kernel function of the shape functions",
+                 "cubic_spline"),
       optional_row("support_factor", &S::support_factor, dimension::none, support_factors,
                    "1.5 for solids in 3D, else 1.8",
                    "support of a particle / length of support_by; both are measured after a round "

@@ -84,7 +84,7 @@ struct Balls {
       Geometry<3> geometry = study::reference_body<3>("ball", n);
       geometry = apply_map<3>(affine_map<3>(radius * Mat<3>::Identity(), Vec<3>::Zero()),
                               std::move(geometry));
-      ParticleSet<3> particles(geometry.grid.X, {1.8, 20}, Window::cubic_spline);
+      ParticleSet<3> particles(geometry.grid.X, {1.8, 20}, KernelFunction::cubic_spline);
       *body = std::make_unique<Body<3>>(body == &first ? "first" : "second", std::move(geometry),
                                         std::move(particles));
       (*body)->mass.assign(static_cast<std::size_t>((*body)->size()), 1.0);

@@ -50,11 +50,12 @@ std::string method_of(const Use& use, Support support) {
 std::unique_ptr<Body<3>> box(int n, Real jitter, Support support) {
   Geometry<3> geometry = unit_box_geometry<3>(n, jitter);
   ParticleSet<3> particles = [&]() -> ParticleSet<3> {
-    constexpr Window window = Window::cubic_spline;
+    constexpr KernelFunction kernel_function = KernelFunction::cubic_spline;
     if (!support.by_cells)
-      return {geometry.grid.X, ParticleSet<3>::AdaptiveSupport{support.factor}, window};
+      return {geometry.grid.X, ParticleSet<3>::AdaptiveSupport{support.factor}, kernel_function};
     return {geometry.grid.X,
-            supports_by_cells<3>(geometry.grid, Mat<3>::Identity(), support.factor), window};
+            supports_by_cells<3>(geometry.grid, Mat<3>::Identity(), support.factor),
+            kernel_function};
   }();
   return box_of(std::move(geometry), std::move(particles));
 }
@@ -118,7 +119,7 @@ Measurement rounding(const std::string& method, Support support, int core) {
 Measurement curvature(const std::string& method, Support support, int core) {
   const CurvatureProblem<3> problem(reference_body<3>("ball", core), named_maps<3>().front());
   CurvatureMethod<3> by =
-      curvature_method<3>(2, support.factor, Window::cubic_spline, Places::points);
+      curvature_method<3>(2, support.factor, KernelFunction::cubic_spline, Places::points);
   by.by_cells = support.by_cells;
   Measurement m = problem.measure(by);
   m.method = method;

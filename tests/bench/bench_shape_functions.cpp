@@ -26,7 +26,7 @@ std::shared_ptr<const Cloud> ball() {
   const auto points = cell_gauss_points(geometry.grid, 1).X;
   return std::make_shared<const Cloud>(
       Cloud{{geometry.grid.X, ParticleSet<3>::AdaptiveSupport{.factor = 1.63, .rank = 20},
-             Window::cubic_spline},
+             KernelFunction::cubic_spline},
             points});
 }
 

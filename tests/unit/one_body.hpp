@@ -14,7 +14,7 @@ struct OneBody {
 
   OneBody(Geometry<D> geometry, const std::string& law, const std::string& text) {
     order_spatially(geometry);
-    ParticleSet<D> particles(geometry.grid.X, Support<D>{}, Window::cubic_spline);
+    ParticleSet<D> particles(geometry.grid.X, Support<D>{}, KernelFunction::cubic_spline);
     auto& one = system.bodies.emplace_back("body", std::move(geometry), std::move(particles));
     system.terms.push_back(internal_force<D>(one, law, text));
     system.mass = one.mass;

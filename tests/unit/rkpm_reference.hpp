@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reference values of shape functions (tests/data/rkpm.json).
 #pragma once
-#include "kernel/window.hpp"
+#include "kernel/kernel_function.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -22,13 +22,14 @@ inline std::vector<nlohmann::json> rkpm_cases(const std::string& prefix) {
   return found;
 }
 
-inline Window window_called(const std::string& name) {
-  static const std::map<std::string, Window> windows{{"cubic", Window::cubic_spline},
-                                                     {"quintic", Window::quintic_spline},
-                                                     {"quartic", Window::quartic_spline},
-                                                     {"wc2", Window::wendland_c2},
-                                                     {"wc4", Window::wendland_c4}};
-  return windows.at(name);
+inline KernelFunction function_called(const std::string& name) {
+  static const std::map<std::string, KernelFunction> functions{
+      {"cubic", KernelFunction::cubic_spline},
+      {"quintic", KernelFunction::quintic_spline},
+      {"quartic", KernelFunction::quartic_spline},
+      {"wc2", KernelFunction::wendland_c2},
+      {"wc4", KernelFunction::wendland_c4}};
+  return functions.at(name);
 }
 
 template <int D>

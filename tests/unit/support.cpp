@@ -47,9 +47,10 @@ Geometry<D> potato() {
 }
 
 template <int D>
-std::unique_ptr<Body<D>> body_of(Geometry<D> geometry, Support<D> support, Window window) {
+std::unique_ptr<Body<D>> body_of(Geometry<D> geometry, Support<D> support,
+                                 KernelFunction kernel_function) {
   order_spatially(geometry);
-  ParticleSet<D> particles(geometry.grid.X, support, window);
+  ParticleSet<D> particles(geometry.grid.X, support, kernel_function);
   std::vector<Vec<D>> probes = geometry.grid.X;
   const auto centres = cell_gauss_points(geometry.grid, 1).X;
   probes.insert(probes.end(), centres.begin(), centres.end());
@@ -131,7 +132,7 @@ Real gradient_error(ForceTerm& term, const NodalVectors& u, const NodalVectors& 
 #define INSTANTIATE(D)                                                                        \
   template Geometry<D> brick(std::vector<Real>, Real);                                        \
   template Geometry<D> potato();                                                              \
-  template std::unique_ptr<Body<D>> body_of(Geometry<D>, Support<D>, Window);                 \
+  template std::unique_ptr<Body<D>> body_of(Geometry<D>, Support<D>, KernelFunction);         \
   template std::unique_ptr<ForceTerm> internal_force(Body<D>&, const std::string&,            \
                                                      const std::string&, const Integration&); \
   template NodalVectors random_field<D>(Index, Real, unsigned);                               \

@@ -34,7 +34,7 @@ using Support = typename ParticleSet<D>::AdaptiveSupport;
 /// A body built as in a scene.
 template <int D>
 std::unique_ptr<Body<D>> body_of(Geometry<D> geometry, Support<D> support = {},
-                                 Window window = Window::cubic_spline);
+                                 KernelFunction kernel_function = KernelFunction::cubic_spline);
 
 /// Parameters of order one for every registered law, as in a scene.
 const std::map<std::string, std::string>& law_texts();

@@ -125,7 +125,7 @@ void check_facets(const NodalCells<D>& cells, Index node, const CellQuadrature<D
 template <int D>
 Inexact check(const Grid<D>& grid) {
   const NodalCells<D> cells(grid);
-  const ParticleSet<D> particles(grid.X, 2.5, Window::cubic_spline);
+  const ParticleSet<D> particles(grid.X, 2.5, KernelFunction::cubic_spline);
   Inexact inexact;
   CellQuadrature<D> q;
   CellSamples<D> samples;
@@ -155,7 +155,7 @@ TEST(CellSamples, MissNothingInABrick) {
 /// point counts once, and so does each correction of a volume or of a facet (shared by two cells).
 Real evaluations(const Grid<3>& grid) {
   const NodalCells<3> cells(grid);
-  const ParticleSet<3> particles(grid.X, 2.6, Window::cubic_spline);
+  const ParticleSet<3> particles(grid.X, 2.6, KernelFunction::cubic_spline);
   std::vector<bool> inside(grid.X.size(), true);
   for (const auto& facet : grid.facets)
     for (const Index node : facet.nodes) inside[static_cast<std::size_t>(node)] = false;

@@ -15,7 +15,7 @@ namespace {
 
 TEST(ParticleSet, SupportIsAMultipleOfTheDistanceToANeighbour) {
   const auto geometry = test::brick<3>({5, 4, 6}, 0.3);
-  const ParticleSet<3> particles(geometry.grid.X, {1.7, 20}, Window::cubic_spline);
+  const ParticleSet<3> particles(geometry.grid.X, {1.7, 20}, KernelFunction::cubic_spline);
   for (Index A = 0; A < particles.size(); ++A) {
     std::vector<Real> distance;
     for (const auto& X : particles.X()) distance.push_back((X - at(particles.X(), A)).norm());
@@ -26,7 +26,7 @@ TEST(ParticleSet, SupportIsAMultipleOfTheDistanceToANeighbour) {
 
 TEST(ParticleSet, CandidatesReachTheBall) {
   const auto geometry = test::brick<2>({9, 8}, 0.3);
-  const ParticleSet<2> particles(geometry.grid.X, {1.8, 8}, Window::cubic_spline);
+  const ParticleSet<2> particles(geometry.grid.X, {1.8, 8}, KernelFunction::cubic_spline);
   const Vec<2> centre(0.3, -1.1);
   std::vector<Candidate<2>> found;
   for (const Real radius : {0.0, 0.7}) {
@@ -48,7 +48,7 @@ TEST(ParticleSet, StretchedSupportsReachTheBall) {
   Mat<2> stretch;
   stretch << 2, 0, 0, 0.5;
   const auto geometry = test::brick<2>({9, 8}, 0.3);
-  const ParticleSet<2> particles(geometry.grid.X, 2.1, Window::cubic_spline, stretch);
+  const ParticleSet<2> particles(geometry.grid.X, 2.1, KernelFunction::cubic_spline, stretch);
   const Vec<2> centre(0.3, -1.1);
   std::vector<Candidate<2>> found;
   particles.candidates(centre, 0.7, found);
@@ -66,7 +66,7 @@ TEST(ParticleSet, StretchedSupportsReachTheBall) {
 TEST(ParticleSet, GoodSupportsAreLeftAlone) {
   const auto geometry = test::ball(4, 2);
   ParticleSet<3> particles(geometry.grid.X, ParticleSet<3>::AdaptiveSupport{},
-                           Window::cubic_spline);
+                           KernelFunction::cubic_spline);
   const std::vector<Real> before(particles.support().begin(), particles.support().end());
   EXPECT_EQ(particles.ensure_quality(geometry.grid.X, "ball"), 0);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), particles.support().begin()));
@@ -75,7 +75,7 @@ TEST(ParticleSet, GoodSupportsAreLeftAlone) {
 template <int D>
 void expect_enlargement(Geometry<D> geometry, Real support) {
   const auto points = cell_gauss_points(geometry.grid, 2).X;
-  ParticleSet<D> particles(geometry.grid.X, support, Window::cubic_spline);
+  ParticleSet<D> particles(geometry.grid.X, support, KernelFunction::cubic_spline);
   EXPECT_THROW(build_point_rows<D>(particles, points, {.value = true}, "brick"), SolveError);
   const Index enlarged = particles.ensure_quality(points, "brick");
   EXPECT_GT(enlarged, 0);
@@ -102,7 +102,7 @@ TEST(ParticleSet, OnlyParticlesNearAPoorPointAreEnlarged) {
   for (int i = 0; i < 24; ++i)
     for (int j = 0; j < 24; ++j)
       if (std::hypot(i - 5, j - 5) > 2.3 || (i == 5 && j == 5)) X.push_back(Vec<2>(i, j));
-  ParticleSet<2> particles(X, 2.3, Window::cubic_spline);
+  ParticleSet<2> particles(X, 2.3, KernelFunction::cubic_spline);
   const Index enlarged = particles.ensure_quality(X, "plate");
   EXPECT_GT(enlarged, 0);
   for (Index A = 0; A < particles.size(); ++A)
@@ -127,8 +127,8 @@ TEST(ParticleSet, ParticlesInAPlaneAreRefused) {
     for (int j = 0; j < 8; ++j) X.push_back(Vec<3>(i, j, 3));
   for (const bool adaptive : {false, true}) {
     const std::string what =
-        adaptive ? refusal({X, ParticleSet<3>::AdaptiveSupport{}, Window::cubic_spline})
-                 : refusal({X, 2.6, Window::cubic_spline});
+        adaptive ? refusal({X, ParticleSet<3>::AdaptiveSupport{}, KernelFunction::cubic_spline})
+                 : refusal({X, 2.6, KernelFunction::cubic_spline});
     EXPECT_NE(what.find("body 'leaf'"), std::string::npos) << what;
     EXPECT_NE(what.find("point (0, 0, 3)"), std::string::npos) << what;
     EXPECT_NE(what.find(" neighbours"), std::string::npos) << what;
@@ -144,7 +144,7 @@ TEST(ParticleSet, ParticlesInTwoPlanesAreToldThatTheyNeedAThird) {
     for (int k = 0; k < layers; ++k)
       for (int i = 0; i < 8; ++i)
         for (int j = 0; j < 8; ++j) X.push_back(i * e + j * f + k * g);
-    const std::string what = refusal({X, 2.6, Window::cubic_spline});
+    const std::string what = refusal({X, 2.6, KernelFunction::cubic_spline});
     if (layers == 2)
       EXPECT_NE(what.find("use two layers of cells or more"), std::string::npos) << what;
     else
@@ -154,13 +154,14 @@ TEST(ParticleSet, ParticlesInTwoPlanesAreToldThatTheyNeedAThird) {
 
 TEST(ParticleSet, TooFewParticlesAreRefused) {
   const std::vector<Vec<3>> X{Vec<3>(0, 0, 0), Vec<3>(1, 0, 0), Vec<3>(0, 1, 0), Vec<3>(0, 0, 1)};
-  EXPECT_NE(refusal({X, 9.0, Window::cubic_spline}).find(": 4 neighbours"), std::string::npos);
+  EXPECT_NE(refusal({X, 9.0, KernelFunction::cubic_spline}).find(": 4 neighbours"),
+            std::string::npos);
 }
 
 TEST(ParticleSet, TwoParticlesInOnePlaceAreNoHarm) {
   std::vector<Vec<3>> X = test::brick<3>({4, 4, 4}).grid.X;
   X.push_back(X[60]);
-  ParticleSet<3> particles(X, 2.6, Window::cubic_spline);
+  ParticleSet<3> particles(X, 2.6, KernelFunction::cubic_spline);
   EXPECT_EQ(particles.ensure_quality(X, "brick"), 0);
 }
 

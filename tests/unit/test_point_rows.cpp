@@ -67,9 +67,9 @@ std::vector<Vec<D>> test_points(const Geometry<D>& geometry) {
 }
 
 template <int D>
-void expect_reproduction(const Geometry<D>& geometry, Window window,
+void expect_reproduction(const Geometry<D>& geometry, KernelFunction kernel_function,
                          test::Support<D> support = {}) {
-  const auto body = test::body_of<D>(geometry, support, window);
+  const auto body = test::body_of<D>(geometry, support, kernel_function);
   const auto points = test_points(body->geometry);
   const auto rows = build_point_rows<D>(body->particles, points, everything, "body");
   ASSERT_EQ(rows.size(), static_cast<Index>(points.size()));
@@ -83,24 +83,24 @@ void expect_reproduction(const Geometry<D>& geometry, Window window,
 TEST(Reproduction, OnBricks) {
   for (const Real jitter : {0.0, 0.25, 0.4}) {
     SCOPED_TRACE(jitter);
-    expect_reproduction<2>(test::brick<2>({9, 7}, jitter), Window::cubic_spline);
-    expect_reproduction<3>(test::brick<3>({5, 6, 4}, jitter), Window::cubic_spline);
+    expect_reproduction<2>(test::brick<2>({9, 7}, jitter), KernelFunction::cubic_spline);
+    expect_reproduction<3>(test::brick<3>({5, 6, 4}, jitter), KernelFunction::cubic_spline);
   }
 }
 
 TEST(Reproduction, OnRoundBodies) {
-  expect_reproduction<2>(test::disk(8, 4), Window::cubic_spline);
-  expect_reproduction<2>(test::potato<2>(), Window::cubic_spline);
-  expect_reproduction<3>(test::ball(4, 2), Window::cubic_spline);
-  expect_reproduction<3>(test::potato<3>(), Window::cubic_spline);
+  expect_reproduction<2>(test::disk(8, 4), KernelFunction::cubic_spline);
+  expect_reproduction<2>(test::potato<2>(), KernelFunction::cubic_spline);
+  expect_reproduction<3>(test::ball(4, 2), KernelFunction::cubic_spline);
+  expect_reproduction<3>(test::potato<3>(), KernelFunction::cubic_spline);
 }
 
-TEST(Reproduction, WithEveryWindow) {
-  // Smoother windows need larger supports.
-  for (std::size_t w = 0; w < window_names.size(); ++w) {
-    SCOPED_TRACE(std::string(window_names[w]));
-    expect_reproduction<2>(test::disk(6, 3), static_cast<Window>(w), {2.2, 8});
-    expect_reproduction<3>(test::ball(4, 2), static_cast<Window>(w), {2.1, 20});
+TEST(Reproduction, WithEveryKernelFunction) {
+  // Smoother kernels need larger supports.
+  for (std::size_t w = 0; w < kernel_function_names.size(); ++w) {
+    SCOPED_TRACE(std::string(kernel_function_names[w]));
+    expect_reproduction<2>(test::disk(6, 3), static_cast<KernelFunction>(w), {2.2, 8});
+    expect_reproduction<3>(test::ball(4, 2), static_cast<KernelFunction>(w), {2.1, 20});
   }
 }
 
@@ -117,7 +117,8 @@ template <int D>
 void expect_functions_of(const Geometry<D>& round) {
   const Geometry<D> geometry = stretched<D>(round);
   const auto make = [](const Geometry<D>& g) {
-    return ParticleSet<D>(g.grid.X, test::Support<D>{}, Window::cubic_spline, mean_stretch(g.grid));
+    return ParticleSet<D>(g.grid.X, test::Support<D>{}, KernelFunction::cubic_spline,
+                          mean_stretch(g.grid));
   };
   const ParticleSet<D> before = make(round), particles = make(geometry);
   EXPECT_EQ(before.pressed(), nullptr);
@@ -143,7 +144,7 @@ TEST(Reproduction, OfSupportsThatFollowAStretch) {
 TEST(Reproduction, DoesNotDependOnTheUnits) {
   // A drop of nanometres in SI, far from the origin.
   const auto shift = affine_map<3>(1e-9 * Mat<3>::Identity(), Vec<3>(5e-8, 0, -3e-8));
-  expect_reproduction<3>(apply_map<3>(shift, test::ball(4, 2)), Window::cubic_spline);
+  expect_reproduction<3>(apply_map<3>(shift, test::ball(4, 2)), KernelFunction::cubic_spline);
 }
 
 TEST(PointRows, AreSortedAndCompressed) {
@@ -243,7 +244,7 @@ TEST(PointRows, SecondDerivativesExistForTheCurvatureFormOnly) {
   };
   EXPECT_EQ(weak->pairs(), curvature->pairs());
   // A pair has the number 4, value 8, gradient 24, second derivatives 48 bytes; the rest are points
-  // and windows.
+  // and kernels.
   EXPECT_GT(per_pair(*curvature), 84);
   EXPECT_GT(curvature->bytes(), weak->bytes() + 48 * static_cast<std::size_t>(weak->pairs()));
   EXPECT_LT(per_pair(*weak), 28 + 8);

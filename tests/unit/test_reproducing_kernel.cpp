@@ -43,7 +43,7 @@ void expect_reference(const json& test) {
   const auto all = weighted_candidates<D>(in);
   const Vec<D> x = test::points_of<D>(json::array({in.at("x")})).front();
   const Vec<D> other = x + Vec<D>::Constant(0.1);
-  ReproducingKernel<D, Degree> kernel(test::window_called(in.at("window")));
+  ReproducingKernel<D, Degree> kernel(test::function_called(in.at("window")));
   kernel.evaluate({other, other, x, other}, all.candidates, Derivatives::second);
   for (std::size_t A = 0; A < all.first.size(); ++A) {
     const std::size_t k = all.first[A];
@@ -89,7 +89,7 @@ template <int D>
 void expect_equal_lanes() {
   const auto candidates = lattice<D>(5, 2.7);
   const Vec<D> x = Vec<D>::Constant(1.83), y = Vec<D>::Constant(2.4), edge = Vec<D>::Constant(0.0);
-  ReproducingKernel<D> alone(Window::cubic_spline), mixed(Window::cubic_spline);
+  ReproducingKernel<D> alone(KernelFunction::cubic_spline), mixed(KernelFunction::cubic_spline);
   alone.evaluate({x, x, x, x}, candidates, Derivatives::second);
   const std::array<std::array<Vec<D>, 4>, 4> batches{
       {{x, y, edge, y}, {y, x, edge, edge}, {edge, y, x, y}, {y, edge, y, x}}};
@@ -122,7 +122,8 @@ void expect_derivatives() {
        {Vec<D>(candidates[candidates.size() / 2].X), Vec<D>(Vec<D>::Constant(1.6))})
     for (int j = 0; j < D; ++j) {
       const Vec<D> step = h * Vec<D>::Unit(j);
-      ReproducingKernel<D, Degree> here(Window::quintic_spline), beside(Window::quintic_spline);
+      ReproducingKernel<D, Degree> here(KernelFunction::quintic_spline),
+          beside(KernelFunction::quintic_spline);
       here.evaluate({x, x, x, x}, candidates, Derivatives::second);
       beside.evaluate({Vec<D>(x - step), Vec<D>(x + step), x, x}, candidates, Derivatives::first);
       for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -150,7 +151,7 @@ TEST(ReproducingKernel, QualityIsZeroOrWorseWhereNothingIsDetermined) {
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)
       flat.push_back({static_cast<Index>(flat.size()), 3.0, Vec<3>(i, j, 1)});
-  ReproducingKernel<3> kernel(Window::cubic_spline);
+  ReproducingKernel<3> kernel(KernelFunction::cubic_spline);
   for (const Real z : {1.0, 1.3}) {
     const Vec<3> x(2.5, 2.5, z);
     kernel.evaluate({x, x, x, x}, flat, Derivatives::none);

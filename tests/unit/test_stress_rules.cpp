@@ -19,7 +19,7 @@ TEST(CellRule, MatchesReferenceOnALattice) {
   shape.size = shape.cells = {2, 2, 2};
   shape.corner = {0, 0, 0};
   Geometry<3> geometry = shape.geometry();
-  ParticleSet<3> particles(geometry.grid.X, 2.6, Window::cubic_spline);
+  ParticleSet<3> particles(geometry.grid.X, 2.6, KernelFunction::cubic_spline);
   const Body<3> body("lattice", std::move(geometry), std::move(particles));
   const CellRule<3> rule = build_cell_rule(body).rule;
   const auto number_at = [&](int node) {
@@ -62,7 +62,7 @@ TEST(CellRule, BelongsToTheSamplesOfACube) {
   shape.size = shape.cells = {4, 4, 4};
   shape.corner = {-2, -2, -2};
   Geometry<3> geometry = shape.geometry();
-  ParticleSet<3> particles(geometry.grid.X, 2.3, Window::cubic_spline);
+  ParticleSet<3> particles(geometry.grid.X, 2.3, KernelFunction::cubic_spline);
   const Body<3> body("lattice", std::move(geometry), std::move(particles));
   const CellRule<3> rule = build_cell_rule(body).rule;
   Index cell = 0;
@@ -77,7 +77,7 @@ TEST(CellRule, BelongsToTheSamplesOfACube) {
   const auto for_shapes = [&](const Vec<3>& x, const auto& visit) {
     std::vector<Candidate<3>> near;
     body.particles.candidates({x, x, x, x}, near);
-    ReproducingKernel<3> kernel(body.particles.window());
+    ReproducingKernel<3> kernel(body.particles.kernel_function());
     kernel.evaluate({x, x, x, x}, near, Derivatives::none);
     for (std::size_t k = 0; k < near.size(); ++k) visit(near[k].particle, kernel.value(k)[0]);
   };

@@ -405,7 +405,7 @@ TEST(LeastSpacing, IsThatOfTheClosestPairOfABody) {
   std::deque<Body<3>> bodies;
   for (const Real jitter : {0.1, 0.3}) {
     Geometry<3> geometry = test::brick<3>({5, 4, 3}, jitter);
-    ParticleSet<3> particles(geometry.grid.X, test::Support<3>{}, Window::cubic_spline);
+    ParticleSet<3> particles(geometry.grid.X, test::Support<3>{}, KernelFunction::cubic_spline);
     bodies.emplace_back("brick", std::move(geometry), std::move(particles));
   }
   Real least = unbounded;

@@ -27,7 +27,7 @@ Geometry<3> flat_cell(Real spacing, Real thickness = 0.5) {
 }
 
 ParticleSet<3> default_supports(const Geometry<3>& geometry) {
-  return {geometry.grid.X, test::Support<3>{}, Window::cubic_spline};
+  return {geometry.grid.X, test::Support<3>{}, KernelFunction::cubic_spline};
 }
 
 /// Pairs (surface point, particle on the other side of the cavity) that a kernel couples.
@@ -73,7 +73,7 @@ TEST(WallSupports, EndBeforeTheOtherSide) {
 
 TEST(WallSupports, AreNotEnlargedAcrossTheCavity) {
   const Geometry<3> geometry = flat_cell(1.2, 1.0);  // particles farther apart than the sides
-  ParticleSet<3> particles{geometry.grid.X, {1.2, 8}, Window::cubic_spline};
+  ParticleSet<3> particles{geometry.grid.X, {1.2, 8}, KernelFunction::cubic_spline};
   keep_supports_in_wall(particles, geometry);
   EXPECT_GT(particles.ensure_quality(geometry.grid.X, "cell"), 0);
   EXPECT_EQ(couplings_across(particles, geometry), 0);
@@ -101,7 +101,7 @@ Real finite_element_energy(Real fraction) {
 Deflated deflated(bool in_wall) {
   System<3> system;
   Geometry<3> geometry = flat_cell(0.977);
-  ParticleSet<3> particles{geometry.grid.X, 2.4, Window::cubic_spline};
+  ParticleSet<3> particles{geometry.grid.X, 2.4, KernelFunction::cubic_spline};
   if (in_wall) keep_supports_in_wall(particles, geometry);
   particles.ensure_quality(geometry.grid.X, "cell");
   Body<3>& body = system.bodies.emplace_back("cell", std::move(geometry), std::move(particles));

@@ -17,7 +17,7 @@ class YoungLaplace : public testing::Test {
     order_spatially(sphere);
     const std::vector<Vec<3>> places = sphere.grid.X;
     Geometry<3> twisted = apply_map<3>(twist_ellipsoid(), std::move(sphere));
-    ParticleSet<3> particles(twisted.grid.X, {2.0, 20}, Window::cubic_spline);
+    ParticleSet<3> particles(twisted.grid.X, {2.0, 20}, KernelFunction::cubic_spline);
     body_ = std::make_unique<Body<3>>("drop", std::move(twisted), std::move(particles));
     ASSERT_EQ(body_->size(), 4341);
     u_.resize(places.size());

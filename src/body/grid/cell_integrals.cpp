@@ -16,8 +16,8 @@ namespace {
 template <int D, class F>
 void for_fours(const Body<D>& body, std::span<const Vec<D>> points, NearCandidates<D>& candidates,
                F&& f) {
-  thread_local ReproducingKernel<D> kernel(body.particles.window());  // keeps its buffers
-  kernel.use(body.particles.window());
+  thread_local ReproducingKernel<D> kernel(body.particles.kernel_function());  // keeps its buffers
+  kernel.use(body.particles.kernel_function());
   for (std::size_t first = 0; first < points.size(); first += 4) {
     std::array<Vec<D>, 4> four;  // unused lanes repeat the last point
     for (std::size_t lane = 0; lane < 4; ++lane)
@@ -74,8 +74,8 @@ class MissingMoments {
 
   void add_four(std::span<const int> parts, NearCandidates<D>& candidates,
                 std::vector<VolumeIntegral>& volume, std::vector<std::vector<Flux<D>>>& facets) {
-    thread_local Kernel kernel(body_.particles.window());
-    kernel.use(body_.particles.window());
+    thread_local Kernel kernel(body_.particles.kernel_function());
+    kernel.use(body_.particles.kernel_function());
     std::array<Vec<D>, 4> centres;
     for (std::size_t lane = 0; lane < 4; ++lane)
       centres[lane] = centre(parts[std::min(lane, parts.size() - 1)]);

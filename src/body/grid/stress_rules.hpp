@@ -6,7 +6,7 @@
 #pragma once
 #include "kernel/row_sums.hpp"
 #include "numbers/tensor.hpp"
-#include "parallel/force_windows.hpp"
+#include "parallel/chunk_sums.hpp"
 
 #include <span>
 
@@ -117,7 +117,7 @@ struct CellRule {
     });
   }
 
-  ForceWindows windows(Index particles, const Division& division) const {
+  ChunkSums chunk_sums(Index particles, const Division& division) const {
     return {start, particle, particles, division};
   }
   Offset pairs() const { return start.back(); }
@@ -231,7 +231,7 @@ struct PointRule {
   }
 
   Offset pairs() const { return rows.entries(); }
-  ForceWindows windows(Index particles, const Division& division) const {
+  ChunkSums chunk_sums(Index particles, const Division& division) const {
     // Each group counts as one row.
     std::vector<Offset> group_start;
     for (Index g = 0; g < groups(); ++g) group_start.push_back(at(rows.start, g * per_group));

@@ -14,7 +14,7 @@ struct BoundarySimplices {
   std::vector<Vec<D>> X;                      ///< reference positions of the boundary particles
   std::vector<std::array<Index, D>> corners;  ///< [simplex] numbers in X
   PointRows<D> rows;                          ///< shape functions at X
-  ForceWindows windows;                       ///< of the rows
+  ChunkSums chunk_sums;                       ///< of the rows
 
   explicit BoundarySimplices(const Body<D>& body) {
     std::vector<Index> number(static_cast<std::size_t>(body.size()), -1);
@@ -26,7 +26,7 @@ struct BoundarySimplices {
     for (auto& simplex : corners)
       for (Index& A : simplex) A = at(number, A);
     rows = build_point_rows<D>(body.particles, X, {.value = true}, body.name);
-    windows = {rows.start, rows.particle, body.size(), body.division};
+    chunk_sums = {rows.start, rows.particle, body.size(), body.division};
   }
 
   /// Sets x[B] to the current positions, at the displacement coefficients u of the body. x has the
@@ -42,7 +42,7 @@ struct BoundarySimplices {
   }
   /// force_A += sum_B N_A(X_B) load_B over the particles A of the body.
   void scatter(const NodalVectors& load, std::span<NodalVector> force) {
-    windows.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
+    chunk_sums.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
       for (Index B = begin; B < end; ++B) scatter_value(rows, B, at(load, B), f);
     });
   }
@@ -56,10 +56,10 @@ struct BoundarySimplices {
   /// first particle of the body.
   void tell_reads(StepReads& reads, Index first) {
     reads.particles(rows.particle, first);
-    reads.rows(windows, first);
+    reads.rows(chunk_sums, first);
   }
   std::size_t bytes() const {
-    return rows.bytes() + windows.bytes() + X.size() * sizeof(Vec<D>) +
+    return rows.bytes() + chunk_sums.bytes() + X.size() * sizeof(Vec<D>) +
            corners.size() * sizeof(corners[0]);
   }
 };

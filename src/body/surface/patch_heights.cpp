@@ -100,14 +100,14 @@ void SurfacePatches<D>::add_height_gradient_change(const Vec<D>& along, const No
 
 template <int D>
 Real SurfacePatches<D>::followed_change(const NodalVector* du) const {
-  return windows_.division().sum(point_count(), 0.0, [&](Index q) {
+  return chunk_sums_.division().sum(point_count(), 0.0, [&](Index q) {
     return sum(gradient_of_point(q, gradient_) * value_at(rows_, q, du));
   });
 }
 
 template <int D>
 Eigen::Vector3d SurfacePatches<D>::followed_moment() const {
-  return windows_.division().sum(
+  return chunk_sums_.division().sum(
       point_count(), Eigen::Vector3d(Eigen::Vector3d::Zero()), [&](Index q) {
         return Eigen::Vector3d(cross(spatial(at(x_, q)), spatial(gradient_of_point(q, gradient_))));
       });

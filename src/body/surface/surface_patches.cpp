@@ -17,7 +17,7 @@ SurfacePatches<D>::SurfacePatches(const Body<D>& body)
       patches_(static_cast<Index>(body.geometry.grid.facets.size())) {
   number_points(body.geometry);
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
-  windows_ = {rows_.start, rows_.particle, body.size(), body.division};
+  chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
   list_shares();
   x_.assign(X_.size(), Lanes::zero());
   for (Index q = 0; q < point_count(); ++q) set_vector<D>(x_, q, at(X_, q));
@@ -132,7 +132,7 @@ Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
 
 template <int D>
 bool SurfacePatches<D>::move_points(const NodalVector* u) {
-  const Division& division = windows_.division();
+  const Division& division = chunk_sums_.division();
   if (!division.has_some()) return false;
   parallel_for(division.own_rows(point_count()), [&](Index q) { at(x_, q) = place_of(q, u); });
   if (!division.is_whole()) division.complete_rows(point_count(), x_.data(), sizeof(NodalVector));
@@ -186,7 +186,7 @@ NodalVector SurfacePatches<D>::gradient_of_point(Index point,
 template <int D>
 void SurfacePatches<D>::add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
                                          std::span<NodalVector> force) {
-  windows_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
+  chunk_sums_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index q = begin; q < end; ++q) {
       const Lanes sum = gradient_of_point(q, gradient);
       if (meniscus::sum(sum * sum) != 0) scatter_value(rows_, q, factor * sum, f);
@@ -196,7 +196,7 @@ void SurfacePatches<D>::add_to_particles(Real factor, const AlignedVector<Lanes>
 
 template <int D>
 std::size_t SurfacePatches<D>::bytes() const {
-  return rows_.bytes() + windows_.bytes() + node_.size() * sizeof(node_.front()) +
+  return rows_.bytes() + chunk_sums_.bytes() + node_.size() * sizeof(node_.front()) +
          X_.size() * sizeof(Vec<D>) + share_begin_.size() * sizeof(Index) +
          share_.size() * sizeof(Share) +
          (x_.size() + gradient_.size() + volume_gradient_.size()) * sizeof(Lanes);

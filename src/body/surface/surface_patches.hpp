@@ -72,9 +72,9 @@ class SurfacePatches {
 
   /// Registers the particles that follow() and add_gradient() read and sum into: the particles of
   /// this rank's own points. `first` is the number of the first particle of the body.
-  void tell_reads(StepReads& reads, Index first) { reads.rows(windows_, first); }
+  void tell_reads(StepReads& reads, Index first) { reads.rows(chunk_sums_, first); }
   /// Registers only the particles that add_to_particles() sums into.
-  void tell_sums(StepReads& reads, Index first) { reads.sums(windows_, first); }
+  void tell_sums(StepReads& reads, Index first) { reads.sums(chunk_sums_, first); }
 
   Index point_count() const { return static_cast<Index>(X_.size()); }
   Index patch_count() const { return patches_; }
@@ -139,7 +139,7 @@ class SurfacePatches {
   std::vector<std::array<Index, nodes>> node_;  // [patch][a]: number of a point
   std::vector<Vec<D>> X_;                       // [point]
   PointRows<D> rows_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   std::vector<Index> share_begin_;  // [point + 1]
   std::vector<Share> share_;
   Real area_, volume_;  // in the reference configuration

@@ -47,7 +47,7 @@ Director<D>::Director(const Body<D>& body, std::size_t number, const NematicBody
       numbers_(nematic.numbers),
       gradients_(
           build_point_rows<D>(body.particles, body.particles.X(), {.gradient = true}, body.name)),
-      windows_(gradients_.start, gradients_.particle, body.size(), body.division),
+      chunk_sums_(gradients_.start, gradients_.particle, body.size(), body.division),
       volume_(nematic.volume) {
   for (const Vec<D>& h : nematic.director) initial_.push_back(spatial<D>(h));
 }
@@ -80,7 +80,7 @@ void Director<D>::add_reaction(const Motion& motion, Forces force) {
   const auto x = part(std::span<const NodalVector>(at(motion.fields, number()).x));
   const auto forces_on_x = part(std::span<const NodalVector>(at(force.fields, number()).f));
   const Real lambda = numbers_.flow_alignment, nu2 = numbers_.dilatation_coupling;
-  windows_.accumulate(
+  chunk_sums_.accumulate(
       body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end, NodalVector* f) {
         for (Index A = begin; A < end; ++A) {
           const Eigen::Vector3d h = spatial(at(x, A)), S = -spatial(at(forces_on_x, A));
@@ -211,7 +211,7 @@ std::vector<MeasureSource> Director<D>::measures() {
 
 template <int D>
 std::size_t Director<D>::bytes() const {
-  return CarriedField::bytes() + gradients_.bytes() + windows_.bytes() +
+  return CarriedField::bytes() + gradients_.bytes() + chunk_sums_.bytes() +
          volume_.size() * sizeof(Real) + initial_.size() * sizeof(Eigen::Vector3d);
 }
 

@@ -38,7 +38,7 @@ class Director final : public CarriedField {
   const Body<D>& body_;
   NematicNumbers numbers_;
   PointRows<D> gradients_;  // dF_A/du_B, a row per particle
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   std::vector<Real> volume_;              // [particle]
   std::vector<Eigen::Vector3d> initial_;  // initial directors, [particle]
 };

@@ -18,9 +18,8 @@ FrankEnergy<D>::FrankEnergy(const Body<D>& body, std::size_t field, const Nemati
       numbers_(numbers),
       length_stiffness_(numbers.frank_constant / (numbers.core_length * numbers.core_length)),
       rule_(std::move(rule)),
-      cell_windows_(rule_.windows(body.size(), body.division)),
-      value_windows_(body.at_particles.start, body.at_particles.particle, body.size(),
-                     body.division),
+      cell_sums_(rule_.chunk_sums(body.size(), body.division)),
+      value_sums_(body.at_particles.start, body.at_particles.particle, body.size(), body.division),
       metric_(static_cast<std::size_t>(rule_.groups())),
       volume_(metric_.size()) {}
 
@@ -53,25 +52,24 @@ template <int D>
 Report FrankEnergy<D>::add_force(const Motion& motion, Forces force) {
   const NodalVector *u = motion.u.data() + body_.first, *h = director(motion);
   const Real K = numbers_.frank_constant;
-  cell_windows_.accumulate(
-      body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end, NodalVector* f) {
-        for (Index P = begin; P < end; ++P) {
-          Tensor<Lanes> H, slope;
-          rule_.gather(P, u, H);
-          rule_.gather(P, h, slope);
-          const Tensor<Lanes> cofactor = cofactor_of_deformation(H);
-          const Lanes J = 1.0 + volume_change(H), w = rule_.weight(P);
-          const Tensor<Lanes> Jg = slope * transpose(cofactor);
-          const Real r = excess(P, h);
-          const Lanes stretch = K / (J * J);
-          const Lanes energy =
-              0.5 * stretch * contract(Jg, Jg) + Lanes(length_stiffness_ / 4 * r * r);
-          const Tensor<Lanes> stress = add_diagonal((-stretch) * (transpose(Jg) * Jg), energy);
-          rule_.scatter(P, (-w) * (stress * cofactor), f);
-          at(metric_, P) = metric(P, cofactor, J);
-          at(volume_, P) = sum(w * J);
-        }
-      });
+  cell_sums_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end,
+                                                                       NodalVector* f) {
+    for (Index P = begin; P < end; ++P) {
+      Tensor<Lanes> H, slope;
+      rule_.gather(P, u, H);
+      rule_.gather(P, h, slope);
+      const Tensor<Lanes> cofactor = cofactor_of_deformation(H);
+      const Lanes J = 1.0 + volume_change(H), w = rule_.weight(P);
+      const Tensor<Lanes> Jg = slope * transpose(cofactor);
+      const Real r = excess(P, h);
+      const Lanes stretch = K / (J * J);
+      const Lanes energy = 0.5 * stretch * contract(Jg, Jg) + Lanes(length_stiffness_ / 4 * r * r);
+      const Tensor<Lanes> stress = add_diagonal((-stretch) * (transpose(Jg) * Jg), energy);
+      rule_.scatter(P, (-w) * (stress * cofactor), f);
+      at(metric_, P) = metric(P, cofactor, J);
+      at(volume_, P) = sum(w * J);
+    }
+  });
   if (!force.fields.empty())
     add_held_force(h, body_.part(std::span<NodalVector>(at(force.fields, field_).f)));
   return {};
@@ -133,14 +131,14 @@ Real FrankEnergy<D>::held_energy(const NodalVector* x) const {
 template <int D>
 void FrankEnergy<D>::add_held_force(const NodalVector* x, std::span<NodalVector> f) {
   const Lanes minus_K = -numbers_.frank_constant;
-  cell_windows_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
+  cell_sums_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
     for (Index P = begin; P < end; ++P) {
       Tensor<Lanes> slope;
       rule_.gather(P, x, slope);
       rule_.scatter(P, minus_K * weighted<D>(slope, at(metric_, P)), sum);
     }
   });
-  value_windows_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
+  value_sums_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
     for (Index P = begin; P < end; ++P) {
       const Lanes h = value_at(body_.at_particles, P, x);
       const Real r = meniscus::sum(h * h) - 1;
@@ -171,7 +169,7 @@ std::vector<MeasureSource> FrankEnergy<D>::measures() const {
 
 template <int D>
 std::size_t FrankEnergy<D>::bytes() const {
-  return rule_.bytes() + cell_windows_.bytes() + value_windows_.bytes() +
+  return rule_.bytes() + cell_sums_.bytes() + value_sums_.bytes() +
          metric_.size() * sizeof(Metric) + volume_.size() * sizeof(Real);
 }
 

@@ -28,7 +28,7 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   std::optional<std::string> warning(const Motion& motion) const override;
   std::vector<MeasureSource> measures() const override;
   std::size_t bytes() const override;
-  Offset pairs() const override { return 3 * cell_windows_.pairs() + 2 * value_windows_.pairs(); }
+  Offset pairs() const override { return 3 * cell_sums_.pairs() + 2 * value_sums_.pairs(); }
 
   void hold_places(const NodalVector* u) override;
   Real held_energy(const NodalVector* x) const override;
@@ -48,7 +48,7 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   NematicNumbers numbers_;
   Real length_stiffness_;  // K/eps^2
   CellRule<D> rule_;
-  ForceWindows cell_windows_, value_windows_;
+  ChunkSums cell_sums_, value_sums_;
   // For the positions set by hold_places() and the cells whose rows this rank has:
   AlignedVector<Metric> metric_;  // [cell]
   std::vector<Real> volume_;      // [cell]

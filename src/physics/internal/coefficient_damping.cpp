@@ -13,8 +13,9 @@ class CoefficientDamping final : public ForceTerm {
  public:
   CoefficientDamping(const Body<D>& body, std::span<const Real> viscosity, Real strength)
       : body_(body),
-        windows_(body.at_particles.start, body.at_particles.particle, body.size(), body.division),
-        said_(windows_),
+        chunk_sums_(body.at_particles.start, body.at_particles.particle, body.size(),
+                    body.division),
+        said_(chunk_sums_),
         slip_(static_cast<std::size_t>(body.size())),
         offset_(slip_) {
     const Real h = mean_spacing(body.geometry.grid);
@@ -32,7 +33,7 @@ class CoefficientDamping final : public ForceTerm {
   }
   void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
     const auto own = body_.part(diagonal);
-    windows_.accumulate(own, [&](int, Index begin, Index end, NodalVector* sum) {
+    chunk_sums_.accumulate(own, [&](int, Index begin, Index end, NodalVector* sum) {
       const PointRows<D>& rows = body_.at_particles;
       for (Index A = begin; A < end; ++A)
         for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
@@ -47,7 +48,7 @@ class CoefficientDamping final : public ForceTerm {
     const Rotation sums = subtract_places(motion);
     const Eigen::Vector3d w = sums.rate();
     const auto own = body_.part(std::span<NodalVector>(force));
-    windows_.accumulate(own, [&](int chunk, Index begin, Index end, NodalVector* f) {
+    chunk_sums_.accumulate(own, [&](int chunk, Index begin, Index end, NodalVector* f) {
       Real heat = 0;
       for (Index A = begin; A < end; ++A) {
         const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
@@ -69,16 +70,16 @@ class CoefficientDamping final : public ForceTerm {
   bool tell_reads(StepReads& reads) override {
     const OwnItems own = body_.division.own_rows(body_.size());
     reads.particles(body_.at_particles.of_rows(own.begin, own.end), body_.first);
-    reads.rows(windows_, body_.first);
+    reads.rows(chunk_sums_, body_.first);
     reads.when_shared([this](const auto& halo) { keep_to(halo); });
     return true;
   }
 
   std::size_t bytes() const override {
-    return windows_.bytes() + rate_.size() * sizeof(Real) +
+    return chunk_sums_.bytes() + rate_.size() * sizeof(Real) +
            (slip_.size() + offset_.size()) * sizeof(Lanes);
   }
-  Offset pairs() const override { return windows_.pairs(); }
+  Offset pairs() const override { return chunk_sums_.pairs(); }
 
  private:
   void keep_to(const std::shared_ptr<const Halo>& halo) {
@@ -123,7 +124,7 @@ class CoefficientDamping final : public ForceTerm {
   }
 
   const Body<D>& body_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   ChunkReports said_;
   std::vector<Real> rate_;  // c, [particle]
   NodalVectors slip_, offset_;

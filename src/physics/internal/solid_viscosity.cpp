@@ -14,8 +14,8 @@ class SolidViscosity final : public ForceTerm {
   SolidViscosity(const Body<D>& body, Real shear, Real volumetric)
       : body_(body),
         rule_(build_cell_rule(body).rule),
-        windows_(rule_.windows(body.size(), body.division)),
-        said_(windows_),
+        chunk_sums_(rule_.chunk_sums(body.size(), body.division)),
+        said_(chunk_sums_),
         own_(body.division.own_rows(rule_.groups())),
         shear_(shear),
         volumetric_(volumetric) {}
@@ -23,29 +23,29 @@ class SolidViscosity final : public ForceTerm {
   std::string name() const override { return "viscosity of '" + body_.name + "'"; }
   bool viscous() const override { return true; }
   bool tell_reads(StepReads& reads) override {
-    reads.rows(windows_, body_.first);
+    reads.rows(chunk_sums_, body_.first);
     return true;
   }
 
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector* u = motion.u.data() + body_.first;
     const NodalVector* v = motion.v.data() + body_.first;
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)),
-                        [&](int chunk, Index begin, Index end, NodalVector* f) {
-                          Lanes power = Lanes::zero();
-                          KeptDeformations kept(this->kept());
-                          for (Index g = begin; g < end; ++g) {
-                            Tensor<Lanes> H, F_rate;
-                            rule_.gather(g, u, H);
-                            kept.take(g, H);
-                            rule_.gather(g, v, F_rate);
-                            const Tensor<Lanes> P = stress(H, F_rate);
-                            const Lanes w = rule_.weight(g);
-                            power += w * contract(P, F_rate);
-                            rule_.scatter(g, -w * P, f);
-                          }
-                          said_[chunk].heat = sum(power);
-                        });
+    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)),
+                           [&](int chunk, Index begin, Index end, NodalVector* f) {
+                             Lanes power = Lanes::zero();
+                             KeptDeformations kept(this->kept());
+                             for (Index g = begin; g < end; ++g) {
+                               Tensor<Lanes> H, F_rate;
+                               rule_.gather(g, u, H);
+                               kept.take(g, H);
+                               rule_.gather(g, v, F_rate);
+                               const Tensor<Lanes> P = stress(H, F_rate);
+                               const Lanes w = rule_.weight(g);
+                               power += w * contract(P, F_rate);
+                               rule_.scatter(g, -w * P, f);
+                             }
+                             said_[chunk].heat = sum(power);
+                           });
     return report_of(said_, motion, force);
   }
 
@@ -54,39 +54,40 @@ class SolidViscosity final : public ForceTerm {
   }
   void add_viscous(const Motion& motion, Forces force) override {
     const NodalVector* v = motion.v.data() + body_.first;
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)),
-                        [&](int, Index begin, Index end, NodalVector* f) {
-                          for (Index g = begin; g < end; ++g) {
-                            Tensor<Lanes> F_rate;
-                            rule_.gather(g, v, F_rate);
-                            rule_.scatter(g, -rule_.weight(g) * stress(kept()[g], F_rate), f);
-                          }
-                        });
+    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)),
+                           [&](int, Index begin, Index end, NodalVector* f) {
+                             for (Index g = begin; g < end; ++g) {
+                               Tensor<Lanes> F_rate;
+                               rule_.gather(g, v, F_rate);
+                               rule_.scatter(g, -rule_.weight(g) * stress(kept()[g], F_rate), f);
+                             }
+                           });
   }
   /// The diagonal for component i: mu |F_i|^2 delta_KL + (mu + lambda) F_iK F_iL with the rows F_i
   /// of F.
   void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
-    windows_.accumulate(body_.part(diagonal), [&](int, Index begin, Index end, NodalVector* sum) {
-      for (Index g = begin; g < end; ++g) {
-        const Tensor<Lanes> F = add_diagonal(kept()[g], Lanes(1.0));
-        const Lanes w = rule_.weight(g);
-        std::array<Tensor<Lanes>, D> weighted;
-        for (int i = 0; i < D; ++i) {
-          const Lanes along = F(i, 0) * F(i, 0) + F(i, 1) * F(i, 1) + F(i, 2) * F(i, 2);
-          at(weighted, i) = Tensor<Lanes>::map([&](int K, int L) {
-            const Lanes across = (shear_ + volumetric_) * F(i, K) * F(i, L);
-            return w * (K == L ? across + shear_ * along : across);
-          });
-        }
-        rule_.add_diagonal(g, weighted, sum);
-      }
-    });
+    chunk_sums_.accumulate(
+        body_.part(diagonal), [&](int, Index begin, Index end, NodalVector* sum) {
+          for (Index g = begin; g < end; ++g) {
+            const Tensor<Lanes> F = add_diagonal(kept()[g], Lanes(1.0));
+            const Lanes w = rule_.weight(g);
+            std::array<Tensor<Lanes>, D> weighted;
+            for (int i = 0; i < D; ++i) {
+              const Lanes along = F(i, 0) * F(i, 0) + F(i, 1) * F(i, 1) + F(i, 2) * F(i, 2);
+              at(weighted, i) = Tensor<Lanes>::map([&](int K, int L) {
+                const Lanes across = (shear_ + volumetric_) * F(i, K) * F(i, L);
+                return w * (K == L ? across + shear_ * along : across);
+              });
+            }
+            rule_.add_diagonal(g, weighted, sum);
+          }
+        });
   }
 
   std::size_t bytes() const override {
-    return rule_.bytes() + windows_.bytes() + kept_.size() * sizeof(Tensor<Lanes>);
+    return rule_.bytes() + chunk_sums_.bytes() + kept_.size() * sizeof(Tensor<Lanes>);
   }
-  Offset pairs() const override { return windows_.pairs(); }
+  Offset pairs() const override { return chunk_sums_.pairs(); }
 
  private:
   /// H of each group of this rank, indexed by the group; null if not kept.
@@ -100,7 +101,7 @@ class SolidViscosity final : public ForceTerm {
 
   const Body<D>& body_;
   CellRule<D> rule_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   ChunkReports said_;
   OwnItems own_;  // groups whose rows this rank has
   Lanes shear_, volumetric_;

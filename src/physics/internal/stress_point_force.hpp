@@ -44,25 +44,25 @@ class StressPointForce : public ForceTerm {
   std::vector<FieldSource> fields() const final;
   std::vector<MeasureSource> measures() const final;
   std::size_t bytes() const final {
-    return rule_.bytes() + windows_.bytes() + laws_->bytes() + (surface_ ? surface_->bytes() : 0) +
-           kept_.size() * sizeof(Tensor<Lanes>);
+    return rule_.bytes() + chunk_sums_.bytes() + laws_->bytes() +
+           (surface_ ? surface_->bytes() : 0) + kept_.size() * sizeof(Tensor<Lanes>);
   }
   void add_viscous_diagonal(std::span<NodalVector> diagonal) final;
   bool tell_reads(StepReads& reads) final {
-    reads.rows(windows_, body_.first);
+    reads.rows(chunk_sums_, body_.first);
     if (surface_) surface_->tell_reads(reads, body_.first);
     return true;
   }
   std::optional<Failure> failure_of(Index group, const Motion& motion) const final;
-  Offset pairs() const final { return windows_.pairs() + (surface_ ? surface_->pairs() : 0); }
+  Offset pairs() const final { return chunk_sums_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
  protected:
   StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<PointLaws> laws,
                    std::unique_ptr<SurfacePatches<D>> surface)
       : body_(body),
         rule_(std::move(rule)),
-        windows_(rule_.windows(body.size(), body.division)),
-        said_(windows_),
+        chunk_sums_(rule_.chunk_sums(body.size(), body.division)),
+        said_(chunk_sums_),
         own_(body.division.own_rows(rule_.groups())),
         laws_(std::move(laws)),
         surface_(std::move(surface)),
@@ -71,12 +71,12 @@ class StressPointForce : public ForceTerm {
   const Body<D>& body() const { return body_; }
   const Rule& rule() const { return rule_; }
   PointLaws& laws() { return *laws_; }
-  int chunks() const { return windows_.chunks(); }
+  int chunks() const { return chunk_sums_.chunks(); }
   ChunkReports& said() { return said_; }
-  /// Adds the forces on the particles of this body to `all`; see ForceWindows::accumulate().
+  /// Adds the forces on the particles of this body to `all`; see ChunkSums::accumulate().
   template <class F>
   void accumulate(std::span<NodalVector> all, F&& work) {
-    windows_.accumulate(body_.part(all), work);
+    chunk_sums_.accumulate(body_.part(all), work);
   }
   /// Sum of `left` [chunk] over the chunks of all ranks that have rows of this body.
   template <class T>
@@ -127,7 +127,7 @@ class StressPointForce : public ForceTerm {
 
   const Body<D>& body_;
   Rule rule_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   ChunkReports said_;
   OwnItems own_;  // groups whose rows this rank has
   std::unique_ptr<PointLaws> laws_;

@@ -53,7 +53,7 @@ class FacePressure final : public ForceTerm {
     for (int quarter = -1; quarter < corners; ++quarter)
       functions_.push_back(exact_functions<D>(quarter));
     list_pieces();
-    windows_ = {rows_.start, rows_.particle, body.size(), body.division};
+    chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
     x_ = point_force_ = X_;
     piece_force_.resize(pieces_.size() * nodes);
     values_.resize(pieces_.size() * functions_.front().size());
@@ -100,7 +100,7 @@ class FacePressure final : public ForceTerm {
   }
   bool tell_reads(StepReads& reads) override {
     reads.particles(rows_.particle, body_.first);
-    reads.rows(windows_, body_.first);
+    reads.rows(chunk_sums_, body_.first);
     return true;
   }
   Real steady_after() const override {
@@ -120,7 +120,7 @@ class FacePressure final : public ForceTerm {
     });
   }
   std::size_t bytes() const override {
-    return rows_.bytes() + windows_.bytes() + pieces_.size() * sizeof(Piece) +
+    return rows_.bytes() + chunk_sums_.bytes() + pieces_.size() * sizeof(Piece) +
            piece_force_.size() * sizeof(Vec<D>) + 3 * X_.size() * sizeof(NodalVector);
   }
   Offset pairs() const override { return rows_.entries(); }
@@ -268,7 +268,7 @@ class FacePressure final : public ForceTerm {
     return sum;
   }
   void scatter(std::span<NodalVector> force) {
-    windows_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index q = begin; q < end; ++q) scatter_value(rows_, q, at(point_force_, q), f);
     });
   }
@@ -291,7 +291,7 @@ class FacePressure final : public ForceTerm {
   bool closed_ = false;
   NodalVectors X_;  // [point] reference position
   PointRows<D> rows_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   Real reference_volume_ = 0;
   // Work space of a force.
   NodalVectors x_, point_force_;

@@ -52,7 +52,7 @@ ClosedSurface<D>::ClosedSurface(const Body<D>& body, SurfacePart part, int point
   rule_.rows = build_point_rows<D>(body.particles, reference_.X, {.value = true, .gradient = true},
                                    body.name);
   rule_.point_weight = reference_.area;
-  windows_ = rule_.windows(body.size(), body.division);
+  chunk_sums_ = rule_.chunk_sums(body.size(), body.division);
 
   origin_ = Vec<D>::Zero();
   for (Index q = 0; q < reference_.size(); ++q) {
@@ -128,7 +128,7 @@ typename ClosedSurface<D>::Size ClosedSurface<D>::size(const Motion& motion) con
 template <int D>
 void ClosedSurface<D>::add_volume_gradient(const Placed& placed, Real factor,
                                            std::span<NodalVector> force) {
-  windows_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
+  chunk_sums_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index g = begin; g < end; ++g) {
       const Group& points = at(placed.groups, g);
       const Lanes w = factor * share_ * rule_.weight(g);
@@ -179,7 +179,7 @@ Index ClosedSurface<D>::owner(Index point) const {
 
 template <int D>
 std::size_t ClosedSurface<D>::bytes() const {
-  return rule_.bytes() + windows_.bytes() + (X_.size() + N_.size()) * sizeof(Lanes);
+  return rule_.bytes() + chunk_sums_.bytes() + (X_.size() + N_.size()) * sizeof(Lanes);
 }
 
 template class ClosedSurface<2>;

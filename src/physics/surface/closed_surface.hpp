@@ -59,7 +59,7 @@ class ClosedSurface {
   /// Registers the reads of a step: every rank reads the motion of all points.
   void tell_reads(StepReads& reads) {
     reads.particles(rule_.rows.particle, body_.first);
-    reads.rows(windows_, body_.first);
+    reads.rows(chunk_sums_, body_.first);
   }
   std::size_t bytes() const;
   Offset pairs() const { return rule_.pairs(); }
@@ -74,7 +74,7 @@ class ClosedSurface {
   Real weight_ = 0;  // sum of the weights of all points
   Vec<D> origin_;
   PointRule<D> rule_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   AlignedVector<Lanes> X_, N_;  // [group][k], X from origin_
 };
 

@@ -26,7 +26,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
                       body.name));
     rows_ = build_point_rows<D>(body.particles, surface_.X,
                                 {.value = true, .gradient = true, .hessian = true}, body.name);
-    windows_ = {rows_.start, rows_.particle, body.size(), body.division};
+    chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
   }
 
   /// No potential: the force is not the gradient of the energy.
@@ -34,7 +34,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
 
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector* u = this->displacements(motion);
-    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    chunk_sums_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index q = begin; q < end; ++q) {
         const auto frame = frame_at(q, u);
         const Real da = at(surface_.area, q) * frame.area_ratio;
@@ -46,7 +46,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
   }
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     const NodalVector *u = this->displacements(motion), *du = this->displacements(change);
-    windows_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    chunk_sums_.accumulate(this->own_part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index q = begin; q < end; ++q) {
         const auto frame = frame_of(q, dual(deformation(q, u), displacement_gradient(q, du)));
         const Dual<Real> t =
@@ -58,7 +58,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
   }
 
   bool tell_reads(StepReads& reads) override {
-    reads.rows(windows_, body_.first);
+    reads.rows(chunk_sums_, body_.first);
     return true;
   }
 
@@ -70,7 +70,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
     return sources;
   }
   std::size_t bytes() const override {
-    return rows_.bytes() + windows_.bytes() +
+    return rows_.bytes() + chunk_sums_.bytes() +
            surface_.X.size() * (2 * sizeof(Vec<D>) + sizeof(Mat<D>) + sizeof(Real));
   }
   Offset pairs() const override { return rows_.entries(); }
@@ -135,7 +135,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
 
   SurfacePoints<D> surface_;
   PointRows<D> rows_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
 };
 
 }  // namespace

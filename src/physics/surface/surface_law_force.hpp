@@ -17,7 +17,7 @@ class SurfaceForce final : public SurfaceTerm<D, L> {
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector* u = displacements(motion);
     const PointRule<D>& rule = surface_.points;
-    windows_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index g = begin; g < end; ++g)
         rule.scatter(g, law_.stress(surface_.state(g, surface_.gradients(g, u)), -rule.weight(g)),
                      f);
@@ -27,7 +27,7 @@ class SurfaceForce final : public SurfaceTerm<D, L> {
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     const NodalVector *u = displacements(motion), *du = displacements(change);
     const PointRule<D>& rule = surface_.points;
-    windows_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index g = begin; g < end; ++g) {
         const auto s = surface_.state(g, dual(surface_.gradients(g, u), surface_.gradients(g, du)));
         rule.scatter(g, derivative(law_.stress(s, Dual<Lanes>(-rule.weight(g)))), f);
@@ -47,7 +47,7 @@ class SurfaceForce final : public SurfaceTerm<D, L> {
   const Lanes* displacements(const Motion& motion) const { return motion.u.data() + body_.first; }
 
   using SurfaceTerm<D, L>::body_, SurfaceTerm<D, L>::law_, SurfaceTerm<D, L>::surface_,
-      SurfaceTerm<D, L>::windows_;
+      SurfaceTerm<D, L>::chunk_sums_;
 };
 
 }  // namespace meniscus

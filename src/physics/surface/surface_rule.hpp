@@ -80,7 +80,7 @@ class SurfaceTerm : public ForceTerm {
       : body_(body),
         law_(law),
         surface_(body, points),
-        windows_(surface_.points.windows(body.size(), body.division)) {}
+        chunk_sums_(surface_.points.chunk_sums(body.size(), body.division)) {}
 
   std::string name() const override {
     return std::string(L::type_name) + " of the surface of '" + body_.name + "'";
@@ -88,17 +88,17 @@ class SurfaceTerm : public ForceTerm {
   std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
   /// Laws read the motion in the loop over rows only.
   bool tell_reads(StepReads& reads) override {
-    reads.rows(windows_, body_.first);
+    reads.rows(chunk_sums_, body_.first);
     return true;
   }
-  std::size_t bytes() const override { return surface_.bytes() + windows_.bytes(); }
+  std::size_t bytes() const override { return surface_.bytes() + chunk_sums_.bytes(); }
   Offset pairs() const override { return surface_.points.pairs(); }
 
  protected:
   const Body<D>& body_;
   L law_;
   SurfaceRule<D> surface_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
 };
 
 }  // namespace meniscus

@@ -15,18 +15,19 @@ class SurfaceViscosity final : public SurfaceTerm<D, L> {
 
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int chunk, Index begin,
-                                                                       Index end, NodalVector* f) {
-      Lanes power = Lanes::zero();
-      for (Index g = begin; g < end; ++g) {
-        const Tensor<Lanes> F_rate = surface_.gradients(g, v);
-        const Tensor<Lanes> P = law_.stress(surface_.state(g, surface_.gradients(g, u)), F_rate,
-                                            -surface_.points.weight(g));
-        power += -contract(P, F_rate);
-        surface_.points.scatter(g, P, f);
-      }
-      said_[chunk].heat = sum(power);
-    });
+    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)),
+                           [&](int chunk, Index begin, Index end, NodalVector* f) {
+                             Lanes power = Lanes::zero();
+                             for (Index g = begin; g < end; ++g) {
+                               const Tensor<Lanes> F_rate = surface_.gradients(g, v);
+                               const Tensor<Lanes> P =
+                                   law_.stress(surface_.state(g, surface_.gradients(g, u)), F_rate,
+                                               -surface_.points.weight(g));
+                               power += -contract(P, F_rate);
+                               surface_.points.scatter(g, P, f);
+                             }
+                             said_[chunk].heat = sum(power);
+                           });
     return this->report_of(said_, motion, force);
   }
   /// Calls add_force(), since the whole force is linear in the velocity. The caller needs no heat,
@@ -38,8 +39,8 @@ class SurfaceViscosity final : public SurfaceTerm<D, L> {
 
  private:
   using SurfaceTerm<D, L>::body_, SurfaceTerm<D, L>::law_, SurfaceTerm<D, L>::surface_,
-      SurfaceTerm<D, L>::windows_;
-  ChunkReports said_{windows_};
+      SurfaceTerm<D, L>::chunk_sums_;
+  ChunkReports said_{chunk_sums_};
 };
 
 }  // namespace meniscus

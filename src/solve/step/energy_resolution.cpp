@@ -98,13 +98,13 @@ Real EnergyResolution<D>::exchanged(Real S, Real power, Real time) const {
 template <int D>
 void EnergyResolution<D>::hold(Real allowed, std::int64_t step) {
   constexpr Real margin = 0.8, considerable = 1.3;
-  constexpr std::int64_t shortest_window = 5, share_of_run = 4;
+  constexpr std::int64_t shortest_interval = 5, share_of_run = 4;
   least_ = std::min(least_, allowed);
   if (allowed < held_) held_ = margin * allowed;
-  if (step < window_end_) return;
+  if (step < interval_end_) return;
   if (margin * least_ > considerable * held_) held_ = margin * least_;
   least_ = unbounded;
-  window_end_ = step + std::max(shortest_window, step / share_of_run);
+  interval_end_ = step + std::max(shortest_interval, step / share_of_run);
 }
 
 template <int D>
@@ -116,8 +116,8 @@ void EnergyResolution<D>::archive(const Archive& a) {
   a("energy", energy_, of_sum(dimension::energy, D));
   a("held", held_, dimension::time);
   a("least", least_, dimension::time);
-  a("window_end", window_end_);
-  require_saved(S_ >= 0 && energy_ >= 0 && held_ >= 0 && least_ >= 0 && window_end_ >= 0, a,
+  a("window_end", interval_end_);
+  require_saved(S_ >= 0 && energy_ >= 0 && held_ >= 0 && least_ >= 0 && interval_end_ >= 0, a,
                 "energy_resolution");
 }
 

@@ -41,7 +41,7 @@ class EnergyResolution {
   Real energy_ = 0;         ///< largest so far: kinetic + dissipated + |external work|
   Real held_ = unbounded;   ///< step in use
   Real least_ = unbounded;  ///< smallest limit in this interval of steps
-  std::int64_t window_end_ = 0;
+  std::int64_t interval_end_ = 0;
 };
 
 }  // namespace meniscus

@@ -14,7 +14,7 @@ PseudoTime<D>::PseudoTime(System<D>& system, const typename Relaxation<D>::Toler
                           Real safety)
     : Relaxation<D>(system, tolerances), inertia_(system), step_(system, safety) {
   momentum_.assign(last_u_.size(), Lanes::zero());
-  acceleration_ = impulse_ = window_impulse_ = momentum_;
+  acceleration_ = impulse_ = interval_impulse_ = momentum_;
 }
 
 template <int D>
@@ -25,8 +25,8 @@ void PseudoTime<D>::begin(const State& state) {
 }
 
 template <int D>
-void PseudoTime<D>::begin_window() {
-  std::fill(window_impulse_.begin(), window_impulse_.end(), Lanes::zero());
+void PseudoTime<D>::begin_interval() {
+  std::fill(interval_impulse_.begin(), interval_impulse_.end(), Lanes::zero());
 }
 
 template <int D>
@@ -57,7 +57,7 @@ void PseudoTime<D>::move(State& state, Real dt) {
   sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       at(impulse_, A) = dt * at(momentum_, A);
-      at(window_impulse_, A) += at(impulse_, A);
+      at(interval_impulse_, A) += at(impulse_, A);
     }
   });
   leapfrog::drift(system_, state, dt);
@@ -85,10 +85,10 @@ typename PseudoTime<D>::ModeSums PseudoTime<D>::sums_of_step(const State& state)
 }
 
 template <int D>
-typename PseudoTime<D>::ModeSums PseudoTime<D>::sums_of_window(const State& state) const {
+typename PseudoTime<D>::ModeSums PseudoTime<D>::sums_of_interval(const State& state) const {
   return system_.sum_over_particles(Lanes::zero(), [&](Index A) {
     const Lanes &du = at(du_, A), &df = at(df_, A);
-    return Lanes(-sum(du * df), sum(du * at(window_impulse_, A)), sum(du * at(state.force, A)),
+    return Lanes(-sum(du * df), sum(du * at(interval_impulse_, A)), sum(du * at(state.force, A)),
                  sum(du * at(momentum_, A)));
   });
 }
@@ -108,7 +108,7 @@ void PseudoTime<D>::archive(const Archive& a, const State& state) {
   if (a.is_reading() && !a.has("elastic_inertia")) return;
   const Archive own = a.in("elastic_inertia");
   own("momentum", momentum_, D, dimension::momentum);
-  own("window_impulse", window_impulse_, D);
+  own("window_impulse", interval_impulse_, D);
   own("starts", starts_);
   step_.archive(a.in("elastic_step"));
   if (a.is_reading()) take_up(state);

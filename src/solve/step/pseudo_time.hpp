@@ -33,19 +33,19 @@ class PseudoTime final : public Relaxation<D> {
   void move(State& state, Real dt) override;
   Real energy_of_motion(const State& state) const override;
   ModeSums sums_of_step(const State& state) const override;
-  ModeSums sums_of_window(const State& state) const override;
+  ModeSums sums_of_interval(const State& state) const override;
   void follow_brake(State& state, Real factor, Real omega_dt) override;
   Real fewest_steps() const override { return 8; }
-  void begin_window() override;
+  void begin_interval() override;
   /// Computes acceleration_ and beyond_ from a state and momentum_.
   void take_up(const State& state);
 
   ElasticInertia<D> inertia_;
   ElasticStep<D> step_;
-  NodalVectors momentum_, acceleration_;   ///< M v, M^-1 f
-  NodalVectors impulse_, window_impulse_;  ///< M du of the last step, and of the interval
-  Real beyond_ = 0;                        ///< kinetic energy minus that of the real masses
-  bool starts_ = true;                     ///< the next step is the first one and starts at rest
+  NodalVectors momentum_, acceleration_;     ///< M v, M^-1 f
+  NodalVectors impulse_, interval_impulse_;  ///< M du of the last step, and of the interval
+  Real beyond_ = 0;                          ///< kinetic energy minus that of the real masses
+  bool starts_ = true;                       ///< the next step is the first one and starts at rest
 };
 
 }  // namespace meniscus

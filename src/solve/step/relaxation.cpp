@@ -8,7 +8,7 @@
 // damping stops at every vibration of the stiffest modes and hardly flattens the plate in 5000
 // steps.
 //
-// Reasons for windows, time intervals in which the remaining motion is estimated: with 3464
+// Reasons for intervals, time intervals in which the remaining motion is estimated: with 3464
 // particles, the cell ends after 1246 steps. It ends after 2541 steps if its shape must not change
 // over two quarter periods; the thickness ratio differs by 2e-4 only. Soft modes of the
 // coefficients, which hardly move positions, need not come to rest.
@@ -48,7 +48,7 @@ Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances,
                           const std::vector<bool>& fluid)
     : system_(system), tolerances_(tolerances), fluids_(system, fluid) {
   const auto n = static_cast<std::size_t>(system.size());
-  for (NodalVectors* field : {&last_u_, &last_force_, &window_u_, &window_force_, &du_, &df_})
+  for (NodalVectors* field : {&last_u_, &last_force_, &interval_u_, &interval_force_, &du_, &df_})
     field->resize(n);
   for (const Body<D>& body : system.bodies)
     extents_.push_back(box_around<D>(body.particles.X()).extent().maxCoeff());
@@ -56,9 +56,9 @@ Relaxation<D>::Relaxation(System<D>& system, const Tolerances& tolerances,
 
 template <int D>
 void Relaxation<D>::begin(const State& state) {
-  settled_windows_ = pulled_windows_ = 0;
+  settled_intervals_ = pulled_intervals_ = 0;
   shape_change_ = 1;
-  open_window(state, 0);
+  open_interval(state, 0);
 }
 
 template <int D>
@@ -106,29 +106,30 @@ void Relaxation<D>::damp(State& state, Real dt) {
 }
 
 template <int D>
-void Relaxation<D>::open_window(const State& state, Real length) {
-  window_u_ = state.u;
-  window_force_ = state.force;
-  begin_window();
-  window_begin_ = state.time;
-  window_length_ = length;
+void Relaxation<D>::open_interval(const State& state, Real length) {
+  interval_u_ = state.u;
+  interval_force_ = state.force;
+  begin_interval();
+  interval_begin_ = state.time;
+  interval_length_ = length;
 }
 
 template <int D>
 void Relaxation<D>::judge(State& state, Real dt) {
-  const Real elapsed = state.time - window_begin_;
-  const bool ramps_ended = window_begin_ < steady_after() && state.time >= steady_after();
-  if (!ramps_ended && elapsed < std::max(window_length_, fewest_steps() * dt) * (1 - 1e-9)) return;
+  const Real elapsed = state.time - interval_begin_;
+  const bool ramps_ended = interval_begin_ < steady_after() && state.time >= steady_after();
+  if (!ramps_ended && elapsed < std::max(interval_length_, fewest_steps() * dt) * (1 - 1e-9))
+    return;
   system_.complete(state);
-  const Change change = judged_window(state);
+  const Change change = judged_interval(state);
   const Real quarter = change.omega > 0 ? std::numbers::pi / (2 * change.omega) : 2 * elapsed;
-  // A window much shorter than the period of the observed mode gives no information.
-  const bool shaped = window_begin_ >= steady_after() && elapsed >= 0.25 * quarter &&
+  // An interval much shorter than the period of the observed mode gives no information.
+  const bool shaped = interval_begin_ >= steady_after() && elapsed >= 0.25 * quarter &&
                       shape_change_ <= tolerances_.shape;
   const bool settled = shaped && force_residual(state) <= tolerances_.force;
-  settled_windows_ = settled ? settled_windows_ + 1 : 0;
-  pulled_windows_ = shaped && !settled && pulled(state) ? pulled_windows_ + 1 : 0;
-  open_window(state, ramps_ended ? 0 : std::min(0.5 * quarter, 2 * elapsed));
+  settled_intervals_ = settled ? settled_intervals_ + 1 : 0;
+  pulled_intervals_ = shaped && !settled && pulled(state) ? pulled_intervals_ + 1 : 0;
+  open_interval(state, ramps_ended ? 0 : std::min(0.5 * quarter, 2 * elapsed));
 }
 
 /// True if a net force pulls a body and no term can stop its drift.
@@ -154,24 +155,25 @@ std::optional<Real> Relaxation<D>::stability(const State& state) const {
 }
 
 template <int D>
-typename Relaxation<D>::Change Relaxation<D>::judged_window(const State& state) {
+typename Relaxation<D>::Change Relaxation<D>::judged_interval(const State& state) {
   for (Index A = 0; A < system_.size(); ++A) {
-    at(du_, A) = at(state.u, A) - at(window_u_, A);
-    at(df_, A) = at(state.force, A) - at(window_force_, A);
+    at(du_, A) = at(state.u, A) - at(interval_u_, A);
+    at(df_, A) = at(state.force, A) - at(interval_force_, A);
   }
   remove_free_drift(system_, state, df_, du_);
   for (Index A = 0; A < system_.size(); ++A)
     if (fluids_.holds(A)) at(du_, A) = at(df_, A) = Lanes::zero();
-  Change change = change_of(sums_of_window(state));
+  Change change = change_of(sums_of_interval(state));
   shape_change_ = change.left * largest_change();
   if (!fluids_.any()) return change;
 
-  const Real clock = fluids_.clock(uncancelled_force(state)), elapsed = state.time - window_begin_;
-  const Real flow = fluids_.change(window_u_, state.u) / elapsed;
+  const Real clock = fluids_.clock(uncancelled_force(state)),
+             elapsed = state.time - interval_begin_;
+  const Real flow = fluids_.change(interval_u_, state.u) / elapsed;
   // An oscillating fluid stays near a turning point for less than its time scale.
   const bool long_enough = elapsed >= clock * (1 - 1e-9);
   shape_change_ = std::max(shape_change_, long_enough ? flow * clock : 1.0);
-  const Real slowest = std::numbers::pi / (4 * clock);  // gives windows of the length `clock`
+  const Real slowest = std::numbers::pi / (4 * clock);  // gives intervals of the length `clock`
   change.omega = change.omega > 0 ? std::min(change.omega, slowest) : slowest;
   return change;
 }
@@ -188,7 +190,7 @@ typename Relaxation<D>::ModeSums Relaxation<D>::sums_of_step(const State& state)
 }
 
 template <int D>
-typename Relaxation<D>::ModeSums Relaxation<D>::sums_of_window(const State& state) const {
+typename Relaxation<D>::ModeSums Relaxation<D>::sums_of_interval(const State& state) const {
   return system_.sum_over_particles(Lanes::zero(), [&](Index A) {
     const Lanes &du = at(du_, A), &df = at(df_, A);
     const Real mass = at(system_.mass, A);
@@ -197,8 +199,8 @@ typename Relaxation<D>::ModeSums Relaxation<D>::sums_of_window(const State& stat
   });
 }
 
-/// Change over a window. The mode w = du has the stiffness k = - du.df and the mass m = du.M du in
-/// the energy. The present force vanishes after a further motion of f.du/k times w, and the
+/// Change over an interval. The mode w = du has the stiffness k = - du.df and the mass m = du.M du
+/// in the energy. The present force vanishes after a further motion of f.du/k times w, and the
 /// velocity moves it by v.M du/sqrt(k m).
 template <int D>
 typename Relaxation<D>::Change Relaxation<D>::change_of(const ModeSums& sums) const {
@@ -252,14 +254,14 @@ Real Relaxation<D>::force_residual(const State& state) const {
 template <int D>
 void Relaxation<D>::archive(const Archive& a, const State& state) {
   if (a.is_reading()) begin(state);  // sets the sizes
-  a("window_displacement", window_u_, D, dimension::length);
-  a("window_force", window_force_, D, of_sum(dimension::force, D));
-  a("window_begin", window_begin_, dimension::time);
-  a("window_length", window_length_, dimension::time);
+  a("window_displacement", interval_u_, D, dimension::length);
+  a("window_force", interval_force_, D, of_sum(dimension::force, D));
+  a("window_begin", interval_begin_, dimension::time);
+  a("window_length", interval_length_, dimension::time);
   a("shape_change", shape_change_);
-  a("settled_windows", settled_windows_);
-  a("pulled_windows", pulled_windows_);
-  require_saved(settled_windows_ >= 0 && pulled_windows_ >= 0, a, "settled_windows");
+  a("settled_windows", settled_intervals_);
+  a("pulled_windows", pulled_intervals_);
+  require_saved(settled_intervals_ >= 0 && pulled_intervals_ >= 0, a, "settled_windows");
 }
 
 template <int D>

@@ -41,9 +41,9 @@ class Relaxation : public Stepper<D> {
   bool tell_reads(StepReads&) override { return true; }
   void step(State& state, Real dt) override;
   /// True if the bodies are at rest.
-  bool arrived() const override { return settled_windows_ >= 2; }
+  bool arrived() const override { return settled_intervals_ >= 2; }
   /// True if shapes have been constant for long, but unbalanced forces pull on bodies.
-  bool blocked() const override { return pulled_windows_ >= 10; }
+  bool blocked() const override { return pulled_intervals_ >= 10; }
   std::vector<Residual> residuals(const State& state) const override;
   std::string obstacle(const State& state) const override { return net_forces(system_, state); }
   /// Computed for solids only, if all forces have a potential and the particles are few enough for
@@ -71,13 +71,13 @@ class Relaxation : public Stepper<D> {
   virtual Real energy_of_motion(const State& state) const;
   /// The sums for the last step, and for the interval that ends with `state` (du_ and df_).
   virtual ModeSums sums_of_step(const State& state) const;
-  virtual ModeSums sums_of_window(const State& state) const;
+  virtual ModeSums sums_of_interval(const State& state) const;
   /// Called after damping has multiplied the velocities by `factor`. `omega_dt` is the frequency of
   /// the motion times the step.
   virtual void follow_brake(State&, [[maybe_unused]] Real factor, [[maybe_unused]] Real omega_dt) {}
   /// Smallest number of steps in an interval.
   virtual Real fewest_steps() const { return 40; }
-  virtual void begin_window() {}
+  virtual void begin_interval() {}
 
   System<D>& system_;
   NodalVectors last_u_, last_force_;  ///< before the step
@@ -87,7 +87,7 @@ class Relaxation : public Stepper<D> {
   /// Damps the velocities and books the lost kinetic energy as dissipated. Judges the state at the
   /// end of an interval.
   void damp(State& state, Real dt);
-  void open_window(const State& state, Real length);
+  void open_interval(const State& state, Real length);
   void judge(State& state, Real dt);
   bool pulled(const State& state) const;
   struct Change {
@@ -96,18 +96,18 @@ class Relaxation : public Stepper<D> {
   };
   Change change_of(const ModeSums& sums) const;
   /// Sets shape_change_.
-  Change judged_window(const State& state);
+  Change judged_interval(const State& state);
   /// Largest change of position by du_, relative to the extent of the body.
   Real largest_change() const;
   Real uncancelled_force(const State& state) const;
 
   Tolerances tolerances_;
   FluidRest<D> fluids_;
-  NodalVectors window_u_, window_force_;  ///< at the begin of the interval
-  std::vector<Real> extents_;             ///< of the bodies
-  Real window_begin_ = 0, window_length_ = 0;
+  NodalVectors interval_u_, interval_force_;  ///< at the begin of the interval
+  std::vector<Real> extents_;                 ///< of the bodies
+  Real interval_begin_ = 0, interval_length_ = 0;
   Real shape_change_ = 1;
-  std::int64_t settled_windows_ = 0, pulled_windows_ = 0;  ///< numbers of consecutive intervals
+  std::int64_t settled_intervals_ = 0, pulled_intervals_ = 0;  ///< numbers of consecutive intervals
 };
 
 /// The kinetic energy of the masses.

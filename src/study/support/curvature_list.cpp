@@ -10,18 +10,18 @@ class List {
  public:
   explicit List(std::string panel) : panel_(std::move(panel)) {}
 
-  CurvatureMethod<D>& add(int degree, Real factor, Window window, Places places) {
-    methods.push_back(curvature_method<D>(degree, factor, window, places));
+  CurvatureMethod<D>& add(int degree, Real factor, KernelFunction kernel_function, Places places) {
+    methods.push_back(curvature_method<D>(degree, factor, kernel_function, places));
     methods.back().panel = panel_;
     return methods.back();
   }
-  void add_recovered(int degree, Real factor, Window window, Places places) {
-    CurvatureMethod<D>& m = add(degree, factor, window, places);
+  void add_recovered(int degree, Real factor, KernelFunction kernel_function, Places places) {
+    CurvatureMethod<D>& m = add(degree, factor, kernel_function, places);
     m.second = SecondDerivatives::recovered;
     m.line += ", recovered";
   }
-  void add_smoothed(Real factor, Window window, Places places) {
-    CurvatureMethod<D>& m = add(2, factor, window, places);
+  void add_smoothed(Real factor, KernelFunction kernel_function, Places places) {
+    CurvatureMethod<D>& m = add(2, factor, kernel_function, places);
     m.smoothed = true;
     m.line += ", smoothed";
   }
@@ -32,7 +32,7 @@ class List {
   std::string panel_;
 };
 
-constexpr auto cubic = Window::cubic_spline, quintic = Window::quintic_spline;
+constexpr auto cubic = KernelFunction::cubic_spline, quintic = KernelFunction::quintic_spline;
 constexpr auto at_points = Places::points, at_nodes = Places::nodes;
 
 }  // namespace
@@ -60,10 +60,12 @@ std::vector<CurvatureMethod<D>> all_methods() {
     all.insert(all.end(), list.methods.begin(), list.methods.end());
   };
   for (const Places places : {at_points, at_nodes})
-    for (const Window window : {cubic, quintic, Window::wendland_c2, Window::wendland_c4}) {
-      List<D> list(fmt::format("{}, {}", at(window_names, static_cast<int>(window)),
+    for (const KernelFunction kernel_function :
+         {cubic, quintic, KernelFunction::wendland_c2, KernelFunction::wendland_c4}) {
+      List<D> list(fmt::format("{}, {}",
+                               at(kernel_function_names, static_cast<int>(kernel_function)),
                                places == at_points ? "points" : "nodes"));
-      for (const Real factor : {1.5, 1.8, 2.0, 2.3}) list.add(2, factor, window, places);
+      for (const Real factor : {1.5, 1.8, 2.0, 2.3}) list.add(2, factor, kernel_function, places);
       append(list);
     }
 

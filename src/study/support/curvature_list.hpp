@@ -21,15 +21,16 @@ inline std::string support_text(Real factor, int rank) {
 }
 
 template <int D>
-CurvatureMethod<D> curvature_method(int degree, Real factor, Window window, Places places) {
+CurvatureMethod<D> curvature_method(int degree, Real factor, KernelFunction kernel_function,
+                                    Places places) {
   constexpr std::array<std::string_view, 4> bases{"", "linear", "quadratic", "cubic"};
   CurvatureMethod<D> m;
   m.degree = degree;
   m.support = {factor, rank_of_degree<D>(degree)};
-  m.window = window;
+  m.kernel_function = kernel_function;
   m.places = places;
   m.line = fmt::format("{} {}, {}, {}", at(bases, degree), support_text(factor, m.support.rank),
-                       at(window_names, static_cast<int>(window)),
+                       at(kernel_function_names, static_cast<int>(kernel_function)),
                        places == Places::points ? "points" : "nodes");
   return m;
 }

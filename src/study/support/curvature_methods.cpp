@@ -236,8 +236,9 @@ Measurement::Numbers errors_of(const Found<D>& found, const SurfacePoints<D>& ex
 template <int D>
 ParticleSet<D> particles_of(const CurvatureMethod<D>& method, const std::vector<Vec<D>>& X,
                             const Grid<D>& grid) {
-  if (!method.by_cells) return {X, method.support, method.window};
-  return {X, supports_by_cells<D>(grid, Mat<D>::Identity(), method.support.factor), method.window};
+  if (!method.by_cells) return {X, method.support, method.kernel_function};
+  return {X, supports_by_cells<D>(grid, Mat<D>::Identity(), method.support.factor),
+          method.kernel_function};
 }
 
 }  // namespace

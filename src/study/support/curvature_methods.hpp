@@ -23,7 +23,7 @@ struct CurvatureMethod {
   int degree = 2;
   typename ParticleSet<D>::AdaptiveSupport support;
   bool by_cells = false;  ///< supports are support.factor diagonals of cells instead
-  Window window = Window::cubic_spline;
+  KernelFunction kernel_function = KernelFunction::cubic_spline;
   Places places = Places::points;
   SecondDerivatives second = SecondDerivatives::direct;
   int stages = 1;         ///< updates of the reference (RKPM note 6)

@@ -88,9 +88,9 @@ class Amplitude {
 
 /// The time span from which the rate is fitted. It begins when the slowest vortical mode, with a
 /// rate of about 30 nu/R^2, has fallen by e^-4, and lasts three decay times or two periods.
-struct TimeWindow {
+struct TimeInterval {
   Real begin, end;
-  static TimeWindow of(const DropMode& mode, Complex s) {
+  static TimeInterval of(const DropMode& mode, Complex s) {
     const Real begin = 4 / (30 * mode.Oh);
     Real length = 3 / -s.real();
     if (s.imag() > 0) length = std::min(length, 4 * std::numbers::pi / s.imag());
@@ -119,12 +119,13 @@ Complex fitted_rate(const std::vector<Real>& a, Real interval) {
 
 Measurement measure_drop_mode(const std::string& method, const DropMode& mode, int core) {
   const Complex exact = drop_mode_rate(mode.l, mode.Oh);
-  const TimeWindow window = TimeWindow::of(mode, exact);
+  const TimeInterval interval_of_time = TimeInterval::of(mode, exact);
   constexpr int samples = 24;
-  const Real interval = (window.end - window.begin) / samples;
+  const Real interval = (interval_of_time.end - interval_of_time.begin) / samples;
 
   const Stopwatch set_up;
-  const SceneInput input = SceneInput::from_text(scene_text(mode, core, window.end + interval));
+  const SceneInput input =
+      SceneInput::from_text(scene_text(mode, core, interval_of_time.end + interval));
   scene_dimension(input);
   Scene<3> scene = build_scene<3>(input);
   const Body<3>& body = scene.system.bodies.front();
@@ -142,7 +143,8 @@ Measurement measure_drop_mode(const std::string& method, const DropMode& mode, i
   const Stopwatch run;
   const Amplitude amplitude(body, mode.l);
   std::vector<Real> fitted;
-  Real before = amplitude(simulation.state().motion()), time_before = 0, next = window.begin;
+  Real before = amplitude(simulation.state().motion()), time_before = 0,
+       next = interval_of_time.begin;
   while (static_cast<int>(fitted.size()) <= samples) {
     simulation.advance();
     const Real time = simulation.state().time, now = amplitude(simulation.state().motion());

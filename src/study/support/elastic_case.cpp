@@ -176,7 +176,7 @@ template <int D>
 std::unique_ptr<Body<D>> unit_box(int n, Real jitter_share, std::uint64_t seed) {
   constexpr Real spacings = 2.6;
   Geometry<D> geometry = unit_box_geometry<D>(n, jitter_share, seed);
-  ParticleSet<D> particles(geometry.grid.X, spacings / n, Window::cubic_spline);
+  ParticleSet<D> particles(geometry.grid.X, spacings / n, KernelFunction::cubic_spline);
   return box_of(std::move(geometry), std::move(particles));
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr int fine_points = 8;  // per facet direction
 
 std::unique_ptr<Body<3>> make_body(Geometry<3> geometry, Real factor) {
-  ParticleSet<3> particles(geometry.grid.X, {factor, 20}, Window::cubic_spline);
+  ParticleSet<3> particles(geometry.grid.X, {factor, 20}, KernelFunction::cubic_spline);
   return std::make_unique<Body<3>>("body", std::move(geometry), std::move(particles));
 }
 

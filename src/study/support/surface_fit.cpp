@@ -11,7 +11,7 @@
 namespace meniscus::study {
 namespace {
 
-Real window(Real z) {
+Real weight_at(Real z) {
   const Real t = 1 - z;
   return z < 0.5 ? 2.0 / 3 - 4 * z * z * t : 4.0 / 3 * t * t * t;
 }
@@ -57,7 +57,7 @@ SurfaceFit<D>::SurfaceFit(std::span<const Vec<D>> points) {
     for (Eigen::Index k = 0; k < n; ++k) {
       const Vec<D> r = at(points, at(near, k)) - x;
       P.row(k) = quadratic<D>(Vec<D - 1>(t.transpose() * r / radius));
-      w[k] = window(r.norm() / radius);
+      w[k] = weight_at(r.norm() / radius);
     }
     // Value at s = 0: e_0 (P^T W P)^-1 P^T W.
     const Eigen::MatrixXd M = P.transpose() * w.asDiagonal() * P;

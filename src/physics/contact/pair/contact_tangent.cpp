@@ -102,22 +102,23 @@ void ContactPoints<D>::add_force_change(const ContactPlaces<D>& places,
                                         std::span<const Lanes> dS, std::span<NodalVector> force) {
   if (made_->patches) return add_change_on_patches(places, changes, clusters, dT, S, dS, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
-  made_->windows.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
-    for (Index c = begin; c < end; ++c) {
-      if (!at(pushed_, c)) continue;
-      const Lanes* pull = dT.data() + offset(c, D);
-      const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
-      for (Index lane = 0; lane < points_in(c); ++lane)
-        scatter_value(made_->rule.rows, c * Lanes::width + lane, -at(by_point, lane), f);
-      if (S.empty()) continue;
-      const auto now = turned(c, motion, change);
-      std::array<Dual<Lanes>, D> turn;
-      for (int i = 0; i < D; ++i)
-        at(turn, i) = {S[offset(c, D) + static_cast<std::size_t>(i)],
-                       dS[offset(c, D) + static_cast<std::size_t>(i)]};
-      made_->rule.scatter(c, -1.0 * stress_change(now, turn), f);
-    }
-  });
+  made_->chunk_sums.accumulate(
+      body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
+        for (Index c = begin; c < end; ++c) {
+          if (!at(pushed_, c)) continue;
+          const Lanes* pull = dT.data() + offset(c, D);
+          const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
+          for (Index lane = 0; lane < points_in(c); ++lane)
+            scatter_value(made_->rule.rows, c * Lanes::width + lane, -at(by_point, lane), f);
+          if (S.empty()) continue;
+          const auto now = turned(c, motion, change);
+          std::array<Dual<Lanes>, D> turn;
+          for (int i = 0; i < D; ++i)
+            at(turn, i) = {S[offset(c, D) + static_cast<std::size_t>(i)],
+                           dS[offset(c, D) + static_cast<std::size_t>(i)]};
+          made_->rule.scatter(c, -1.0 * stress_change(now, turn), f);
+        }
+      });
   for (const Index c : clusters) at(pushed_, c) = 0;
 }
 

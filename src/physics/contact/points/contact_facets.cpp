@@ -83,7 +83,7 @@ ContactFacets<D>::ContactFacets(const Body<D>& body)
   for (auto& simplex : simplices_)
     for (Index& A : simplex) A = at(number, A);
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
-  windows_ = {rows_.start, rows_.particle, body.size(), body.division};
+  chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
 }
 
 template <int D>
@@ -229,7 +229,7 @@ Index ContactFacets<D>::turned_over(const Places& places, const Vec<D>& up,
 
 template <int D>
 void ContactFacets<D>::add_force(const std::vector<Vec<D>>& pull, std::span<NodalVector> force) {
-  windows_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+  chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
     for (Index B = begin; B < end; ++B) {
       if (at(pull, B).isZero(0)) continue;
       Lanes load = Lanes::zero();
@@ -250,7 +250,7 @@ Real ContactFacets<D>::longest_edge() const {
 
 template <int D>
 std::size_t ContactFacets<D>::bytes() const {
-  return rows_.bytes() + windows_.bytes() + X_.size() * (sizeof(Vec<D>) + sizeof(Index)) +
+  return rows_.bytes() + chunk_sums_.bytes() + X_.size() * (sizeof(Vec<D>) + sizeof(Index)) +
          simplices_.size() * sizeof(simplices_[0]);
 }
 

@@ -63,7 +63,7 @@ class ContactFacets {
   /// own rows.
   void tell_reads(StepReads& reads, bool reads_all) {
     if (reads_all) reads.particles(rows_.particle, body_.first);
-    reads.rows(windows_, body_.first);
+    reads.rows(chunk_sums_, body_.first);
   }
 
   /// The longest edge in the reference.
@@ -83,7 +83,7 @@ class ContactFacets {
   std::vector<Vec<D>> X_;                        // [corner]
   std::vector<Index> particle_;                  // [corner]
   PointRows<D> rows_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
 };
 
 }  // namespace meniscus

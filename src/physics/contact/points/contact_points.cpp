@@ -123,7 +123,7 @@ void ContactPoints<D>::build_rows(RowContent content) {
   const std::vector<Offset> start = std::exchange(made_->rule.rows.start, {0});
   for (Index q = 0, point = 0; q < size(); ++q)
     made_->rule.rows.start.push_back(at(start, has_point(q) ? ++point : point));
-  made_->windows = made_->rule.windows(body_->size(), body_->division);
+  made_->chunk_sums = made_->rule.chunk_sums(body_->size(), body_->division);
 }
 
 template <int D>
@@ -188,7 +188,7 @@ void ContactPoints<D>::tell_sums(StepReads& reads) {
   if (made_->patches)
     made_->patches->tell_sums(reads, body_->first);
   else
-    reads.sums(made_->windows, body_->first);
+    reads.sums(made_->chunk_sums, body_->first);
 }
 
 template <int D>
@@ -510,16 +510,18 @@ void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const
                                  std::span<NodalVector> force) {
   if (made_->patches) return add_force_on_patches(places, clusters, T, S, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
-  made_->windows.accumulate(body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
-    for (Index c = begin; c < end; ++c) {
-      if (!at(pushed_, c)) continue;
-      const Lanes* pull = T.data() + offset(c, D);
-      const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
-      for (Index lane = 0; lane < points_in(c); ++lane)
-        scatter_value(made_->rule.rows, c * Lanes::width + lane, -at(by_point, lane), f);
-      if (!S.empty()) made_->rule.scatter(c, -1.0 * stress(places, c, S.data() + offset(c, D)), f);
-    }
-  });
+  made_->chunk_sums.accumulate(
+      body_->part(force), [&](int, Index begin, Index end, NodalVector* f) {
+        for (Index c = begin; c < end; ++c) {
+          if (!at(pushed_, c)) continue;
+          const Lanes* pull = T.data() + offset(c, D);
+          const auto by_point = by_lane(pull[0], pull[1], D == 3 ? pull[D - 1] : Lanes::zero());
+          for (Index lane = 0; lane < points_in(c); ++lane)
+            scatter_value(made_->rule.rows, c * Lanes::width + lane, -at(by_point, lane), f);
+          if (!S.empty())
+            made_->rule.scatter(c, -1.0 * stress(places, c, S.data() + offset(c, D)), f);
+        }
+      });
   for (const Index c : clusters) at(pushed_, c) = 0;
 }
 
@@ -553,7 +555,7 @@ Offset ContactPoints<D>::pairs() const {
 
 template <int D>
 std::size_t SharedContactPoints<D>::bytes() const {
-  return rule.bytes() + windows.bytes() + X.size() * sizeof(Lanes) +
+  return rule.bytes() + chunk_sums.bytes() + X.size() * sizeof(Lanes) +
          (order.size() + points_in.size() + particles.size()) * sizeof(Index) +
          (patches ? patches->bytes() : 0);
 }

@@ -64,7 +64,7 @@ struct SharedContactPoints {
   std::vector<Index> order;      ///< [lane] number of the point before it was sorted
   std::vector<Index> points_in;  ///< [cluster] number of points
   PointRule<D> rule;             ///< a group is a cluster; lanes without a point have empty rows
-  ForceWindows windows;
+  ChunkSums chunk_sums;
   std::shared_ptr<PatchPoints<D>> patches;   ///< null for points by shape functions
   std::vector<std::vector<Index>> of_group;  ///< [group of patches] points
   std::vector<Index> particles;
@@ -220,7 +220,7 @@ class ContactPoints {
                             std::span<NodalVector> force);
   /// The division of clusters, unless it is to_each(): the same as for adding up their forces.
   Division rows_for(const Division& division) const {
-    return division.is_to_each() ? division : made_->windows.division();
+    return division.is_to_each() ? division : made_->chunk_sums.division();
   }
   static std::size_t offset(Index cluster, int count) {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);

@@ -41,7 +41,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
         strength_(strength),
         polar_(polar),
         surface_(body, points, true),
-        windows_(surface_.points.windows(body.size(), body.division)),
+        chunk_sums_(surface_.points.chunk_sums(body.size(), body.division)),
         held_(static_cast<std::size_t>(surface_.groups())) {}
 
   std::string name() const override { return "anchoring to the surface of '" + body_.name + "'"; }
@@ -54,8 +54,9 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
 
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector *u = motion.u.data() + body_.first, *x = director(motion);
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end,
-                                                                       NodalVector* f) {
+    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int, Index begin,
+                                                                          Index end,
+                                                                          NodalVector* f) {
       for (Index g = begin; g < end; ++g) {
         const SurfaceState<Lanes> s = surface_.state(g, surface_.gradients(g, u));
         const Vectors y = slope(s.m, s.stretch, values(g, x));
@@ -99,7 +100,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
   /// h - (h.n) m) (apolar).
   void add_held_force(const NodalVector* x, std::span<NodalVector> f) override {
     const PointRows<D>& rows = surface_.points.rows;
-    windows_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
+    chunk_sums_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
       for (Index g = begin; g < end; ++g) {
         const Held& at_points = at(held_, g);
         const Vectors h = values(g, x);
@@ -120,7 +121,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
              [this](const Motion& motion) { return *stored_energy(motion); }}};
   }
   std::size_t bytes() const override {
-    return surface_.bytes() + windows_.bytes() + held_.size() * sizeof(Held);
+    return surface_.bytes() + chunk_sums_.bytes() + held_.size() * sizeof(Held);
   }
   Offset pairs() const override { return 2 * surface_.points.pairs(); }
 
@@ -165,7 +166,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
   Real strength_;
   bool polar_;
   SurfaceRule<D> surface_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   AlignedVector<Held> held_;  // [group] at the held positions
   std::size_t field_ = 0;
 };

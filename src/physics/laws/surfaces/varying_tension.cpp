@@ -43,7 +43,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
         of_place_(of_place),
         changes_(of_place || gamma.depends_on_time()),
         surface_(body, points, of_place),
-        windows_(surface_.points.windows(body.size(), body.division)) {
+        chunk_sums_(surface_.points.chunk_sums(body.size(), body.division)) {
     now_.resize(surface_.reference.size());
     if (changes_) {
       last_ = now_;
@@ -60,15 +60,16 @@ class VaryingTension final : public ForceTerm, public VariedTension {
   Report add_force(const Motion& motion, Forces force) override {
     if (changes_) evaluate(motion, now_.gamma);
     const NodalVector* u = motion.u.data() + body_.first;
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)),
-                        [&](int, Index begin, Index end, NodalVector* f) {
-                          for (Index g = begin; g < end; ++g) {
-                            const auto s = surface_.state(g, surface_.gradients(g, u));
-                            const Lanes da = surface_.points.weight(g) * s.stretch;
-                            now_.set_area(g, da);
-                            surface_.points.scatter(g, -now_.tension(g) * da * dual_tangents(s), f);
-                          }
-                        });
+    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)),
+                           [&](int, Index begin, Index end, NodalVector* f) {
+                             for (Index g = begin; g < end; ++g) {
+                               const auto s = surface_.state(g, surface_.gradients(g, u));
+                               const Lanes da = surface_.points.weight(g) * s.stretch;
+                               now_.set_area(g, da);
+                               surface_.points.scatter(g, -now_.tension(g) * da * dual_tangents(s),
+                                                       f);
+                             }
+                           });
     Report report;
     if (!changes_) return report;
     body_.division.complete_rows(surface_.groups(), now_.area.data(), sizeof(Lanes));
@@ -79,8 +80,9 @@ class VaryingTension final : public ForceTerm, public VariedTension {
     if (of_place_) return ForceTerm::add_tangent(motion, change, force);
     if (changes_) evaluate(motion, now_.gamma);
     const NodalVector *u = motion.u.data() + body_.first, *du = change.u.data() + body_.first;
-    windows_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end,
-                                                                       NodalVector* f) {
+    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int, Index begin,
+                                                                          Index end,
+                                                                          NodalVector* f) {
       for (Index g = begin; g < end; ++g) {
         const auto s = surface_.state(g, dual(surface_.gradients(g, u), surface_.gradients(g, du)));
         const Dual<Lanes> w(-surface_.points.weight(g) * now_.tension(g));
@@ -135,7 +137,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
 
   std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
   std::size_t bytes() const override {
-    return surface_.bytes() + windows_.bytes() +
+    return surface_.bytes() + chunk_sums_.bytes() +
            2 * (now_.gamma.size() + last_.gamma.size()) * sizeof(Real);
   }
   Offset pairs() const override { return surface_.points.pairs(); }
@@ -191,7 +193,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
   bool changes_;  // true if gamma at a surface point changes in time
   bool begun_ = false;
   SurfaceRule<D> surface_;
-  ForceWindows windows_;
+  ChunkSums chunk_sums_;
   Points now_, last_;
 };
 

@@ -2,7 +2,7 @@
 // Forces of rows are added up chunk by chunk. Bits do not depend on the number of threads, failed
 // rows leave nothing behind, and chunks in spatial order touch few particles of other chunks.
 #include "body/grid/ordering.hpp"
-#include "parallel/force_windows.hpp"
+#include "parallel/chunk_sums.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -11,7 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace meniscus::test_force_windows {
+namespace meniscus::test_chunk_sums {
 namespace {
 
 /// Rows that touch some particles with numbers near their own and some random particles.
@@ -45,10 +45,10 @@ void add_rows(const Rows& r, Index begin, Index end, NodalVector* force) {
     force[at(r.particle, e)] += part(e);
 }
 
-TEST(ForceWindows, AddsChunksInAscendingOrderWhateverTheThreads) {
+TEST(ChunkSums, AddsChunksInAscendingOrderWhateverTheThreads) {
   constexpr Index n = 3000;
   const Rows rows = scattered_rows(n, n);
-  ForceWindows windows(rows.start, rows.particle, n, evenly);
+  ChunkSums chunk_sums(rows.start, rows.particle, n, evenly);
   NodalVectors expected(n, NodalVector(1.0));
   for (int c = 0; c < chunk_count(n); ++c) {
     NodalVectors of_chunk(n, NodalVector::zero());
@@ -59,8 +59,8 @@ TEST(ForceWindows, AddsChunksInAscendingOrderWhateverTheThreads) {
   for (const int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
     NodalVectors force(n, NodalVector(1.0));
-    windows.accumulate(force, [&](int, Index begin, Index end, NodalVector* window) {
-      add_rows(rows, begin, end, window);
+    chunk_sums.accumulate(force, [&](int, Index begin, Index end, NodalVector* sums) {
+      add_rows(rows, begin, end, sums);
     });
     for (Index A = 0; A < n; ++A)
       for (int i = 0; i < 3; ++i) ASSERT_EQ(at(force, A)[i], at(expected, A)[i]) << threads;
@@ -68,13 +68,13 @@ TEST(ForceWindows, AddsChunksInAscendingOrderWhateverTheThreads) {
   omp_set_num_threads(before);
 }
 
-TEST(ForceWindows, KeepsNothingOfRowsThatFailed) {
+TEST(ChunkSums, KeepsNothingOfRowsThatFailed) {
   const Rows rows = scattered_rows(300, 300);
-  ForceWindows windows(rows.start, rows.particle, 300, evenly);
+  ChunkSums chunk_sums(rows.start, rows.particle, 300, evenly);
   NodalVectors force(300, NodalVector::zero());
   const auto add = [&](bool fail) {
-    windows.accumulate(force, [&](int, Index begin, Index end, NodalVector* window) {
-      add_rows(rows, begin, end, window);
+    chunk_sums.accumulate(force, [&](int, Index begin, Index end, NodalVector* sums) {
+      add_rows(rows, begin, end, sums);
       if (fail) throw std::runtime_error("folded");
     });
   };
@@ -85,10 +85,10 @@ TEST(ForceWindows, KeepsNothingOfRowsThatFailed) {
   for (Index A = 0; A < 300; ++A) EXPECT_NEAR(at(force, A)[0], at(expected, A)[0], 1e-12);
 }
 
-TEST(ForceWindows, OfNoRowsLeaveForcesAlone) {
-  ForceWindows windows(std::vector<Offset>{0}, {}, 2, evenly);
+TEST(ChunkSums, OfNoRowsLeaveForcesAlone) {
+  ChunkSums chunk_sums(std::vector<Offset>{0}, {}, 2, evenly);
   NodalVectors force(2, NodalVector(3.0));
-  windows.accumulate(force, [](int, Index, Index, NodalVector*) { FAIL(); });
+  chunk_sums.accumulate(force, [](int, Index, Index, NodalVector*) { FAIL(); });
   EXPECT_EQ(at(force, 1)[0], 3.0);
 }
 
@@ -105,7 +105,7 @@ std::vector<Vec<3>> lattice(int side) {
 
 /// Rows touch all particles within two layers of their own. A chunk of 8 x 16 x 16 particles then
 /// touches its box grown by two layers, within the cube.
-TEST(ForceWindows, ChunksInSpatialOrderTouchLittleOfOthers) {
+TEST(ChunkSums, ChunksInSpatialOrderTouchLittleOfOthers) {
   constexpr int side = 32, reach = 2;
   const std::vector<Vec<3>> points = lattice(side);
   const auto n = static_cast<Index>(points.size());
@@ -135,9 +135,9 @@ TEST(ForceWindows, ChunksInSpatialOrderTouchLittleOfOthers) {
     const Vec<3> layers = (high.array() + reach).min(side - 1) - (low.array() - reach).max(0) + 1;
     expected += static_cast<std::size_t>(layers.prod());
   }
-  EXPECT_EQ(ForceWindows(rows.start, rows.particle, n, evenly).sums(), expected);
+  EXPECT_EQ(ChunkSums(rows.start, rows.particle, n, evenly).sums(), expected);
   EXPECT_LT(expected, 2.1 * side * side * side);
 }
 
 }  // namespace
-}  // namespace meniscus::test_force_windows
+}  // namespace meniscus::test_chunk_sums

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks of rows, the particles that they touch, and the sum of windows in ascending order.
-#include "parallel/force_windows.hpp"
+// Chunks of rows, the particles that they touch, and the addition of their sums in ascending order.
+#include "parallel/chunk_sums.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -27,28 +27,28 @@ std::vector<Index> distinct(std::span<const Index> particle, Index particles) {
 
 }  // namespace
 
-ForceWindows::ForceWindows(std::span<const Offset> start, std::span<const Index> particle,
-                           Index particles, const Division& division)
+ChunkSums::ChunkSums(std::span<const Offset> start, std::span<const Index> particle,
+                     Index particles, const Division& division)
     : division_(division),
       chunks_(chunk_count(static_cast<Index>(start.size()) - 1)),
       particles_(particles),
       pairs_(start.empty() ? 0 : start.back()) {
   find_touched(start, particle);
   if (!ranks().alone()) {
-    shared_ = std::make_shared<SharedWindows>(own_, touched_, start, particles, division);
+    shared_ = std::make_shared<DividedSums>(own_, touched_, start, particles, division);
     own_ = shared_->own();
     pairs_ = shared_->pairs();
     order_by_particle(shared_->summed(), shared_->summed_particles());
     sums_.resize(static_cast<std::size_t>(shared_->size()));
     return;
   }
-  std::vector<WindowSum> sums;
+  std::vector<ChunkSum> sums;
   for (const Index A : touched_) sums.push_back({A, static_cast<Index>(sums.size())});
   order_by_particle(sums, {0, particles});
   sums_.resize(sums.size());
 }
 
-void ForceWindows::find_touched(std::span<const Offset> start, std::span<const Index> particle) {
+void ChunkSums::find_touched(std::span<const Offset> start, std::span<const Index> particle) {
   const auto rows = static_cast<Index>(start.size()) - 1;
   for (int c = 0; c < chunks_; ++c)
     if (chunk_begin(rows, c) < chunk_begin(rows, c + 1))
@@ -71,18 +71,18 @@ void ForceWindows::find_touched(std::span<const Offset> start, std::span<const I
   }
 }
 
-void ForceWindows::order_by_particle(const std::vector<WindowSum>& sums, ItemRange particles) {
+void ChunkSums::order_by_particle(const std::vector<ChunkSum>& sums, ItemRange particles) {
   summed_ = particles;
   sum_start_.assign(static_cast<std::size_t>(particles.end - particles.begin) + 1, 0);
-  for (const WindowSum& s : sums) ++at(sum_start_, s.particle - particles.begin + 1);
+  for (const ChunkSum& s : sums) ++at(sum_start_, s.particle - particles.begin + 1);
   std::partial_sum(sum_start_.begin(), sum_start_.end(), sum_start_.begin());
   std::vector<Index> next = sum_start_;
   sum_of_particle_.resize(sums.size());
-  for (const WindowSum& s : sums)
+  for (const ChunkSum& s : sums)
     at(sum_of_particle_, at(next, s.particle - particles.begin)++) = s.sum;
 }
 
-void ForceWindows::add_to(std::span<NodalVector> force) const {
+void ChunkSums::add_to(std::span<NodalVector> force) const {
   const Index first = summed_.begin;
   for_chunks(summed_.end - first, [&](Index, Index begin, Index end) {
     for (Index k = begin; k < end; ++k)

@@ -9,23 +9,29 @@
 namespace meniscus {
 
 /// The kernel functions by their names in scenes.
-enum class Window { cubic_spline, quintic_spline, wendland_c2, wendland_c4, quartic_spline };
+enum class KernelFunction {
+  cubic_spline,
+  quintic_spline,
+  wendland_c2,
+  wendland_c4,
+  quartic_spline
+};
 
-inline constexpr std::array<std::string_view, 5> window_names{
+inline constexpr std::array<std::string_view, 5> kernel_function_names{
     "cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4", "quartic_spline"};
 
 /// Phi, alpha = Phi'/z and beta = Phi'' - Phi'/z: with u = (x - x_A)/|x - x_A|,
 /// Phi,i = alpha (x - x_A)_i / support^2 and Phi,ij = (alpha delta_ij + beta u_i u_j) / support^2.
 /// No division by z near zero, where alpha and beta stay finite.
-struct WindowValue {
+struct KernelValue {
   Lanes phi, alpha, beta;
 };
 
-namespace window {
+namespace kernel_function {
 
 /// Cubic B-spline, C2; phi(0) = 2/3.
 struct CubicSpline {
-  static WindowValue at(Lanes z) {
+  static KernelValue at(Lanes z) {
     const Lanes t = max(1.0 - z, 0.0), t2 = t * t;
     const Lanes::Mask inner = z.v < 0.5;
     const Lanes outer_alpha = -4.0 * t2 / max(z, 0.5);
@@ -37,7 +43,7 @@ struct CubicSpline {
 
 /// Quintic B-spline, C4; phi(0) = 11/20.
 struct QuinticSpline {
-  static WindowValue at(Lanes z) {
+  static KernelValue at(Lanes z) {
     const Lanes q = 3.0 * z;
     const Lanes a = max(3.0 - q, 0.0), b = max(2.0 - q, 0.0), c = max(1.0 - q, 0.0);
     const auto power = [](Lanes x, int n) {
@@ -57,7 +63,7 @@ struct QuinticSpline {
 
 /// Wendland's C2 function; phi(0) = 1.
 struct WendlandC2 {
-  static WindowValue at(Lanes z) {
+  static KernelValue at(Lanes z) {
     const Lanes t = max(1.0 - z, 0.0), t2 = t * t;
     return {t2 * t2 * (4.0 * z + 1.0), -20.0 * t * t2, 60.0 * z * t2};
   }
@@ -65,7 +71,7 @@ struct WendlandC2 {
 
 /// Wendland's C4 function; phi(0) = 1.
 struct WendlandC4 {
-  static WindowValue at(Lanes z) {
+  static KernelValue at(Lanes z) {
     const Lanes t = max(1.0 - z, 0.0), t2 = t * t, t4 = t2 * t2;
     return {t4 * t2 * (z * (35.0 * z + 18.0) + 3.0) / 3.0, (-56.0 / 3) * (5.0 * z + 1.0) * t4 * t,
             560.0 * z * z * t4};
@@ -74,30 +80,30 @@ struct WendlandC4 {
 
 /// Quartic spline of the element-free Galerkin method, C2; phi(0) = 1.
 struct QuarticSpline {
-  static WindowValue at(Lanes z) {
+  static KernelValue at(Lanes z) {
     const Lanes inside = min(z, 1.0), t = 1.0 - inside;
     return {t * t * t * (3.0 * inside + 1.0), -12.0 * t * t, 24.0 * inside * t};
   }
 };
 
-}  // namespace window
+}  // namespace kernel_function
 
 /// Calls f with an object of the type of the kernel: it is chosen once, outside of all loops.
 template <class F>
-decltype(auto) with_window(Window window, F&& f) {
-  switch (window) {
-    case Window::quintic_spline:
-      return f(window::QuinticSpline{});
-    case Window::wendland_c2:
-      return f(window::WendlandC2{});
-    case Window::wendland_c4:
-      return f(window::WendlandC4{});
-    case Window::quartic_spline:
-      return f(window::QuarticSpline{});
-    case Window::cubic_spline:
+decltype(auto) with_kernel_function(KernelFunction kernel_function, F&& f) {
+  switch (kernel_function) {
+    case KernelFunction::quintic_spline:
+      return f(kernel_function::QuinticSpline{});
+    case KernelFunction::wendland_c2:
+      return f(kernel_function::WendlandC2{});
+    case KernelFunction::wendland_c4:
+      return f(kernel_function::WendlandC4{});
+    case KernelFunction::quartic_spline:
+      return f(kernel_function::QuarticSpline{});
+    case KernelFunction::cubic_spline:
       break;
   }
-  return f(window::CubicSpline{});
+  return f(kernel_function::CubicSpline{});
 }
 
 }  // namespace meniscus

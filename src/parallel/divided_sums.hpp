@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The chunks of a set of rows divided between the ranks, and the exchange of their sums. A rank
-// computes the rows of some chunks and adds up the windows over some particles (scaling note 2).
+// computes the rows of some chunks and adds up the chunk sums over some particles (scaling note 2).
 #pragma once
 #include "parallel/aligned.hpp"
 #include "parallel/halo.hpp"
@@ -10,42 +10,42 @@
 
 namespace meniscus {
 
-/// A chunk of rows and its window: one sum for each particle that the rows touch, in ascending
+/// A chunk of rows with its sums: one sum for each particle that the rows touch, in ascending
 /// order.
-struct WindowChunk {
+struct RowChunk {
   int number;
   Index begin, end;    ///< rows
   Index sum, sum_end;  ///< range of its sums among the sums of this rank
 };
 
-/// A sum of a window and the particle whose force it contributes to.
-struct WindowSum {
+/// A sum of a chunk and the particle whose force it contributes to.
+struct ChunkSum {
   Index particle, sum;
 };
 
-class SharedWindows {
+class DividedSums {
  public:
   /// `chunks` has all chunks with rows, in ascending order. `touched` has the particles of their
   /// sums and `start` the begins of the compressed rows; both are read for chunks of this rank
   /// only.
-  SharedWindows(std::vector<WindowChunk> chunks, std::span<const Index> touched,
-                std::span<const Offset> start, Index particles, const Division& division);
+  DividedSums(std::vector<RowChunk> chunks, std::span<const Index> touched,
+              std::span<const Offset> start, Index particles, const Division& division);
 
   /// The chunks whose rows this rank computes.
-  const std::vector<WindowChunk>& own() const { return own_; }
+  const std::vector<RowChunk>& own() const { return own_; }
   /// The sums of forces on the particles of this rank, in ascending order of chunks.
-  const std::vector<WindowSum>& summed() const { return summed_; }
+  const std::vector<ChunkSum>& summed() const { return summed_; }
   ItemRange summed_particles() const {
     return {at(border_, ranks().rank()), at(border_, ranks().rank() + 1)};
   }
-  /// Number of sums that this rank stores: of its own windows and of windows it receives.
+  /// Number of sums that this rank stores: of its own chunks and of chunks it receives.
   Index size() const { return size_; }
   /// Number of (row, particle) pairs of all ranks.
   Offset pairs() const { return pairs_; }
 
-  /// Receives the sums of windows of other ranks over particles of this rank.
-  void bring_windows(NodalVectors& sums) const {
-    windows_->bring(sums.data(), sums.data(), sizeof(NodalVector));
+  /// Receives the sums of other ranks over particles of this rank.
+  void bring_sums(NodalVectors& sums) const {
+    chunk_sums_->bring(sums.data(), sums.data(), sizeof(NodalVector));
   }
   /// Sends forces to all ranks, for the particles that any row touches. Does nothing while a halo
   /// is entered.
@@ -54,7 +54,7 @@ class SharedWindows {
   }
   /// Marks the particles that the rows of this rank touch.
   void mark_touched(std::span<std::uint8_t> particles) const;
-  /// Marks the particles over which this rank adds up windows.
+  /// Marks the particles over which this rank adds up chunk_sums.
   void mark_summed(std::span<std::uint8_t> particles) const;
   /// From now on, while `halo` is entered, it spreads the forces instead of spread_forces().
   void keep_to(std::shared_ptr<const Halo> halo) { halo_ = std::move(halo); }
@@ -65,21 +65,21 @@ class SharedWindows {
   /// Bits of `touched_`.
   static constexpr std::uint8_t by_a_rank = 1, by_this_rank = 2;
 
-  Touched touched_by_chunks(const std::vector<WindowChunk>& chunks, std::span<const Index> touched,
+  Touched touched_by_chunks(const std::vector<RowChunk>& chunks, std::span<const Index> touched,
                             std::span<const Offset> start, const Division& division);
-  void share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched);
+  void exchange_of_sums(const std::vector<RowChunk>& chunks, const Touched& touched);
   void remember_touched(const Touched& touched);
   /// The exchange of forces on particles that rows touch and that other ranks add up.
   std::unique_ptr<Exchange> exchange_of_forces() const;
 
   std::vector<int> rank_;      // rank that computes a chunk, [chunk]
   std::vector<Index> border_;  // first particle of each rank, and the number of particles
-  std::vector<WindowChunk> own_;
-  std::vector<WindowSum> summed_;
+  std::vector<RowChunk> own_;
+  std::vector<ChunkSum> summed_;
   Index size_ = 0;
   Offset pairs_ = 0;
   std::vector<std::uint8_t> touched_;  // bits: touched by some rank, by this rank, [particle]
-  std::unique_ptr<Exchange> windows_, particles_;
+  std::unique_ptr<Exchange> chunk_sums_, particles_;
   std::shared_ptr<const Halo> halo_;
 };
 

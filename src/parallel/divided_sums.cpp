@@ -1,36 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Assigns chunks and sums over particles to ranks.
-#include "parallel/shared_windows.hpp"
+#include "parallel/divided_sums.hpp"
 
 #include <algorithm>
 
 namespace meniscus {
 
-SharedWindows::SharedWindows(std::vector<WindowChunk> chunks, std::span<const Index> touched,
-                             std::span<const Offset> start, Index particles,
-                             const Division& division) {
+DividedSums::DividedSums(std::vector<RowChunk> chunks, std::span<const Index> touched,
+                         std::span<const Offset> start, Index particles, const Division& division) {
   // The particles are divided like the rows of the body: a rank follows the particles that it adds
   // up.
   for (int rank = 0; rank <= ranks().size(); ++rank)
     border_.push_back(division.first_row(particles, rank));
   const Touched by_chunks = touched_by_chunks(chunks, touched, start, division);
-  share_windows(chunks, by_chunks);
+  exchange_of_sums(chunks, by_chunks);
   remember_touched(by_chunks);
   particles_ = exchange_of_forces();
 }
 
 /// Gathers the particles that chunks touch. The rank of each chunk is known before its rows are.
-SharedWindows::Touched SharedWindows::touched_by_chunks(const std::vector<WindowChunk>& chunks,
-                                                        std::span<const Index> touched,
-                                                        std::span<const Offset> start,
-                                                        const Division& division) {
+DividedSums::Touched DividedSums::touched_by_chunks(const std::vector<RowChunk>& chunks,
+                                                    std::span<const Index> touched,
+                                                    std::span<const Offset> start,
+                                                    const Division& division) {
   struct Size {
     Index sums;
     Offset pairs;
   };
   const int count = chunk_count(static_cast<Index>(start.size()) - 1);
   std::vector<Size> size(static_cast<std::size_t>(count));
-  for (const WindowChunk& chunk : chunks) {
+  for (const RowChunk& chunk : chunks) {
     rank_.push_back(division.rank_of_item(count, chunk.number));
     if (rank_.back() == ranks().rank())
       at(size, chunk.number) = {chunk.sum_end - chunk.sum,
@@ -49,8 +48,8 @@ SharedWindows::Touched SharedWindows::touched_by_chunks(const std::vector<Window
   return by_chunks;
 }
 
-/// Sums of a rank are numbered with its own windows first, then received ones.
-void SharedWindows::share_windows(const std::vector<WindowChunk>& chunks, const Touched& touched) {
+/// Sums of a rank are numbered with its own chunks first, then received ones.
+void DividedSums::exchange_of_sums(const std::vector<RowChunk>& chunks, const Touched& touched) {
   const int me = ranks().rank();
   const ItemRange particles = summed_particles();
   std::vector<Index> root(chunks.size());
@@ -76,10 +75,10 @@ void SharedWindows::share_windows(const std::vector<WindowChunk>& chunks, const 
       if (!mine) leaves.push_back({size_++, rank_[k], sum});
     }
   }
-  windows_ = ranks().exchange(at(used, me), leaves);
+  chunk_sums_ = ranks().exchange(at(used, me), leaves);
 }
 
-void SharedWindows::remember_touched(const Touched& touched) {
+void DividedSums::remember_touched(const Touched& touched) {
   touched_.assign(static_cast<std::size_t>(border_.back()), 0);
   for (std::size_t k = 0; k < touched.size(); ++k) {
     const std::uint8_t bits = by_a_rank | (rank_[k] == ranks().rank() ? by_this_rank : 0);
@@ -87,7 +86,7 @@ void SharedWindows::remember_touched(const Touched& touched) {
   }
 }
 
-std::unique_ptr<Exchange> SharedWindows::exchange_of_forces() const {
+std::unique_ptr<Exchange> DividedSums::exchange_of_forces() const {
   std::vector<Leaf> leaves;
   for (int rank = 0; rank < ranks().size(); ++rank)
     for (Index A = at(border_, rank); A < at(border_, rank + 1); ++A)
@@ -95,12 +94,12 @@ std::unique_ptr<Exchange> SharedWindows::exchange_of_forces() const {
   return ranks().exchange(border_.back(), leaves);
 }
 
-void SharedWindows::mark_touched(std::span<std::uint8_t> particles) const {
+void DividedSums::mark_touched(std::span<std::uint8_t> particles) const {
   for (Index A = 0; A < border_.back(); ++A)
     if ((at(touched_, A) & by_this_rank) != 0) at(particles, A) = 1;
 }
 
-void SharedWindows::mark_summed(std::span<std::uint8_t> particles) const {
+void DividedSums::mark_summed(std::span<std::uint8_t> particles) const {
   const ItemRange summed = summed_particles();
   std::fill(particles.begin() + summed.begin, particles.begin() + summed.end, std::uint8_t{1});
 }
