@@ -73,7 +73,7 @@ void read_regular_file(const std::string& path, std::uintmax_t most,
   std::vector<char> piece(1 << 16);
   std::uintmax_t size = 0;
   for (;;) {
-    const ssize_t count = read(file, piece.data(), piece.size());
+    const ssize_t count = ::read(file, piece.data(), piece.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse(path, errno);
     if (count == 0) return;
