@@ -43,8 +43,6 @@ class Push final : public ForceTerm {
     return power;
   }
   Real steady_after() const override { return ramp_end; }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   Lanes load(Index A, Real time) const {

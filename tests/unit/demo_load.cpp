@@ -32,8 +32,6 @@ class Springs final : public ForceTerm {
                  at(out, A) = at(motion.u, body_.first + A)[0];
              }}};
   }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   const Body<D>& body_;

@@ -105,8 +105,6 @@ class Ratchet final : public ForceTerm {
       centre_[A] = std::max(centre_[A], motion.u[A][0] - 0.05);
   }
   void archive(const Archive& a) override { a("centre", centre_, dimension::length); }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   std::vector<Real> centre_;

@@ -160,8 +160,6 @@ class NoNumber final : public ForceTerm {
       if (at(body_.particles.X(), A)[0] > 1.5) at(force, A).set(0, std::nan(""));
     return {};
   }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   const Body<2>& body_;

@@ -45,8 +45,6 @@ class Dye final : public ForceTerm {
       E += 0.5 * k(A, motion.u.size()) * std::pow(distance(motion, A), 2);
     return E;
   }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   Real distance(const Motion& motion, std::size_t A) const {

@@ -220,8 +220,6 @@ class Gyroscope final : public ForceTerm {
     for (std::size_t A = 0; A < force.size(); ++A)
       force[A] += Lanes(-motion.v[A][1], motion.v[A][0], 0.0, 0.0);
   }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 };
 
 TEST(ImplicitViscosity, AsksForAShorterStepWhereNoVelocityIsFound) {

@@ -157,8 +157,6 @@ class Ghost final : public ForceTerm {
     force[0] += Lanes(0.1, 0, 0, 0);
     return {};
   }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 };
 
 TEST(MomentumBooks, SeeAForceThatDoesNotBelongThere) {

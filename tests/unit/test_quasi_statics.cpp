@@ -137,8 +137,6 @@ class DeadLoad final : public ForceTerm {
   void add_tangent(const Motion&, const Motion&, Forces) override {}
   std::optional<Real> potential(const Motion& motion) override { return -power(motion.u); }
   Real load_power(const Motion& motion) override { return power(motion.v); }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   Real power(std::span<const NodalVector> v) const {

@@ -57,8 +57,6 @@ class DeadLoad final : public ForceTerm {
     for (std::size_t A = 0; A < load_.size(); ++A) power += sum(load_[A] * motion.v[A]);
     return power;
   }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   NodalVectors load_;

@@ -177,8 +177,6 @@ class Counter final : public ForceTerm {
     ++calls_;
     return {};
   }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   int& calls_;
@@ -223,8 +221,6 @@ class Brittle final : public ForceTerm {
     if (broken_) force[3] += Lanes(std::numeric_limits<Real>::quiet_NaN());
     return {};
   }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
  private:
   const bool& broken_;
@@ -251,8 +247,6 @@ class Ridge final : public ForceTerm {
     return {};
   }
   bool may_reject_steps() const override { return may_jump; }
-  std::size_t bytes() const override { return 0; }
-  Offset pairs() const override { return 0; }
 
   Real slope = 0;
   bool may_jump = true;

@@ -129,6 +129,8 @@ struct MeasureSource {
   std::function<Real(const Motion&)> compute;
 };
 
+/// An effect. Only name() and add_force() are required; src/README.md lists what the other functions
+/// are for, and what happens without them.
 class ForceTerm {
  public:
   virtual ~ForceTerm() = default;
@@ -224,9 +226,9 @@ class ForceTerm {
   virtual std::optional<Failure> failure_of(Index, const Motion&) const { return std::nullopt; }
 
   /// Bytes of memory that the term uses during the time loop.
-  virtual std::size_t bytes() const = 0;
+  virtual std::size_t bytes() const { return 0; }
   /// Number of pairs (evaluation point or cell, particle) that one add_force() visits.
-  virtual Offset pairs() const = 0;
+  virtual Offset pairs() const { return 0; }
 
  protected:
   /// Makes the report of a term from its results per chunk.

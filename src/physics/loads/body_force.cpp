@@ -53,7 +53,6 @@ class BodyForce final : public ForceTerm {
     });
   }
   std::size_t bytes() const override { return load_.size() * sizeof(Lanes); }
-  Offset pairs() const override { return 0; }
 
  private:
   /// Computes load_ at a time, unless it is known from the last call.
