@@ -11,7 +11,7 @@ namespace meniscus {
 template <class First>
 void Division::complete(void* values, std::size_t bytes_per_value, First&& first) const {
   if (ranks().alone() || is_to_each()) return;
-  static std::vector<std::size_t> begin;
+  thread_local std::vector<std::size_t> begin;
   begin.clear();
   for (int rank = 0; rank <= ranks().size(); ++rank)
     begin.push_back(static_cast<std::size_t>(first(rank)) * bytes_per_value);

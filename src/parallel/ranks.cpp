@@ -13,6 +13,7 @@ namespace meniscus {
 namespace {
 
 std::unique_ptr<Ranks> (*how_to_join)() = nullptr;
+thread_local Ranks* of_thread = nullptr;
 
 std::unique_ptr<Ranks>& present() {
   static auto all = std::make_unique<Ranks>();
@@ -91,7 +92,15 @@ int Ranks::leave(int exit_code, const std::string&) {
 }
 
 Ranks& ranks() {
-  return *present();
+  return of_thread ? *of_thread : *present();
+}
+
+RanksOfThread::RanksOfThread(Ranks& own) {
+  of_thread = &own;
+}
+
+RanksOfThread::~RanksOfThread() {
+  of_thread = nullptr;
 }
 
 bool can_join_ranks() {

@@ -77,8 +77,16 @@ class Ranks {
   virtual bool all_come() { return true; }
 };
 
-/// The ranks of this run.
+/// The ranks of this run, or those of RanksOfThread on a thread that has them.
 Ranks& ranks();
+/// While this object lives, ranks() returns `own` on the thread that made it.
+class RanksOfThread {
+ public:
+  explicit RanksOfThread(Ranks& own);
+  RanksOfThread(const RanksOfThread&) = delete;
+  RanksOfThread& operator=(const RanksOfThread&) = delete;
+  ~RanksOfThread();
+};
 
 /// Makes the ranks that mpirun has started those of this run. Not to be called by a program that
 /// cannot.

@@ -7,6 +7,8 @@
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "meniscus/physics/surface_registry.hpp"
+#include "parallel/ranks.hpp"
+#include "parallel/thread_ranks.hpp"
 #include "scene/key_reference.hpp"
 #include "support.hpp"
 
@@ -272,6 +274,35 @@ TEST(Registered, RunsHaveTheSameBitsForAnyThreadsAndThroughARestartIn2D) {
 
 TEST(Registered, RunsHaveTheSameBitsForAnyThreadsAndThroughARestartIn3D) {
   expect_same_runs<3>();
+}
+
+/// A run on several ranks in this process has the bits of a run alone. A term that does not
+/// register its reads is among the cases.
+template <int D>
+void expect_same_ranks(int size) {
+  for (const Case& c : test::cases<D>()) {
+    SCOPED_TRACE(c.name + " in " + std::to_string(D) + "D on " + std::to_string(size) + " ranks");
+    Threaded<D> alone(c, 1);
+    alone->begin();
+    const Outcome outcome = alone.outcome();
+    std::vector<int> same(static_cast<std::size_t>(size), 0);
+    as_ranks(size, [&] {
+      Threaded<D> run(c, 1);
+      run->begin();
+      at(same, ranks().rank()) = run.outcome() == outcome;
+    });
+    for (const int is_same : same) EXPECT_TRUE(is_same);
+  }
+}
+
+TEST(Registered, RunsHaveTheSameBitsOnTwoRanks) {
+  expect_same_ranks<2>(2);
+  expect_same_ranks<3>(2);
+}
+
+TEST(Registered, RunsHaveTheSameBitsOnThreeRanks) {
+  expect_same_ranks<2>(3);
+  expect_same_ranks<3>(3);
 }
 
 /// At least one shape of body has measures of every group.
