@@ -309,6 +309,8 @@ const bool registered =
 
 }  // namespace
 
+template Real kinetic_energy(const System<2>&, const State&);
+template Real kinetic_energy(const System<3>&, const State&);
 template class Relaxation<2>;
 template class Relaxation<3>;
 
