@@ -124,7 +124,7 @@ struct Held final : Load<D> {
   Ramp ramp;
 
   static Rows<Held> rows() {
-    Rows<Held> rows = face_rows<Held>(&Held::face);
+    Rows<Held> rows = face_rows<Held>(&Held::face, "those that where chooses");
     rows.insert(
         rows.begin(),
         text_row("name", &Held::name,
@@ -157,6 +157,7 @@ struct Held final : Load<D> {
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     require_plain_name(block, name);
     face.check(block, bodies);
+    face.require_named(block, bodies, "the face that is held is named");
     const std::vector<std::string> known =
         D == 3 ? std::vector<std::string>{"x", "y", "z"} : std::vector<std::string>{"x", "y"};
     const bool normal = std::count(components.begin(), components.end(), "normal") > 0;

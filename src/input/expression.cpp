@@ -113,6 +113,15 @@ void refuse_traps(const std::string& formula) {
   }
 }
 
+bool has_decimal_comma(const std::string& formula) {
+  const auto digit = [&](std::size_t i) {
+    return i < formula.size() && formula[i] >= '0' && formula[i] <= '9';
+  };
+  for (std::size_t i = 1; i < formula.size(); ++i)
+    if (formula[i] == ',' && digit(i - 1) && digit(i + 1)) return true;
+  return false;
+}
+
 /// The error of muParser as a message of this program.
 std::string explain(const mu::ParserError& error, const mu::Parser& parser,
                     const std::string& formula) {
@@ -172,7 +181,9 @@ Expression::Expression(std::string formula, const NamedNumbers& constants)
     parsed->parser.SetExpr(text_);
     value_ = parsed->parser.Eval();
     if (parsed->parser.GetNumResults() != 1)
-      throw InputError(fmt::format("formula '{}': ',' outside of a function", text_));
+      throw InputError(
+          fmt::format("formula '{}': ',' outside of a function{}", text_,
+                      has_decimal_comma(text_) ? "; decimals take a point, as in 0.5" : ""));
     const auto& used = parsed->parser.GetUsedVar();
     for (std::size_t i = 0; i < variable_names.size(); ++i)
       at(depends_on_, i) = used.count(variable_names[i]) != 0;

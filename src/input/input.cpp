@@ -73,6 +73,17 @@ void Block::Node::note_missing(std::string_view key, const std::string& allowed)
   if (!quiet) note(place, joined(path, key), "missing; allowed is " + allowed);
 }
 
+void Block::Node::forget_missing(std::string_view given) {
+  const std::string meant = did_you_mean(given, known);
+  if (meant.empty()) return;
+  for (const std::string& key : known) {
+    const std::string begin = joined(path, key) + ": missing";
+    if (did_you_mean(given, {key}) == meant)
+      std::erase_if(document->problems,
+                    [&](const Problem& problem) { return problem.text.starts_with(begin); });
+  }
+}
+
 void Block::Node::echo(std::string_view key, std::string value, const std::string& unit,
                        bool fallback) {
   const auto same = std::find_if(echoes.begin(), echoes.end(),
@@ -97,6 +108,10 @@ std::shared_ptr<Block::Node> Block::Node::child(std::string_view key, bool in_ar
   node->place = where;
   children.push_back({std::string(key), in_array, node});
   return node;
+}
+
+input_values::Number Block::Node::number(Dimension dimension, const Range& range) const {
+  return {document->units, dimension, range, document->constants, document->in_plane};
 }
 
 template <class T, class Convert>
@@ -165,7 +180,7 @@ std::string Block::place(std::string_view key) const {
 
 Real Block::real(std::string_view key, Dimension dimension, Range range,
                  std::optional<Real> fallback) const {
-  const input_values::Number number{units(), dimension, range, node_->document->constants};
+  const input_values::Number number = node_->number(dimension, range);
   return node_->read<Real>(key, number.allowed(), number.unit(), fallback,
                            input_values::harmless(range),
                            [&](const Value& value) { return number.real(value); });
@@ -232,7 +247,7 @@ std::vector<std::string> Block::texts(std::string_view key,
 
 std::vector<Real> Block::reals(std::string_view key, std::size_t count, Dimension dimension,
                                Range range, std::optional<std::vector<Real>> fallback) const {
-  const input_values::Number number{units(), dimension, range, node_->document->constants};
+  const input_values::Number number = node_->number(dimension, range);
   return node_->read_list<Real>(key, count, number.allowed(), number.unit(), fallback,
                                 input_values::harmless(range),
                                 [&](const Value& value) { return number.real(value); });
@@ -241,7 +256,7 @@ std::vector<Real> Block::reals(std::string_view key, std::size_t count, Dimensio
 Expression Block::expression(std::string_view key, Dimension dimension,
                              std::optional<Expression> fallback, Range range,
                              Variables variables) const {
-  const input_values::Number number{units(), dimension, range, node_->document->constants};
+  const input_values::Number number = node_->number(dimension, range);
   Expression read = node_->read<Expression>(
       key, number.allowed_or_formula(variables), number.unit(), fallback,
       input_values::harmless(range),
@@ -254,7 +269,7 @@ std::vector<Expression> Block::expressions(std::string_view key, std::size_t cou
                                            Dimension dimension,
                                            std::optional<std::vector<Expression>> fallback,
                                            Variables variables) const {
-  const input_values::Number number{units(), dimension, range::any, node_->document->constants};
+  const input_values::Number number = node_->number(dimension, range::any);
   std::vector<Expression> read = node_->read_list<Expression>(
       key, count, number.allowed_or_formula(variables), number.unit(), fallback, Expression(0),
       [&](const Value& value) { return number.expression(value, variables); });
@@ -342,10 +357,12 @@ void Block::problem(std::string_view key, const std::string& what) const {
 
 void Block::done() const {
   if (node_->table == nullptr || node_->quiet) return;
-  for (const Entry& entry : node_->table->entries)
-    if (!contains(node_->was_read, entry.key))
-      node_->note(entry.place, joined(path(), entry.key),
-                  "unknown key; " + allowed_names(entry.key, node_->known));
+  for (const Entry& entry : node_->table->entries) {
+    if (contains(node_->was_read, entry.key)) continue;
+    node_->note(entry.place, joined(path(), entry.key),
+                "unknown key; " + allowed_names(entry.key, node_->known));
+    node_->forget_missing(entry.key);
+  }
 }
 
 bool Block::in_order() const {

@@ -14,6 +14,9 @@
 #include <vector>
 
 namespace meniscus {
+namespace input_values {
+struct Number;
+}
 
 struct Problem {
   scene_tree::Place place;
@@ -27,6 +30,7 @@ struct Document {
   std::vector<std::string> settings;  ///< texts of --set
   scene_tree::Value root;
   UnitSystem units;
+  bool in_plane = false;  ///< dimension = 2: formulas know no z
   Constants constants;
   std::vector<Problem> problems;
 
@@ -77,10 +81,15 @@ struct Block::Node {
   /// Marks the table if a value needs a broken constant, whose problem is noted elsewhere.
   void mark_guess(const scene_tree::Value& value);
   void note_missing(std::string_view key, const std::string& allowed);
+  /// Takes back the note of the missing key that stands here misspelt: one mistake, one message.
+  void forget_missing(std::string_view given);
   void echo(std::string_view key, std::string value, const std::string& unit, bool fallback);
   /// The node of a sub-table. Repeated calls return the same node.
   std::shared_ptr<Node> child(std::string_view key, bool in_array, const std::string& full_path,
                               const scene_tree::Table* table, const scene_tree::Place& where);
+
+  /// Numbers of a key of this table.
+  input_values::Number number(Dimension dimension, const Range& range) const;
 
   /// Returns convert(value). If that throws InputError, notes the problem and returns nothing.
   template <class Convert>

@@ -22,25 +22,6 @@ std::optional<Real> plain_number(const Value& value) {
   return std::nullopt;
 }
 
-const char* names_of(Variables variables) {
-  switch (variables) {
-    case Variables::place:
-      return "x, y, z";
-    case Variables::time:
-      return "t";
-    case Variables::place_and_time:
-      break;
-  }
-  return "x, y, z, t";
-}
-
-void refuse_others(const Expression& formula, Variables variables) {
-  if (variables == Variables::place && formula.depends_on_time())
-    throw InputError(fmt::format("formula '{}': it does not know the time t", formula.text()));
-  if (variables == Variables::time && formula.depends_on_place())
-    throw InputError(fmt::format("formula '{}': it knows no place x, y, z", formula.text()));
-}
-
 }  // namespace
 
 std::string toml(bool value) {
@@ -114,6 +95,28 @@ Real harmless(const Range& range) {
   for (const Real candidate : {1.0, 0.0, range.low, range.high, range.low / 2 + range.high / 2})
     if (range.contains(candidate)) return candidate;
   return 0;
+}
+
+const char* Number::names_of(Variables variables) const {
+  switch (variables) {
+    case Variables::place:
+      return in_plane ? "x, y" : "x, y, z";
+    case Variables::time:
+      return "t";
+    case Variables::place_and_time:
+      break;
+  }
+  return in_plane ? "x, y, t" : "x, y, z, t";
+}
+
+void Number::refuse_others(const Expression& formula, Variables variables) const {
+  if (variables == Variables::place && formula.depends_on_time())
+    throw InputError(fmt::format("formula '{}': it does not know the time t", formula.text()));
+  if (variables == Variables::time && formula.depends_on_place())
+    throw InputError(fmt::format("formula '{}': it knows no place x, y, z", formula.text()));
+  if (in_plane && formula.depends_on_axis(2))
+    throw InputError(
+        fmt::format("formula '{}': a scene in the plane (dimension = 2) has no z", formula.text()));
 }
 
 std::string Number::unit() const {

@@ -55,6 +55,7 @@ struct Number {
   Dimension dimension;
   Range range;
   const Constants& constants;
+  bool in_plane;  ///< formulas know no z
 
   /// The unit that is written behind a number; empty for plain numbers.
   std::string unit() const;
@@ -68,6 +69,9 @@ struct Number {
 
  private:
   std::string allowed_or(const std::string& formula) const;
+  const char* names_of(Variables) const;
+  /// Throws if a formula has a variable that it does not know.
+  void refuse_others(const Expression& formula, Variables) const;
   Real checked(Real value) const;
   /// The number of a text with or without a unit, or of a formula of constants.
   Real converted(const std::string& given) const;

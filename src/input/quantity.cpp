@@ -176,6 +176,7 @@ class QuantityReader {
     take('-');
     std::size_t digits = skip_digits();
     if (take('.')) digits += skip_digits();
+    if (digits > 0 && peek() == ',') fail("has a decimal comma; decimals take a point, as in 0.5");
     if (digits == 0) fail("does not begin with a number");
     return {text_.substr(begin, position_ - begin), exponent()};
   }

@@ -83,7 +83,7 @@ class Block::Node::ConstantsReader {
   Real plain_number(const scene_tree::Value& value) {
     if (std::holds_alternative<Real>(value.data) ||
         std::holds_alternative<std::int64_t>(value.data))
-      return input_values::Number{units(), dimension::none, range::any, constants()}.real(value);
+      return table_.number(dimension::none, range::any).real(value);
     input_values::refuse_kind(value, "a number, a text with a unit, or a formula of [constants]");
   }
 

@@ -2,6 +2,7 @@
 // Opens a whole scene, reports its problems, and writes the complete input.
 #include "input/input.hpp"
 #include "input/input_node.hpp"
+#include "input/input_values.hpp"
 #include "input/text.hpp"
 #include "meniscus/error.hpp"
 
@@ -111,6 +112,11 @@ SceneInput SceneInput::from_text(std::string_view toml, std::string name,
   if (functions) functions->node_->read_functions();
   if (constants) constants->node_->read_constants();
   if (functions) functions->node_->check_functions();
+  if (const scene_tree::Entry* dimension = node->table->find("dimension")) try {
+      document->in_plane =
+          input_values::integer(dimension->value, {2, 3}, document->constants) == 2;
+    } catch (const InputError&) {  // who reads it notes that
+    }
   return input;
 }
 

@@ -24,6 +24,18 @@ void FaceKeys::check(const Block& block, const BodyPlans<D>& bodies) const {
 }
 
 template <int D>
+void FaceKeys::require_named(const Block& block, const BodyPlans<D>& bodies,
+                             std::string_view what) const {
+  if (!face.empty() || where) return;
+  std::string faces;
+  for (const BodyPlan<D>& planned : bodies)
+    if (planned.settings.name == body && planned.in_order)
+      for (const auto& [name, facets] : face_names(planned.geometry))
+        faces += (faces.empty() ? ", of " : ", ") + name;
+  block.problem("face", fmt::format("missing; {}: give face{}, or where", what, faces));
+}
+
+template <int D>
 FaceCells<D> FaceKeys::cells(const std::string& place, const Body<D>& on) const {
   try {
     return face_cells(on, {face, where});
@@ -33,8 +45,10 @@ FaceCells<D> FaceKeys::cells(const std::string& place, const Body<D>& on) const 
   }
 }
 
-#define MENISCUS_INSTANTIATE(D)                                           \
-  template void FaceKeys::check(const Block&, const BodyPlans<D>&) const; \
+#define MENISCUS_INSTANTIATE(D)                                                              \
+  template void FaceKeys::check(const Block&, const BodyPlans<D>&) const;                    \
+  template void FaceKeys::require_named(const Block&, const BodyPlans<D>&, std::string_view) \
+      const;                                                                                 \
   template FaceCells<D> FaceKeys::cells(const std::string&, const Body<D>&) const;
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

@@ -15,6 +15,9 @@ struct FaceKeys {
   /// Notes a problem if the face does not exist.
   template <int D>
   void check(const Block& block, const BodyPlans<D>& bodies) const;
+  /// Notes that neither `face` nor `where` is given: "a held face is named".
+  template <int D>
+  void require_named(const Block& block, const BodyPlans<D>& bodies, std::string_view what) const;
   /// Sets `loaded_faces` of the body.
   template <int D>
   void prepare(BodyPlans<D>& bodies) const {
@@ -40,12 +43,14 @@ Row<M> row_of_part(const Row<Part>& row, Part M::*part) {
           [=](M& m, const Block& block) { row.read(m.*part, block); }};
 }
 
+/// `without`: what is meant where both keys are missing.
 template <class M>
-Rows<M> face_rows(FaceKeys M::*face) {
+Rows<M> face_rows(FaceKeys M::*face, const std::string& without = "the whole surface") {
   return {row_of_part(text_row("body", &FaceKeys::body, "name of the body"), face),
           row_of_part(text_row("face", &FaceKeys::face,
                                "name of a face of its shape, as `meniscus check` lists them; "
-                               "empty: the whole surface",
+                               "empty: " +
+                                   without,
                                ""),
                       face),
           row_of_part(optional_expression_row(

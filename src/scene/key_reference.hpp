@@ -3,6 +3,7 @@
 // measures.
 #pragma once
 #include "input/key_table.hpp"
+#include "scene/plan.hpp"
 
 #include <ostream>
 #include <string>
@@ -33,6 +34,12 @@ void print_keys_as_markdown(std::ostream& out, const std::string& wanted = "");
 /// Prints every measure with unit and meaning, grouped by the item that provides it. Builds small
 /// scenes, which takes a moment.
 void print_measures(std::ostream& out);
+
+/// Notes the measures that a scene asks for and that there cannot be: nothing of `names`, those of
+/// its bodies and loads, is called so, or no measure of any scene is. For a scene that has other
+/// problems, and is not built: one that is built knows its measures.
+void note_unknown_measures(const Block& root, const RunSettings& run,
+                           const std::vector<std::string>& names);
 
 /// Prints a JSON Schema (draft 7) of scenes, with which editors complete and check keys. It
 /// contains tables, keys, types, choices, required keys and signs. Rules that depend on units or on

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The reference of all measures: builds small scenes with everything registered, and lists their
 // measures.
+#include "input/names.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/physics/partner_registry.hpp"
+#include "parallel/ranks.hpp"
 #include "scene/example_scenes.hpp"
 #include "scene/key_reference.hpp"
 #include "scene/scene.hpp"
@@ -10,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace meniscus {
 namespace {
@@ -69,12 +72,17 @@ std::vector<std::string> contact_scenes() {
   return scenes;
 }
 
-std::vector<MeasureTable> measure_tables() {
+/// Calls `found` for each table of measures, until it says that it has seen enough.
+void for_measure_tables(const std::function<bool(const MeasureTable&)>& found) {
   std::vector<MeasureTable> tables;
+  bool enough = false;
   const auto section = [&](const std::string& heading, const std::vector<std::string>& scenes) {
+    if (enough) return;
     MeasureTable table{heading, {}};
     for (const std::string& scene : scenes) add(table, scene, tables);
-    if (!table.measures.empty()) tables.push_back(std::move(table));
+    if (table.measures.empty()) return;
+    enough = found(table);
+    tables.push_back(std::move(table));
   };
   const std::string heading = example_heading(dimensions);
   section("of every body", {heading + example_ball(dimensions, "other") + example_solid()});
@@ -98,13 +106,42 @@ std::vector<MeasureTable> measure_tables() {
   of_load("surface_tension", std::string(loads<dimensions>().at("surface_tension").example));
   for (const auto& [name, load] : loads<dimensions>())
     if (name != "surface_tension") of_load(name, std::string(load.example));
-  return tables;
+}
+
+/// A name that a scene asks for, and where.
+struct AskedMeasure {
+  Block block;
+  std::string key, name;
+
+  std::string of() const { return name.substr(0, name.find('.')); }
+  /// Empty if there is no point.
+  std::string what() const {
+    const std::size_t point = name.find('.');
+    return point == name.npos ? "" : name.substr(point + 1);
+  }
+};
+
+/// Columns of the history that are no measures have no point.
+std::vector<AskedMeasure> asked_measures(const Block& root, const RunSettings& run) {
+  std::vector<AskedMeasure> asked;
+  if (const auto output = root.table("output"))
+    for (const std::string& name : run.output.measures)
+      asked.push_back({*output, "measures", name});
+  if (const auto expect = root.table("expect"))
+    for (const auto& [name, e] : run.expectations)
+      if (const auto block = expect->table(name); block && e.of.find('.') != e.of.npos)
+        asked.push_back({*block, block->has("of") ? "of" : "", e.of});
+  return asked;
 }
 
 }  // namespace
 
 void print_measures(std::ostream& out) {
-  const std::vector<MeasureTable> tables = measure_tables();
+  std::vector<MeasureTable> tables;
+  for_measure_tables([&](const MeasureTable& table) {
+    tables.push_back(table);
+    return false;
+  });
   out << "Measures, numbers over time: the names of them in output.measures and in \"of\" of\n"
          "[expect.*]. BODY is the name of a body, NAME that of a contact, probe, face, ... Units "
          "are\n"
@@ -122,6 +159,42 @@ void print_measures(std::ostream& out) {
     for (const MeasureText& m : table.measures)
       out << fmt::format("  {:<{}}  {:<{}}  {}\n", m.name, widest, m.unit, widest_unit, m.meaning);
   }
+}
+
+void note_unknown_measures(const Block& root, const RunSettings& run,
+                           const std::vector<std::string>& names) {
+  if (ranks().size() > 1) return;  // which would build the small scenes together
+  std::vector<AskedMeasure> asked = asked_measures(root, run);
+  // A table that nobody knows, or that says no name, may have any.
+  const bool all_names =
+      root.in_order() && std::find(names.begin(), names.end(), "") == names.end();
+  std::erase_if(asked, [&](const AskedMeasure& m) {
+    if (std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+          return m.of() == name || m.of().starts_with(name + "-");
+        }))
+      return false;
+    if (all_names)
+      m.block.problem(m.key, fmt::format("'{}' is unknown: nothing of this scene is called '{}'{}",
+                                         m.name, m.of(), did_you_mean(m.of(), names)));
+    return true;
+  });
+  // Those of a probe are called as its fields.
+  for (const Block& probe : root.tables("probe"))
+    std::erase_if(
+        asked, [name = probe.text("name", "")](const AskedMeasure& m) { return m.of() == name; });
+  std::vector<std::string> known;
+  if (!asked.empty())
+    for_measure_tables([&](const MeasureTable& table) {
+      for (const MeasureText& m : table.measures) {
+        known.push_back(m.name.substr(m.name.find('.') + 1));
+        std::erase_if(asked, [&](const AskedMeasure& a) { return a.what() == known.back(); });
+      }
+      return asked.empty();
+    });
+  for (const AskedMeasure& m : asked)
+    m.block.problem(m.key, fmt::format("'{}' is unknown: no measure is called '{}'; `meniscus keys "
+                                       "--measures` lists all{}",
+                                       m.name, m.what(), did_you_mean(m.what(), known)));
 }
 
 }  // namespace meniscus

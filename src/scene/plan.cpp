@@ -8,6 +8,8 @@
 #include "meniscus/error.hpp"
 #include "meniscus/physics/law_registry.hpp"
 #include "parallel/ranks.hpp"
+#include "scene/key_reference.hpp"
+#include "scene/resolved_places.hpp"
 
 #include <fmt/core.h>
 
@@ -62,9 +64,18 @@ void plan_material(const Block& body, BodyPlan<D>& plan) {
 }
 
 template <int D>
+void require_resolved_places(const Block& block, const Grid<D>& grid) {
+  Real farthest = 0;
+  for (const Vec<D>& X : grid.X) farthest = std::max(farthest, X.cwiseAbs().maxCoeff());
+  const std::string lost = lost_in_rounding(farthest, mean_spacing(grid), block.units());
+  if (!lost.empty()) block.problem(block.has("centre") ? "centre" : "shape", lost);
+}
+
+template <int D>
 void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
-  if (blocks.empty()) root.problem("body", "a scene needs at least one [[body]]");
+  if (blocks.empty() && (!root.has("body") || root.in_order()))
+    root.problem("body", "missing; a scene needs at least one [[body]]");
   std::set<std::string> names;
   for (const Block& block : blocks) {
     BodySettings settings = read<BodySettings>(block);
@@ -84,6 +95,7 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
     require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
     require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
     Geometry<D> geometry = read_geometry<D>(block);
+    if (block.in_order()) require_resolved_places(block, geometry.grid);
     const bool in_order = block.in_order();
     bodies.push_back({std::move(settings), std::move(geometry), nullptr, in_order});
     plan_material(block, bodies.back());
@@ -130,6 +142,16 @@ void plan_loads(const Block& root, Plan<D>& plan) {
     for (const auto& [name, kind] : loads<D>())
       if (kind.stage == stage) plan_loads(root, kind, claims, plan);
   refuse_loads_of_other_dimension<D>(root);
+}
+
+/// Of what may have measures.
+template <int D>
+std::vector<std::string> names_of(const Plan<D>& plan) {
+  std::vector<std::string> names;
+  for (const BodyPlan<D>& body : plan.bodies) names.push_back(body.settings.name);
+  for (const auto& load : plan.loads)
+    if (const auto identity = load->identity()) names.push_back(identity->value);
+  return names;
 }
 
 /// True for solids in 3D. They reach a given error much sooner with narrower supports than drops
@@ -271,7 +293,12 @@ Plan<D> read_plan(const SceneInput& input) {
   settle_supports(input.root(), plan.bodies);
   require_memory_for(input.root(), plan.bodies);
   input.root().done();
-  input.check();
+  try {
+    input.check();
+  } catch (const InputError&) {
+    note_unknown_measures(input.root(), plan, names_of(plan));
+    input.check();
+  }
   return plan;
 }
 

@@ -5,10 +5,13 @@
 #include "meniscus/error.hpp"
 #include "scene/add_director.hpp"
 #include "scene/build_body.hpp"
+#include "scene/resolved_places.hpp"
 #include "scene/watch_surfaces.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace meniscus {
@@ -24,6 +27,7 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const Body<D>& body = scene.system.bodies[b];
     const BodySettings& settings = plan.bodies[b].settings;
+    Real farthest = 0;
     for (Index A = 0; A < body.size(); ++A) {
       const Eigen::Vector3d X = spatial<D>(body.origin(A));
       for (int i = 0; i < D; ++i) {
@@ -31,8 +35,13 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
           at(state.u, body.first + A).set(i, at(settings.initial_displacement, i)(X));
         if (!settings.initial_velocity.empty())
           at(state.v, body.first + A).set(i, at(settings.initial_velocity, i)(X));
+        farthest = std::max(farthest, std::abs(X[i] + at(state.u, body.first + A)[i]));
       }
     }
+    const std::string lost =
+        lost_in_rounding(farthest, mean_spacing(body.geometry.grid), scene.units);
+    if (!lost.empty())
+      throw InputError(fmt::format("body '{}': initial_displacement: {}", body.name, lost));
   }
 }
 

@@ -110,6 +110,8 @@ TEST(Expression, Messages) {
   EXPECT_EQ(message("x = 3"),
             "formula 'x = 3': '=' at character 3 is not allowed; equality is written ==");
   EXPECT_EQ(message("x, y"), "formula 'x, y': ',' outside of a function");
+  EXPECT_EQ(message("0,5*x"),
+            "formula '0,5*x': ',' outside of a function; decimals take a point, as in 0.5");
   EXPECT_EQ(message(std::string("x\0*q", 4)),
             "a formula has a control character (byte 0) at character 2");
   EXPECT_NE(message("\"x\""), "no error");

@@ -297,6 +297,39 @@ TEST(Input, FormulasKnowTheirVariablesOnly) {
             "s.toml:1:5: p: is a boolean; allowed is a number or a formula of t");
 }
 
+TEST(Input, FormulasInThePlaneKnowNoZ) {
+  const auto of = [](Variables variables) {
+    return [variables](const Block& b) { b.expression("p", none, 0.0, {}, variables); };
+  };
+  const std::string plane = "dimension = 2\n",
+                    no_z = "a scene in the plane (dimension = 2) has no z";
+  EXPECT_EQ(report(plane + "p = 'x + 2*z'", of(Variables::place_and_time)),
+            "s.toml:2:5: p: formula 'x + 2*z': " + no_z);
+  EXPECT_EQ(report(plane + "p = 'k*z'\n[constants]\nk = 3", of(Variables::place)),
+            "s.toml:2:5: p: formula 'k*z': " + no_z);
+  EXPECT_EQ(report(plane + "p = 'f'\n[functions]\nf = '2*z'", of(Variables::place)),
+            "s.toml:2:5: p: formula '(2*z)': " + no_z);
+  EXPECT_EQ(report(plane + "p = true", of(Variables::place)),
+            "s.toml:2:5: p: is a boolean; allowed is a number or a formula of x, y");
+  EXPECT_EQ(report(plane + "p = 'x + y'", of(Variables::place)), "");
+  EXPECT_EQ(report("dimension = 3\np = 'x + 2*z'", of(Variables::place)), "");
+}
+
+TEST(Input, AMisspeltKeyThatIsMissingIsOneProblem) {
+  const auto read = [](const Block& b) {
+    b.real("density", none, {}, {});
+    b.real("gamma", none, {}, {});
+    b.done();
+  };
+  EXPECT_EQ(report("densty = 1\ngamma = 1", read),
+            "s.toml:1:1: densty: unknown key; allowed are units, constants, functions, density, "
+            "gamma; did you mean 'density'?");
+  EXPECT_EQ(report("denstiy = 1", read),
+            "s.toml:1:1: denstiy: unknown key; allowed are units, constants, functions, density, "
+            "gamma; did you mean 'density'?\n"
+            "s.toml:1:1: gamma: missing; allowed is a number");
+}
+
 TEST(Input, AFormulaThatIsNotFiniteNamesItsPlace) {
   const auto input = SceneInput::from_text("[a]\nv = [1, '1/(0.5 - t)']", "s.toml");
   const auto v = input.root().table("a")->expressions("v", 2, none, {});

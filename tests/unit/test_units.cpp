@@ -207,6 +207,8 @@ TEST(Units, MessagesAboutQuantities) {
   EXPECT_EQ(message(si, "m", length), "'m' does not begin with a number");
   EXPECT_EQ(message(si, "nan m", length), "'nan m' does not begin with a number");
   EXPECT_EQ(message(si, "", length), "'' does not begin with a number");
+  EXPECT_EQ(message(si, "0,5 m", length),
+            "'0,5 m' has a decimal comma; decimals take a point, as in 0.5");
   EXPECT_EQ(message(si, "5 m/", length), "'5 m/' lacks a unit behind '5 m/'");
   EXPECT_EQ(message(si, "5 m)", length), "'5 m)' has a closing bracket too many");
   EXPECT_EQ(message(si, "5 (m", length), "'5 (m' lacks a closing bracket");

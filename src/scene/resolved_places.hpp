@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether numbers tell the particles of a body apart where it is.
+#pragma once
+#include "input/units.hpp"
+#include "numbers/types.hpp"
+
+#include <fmt/core.h>
+
+#include <limits>
+#include <string>
+
+namespace meniscus {
+
+/// Forces come from differences of places. Why a body whose coordinates reach `farthest` cannot be
+/// computed, without its name; empty if it can.
+inline std::string lost_in_rounding(Real farthest, Real spacing, const UnitSystem& units) {
+  // Of a spacing: errors of forces, and of energies, are of this size.
+  constexpr Real most = 1e-6;
+  const Real rounding = std::numeric_limits<Real>::epsilon() * farthest;
+  if (rounding <= most * spacing) return "";
+  const std::string unit = units.symbol(dimension::length);
+  return fmt::format(
+      "its places reach {:.4g} {}, where numbers are {:.2g} {} apart; with its spacing of {:.4g} "
+      "{} they may reach {:.2g} {}; move it towards the origin",
+      farthest, unit, rounding, unit, spacing, unit,
+      most * spacing / std::numeric_limits<Real>::epsilon(), unit);
+}
+
+}  // namespace meniscus
