@@ -11,7 +11,7 @@
 #include "numbers/dense.hpp"
 #include "run/simulation.hpp"
 #include "solve/expected_effort.hpp"
-#include "solve/step/elastic_inertia.hpp"
+#include "solve/step/pseudo_time.hpp"
 
 #include <fmt/core.h>
 #include <omp.h>
@@ -34,7 +34,8 @@ bool flows(const Scene<D>& scene) {
 /// Expected cost of an equilibrium with `newton` and with `relax`. Empty if no estimate is
 /// possible.
 template <int D>
-std::optional<ExpectedEffort> effort_to_rest(Scene<D>& scene, const State& state, Real stable) {
+std::optional<ExpectedEffort> effort_to_rest(Scene<D>& scene, const State& state, Real dt,
+                                             bool thin) {
   constexpr Real usual_steps = 20;
   std::vector<bool> fluid;
   for (const SceneBody& body : scene.bodies) fluid.push_back(body.is_fluid());
@@ -44,20 +45,29 @@ std::optional<ExpectedEffort> effort_to_rest(Scene<D>& scene, const State& state
                      : scene.time.solver == "newton" && scene.time.step
                          ? duration / *scene.time.step
                          : usual_steps;
-  return expected_effort(scene.system, state, std::ceil(steps - 1e-9), std::min(steady, end),
-                         stable, fluid);
+  return expected_effort(scene.system, state, std::ceil(steps - 1e-9), std::min(steady, end), dt,
+                         fluid, {scene.time.force_tolerance, scene.time.shape_tolerance},
+                         thin ? PseudoTime<D>::least_steps : Relaxation<D>::least_steps);
+}
+
+/// "about 500", or "150 to 3000".
+std::string rounded_steps(const ExpectedEffort& effort) {
+  constexpr Real narrow = 2;
+  const Real steps = effort.relaxation_steps;
+  if (effort.uncertainty <= narrow) return fmt::format("about {:.0f}", steps);
+  return fmt::format("{:.0f} to {:.0f}", steps / effort.uncertainty, steps * effort.uncertainty);
 }
 
 /// Prints the expected cost of `newton` and of `relax`, which one is faster, and by which factor.
 void say_effort(const ExpectedEffort& effort, bool flows) {
-  say("newton: {:.0f} {} of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: about "
-      "{:.0f} steps at {:.2g} s, expected {:.2g} s\n",
+  say("newton: {:.0f} {} of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: {} steps "
+      "at {:.2g} s, expected {:.2g} s\n",
       effort.load_steps, flows ? "steps of implicit Euler" : "load steps", effort.tangents_per_step,
-      effort.seconds_per_tangent, effort.newton_seconds(), effort.relaxation_steps,
+      effort.seconds_per_tangent, effort.newton_seconds(), rounded_steps(effort),
       effort.seconds_per_step, effort.relaxation_seconds());
   const Real ratio = effort.relaxation_seconds() / effort.newton_seconds();
-  say("{} is expected to be {:.1f} times as fast, within a factor of two or three\n",
-      ratio > 1 ? "newton" : "relax", std::max(ratio, 1 / ratio));
+  say("{} is expected to be {:.1f} times as fast, within a factor of {:g}\n",
+      ratio > 1 ? "newton" : "relax", std::max(ratio, 1 / ratio), 1.5 * effort.uncertainty);
 }
 
 /// Warns that the stable step, which is computed for the initial shape of the bodies, may shrink
@@ -125,7 +135,8 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
     const StableStep stable = StableStepEstimator<D>(scene.system).estimate(simulation.state());
     say("stable step of motion {:.6g} {}; newton: load steps of {:.6g}\n", stable.dt,
         unit(dimension::time), scene.time.step.value_or(scene.time.end / 20));
-    if (const auto effort = effort_to_rest(scene, simulation.state(), stable.dt))
+    if (const auto effort =
+            effort_to_rest(scene, simulation.state(), scene.time.safety * stable.dt, false))
       say_effort(*effort, flows(scene));
     for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
     say("the scene is in order\n");
@@ -154,7 +165,7 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
 
   const bool relaxes = scene.time.solver == "relax";
   std::optional<ExpectedEffort> effort;
-  if (relaxes) effort = effort_to_rest(scene, simulation.state(), dt / 0.9);
+  if (relaxes) effort = effort_to_rest(scene, simulation.state(), dt, thin);
   // The first steps include a search for the stable step, which later steps rarely repeat.
   constexpr std::size_t trial_steps = 10;
   std::vector<double> seconds;
@@ -169,19 +180,24 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
   std::sort(seconds.begin(), seconds.end());
   const double per_step = seconds.empty() ? 0 : seconds[seconds.size() / 2];
   Real steps = std::ceil(std::min(scene.time.end, stop) / dt);
-  bool rests = false;
+  const bool changing = scene.system.steady_after() > 0 && !scene.time.step;
+  std::string until = changing ? " if they stay as long as at the start" : "";
   if (effort) {
     effort->seconds_per_step = per_step;
     say_effort(*effort, flows(scene));
-    rests = effort->relaxation_steps < steps;
+    const bool rests = effort->relaxation_steps < steps;
+    until = rests ? " to rest" : " to time.end, too few to come to rest";
     if (rests) steps = std::round(effort->relaxation_steps);
+    if (rests && effort->uncertainty > 2)
+      until += fmt::format(", or {} times more or fewer", effort->uncertainty);
+  } else if (relaxes) {
+    until = " to time.end" + until + ", fewer if it comes to rest before";
   }
-  say("{}{} steps{}, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
+  say("{} steps{}, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
       "forces\n",
-      relaxes && !effort ? "at most " : "",
-      steps < 1e9 ? fmt::format("{:.0f}", steps) : fmt::format("{:.3g}", steps),
-      rests ? " to rest" : "", steps * per_step, omp_get_max_threads(),
-      1e9 * per_step / scene.system.size(), 1e-6 * static_cast<Real>(scene.system.bytes()));
+      steps < 1e9 ? fmt::format("{:.0f}", steps) : fmt::format("{:.3g}", steps), until,
+      steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
+      1e-6 * static_cast<Real>(scene.system.bytes()));
   say_what_shortens_steps(scene);
   if (!scene.time.step) say_softer_drops(scene, request, stable_at_start);
   for (const auto& warning : scene.warnings) say("warning: {}\n", warning);

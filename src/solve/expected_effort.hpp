@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Estimates the effort of Newton's method and of relaxation for the equilibria of a scene.
 #pragma once
-#include "solve/system.hpp"
+#include "solve/step/relaxation.hpp"
 
 #include <optional>
 #include <vector>
@@ -14,6 +14,8 @@ struct ExpectedEffort {
   Real seconds_per_tangent = 0,
        set_up_seconds = 0;  ///< seconds_per_tangent includes the preconditioner
   Real relaxation_steps = 0, seconds_per_step = 0;
+  /// By which factor there may be more or fewer steps: how long a drop creeps nobody knows before.
+  Real uncertainty = 2;
 
   Real newton_seconds() const {
     return set_up_seconds + load_steps * tangents_per_step * seconds_per_tangent;
@@ -21,17 +23,17 @@ struct ExpectedEffort {
   Real relaxation_seconds() const { return relaxation_steps * seconds_per_step; }
 };
 
-/// Estimates the effort from three numbers: the measured time of a force and of a tangent, the
-/// numbers of iterations in quasi-statics note 6, and the frequency (with linear elements) of the
-/// mode that the final loads excite.
-///
-/// Relaxation takes the time of the ramps and two periods of this mode, with steps of the usual
-/// fraction of the stable step `stable`. With fluids, Newton's method takes ten further steps of
-/// implicit Euler, and relaxation five times the clock of FluidRest. Empty if the factors of the
-/// preconditioner would be too large to try, or if a term has no potential.
+/// Estimates both methods. Newton's method: from the time of a force and of a tangent, and the
+/// number of conjugate gradients measured in quasi-statics note 6. Relaxation: by relaxing the few
+/// shapes that the loads excite most, with steps `dt` and intervals of at least `fewest_steps`
+/// steps. With fluids, Newton's method takes ten more steps of implicit Euler, and relaxation five
+/// times the clock of FluidRest. Empty if the factors of the preconditioner would be too large to
+/// try, if a term has no potential, or if relaxation is not expected to end.
 template <int D>
 std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& state,
-                                              Real load_steps, Real steady_after, Real stable,
-                                              const std::vector<bool>& fluid);
+                                              Real load_steps, Real steady_after, Real dt,
+                                              const std::vector<bool>& fluid,
+                                              const typename Relaxation<D>::Tolerances&,
+                                              int fewest_steps);
 
 }  // namespace meniscus

@@ -337,7 +337,16 @@ class Reports(ProgramTest):
         self.assertIn(f"\n{steps} steps to rest, about ", expected)
         self.call("run", text, "--output", "out")
         made = int(re.search(r"(\d+) steps in ", (self.directory / "out/run.log").read_text())[1])
-        self.assertLess(max(steps / made, made / steps), 2)
+        self.assertTrue(least < made < most, (least, made, most))
+
+    def test_steps_of_ramps(self):
+        """Ramps shorten steps: the number is said to be one of steps as long as at the start."""
+        text = SHEET + '[[held]]\nbody = "sheet"\nface = "y_min"\n'
+        self.assertNotIn("as long as at the start", self.call("check", self.scene(text)).stdout)
+        text += '[[held]]\nbody = "sheet"\nface = "y_max"\ndisplacement = [0, 18]\nramp = [0, 0.1]\n'
+        said = self.call("check", self.scene(text)).stdout
+        self.assertRegex(said, r"\n\d+ steps if they stay as long as at the start, about ")
+        self.assertIn("loads or motions change until the end: steps become shorter", said)
 
     def test_numbers_of_drops(self):
         """Ohnesorge and Bond numbers and times of a drop, by hand. Softer drops take the number of steps that

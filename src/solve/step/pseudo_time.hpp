@@ -11,6 +11,8 @@ namespace meniscus {
 template <int D>
 class PseudoTime final : public Relaxation<D> {
  public:
+  static constexpr int least_steps = 8;
+
   /// Steps are `safety` times the longest stable step.
   PseudoTime(System<D>& system, const typename Relaxation<D>::Tolerances& tolerances, Real safety);
 
@@ -35,7 +37,7 @@ class PseudoTime final : public Relaxation<D> {
   ModeSums sums_of_step(const State& state) const override;
   ModeSums sums_of_interval(const State& state) const override;
   void follow_brake(State& state, Real factor, Real omega_dt) override;
-  Real fewest_steps() const override { return 8; }
+  Real fewest_steps() const override { return least_steps; }
   void begin_interval() override;
   /// Computes acceleration_ and beyond_ from a state and momentum_.
   void take_up(const State& state);

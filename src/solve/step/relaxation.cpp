@@ -30,12 +30,6 @@
 #include <numbers>
 
 namespace meniscus {
-namespace {
-
-constexpr Real damping_ratio = 0.6;
-
-}  // namespace
-
 template <int D>
 Real kinetic_energy(const System<D>& system, const State& state) {
   return system.sum_over_particles(0.0, [&](Index A) {

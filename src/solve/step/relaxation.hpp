@@ -32,6 +32,10 @@ class Relaxation : public Stepper<D> {
     Real shape;
   };
 
+  /// zeta, and the smallest number of steps in an interval.
+  static constexpr Real damping_ratio = 0.6;
+  static constexpr int least_steps = 40;
+
   /// `fluid` [body]: true for fluids. Empty if there are none.
   Relaxation(System<D>& system, const Tolerances& tolerances, const std::vector<bool>& fluid = {});
 
@@ -76,7 +80,7 @@ class Relaxation : public Stepper<D> {
   /// the motion times the step.
   virtual void follow_brake(State&, [[maybe_unused]] Real factor, [[maybe_unused]] Real omega_dt) {}
   /// Smallest number of steps in an interval.
-  virtual Real fewest_steps() const { return 40; }
+  virtual Real fewest_steps() const { return least_steps; }
   virtual void begin_interval() {}
 
   System<D>& system_;
