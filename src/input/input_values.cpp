@@ -116,7 +116,7 @@ void Number::refuse_others(const Expression& formula, Variables variables) const
     throw InputError(fmt::format("formula '{}': it knows no place x, y, z", formula.text()));
   if (in_plane && formula.depends_on_axis(2))
     throw InputError(
-        fmt::format("formula '{}': a scene in the plane (dimension = 2) has no z", formula.text()));
+        fmt::format("formula '{}': a 2D scene (dimension = 2) has no z", formula.text()));
 }
 
 std::string Number::unit() const {

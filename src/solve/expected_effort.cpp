@@ -64,6 +64,9 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
                         .time(tolerances, dt, fewest_steps);
   if (!time) return std::nullopt;
   effort.relaxation_steps = (*time - state.time) / dt;
+  // The stiffness of a contact that closes on the way is not that of the start.
+  for (const auto& term : system.terms)
+    if (term->may_reject_steps()) effort.uncertainty = 5;
   return effort;
 }
 

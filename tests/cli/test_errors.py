@@ -122,7 +122,7 @@ class Scenes(ProgramTest):
                                                       "[body.material]"), *words)
             self.assertEqual(len(report.splitlines()), 1, report)
         self.assert_refused(SHEET.replace('shape =', 'initial_velocity = ["z", 0]\nshape ='), "scene.toml:8",
-                            "body[0].initial_velocity[0]: ", "formula 'z': a scene in the plane (dimension = 2) has no z")
+                            "body[0].initial_velocity[0]: ", "formula 'z': a 2D scene (dimension = 2) has no z")
 
     def test_bodies_far_away(self):
         """Where numbers do not tell the particles apart; not where they are large."""

@@ -301,14 +301,15 @@ TEST(Input, FormulasInThePlaneKnowNoZ) {
   const auto of = [](Variables variables) {
     return [variables](const Block& b) { b.expression("p", none, 0.0, {}, variables); };
   };
-  const std::string plane = "dimension = 2\n",
-                    no_z = "a scene in the plane (dimension = 2) has no z";
+  const std::string plane = "dimension = 2\n", no_z = "a 2D scene (dimension = 2) has no z",
+                    allowed =
+                        "; allowed is a number or a formula of x, y or a formula of [constants]";
   EXPECT_EQ(report(plane + "p = 'x + 2*z'", of(Variables::place_and_time)),
             "s.toml:2:5: p: formula 'x + 2*z': " + no_z);
   EXPECT_EQ(report(plane + "p = 'k*z'\n[constants]\nk = 3", of(Variables::place)),
-            "s.toml:2:5: p: formula 'k*z': " + no_z);
+            "s.toml:2:5: p: formula 'k*z': " + no_z + allowed);
   EXPECT_EQ(report(plane + "p = 'f'\n[functions]\nf = '2*z'", of(Variables::place)),
-            "s.toml:2:5: p: formula '(2*z)': " + no_z);
+            "s.toml:2:5: p: 'f' by [functions]: formula '(2*z)': " + no_z + allowed);
   EXPECT_EQ(report(plane + "p = true", of(Variables::place)),
             "s.toml:2:5: p: is a boolean; allowed is a number or a formula of x, y");
   EXPECT_EQ(report(plane + "p = 'x + y'", of(Variables::place)), "");
@@ -321,13 +322,12 @@ TEST(Input, AMisspeltKeyThatIsMissingIsOneProblem) {
     b.real("gamma", none, {}, {});
     b.done();
   };
-  EXPECT_EQ(report("densty = 1\ngamma = 1", read),
-            "s.toml:1:1: densty: unknown key; allowed are units, constants, functions, density, "
-            "gamma; did you mean 'density'?");
+  const std::string unknown =
+      ": unknown key; allowed are units, constants, functions, density, gamma; did you mean "
+      "'density'?";
+  EXPECT_EQ(report("densty = 1\ngamma = 1", read), "s.toml:1:1: densty" + unknown);
   EXPECT_EQ(report("denstiy = 1", read),
-            "s.toml:1:1: denstiy: unknown key; allowed are units, constants, functions, density, "
-            "gamma; did you mean 'density'?\n"
-            "s.toml:1:1: gamma: missing; allowed is a number");
+            "s.toml:1:1: gamma: missing; allowed is a number\ns.toml:1:1: denstiy" + unknown);
 }
 
 TEST(Input, AFormulaThatIsNotFiniteNamesItsPlace) {

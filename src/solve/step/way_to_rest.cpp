@@ -210,7 +210,7 @@ std::optional<Real> WayToRest<D>::time(const typename Relaxation<D>::Tolerances&
   window_force = f;
   Real t = begin_, window_begin = t, window = 0;
   int settled = 0;
-  constexpr int most_steps = 1'000'000;
+  constexpr int most_steps = 200'000;
   for (int k = 0; k < most_steps; ++k) {
     v += step / 2 * f;
     const Vector dq = step * v;
