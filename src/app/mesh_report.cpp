@@ -4,6 +4,7 @@
 
 #include "app/print.hpp"
 #include "body/grid/simplex.hpp"
+#include "body/mesh/mesh_regions.hpp"
 #include "body/surface/surface_points.hpp"
 
 #include <fmt/core.h>
@@ -72,6 +73,10 @@ void say_meshes(const Scene<D>& scene, const SceneInput& input) {
         "of its cell{}\n",
         body.name, least_cell * body.size() / volume, D == 3 ? "volume" : "area", least_sum,
         least_sum < 0.3 ? ", which the floor of the masses raises to 0.3" : "");
+    if (const MeshRegions* regions = mesh_regions(body.geometry))
+      for (std::size_t r = 0; r < regions->names.size(); ++r)
+        say("body '{}': region '{}' has {} cells\n", body.name, regions->names[r],
+            regions->cells[r]);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "body/wall_supports.hpp"
 
 #include "body/surface/surface_points.hpp"
+#include "meniscus/error.hpp"
 #include "parallel/parallel.hpp"
 
 #include <algorithm>
@@ -80,6 +81,11 @@ class PointsOfFacets {
 template <int D>
 WallReport keep_supports_in_wall(ParticleSet<D>& particles, const Geometry<D>& geometry) {
   if (!is_hollow(geometry)) return {};
+  if (!geometry.director)
+    throw InputError(
+        "the shape has a cavity, but no normal to its walls (Geometry::director), by which "
+        "supports are "
+        "kept within them");
   const auto inner = surface_points(geometry, 3, SurfacePart::inner);
   const PointsOfFacets<D> surface(inner);
   std::vector<Real> limit(particles.X().size(), std::numeric_limits<Real>::max());

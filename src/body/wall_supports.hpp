@@ -24,7 +24,7 @@ struct WallReport {
 /// times the straight distance, with a the angle between their normals. So points in reach are at
 /// most twice as far along the wall, and the other side of the cavity, turned by 180 degrees, is
 /// out of reach. Searches need no further tests, and shape functions stay smooth. Does nothing to
-/// solid bodies.
+/// solid bodies. Throws InputError if a hollow body has no Geometry::director.
 template <int D>
 WallReport keep_supports_in_wall(ParticleSet<D>& particles, const Geometry<D>& geometry);
 

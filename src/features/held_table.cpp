@@ -188,6 +188,9 @@ struct Held final : Load<D> {
                               held->name, cells.size(), body.name, cells.total_area(),
                               assembly.units().symbol(D == 3 ? dimension::area : dimension::length),
                               held->rows.size()));
+    if (displacement.empty() && !angle)
+      for (const auto& row : held->rows.rows)
+        assembly.set_held(face.body, at(cells.cell, row.place), row.direction);
     measure(assembly, *held);
     assembly.keep_reference(face.body, "its [[held]] knows the faces of its shape only");
     assembly.add(std::move(held));

@@ -58,7 +58,8 @@ struct Traction final : Load<D> {
         "traction '{}': on {:.4g} {} of body '{}'", label(), cells.total_area(),
         assembly.units().symbol(D == 3 ? dimension::area : dimension::length), body.name));
     assembly.keep_reference(face.body, "its [[traction]] knows the faces of its shape only");
-    assembly.add(pressure ? face_pressure(body, label(), std::move(cells), *pressure, ramp)
+    assembly.add(pressure ? face_pressure(body, label(), std::move(cells), *pressure, ramp,
+                                          assembly.held(face.body))
                           : traction(body, label(), std::move(cells), force, ramp),
                  label());
   }

@@ -314,6 +314,11 @@ Block Block::table_or_defaults(std::string_view key) const {
   return Block(node);
 }
 
+bool Block::is_array(std::string_view key) const {
+  const Entry* entry = node_->ask(key);
+  return entry != nullptr && std::holds_alternative<Array>(entry->value.data);
+}
+
 std::vector<Block> Block::tables(std::string_view key) const {
   const Entry* entry = node_->take(key);
   if (entry == nullptr) return {};

@@ -5,6 +5,7 @@
 #include "measure/drop_measures.hpp"
 #include "meniscus/error.hpp"
 #include "parallel/nodal_algebra.hpp"
+#include "parallel/ranks.hpp"
 #include "solve/step/central_difference.hpp"
 #include "solve/step/viscosity_choice.hpp"
 
@@ -308,10 +309,12 @@ void Simulation<D>::refuse_impossible_surfaces() const {
 
 template <int D>
 void Simulation<D>::give_up(StepFailure failure) {
-  complete_state();
-  // The failed step left invalid forces. Compute the forces at the restored positions, so that
-  // output can show them.
-  scene_.system.add_up(state_.motion(), state_.forces());
+  if (ranks().all_come()) {  // otherwise this rank has failed alone
+    complete_state();
+    // The failed step left invalid forces. Compute the forces at the restored positions, so that
+    // output can show them.
+    scene_.system.add_up(state_.motion(), state_.forces());
+  }
   failure.step = state_.step + 1;
   failure.time = state_.time + last_step_;
   failure.dt = last_step_;

@@ -2,6 +2,7 @@
 // Reads a whole scene and makes all checks that need no particles.
 #include "scene/plan.hpp"
 
+#include "body/mesh/mesh_regions.hpp"
 #include "body/shapes/cell_count.hpp"
 #include "input/names.hpp"
 #include "meniscus/body/shapes.hpp"
@@ -52,15 +53,136 @@ void require_components(const Block& block, const char* key, std::size_t given, 
   block.problem(key, fmt::format("has {} components; allowed are {}, one per dimension", given, D));
 }
 
+/// A table [body.material], read.
+template <int D>
+struct PlannedMaterial {
+  std::unique_ptr<Material<D>> material;  ///< null: the table has a problem
+  SolidSettings solid;
+};
+
+template <int D>
+PlannedMaterial<D> read_material_table(const Block& block) {
+  const auto type = block.kind("type", laws().names());
+  if (!type) return {};
+  PlannedMaterial<D> planned{laws().at(*type).template material<D>(block), {}};
+  if (!laws().at(*type).viscous) planned.solid = read<SolidSettings>(block);
+  block.done();
+  return planned;
+}
+
+template <int D>
+std::vector<std::string> region_names(const Geometry<D>& geometry) {
+  const MeshRegions* regions = mesh_regions(geometry);
+  return regions ? regions->names : std::vector<std::string>{};
+}
+
+/// The numbers of the regions that the tables [[body.material]] name, in the order of the tables;
+/// empty if one of them is wrong.
+template <int D>
+std::vector<std::size_t> named_regions(const std::vector<Block>& blocks, const BodyPlan<D>& plan) {
+  const std::vector<std::string> names = region_names(plan.geometry);
+  std::vector<std::string> known;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(known),
+               [](const std::string& name) { return !name.empty(); });
+  std::vector<std::size_t> numbers;
+  bool in_order = plan.in_order;
+  for (const Block& block : blocks) {
+    const std::string name = block.text("region", "");
+    if (!plan.in_order || !block.has("region")) {
+      in_order = false;
+      continue;
+    }
+    const auto found = std::find(names.begin(), names.end(), name);
+    const auto number = static_cast<std::size_t>(found - names.begin());
+    std::string wrong;
+    if (known.empty())
+      wrong = fmt::format(
+          "the body has no regions; allowed is this key for a mesh (.msh) with physical {}, or one "
+          "[body.material] without it",
+          D == 3 ? "volumes" : "surfaces");
+    else if (found == names.end() || name.empty())
+      wrong = fmt::format("the mesh has no region '{}'; {}", name, allowed_names(name, known));
+    else if (std::find(numbers.begin(), numbers.end(), number) != numbers.end())
+      wrong = fmt::format("region '{}' has a material already; allowed is one", name);
+    if (!wrong.empty()) block.problem("region", wrong);
+    in_order = in_order && wrong.empty();
+    numbers.push_back(number);
+  }
+  return in_order ? numbers : std::vector<std::size_t>{};
+}
+
+/// Notes in the table of the body which regions have no material. Returns false if there is one.
+bool require_all_regions(const Block& body, const std::vector<std::string>& names,
+                         const std::vector<std::size_t>& given, int D) {
+  std::vector<std::string> missing;
+  for (std::size_t r = 0; r < names.size(); ++r)
+    if (std::find(given.begin(), given.end(), r) == given.end()) missing.push_back(names[r]);
+  if (missing.empty()) return true;
+  if (std::find(missing.begin(), missing.end(), "") != missing.end())
+    body.problem("material", fmt::format("the mesh has cells in no physical {}, which have no "
+                                         "material; add them to one",
+                                         D == 3 ? "volume" : "surface"));
+  else
+    body.problem("material",
+                 fmt::format("region '{}' of the mesh has no material; give it a [[body.material]] "
+                             "with region = \"{}\"",
+                             missing.front(), missing.front()));
+  return false;
+}
+
+/// Makes one material of those of the regions.
+template <int D>
+void join_regions(const Block& body, const std::vector<Block>& blocks,
+                  std::vector<PlannedMaterial<D>> planned, BodyPlan<D>& plan) {
+  const std::vector<std::size_t> numbers = named_regions(blocks, plan);
+  const std::vector<std::string> names = region_names(plan.geometry);
+  if (numbers.empty() || !require_all_regions(body, names, numbers, D)) return;
+  if (plan.settings.integration != "q_scni")
+    body.problem("integration",
+                 fmt::format("'{}' has no nodal cells, which have the mean of the materials of "
+                             "their regions; allowed is q_scni",
+                             plan.settings.integration));
+  std::vector<std::size_t> table(numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) table[numbers[k]] = k;
+  PlannedMaterial<D>& first = planned[table.front()];
+  for (std::size_t r = 1; r < table.size(); ++r) {
+    const PlannedMaterial<D>& next = planned[table[r]];
+    if (!first.material || !next.material) return;
+    const Block& block = blocks[table[r]];
+    if (!first.material->add_region(*next.material))
+      block.problem("type",
+                    "regions of a body differ in the numbers of one law only; allowed is the same "
+                    "mooney_rivlin, neo_hookean or st_venant_kirchhoff for all of them");
+    if (next.solid.viscosity != first.solid.viscosity)
+      block.problem("viscosity",
+                    fmt::format("differs from that of region '{}'; allowed is the same "
+                                "viscosity for all regions of a body",
+                                names.front()));
+  }
+  plan.material = std::move(first.material);
+  plan.solid = first.solid;
+}
+
 template <int D>
 void plan_material(const Block& body, BodyPlan<D>& plan) {
-  const auto block = body.table("material", true);
-  if (!block) return;
-  const auto type = block->kind("type", laws().names());
-  if (!type) return;
-  plan.material = laws().at(*type).template material<D>(*block);
-  if (!laws().at(*type).viscous) plan.solid = read<SolidSettings>(*block);
-  block->done();
+  std::vector<Block> blocks;
+  if (body.is_array("material"))
+    blocks = body.tables("material");
+  else if (const auto block = body.table("material", true))
+    blocks = {*block};
+  const bool by_region = blocks.size() > 1 || (blocks.size() == 1 && blocks.front().has("region"));
+  if (by_region)
+    for (const Block& block : blocks) block.text("region", std::nullopt);
+  std::vector<PlannedMaterial<D>> planned;
+  for (const Block& block : blocks) planned.push_back(read_material_table<D>(block));
+  if (by_region) return join_regions(body, blocks, std::move(planned), plan);
+  if (planned.empty() && body.is_array("material"))
+    body.problem("material",
+                 "has no table; allowed is [body.material], or a [[body.material]] for each "
+                 "region of a mesh");
+  if (planned.empty()) return;
+  plan.material = std::move(planned.front().material);
+  plan.solid = planned.front().solid;
 }
 
 template <int D>

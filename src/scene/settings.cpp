@@ -282,6 +282,11 @@ std::vector<KeyTable> key_tables() {
     tables.push_back({fmt::format("[body.material] type = \"{}\": {}", name, law.meaning),
                       law.keys(), "[body.material]\ntype = \"" + name + "\"\n" + law.example});
   tables.push_back({"[body.material] of any solid", key_texts(SolidSettings::rows())});
+  tables.push_back({"[[body.material]] of a mesh with regions, one for each",
+                    {{"region", "text", "", "", "required",
+                      "a physical volume (2D: surface) of the .msh file; all regions have the same "
+                      "law, mooney_rivlin, neo_hookean or st_venant_kirchhoff, with numbers of "
+                      "their own"}}});
   for (const auto& [name, load] : loads<3>()) add(tables, load.keys());
   for (const auto& [name, load] : loads<2>())
     if (!loads<3>().find(name)) add(tables, load.keys());

@@ -8,6 +8,7 @@ import os
 import re
 import resource
 import shutil
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -383,6 +384,64 @@ class Scenes(ProgramTest):
         self.assert_refused(DROP + '[[surface_tension]]\nbody = "drop"\ngamma = 1\n', "surface_tension[1]",
                             "already")
         self.assert_refused(self.change(BLOCK, ("[[body]]", "[[body]]\njitter = 0.6")), "body[0].jitter")
+
+    def test_regions(self):
+        """Materials of the physical surfaces of a mesh: the bar is pulled to 1.2 times its length."""
+        mesh = Path(__file__).resolve().parents[1] / "data/two_regions.msh"
+        soft, stiff = (f'[[body.material]]\nregion = "{name}"\ntype = "neo_hookean"\ndensity = 1\nmu = {mu}\n'
+                       "lambda = 1.5\n" for name, mu in (("soft", 1), ("stiff", 4)))
+        head = f"""dimension = 2
+        [time]
+        solver = "newton"
+        end = 1
+        step = 1
+        [[body]]
+        name = "bar"
+        shape = "mesh"
+        file = "{mesh}"
+        """
+        held = "".join(f'[[held]]\nbody = "bar"\nface = "{face}"\ncomponents = ["{axis}"]\n' for face, axis in
+                       (("left", "x"), ("bottom", "y"), ("top", "y"), ("right", "x")))
+        pulled = held + """displacement = [0.4, 0]
+        ramp = [0, 1]
+        [expect]
+        force = { of = "bar-right.force_x", value = 0.481644, within_relative = 0.04 }
+        """
+        # mu (s - 1/s) + lambda (s - 1) of both, s = 1.29435 and 1.10565: 0.963288 times the section 1/2
+        right = head + soft + stiff + pulled
+        self.call("run", self.scene(right), "--output", "out")
+        for region, cells in (("soft", 16), ("stiff", 16)):
+            self.assertIn(f"body 'bar': region '{region}' has {cells} cells",
+                          self.call("check", self.scene(right)).stdout)
+        shutil.rmtree(self.directory / "out")
+        for text, *words in (
+                (right.replace('"soft"', '"sofd"'), "scene.toml:11:10: body[0].material[0].region",
+                 "the mesh has no region 'sofd'; allowed are soft, stiff"),
+                (right.replace('"soft"', '"stiff"'), "scene.toml:17:10: body[0].material[1].region",
+                 "region 'stiff' has a material already; allowed is one"),
+                (right.replace('region = "stiff"\n', ""), "body[0].material[1].region: missing; allowed is a text"),
+                (head + soft + pulled, "body[0].material", "region 'stiff' of the mesh has no material",
+                 'give it a [[body.material]] with region = "stiff"'),
+                (head + soft + stiff.replace("neo_hookean", "st_venant_kirchhoff") + pulled,
+                 "body[0].material[1].type", "allowed is the same mooney_rivlin, neo_hookean or st_venant_kirchhoff"),
+                (head + "material = []\n" + pulled, "body[0].material: has no table"),
+                (SHEET.replace("[body.material]", '[body.material]\nregion = "soft"'), "body[0].material.region",
+                 "the body has no regions", "or one [body.material] without it")):
+            self.assert_refused(text, *words)
+
+    def test_parts_of_a_mesh(self):
+        """Kernels would reach from one part to the other."""
+        lines = (Path(__file__).resolve().parents[1] / "data/two_regions.msh").read_text().splitlines()
+        # Without the cells between x = 0.75 and 1.25.
+        begin = lines.index("$Elements") + 2
+        kept = [line for line in lines[begin:-1]
+                if line.split()[1] != "3" or (int(line.split()[5]) - 1) % 9 not in (3, 4)]
+        (self.directory / "parts.msh").write_text(
+            "\n".join([*lines[:begin - 1], str(len(kept)), *kept, "$EndElements", ""]))
+        self.assert_refused(self.change(SHEET, ('"rectangle"', '"mesh"\nfile = "parts.msh"'), ("size = [1, 2]\n", ""),
+                                        ("cells = [5, 10]\n", "")),
+                            "body[0].shape", "parts.msh: the cells are 2 parts that do not touch each other",
+                            "at (0.125, 0.0625)", "at (1.375, 0.0625)", "give each part a file and a [[body]]")
 
     def test_tension_above_the_bulk_modulus(self):
         tension = "gamma = %s\n"

@@ -4,6 +4,7 @@
 not a number, and in no frame is a particle of one body inside another. Usage: test_hard.py PROGRAM
 [NAME...]"""
 import itertools
+import re
 import resource
 import sys
 import tempfile
@@ -79,6 +80,7 @@ volume = { of = "drop.volume", value = 4.1804, within_relative = 2e-3 }
 round = { of = "drop.aspect", value = 1, within = 0.05 }
 """
 RELAX = 'solver = "relax"'
+NEWTON = 'solver = "newton"'
 BALANCED = """
 [expect]
 balance = { of = "energy_balance_error", reduce = "max_abs", value = 0, within = 1e-2 }
@@ -104,6 +106,12 @@ def cell(*more):
 
 def pressed(name, pressure):
     return f'[[traction]]\nbody = "{name}"\nface = "outer"\npressure = {pressure}\nramp = [0, 20]\n'
+
+
+def gripped(pull):
+    return sheet(SOFT, cells=(16, 5), size=(1, 0.3)) + (
+        '[[held]]\nbody = "sheet"\nface = "x_min"\n'
+        f'[[held]]\nbody = "sheet"\nface = "x_max"\ndisplacement = [{pull}, 0]\nramp = [0, 2]\n')
 
 
 DROPS = "".join(drop(f'shape = "disk"\nradius = 1\ncore = 4\nrings = 2\ncentre = [{x}, {y}]',
@@ -164,6 +172,9 @@ TABLE = [
     ("velocity is no number", head(1) + sheet(SOFT, 'initial_velocity = ["log(x - 9)", 0]'), 3, "not a number"),
     ("force is no number at the start", head(1) + sheet(SOFT) + force("sheet", "1/t", 0), 3, "infinite"),
     ("force is no number later", head(1) + sheet(SOFT) + force("sheet", "sqrt(0.1 - t)", 0), 4, "not a number"),
+    ("pushed through itself by newton", head(2, NEWTON, "step = 1") + gripped(-0.9), 4, "the surface goes through itself"),
+    ("pushed through its grip by newton", head(2, NEWTON, "step = 1") + gripped(-1.5), 4, "particle"),
+    ("pulled to 30 times its length by newton", head(2, NEWTON, "step = 1") + gripped(30), 0, ""),
     ("force of 1e6 g", head(1) + sheet(SOFT) + force("sheet", 0, "-1e7*(1 + y)"), 4, "J = det F"),
     ("falling for long", head(100) + sheet(SOFT, cells=(3, 3)) + force("sheet", 0, -10), 0, ""),
     # Rest
@@ -310,6 +321,8 @@ def verdict(program, directory, number, row):
         wrong.append(f"exit code {done.returncode}, expected {code}: {done.stderr[-400:]}")
     elif word not in said:
         wrong.append(f"does not say '{word}': {said[-400:]}")
+    if re.search(r"(?<![\w'])[-+]?nan\b", said):
+        wrong.append("writes a number that is none")
     if (out / "run.h5").exists():
         wrong += [f"{name} is not finite" for name in not_numbers(out)]
         if done.returncode == 0:

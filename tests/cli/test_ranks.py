@@ -568,6 +568,22 @@ class Failures(RanksTest):
         self.assertEqual(sorted(found), [0, 1])
         return found
 
+    def test_rank_that_fails_alone(self):
+        """The others wait for it somewhere else: it says why, and ends them."""
+        broken = Path(program.PROGRAM).resolve().parent / "tests/libmeniscus_broken_tanh.so"
+        self.assertTrue(broken.exists())
+        scene = self.scene(LONG_BLOCK.replace('"20*sin(40*t)*(1 + z)"', '"tanh(t)"'))
+        run = [program.PROGRAM, "run", scene, "--output", "out"]
+        for rank in (0, 1):
+            of_rank = [[], []]
+            of_rank[rank] = ["-x", f"LD_PRELOAD={broken}"]
+            done = subprocess.run([*MPIRUN, "1", *of_rank[0], *run, "--overwrite", ":", "-n", "1", *of_rank[1], *run,
+                                   "--overwrite"], cwd=self.directory, text=True, capture_output=True,
+                                  env=RANKS_ENVIRONMENT, timeout=90)
+            self.assertEqual(done.returncode, 4, done.stderr)
+            self.assert_said_once(done, "formula 'tanh(t)' is not a number")
+            self.call("info", "out")
+
     def test_killed_rank(self):
         for rank in (0, 1):
             with self.subTest(rank=rank):

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -68,18 +69,27 @@ int gmsh_type(const std::vector<Index>& cell) {
   return D == 3 ? (cell.size() == 8 ? 5 : 4) : (cell.size() == 4 ? 3 : 2);
 }
 
-/// A text mesh of Gmsh, version 2.2.
+/// A text mesh of Gmsh, version 2.2. `group` is the number of the physical group of a cell by its
+/// middle, 0: none; `names` are those of the groups 1, 2, ...
 template <int D>
-std::string msh_of(const Grid<D>& grid, const CellList& cells) {
-  std::string text =
-      fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", grid.X.size());
+std::string msh_of(const Grid<D>& grid, const CellList& cells,
+                   const std::function<int(const Vec<D>&)>& group = {},
+                   const std::vector<std::string>& names = {}) {
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  if (!names.empty()) text += fmt::format("$PhysicalNames\n{}\n", names.size());
+  for (std::size_t k = 0; k < names.size(); ++k)
+    text += fmt::format("{} {} \"{}\"\n", D, k + 1, names[k]);
+  if (!names.empty()) text += "$EndPhysicalNames\n";
+  text += fmt::format("$Nodes\n{}\n", grid.X.size());
   for (std::size_t i = 0; i < grid.X.size(); ++i) {
     const Eigen::Vector3d X = spatial<D>(grid.X[i]);
     text += fmt::format("{} {:.17g} {:.17g} {:.17g}\n", i + 1, X[0], X[1], X[2]);
   }
   text += fmt::format("$EndNodes\n$Elements\n{}\n", cells.size());
   for (std::size_t e = 0; e < cells.size(); ++e) {
-    text += fmt::format("{} {} 2 0 1", e + 1, gmsh_type<D>(cells[e]));
+    Vec<D> middle = Vec<D>::Zero();
+    for (const Index node : cells[e]) middle += at(grid.X, node) / Real(cells[e].size());
+    text += fmt::format("{} {} 2 {} 1", e + 1, gmsh_type<D>(cells[e]), group ? group(middle) : 0);
     for (const Index node : cells[e]) text += fmt::format(" {}", node + 1);
     text += '\n';
   }

@@ -127,8 +127,8 @@ TEST(MeshChecks, PartsThatMeetInAnEdgeOrACornerAreRefused) {
   expect_words(problem_of<2>(grid, cells), "parts of the body meet in a corner only");
 }
 
-/// Separate parts that do not touch are accepted as one body, without a change.
-TEST(MeshChecks, PartsApartAreNoOverlap) {
+/// Separate parts are refused, because kernels would reach across the gap between them.
+TEST(MeshChecks, PartsApartAreRefused) {
   Grid<2> grid = block<2>(3);
   test::CellList cells = test::cells_of(grid);
   std::erase_if(cells, [&](const auto& cell) {
@@ -136,7 +136,21 @@ TEST(MeshChecks, PartsApartAreNoOverlap) {
     return x > 2 && x < 4;
   });
   EXPECT_EQ(cells.size(), 6u);
-  EXPECT_EQ(problem_of<2>(grid, cells), "none");
+  const std::string found = problem_of<2>(grid, cells);
+  expect_words(found, "the cells are 2 parts that do not touch each other, with line ");
+  expect_words(found, ": element 1 at (0.5, 0.5), line ");
+  expect_words(found, "at (2.5, 0.5); expected is one part: give each part a file and a [[body]]");
+  test::CellList apart;
+  Grid<3> many = block<3>(1);
+  for (Index k = 0; k < 6; ++k) {
+    std::vector<Index>& cell = apart.emplace_back(test::cells_of(block<3>(1)).front());
+    for (Index& node : cell) node += 8 * k;
+    if (k > 0)
+      for (Index n = 0; n < 8; ++n)
+        many.X.push_back(at(many.X, n) + 2 * static_cast<Real>(k) * Vec<3>::Unit(2));
+  }
+  expect_words(problem_of<3>(many, apart), "the cells are 6 parts");
+  expect_words(problem_of<3>(many, apart), "at (0.5, 0.5, 6.5), ...; expected is one part");
 }
 
 /// A square with rounded corners. Each corner is an arc of radius 0.02 with two facets, which

@@ -2,6 +2,7 @@
 // Assembly: a scene while it is being built. Loads add their force terms, fields and measures to
 // it.
 #pragma once
+#include "physics/loads/traction.hpp"
 #include "scene/scene.hpp"
 
 #include <map>
@@ -30,6 +31,14 @@ class Assembly {
   /// Adds prescribed displacements.
   void add(std::unique_ptr<Constraint> constraint) {
     constraints_.push_back(std::move(constraint));
+  }
+  /// Says, or asks, in which directions face cells of a body stay at their reference places.
+  void set_held(const std::string& body, Index node, const Eigen::Vector3d& direction) {
+    held_[body][node].push_back(direction);
+  }
+  HeldDirections held(const std::string& body) const {
+    const auto found = held_.find(body);
+    return found == held_.end() ? HeldDirections() : found->second;
   }
   /// Returns all constraints that were added, for System::hold.
   std::vector<std::unique_ptr<Constraint>> take_constraints() { return std::move(constraints_); }
@@ -95,6 +104,7 @@ class Assembly {
   Scene<D>& scene_;
   bool begins_;
   std::vector<std::unique_ptr<Constraint>> constraints_;
+  std::map<std::string, HeldDirections> held_;  // by body
   mutable std::map<std::string, Real> shear_modulus_;
   mutable NodalVectors rest_, sheared_;
   struct CapMeasure {

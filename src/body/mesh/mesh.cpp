@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -144,8 +145,9 @@ class MeshMaker {
     require_simple_body<D>(grid_, [&](Index e) { return at(cell_of_, e)->where; });
     note_middles(unit);
     for (const MeshCell& cell : data.cells)
-      if (cell.shape < shape && !cell.face.empty())
-        if (const auto key = own_nodes(cell.corners)) given_.face[*key] = cell.face;
+      if (cell.shape < shape && !cell.group.empty())
+        if (const auto key = own_nodes(cell.corners)) given_.face[*key] = cell.group;
+    if (given_.regions == std::vector<std::string>{""}) given_.regions.clear();
   }
 
   Geometry<D> geometry(MeshFacets facets) && {
@@ -184,6 +186,13 @@ class MeshMaker {
       for (int a = 0; a < Grid<D>::corners; ++a) at(own, a ^ ((a >> 1) & 1)) = at(nodes, a);
     }
     cell_of_.push_back(&cell);
+    given_.region_of.push_back(region_number(cell.group));
+  }
+
+  int region_number(const std::string& name) {
+    const auto [known, is_new] = region_.try_emplace(name, std::ssize(given_.regions));
+    if (is_new) given_.regions.push_back(name);
+    return known->second;
   }
 
   /// Throws InputError if two nodes of the grid have the same position.
@@ -243,6 +252,7 @@ class MeshMaker {
   std::vector<Index> number_;              ///< [node of the file] number in the grid
   std::vector<const MeshCell*> cell_of_;   ///< [cell] cell of the file
   std::vector<const MeshCell*> first_of_;  ///< [node] a cell of the file with this node
+  std::map<std::string, int> region_;      ///< numbers of the regions by their names
   MeshSurface<D> given_;
 };
 

@@ -37,6 +37,8 @@ class MeshChecks {
     std::sort(sides_.begin(), sides_.end());
     shared_.resize(grid.cells.size() * Grid<D>::corners);
     std::iota(shared_.begin(), shared_.end(), Index{0});
+    part_.resize(grid.cells.size());
+    std::iota(part_.begin(), part_.end(), Index{0});
   }
 
   void require_simple_body() {
@@ -57,6 +59,7 @@ class MeshChecks {
     require_joined();
     require_nothing_inside();
     require_no_crossing(surface);
+    require_one_part();
   }
 
  private:
@@ -108,10 +111,8 @@ class MeshChecks {
       refuse(
           fmt::format("{} and {} lie on the same side of the facet that they share: they overlap",
                       name_(one.cell), name_(other.cell)));
-    for (const Index n : one.nodes) {
-      const Index first = root(entry(one.cell, n)), second = root(entry(other.cell, n));
-      at(shared_, std::max(first, second)) = std::min(first, second);
-    }
+    for (const Index n : one.nodes) unite(shared_, entry(one.cell, n), entry(other.cell, n));
+    unite(part_, one.cell, other.cell);
   }
 
   /// Number of node n as a corner of cell e, counted over the corners of all cells.
@@ -120,12 +121,17 @@ class MeshChecks {
     const auto found = std::find(cell.begin(), cell.end(), n);
     return e * Grid<D>::corners + static_cast<Index>(found - cell.begin());
   }
-  Index root(Index entry) {
-    while (at(shared_, entry) != entry) {
-      at(shared_, entry) = at(shared_, at(shared_, entry));
-      entry = at(shared_, entry);
+  /// The least number of the set that a number belongs to; `other` has another one of the set.
+  static Index root(std::vector<Index>& other, Index number) {
+    while (at(other, number) != number) {
+      at(other, number) = at(other, at(other, number));
+      number = at(other, number);
     }
-    return entry;
+    return number;
+  }
+  static void unite(std::vector<Index>& other, Index a, Index b) {
+    const Index first = root(other, a), second = root(other, b);
+    at(other, std::max(first, second)) = std::min(first, second);
   }
 
   /// Throws InputError if cells at a node are not connected through common sides.
@@ -133,7 +139,7 @@ class MeshChecks {
     std::vector<Index> first(grid_.X.size(), -1);
     for (Index e = 0; e < grid_.cell_count(); ++e)
       for (int i = 0; i < corner_count(e); ++i) {
-        const Index n = node(e, i), own = root(entry(e, n));
+        const Index n = node(e, i), own = root(shared_, entry(e, n));
         Index& of_node = at(first, n);
         if (of_node < 0) of_node = own;
         if (of_node != own)
@@ -143,6 +149,25 @@ class MeshChecks {
                           name_(of_node / Grid<D>::corners), name_(e),
                           D == 3 ? "an edge or a corner" : "a corner"));
       }
+  }
+
+  /// Kernels reach across a narrow gap between two parts of a body as if there were none.
+  void require_one_part() {
+    constexpr int most = 4;
+    int count = 0;
+    std::string places;
+    for (Index e = 0; e < grid_.cell_count(); ++e) {
+      if (root(part_, e) != e) continue;
+      if (++count > most) continue;
+      const Vec<D> X = middle(e);
+      places += fmt::format("{}{} at ({:.6g}, {:.6g}{})", count > 1 ? ", " : "", name_(e), X[0],
+                            X[1], D == 3 ? fmt::format(", {:.6g}", X[D - 1]) : "");
+    }
+    if (count > 1)
+      throw InputError(fmt::format(
+          "the cells are {} parts that do not touch each other, with {}{}; expected is one "
+          "part: give each part a file and a [[body]] of its own",
+          count, places, count > most ? ", ..." : ""));
   }
 
   /// True if x lies inside a cell, farther from its sides than rounding errors.
@@ -283,6 +308,7 @@ class MeshChecks {
   const CellName& name_;
   std::vector<CellSide<D>> sides_;
   std::vector<Index> shared_;  ///< [corner of a cell] another corner of the same set
+  std::vector<Index> part_;    ///< [cell] another one of its part
 };
 
 }  // namespace

@@ -13,12 +13,12 @@ namespace meniscus {
 
 enum class MeshShape { line, triangle, quadrilateral, tetrahedron, hexahedron };
 
-/// A cell of the body, or an element of one dimension less that names a part of its surface.
+/// A cell of the body, or an element of fewer dimensions.
 struct MeshCell {
   MeshShape shape;
   std::vector<Index> corners;  ///< in the order of VTK
   std::string where;           ///< "line 17: element 5" or "cell 4", for messages
-  std::string face;            ///< name of the part of the surface, or empty
+  std::string group;  ///< name of its physical group, or empty: a face or a region of the body
 };
 
 struct MeshData {

@@ -5,6 +5,7 @@
 #include "body/grid/simplex.hpp"
 #include "body/grid/straightened_facets.hpp"
 #include "body/mesh/mesh_pieces.hpp"
+#include "body/mesh/mesh_regions.hpp"
 #include "body/surface/quadratic_surface.hpp"
 #include "body/surface/recovered_surface.hpp"
 #include "body/surface/surface_points.hpp"
@@ -28,10 +29,14 @@ template <int D>
 class NamedSurface final : public Surface<D> {
  public:
   NamedSurface(std::shared_ptr<const Surface<D>> surface, std::vector<std::string> names,
-               Index straightened)
-      : surface_(std::move(surface)), names_(std::move(names)), straightened_(straightened) {}
+               Index straightened, std::shared_ptr<const MeshRegions> regions)
+      : surface_(std::move(surface)),
+        names_(std::move(names)),
+        straightened_(straightened),
+        regions_(std::move(regions)) {}
 
   Index straightened() const { return straightened_; }
+  const MeshRegions* regions() const { return regions_.get(); }
 
   SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const override {
     return surface_->points(grid, k, part);
@@ -43,17 +48,27 @@ class NamedSurface final : public Surface<D> {
   bool hollow() const override { return surface_->hollow(); }
   std::string face_name(int patch) const override { return at(names_, patch); }
   std::shared_ptr<const Surface<D>> renumbered(std::span<const Index> order) const override {
-    return std::make_shared<NamedSurface>(surface_->renumbered(order), names_, straightened_);
+    std::shared_ptr<MeshRegions> regions;
+    if (regions_) {
+      regions = std::make_shared<MeshRegions>(*regions_);
+      regions->share.clear();
+      for (const Index node : order)
+        for (const Real share : regions_->at_node(node)) regions->share.push_back(share);
+    }
+    return std::make_shared<NamedSurface>(surface_->renumbered(order), names_, straightened_,
+                                          std::move(regions));
   }
   std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
                                            const Grid<D>& grid) const override {
-    return std::make_shared<NamedSurface>(surface_->mapped(map, grid), names_, straightened_);
+    return std::make_shared<NamedSurface>(surface_->mapped(map, grid), names_, straightened_,
+                                          regions_);
   }
 
  private:
   std::shared_ptr<const Surface<D>> surface_;
   std::vector<std::string> names_;
   Index straightened_;
+  std::shared_ptr<const MeshRegions> regions_;  // null: none
 };
 
 /// Recovers a smooth surface for each piece by itself. `f` is a facet of the grid.
@@ -286,8 +301,13 @@ Geometry<D> mesh_geometry(Grid<D> grid, const MeshSurface<D>& given, MeshFacets 
       geometry = geometry_of_patches(grid, points, false, inner);
   }
   check_jacobians(geometry.grid, "the surface");
+  std::shared_ptr<const MeshRegions> regions;
+  if (!given.regions.empty())
+    regions = std::make_shared<MeshRegions>(
+        regions_of_cells(geometry.grid, given.regions, given.region_of));
   geometry.surface = std::make_shared<NamedSurface<D>>(geometry.surface, std::move(names),
-                                                       static_cast<Index>(straightened.size()));
+                                                       static_cast<Index>(straightened.size()),
+                                                       std::move(regions));
   if (geometry.surface->hollow()) geometry.director = outer_normal(geometry);
   return geometry;
 }
@@ -298,9 +318,16 @@ Index straightened_facets(const Geometry<D>& geometry) {
   return surface ? surface->straightened() : 0;
 }
 
+template <int D>
+const MeshRegions* mesh_regions(const Geometry<D>& geometry) {
+  const auto* surface = dynamic_cast<const NamedSurface<D>*>(geometry.surface.get());
+  return surface ? surface->regions() : nullptr;
+}
+
 #define MENISCUS_INSTANTIATE(D)                                                   \
   template Geometry<D> mesh_geometry(Grid<D>, const MeshSurface<D>&, MeshFacets); \
-  template Index straightened_facets(const Geometry<D>&);
+  template Index straightened_facets(const Geometry<D>&);                         \
+  template const MeshRegions* mesh_regions(const Geometry<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -10,11 +10,13 @@
 
 namespace meniscus {
 
-/// Surface data of a mesh file; keys are ascending node numbers of the grid.
+/// Surface data and regions of a mesh file; keys are ascending node numbers of the grid.
 template <int D>
 struct MeshSurface {
   std::map<std::vector<Index>, Vec<D>> middle;     ///< middles of edges and (3D) of quadrilaterals
   std::map<std::vector<Index>, std::string> face;  ///< names of facets
+  std::vector<std::string> regions;                ///< names; empty: none
+  std::vector<int> region_of;                      ///< [cell] number of its region
 };
 
 enum class MeshFacets { curved, flat };

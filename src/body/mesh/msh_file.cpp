@@ -255,7 +255,7 @@ class MshReader {
                                                                    : 3;
       if (const long group = group_in(dimension)) {
         const auto name = names_.find({dimension, group});
-        cell.face = name != names_.end() ? name->second : fmt::format("{}", group);
+        cell.group = name != names_.end() ? name->second : fmt::format("{}", group);
       }
       data_.cells.push_back(std::move(cell));
     } catch (const InputError& error) {

@@ -153,8 +153,9 @@ class PetscRanks final : public Ranks {
   int leave(int exit_code, const std::string& complaint) override {
     int of_all = exit_code;
     MPI_Request all_here = MPI_REQUEST_NULL;
-    MPI_Iallreduce(&exit_code, &of_all, 1, MPI_INT, MPI_MAX, at_the_end_, &all_here);
-    if (!comes_true(all_here)) {
+    if (!fails_alone_)
+      MPI_Iallreduce(&exit_code, &of_all, 1, MPI_INT, MPI_MAX, at_the_end_, &all_here);
+    if (fails_alone_ || !comes_true(all_here)) {
       std::fflush(stdout);
       if (rank_ > 0)
         std::fprintf(stderr, "rank %d (%s): %s\n", rank_, host().c_str(), complaint.c_str());
@@ -167,9 +168,11 @@ class PetscRanks final : public Ranks {
   Traffic traffic() const override { return traffic_; }
 
   bool all_come() override {
+    if (fails_alone_) return false;
     MPI_Request all_here = MPI_REQUEST_NULL;
     MPI_Ibarrier(apart_, &all_here);
-    return comes_true(all_here);
+    fails_alone_ = !comes_true(all_here);
+    return !fails_alone_;
   }
 
  private:
@@ -203,6 +206,7 @@ class PetscRanks final : public Ranks {
   }
 
   int rank_ = 0, size_ = 1;
+  bool fails_alone_ = false;
   MPI_Comm at_the_end_ = MPI_COMM_NULL, apart_ = MPI_COMM_NULL;
   std::vector<int> count_, begin_;  // work space of gather(), [rank]
   Traffic traffic_;

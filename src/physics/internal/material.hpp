@@ -3,6 +3,7 @@
 // combines a law with an integration rule is instantiated once per law, at its registration.
 #pragma once
 #include "body/grid/nodal_cells.hpp"
+#include "body/mesh/mesh_regions.hpp"
 #include "meniscus/error.hpp"
 #include "physics/director/nematic_numbers.hpp"
 #include "physics/director/reference_director.hpp"
@@ -55,7 +56,22 @@ class Material {
   virtual bool fluid() const = 0;
   /// True for a nematic, which has a director as a second unknown.
   virtual bool carries_director() const { return false; }
+  /// Makes `next` the material of the next region of the body; the first call gives that of the
+  /// second region. Returns false if the two laws cannot stand in one body.
+  virtual bool add_region(const Material&) { return false; }
 };
+
+/// The numbers of a law that its rows read.
+template <Law L>
+const std::vector<Real L::*>& numbers_of_law() {
+  static const std::vector<Real L::*> numbers = [] {
+    std::vector<Real L::*> all;
+    for (const Row<L>& row : L::rows())
+      if (row.member) all.push_back(row.member);
+    return all;
+  }();
+  return numbers;
+}
 
 /// A material with the law L. Functions that run once are marked cold, since they are compiled for
 /// every law.
@@ -64,7 +80,20 @@ class MaterialOf final : public Material<D> {
  public:
   /// `director` is needed for a DirectedLaw.
   MaterialOf(Varying<L> law, std::optional<ReferenceDirector> director)
-      : law_(std::move(law)), director_(std::move(director)) {}
+      : director_(std::move(director)) {
+    laws_.push_back(std::move(law));
+  }
+
+  /// The energies of solids without a director are linear in their numbers: where regions meet, the
+  /// mean numbers have the mean energy.
+  [[gnu::cold]] bool add_region([[maybe_unused]] const Material<D>& next) override {
+    if constexpr (!FluidLaw<L> && !DirectedLaw<L>)
+      if (const auto* same = dynamic_cast<const MaterialOf*>(&next)) {
+        laws_.push_back(same->laws_.front());
+        return true;
+      }
+    return false;
+  }
 
   [[gnu::cold]] typename Material<D>::Built build(Body<D>& body,
                                                   const Integration& integration) const override {
@@ -74,7 +103,8 @@ class MaterialOf final : public Material<D> {
       body.cell_rows.reset();
       std::vector<Vec<D>> places;
       for (Index A = 0; A < body.size(); ++A) places.push_back(body.cell_origin(A));
-      return integrated(body, std::move(op.rule), laws_at(places, body.geometry), op.shape_integral,
+      return integrated(body, std::move(op.rule),
+                        laws_at(places, shares_of_nodes(body), body.geometry), op.shape_integral,
                         integration);
     }
     const bool gauss = integration.rule == "gauss";
@@ -85,18 +115,42 @@ class MaterialOf final : public Material<D> {
     const Index per_group = uniform() ? PointRule<D>::most_per_group : 1;
     PointRule<D> rule = gauss ? build_gauss_rule(body, integration.gauss_points, per_group)
                               : build_nodal_rule(body, per_group);
-    return integrated(body, std::move(rule), laws_at(places, body.geometry), shape_integrals(body),
-                      integration);
+    return integrated(body, std::move(rule), laws_at(places, shares_of_nodes(body), body.geometry),
+                      shape_integrals(body), integration);
   }
   bool fluid() const override { return FluidLaw<L>; }
 
  private:
-  bool uniform() const { return law_.uniform() && (!director_ || director_->uniform()); }
-
-  L law_at(const Vec<D>& X, const Geometry<D>& geometry) const {
-    L law = law_.at(spatial<D>(X));
-    if (const auto wrong = check(law); wrong && !law_.uniform())
-      throw InputError(law_.formulas.front().place + ": " + *wrong);
+  bool same_numbers() const { return laws_.size() == 1 && laws_.front().uniform(); }
+  bool uniform() const { return same_numbers() && (!director_ || director_->uniform()); }
+  using Share = std::span<const Real>;  // [region] of a place
+  using Shares = std::vector<Share>;    // [place]; empty for a body of one material
+  Shares shares_of_nodes(const Body<D>& body) const {
+    Shares shares;
+    for (Index A = 0; laws_.size() > 1 && A < body.size(); ++A)
+      shares.push_back(mesh_regions(body.geometry)->at_node(A));
+    return shares;
+  }
+  L law_in(std::size_t region, const Vec<D>& X) const {
+    const Varying<L>& varying = laws_[region];
+    L law = varying.at(spatial<D>(X));
+    if (const auto wrong = check(law); wrong && !varying.uniform())
+      throw InputError(varying.formulas.front().place + ": " + *wrong);
+    return law;
+  }
+  /// The law whose numbers are the means over the regions.
+  L mean_law(const Vec<D>& X, Share share) const {
+    L mean = laws_.front().base;
+    for (Real L::*number : numbers_of_law<L>()) mean.*number = 0;
+    for (std::size_t r = 0; r < share.size(); ++r) {
+      if (share[r] == 0) continue;
+      const L law = law_in(r, X);
+      for (Real L::*number : numbers_of_law<L>()) mean.*number += share[r] * law.*number;
+    }
+    return mean;
+  }
+  L law_at(const Vec<D>& X, Share share, const Geometry<D>& geometry) const {
+    L law = laws_.size() == 1 ? law_in(0, X) : mean_law(X, share);
     if constexpr (DirectedLaw<L>) {
       const Eigen::Vector3d h = director_->at(X, geometry);
       law.director = {h[0], h[1], h[2]};
@@ -105,10 +159,11 @@ class MaterialOf final : public Material<D> {
   }
 
   /// One law for all groups of stress points if the material is uniform, else one law for each.
-  std::vector<L> laws_at(const std::vector<Vec<D>>& places, const Geometry<D>& geometry) const {
+  std::vector<L> laws_at(const std::vector<Vec<D>>& places, const Shares& shares,
+                         const Geometry<D>& geometry) const {
     std::vector<L> laws;
-    for (const Vec<D>& X : places) {
-      laws.push_back(law_at(X, geometry));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      laws.push_back(law_at(places[k], shares.empty() ? Share{} : shares[k], geometry));
       if (uniform()) break;
     }
     return laws;
@@ -141,8 +196,12 @@ class MaterialOf final : public Material<D> {
                                                        const Integration& integration) const {
     std::vector<Real> density, viscosity;
     Real least = unbounded, most = 0;
+    const Shares shares = shares_of_nodes(body);
     for (Index A = 0; A < body.size(); ++A) {
-      const L law = law_.uniform() ? law_.base : law_at(body.origin(A), body.geometry);
+      const L law =
+          same_numbers()
+              ? laws_.front().base
+              : law_at(body.origin(A), shares.empty() ? Share{} : at(shares, A), body.geometry);
       density.push_back(law.density / body.volume_ratio(A));
       least = std::min(least, law.density);
       most = std::max(most, law.density);
@@ -217,7 +276,7 @@ class MaterialOf final : public Material<D> {
                                                             std::move(points), std::move(surface));
   }
 
-  Varying<L> law_;
+  std::vector<Varying<L>> laws_;  // [region]; one if the body has one material
   std::optional<ReferenceDirector> director_;
 };
 

@@ -8,6 +8,8 @@
 #include "physics/loads/face_measures.hpp"
 #include "physics/loads/traction.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -44,7 +46,7 @@ class FacePressure final : public ForceTerm {
 
  public:
   FacePressure(const Body<D>& body, std::string label, FaceCells<D> cells, Expression pressure,
-               const Ramp& ramp)
+               const Ramp& ramp, const HeldDirections& held)
       : body_(body),
         label_(std::move(label)),
         cells_(std::move(cells)),
@@ -52,7 +54,7 @@ class FacePressure final : public ForceTerm {
         ramp_(ramp) {
     for (int quarter = -1; quarter < corners; ++quarter)
       functions_.push_back(exact_functions<D>(quarter));
-    list_pieces();
+    list_pieces(held);
     chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
     x_ = point_force_ = X_;
     piece_force_.resize(pieces_.size() * nodes);
@@ -67,7 +69,7 @@ class FacePressure final : public ForceTerm {
     find_forces(motion.time, x_, point_force_);
     scatter(force);
     Report report;
-    if (!has_potential()) report.outside = resultant();
+    if (!closed_ || pressure_.depends_on_place()) report.outside = resultant();
     return report;
   }
   /// Adds the exact tangent: the force is quadratic in the positions (2D: linear), so a difference
@@ -80,6 +82,8 @@ class FacePressure final : public ForceTerm {
       at(ahead, q) = at(x_, q) + dx;
       at(behind, q) = at(x_, q) - dx;
     }
+    place_held_rim(ahead);
+    place_held_rim(behind);
     find_forces(motion.time, ahead, more);
     find_forces(motion.time, behind, point_force_);
     for (Index q = 0; q < points(); ++q)
@@ -131,23 +135,31 @@ class FacePressure final : public ForceTerm {
     std::array<Index, nodes> point;
     std::size_t functions;  ///< index in functions_
   };
+  /// A point on the rim of the face: its position x, the position y that its held directions allow,
+  /// and the middle of both. `allowed` and `middle` have no rows; their numbers follow those of all
+  /// points.
+  struct RimPoint {
+    Index point, allowed, middle;
+    Mat<D> free;  ///< y = X + free (x - X)
+  };
   /// Sides of pieces as pairs of points, the smaller number first. The value counts the pieces that
   /// have the side in this direction minus the pieces that have it in the opposite direction.
   using Sides = std::map<std::pair<Index, Index>, int>;
 
-  Index points() const { return static_cast<Index>(X_.size()); }
+  /// Points with rows.
+  Index points() const { return static_cast<Index>(rows_.start.size()) - 1; }
   Index piece_count() const { return static_cast<Index>(pieces_.size()); }
   const NodalVector* own(std::span<const NodalVector> field) const {
     return field.data() + body_.first;
   }
-  /// A uniform pressure on a closed surface has a potential: the force is the gradient of p V, V
-  /// the enclosed volume.
-  bool has_potential() const { return closed_ && !pressure_.depends_on_place(); }
+  /// A uniform pressure has a potential if the face encloses a volume V, alone or with the planes
+  /// on which its rim is held: the force is the gradient of p V.
+  bool has_potential() const { return (closed_ || !rim_.empty()) && !pressure_.depends_on_place(); }
   Real uniform_pressure(Real time) const {
     return ramp_.fraction(time) * pressure_({0, 0, 0}, time);
   }
 
-  void list_pieces() {
+  void list_pieces(const HeldDirections& held) {
     const Grid<D>& grid = body_.geometry.grid;
     const PatchNodes<D> patches(grid);
     std::map<Index, int> chosen;  // chosen corners of a facet, one bit each
@@ -157,6 +169,7 @@ class FacePressure final : public ForceTerm {
           chosen[part.facet] |= 1 << corner;
     std::map<Index, Index> number;
     std::vector<Vec<D>> X;
+    std::map<Index, Index> node_of;  // of the grid, of points at corners
     Sides sides;
     for (const auto& [facet, quarters] : chosen) {
       std::array<Index, nodes> point;
@@ -167,6 +180,8 @@ class FacePressure final : public ForceTerm {
         if (is_new)
           X.push_back(surface_point<D>(body_.geometry, at(grid.facets, facet), patch_node<D>(a)));
       }
+      for (int corner = 0; corner < corners; ++corner)
+        node_of[at(point, lattice_corner(corner))] = at(at(grid.facets, facet).nodes, corner);
       if (quarters == (1 << corners) - 1) pieces_.push_back({point, 0});
       for (int corner = 0; corner < corners; ++corner) {
         if (!((quarters >> corner) & 1)) continue;
@@ -177,8 +192,137 @@ class FacePressure final : public ForceTerm {
     }
     closed_ = std::all_of(sides.begin(), sides.end(), [](const auto& s) { return s.second == 0; });
     rows_ = build_point_rows<D>(body_.particles, X, {.value = true}, body_.name);
+    if (!closed_ && !pressure_.depends_on_place()) close_by_held_rim(sides, node_of, held, X);
     X_.resize(X.size());
-    for (Index q = 0; q < points(); ++q) set_vector<D>(X_, q, at(X, q));
+    for (std::size_t q = 0; q < X.size(); ++q) set_vector<D>(X_, static_cast<Index>(q), X[q]);
+  }
+  /// Where a corner of a facet is among the nodes of its patch.
+  static int lattice_corner(int corner) { return 2 * (corner & 1) + 6 * (corner >> 1); }
+
+  /// Projection on the span of directions.
+  static Mat<D> span_of(const std::vector<Eigen::Vector3d>& directions) {
+    Mat<D> span = Mat<D>::Zero();
+    for (const Eigen::Vector3d& direction : directions) {
+      Vec<D> left = direction.template head<D>();
+      left -= span * left;
+      if (constexpr Real parallel = 1e-6; left.norm() > parallel) {
+        left.normalize();
+        span += left * left.transpose();
+      }
+    }
+    return span;
+  }
+  static bool is_held(const Mat<D>& span, const Vec<D>& direction) {
+    return (span * direction - direction).norm() < 1e-6;
+  }
+
+  /// An edge of the rim, in the sense of the face, with its middle (2D: one point).
+  using RimEdge = std::array<Index, D == 3 ? 3 : 1>;
+  std::vector<RimEdge> rim_edges(const Sides& sides) const {
+    std::vector<RimEdge> edges;
+    if constexpr (D == 2) {
+      for (const auto& [ends, count] : sides)
+        if (count != 0) edges.push_back({ends.first});
+    } else {
+      const auto on_rim = [&](Index from, Index to) {
+        const auto side = sides.find({std::min(from, to), std::max(from, to)});
+        return side != sides.end() && side->second == (from < to ? 1 : -1);
+      };
+      for (const Piece& piece : pieces_)
+        for (const auto& [a, m, b] : {RimEdge{0, 1, 2}, {2, 5, 8}, {8, 7, 6}, {6, 3, 0}}) {
+          const RimEdge edge{at(piece.point, a), at(piece.point, m), at(piece.point, b)};
+          if (piece.functions == 0 && on_rim(edge[0], edge[1]) && on_rim(edge[1], edge[2]))
+            edges.push_back(edge);
+        }
+    }
+    return edges;
+  }
+
+  /// Closes the face by strips from its rim to where the rim would be if its held directions did
+  /// not move at all: face cells are held in the mean only. The volume within is then defined for
+  /// all motions. Does nothing unless all of the rim is held, or slides in planes normal to an
+  /// axis.
+  void close_by_held_rim(const Sides& sides, const std::map<Index, Index>& node_of,
+                         const HeldDirections& held, std::vector<Vec<D>>& X) {
+    const std::vector<RimEdge> edges = rim_edges(sides);
+    const auto halves = std::count_if(sides.begin(), sides.end(),
+                                      [](const auto& side) { return side.second != 0; });
+    if (halves != std::ssize(edges) * (D - 1)) return;  // the rim cuts facets
+    std::map<Index, Mat<D>> span;                       // of the held directions of a point
+    std::array<std::vector<Real>, D> planes;
+    Real size = 0;
+    for (const Vec<D>& place : X) size = std::max(size, (place - X.front()).norm());
+    for (const RimEdge& edge : edges) {
+      Mat<D> common = Mat<D>::Identity();  // of the directions that both ends are held in
+      for (const Index end : {edge.front(), edge.back()}) {
+        const auto node = node_of.find(end);
+        if (node == node_of.end()) return;
+        const auto directions = held.find(node->second);
+        if (directions == held.end()) return;
+        span[end] = span_of(directions->second);
+        if (!span[end].isIdentity(1e-6)) common.setZero();
+      }
+      if (common.isZero(0)) {
+        for (int i = 0; i < D; ++i) {
+          bool in_plane = is_held(span[edge.front()], Vec<D>::Unit(i)) &&
+                          is_held(span[edge.back()], Vec<D>::Unit(i));
+          const Real level = at(X, edge.front())[i];
+          for (const Index q : edge)
+            in_plane = in_plane && std::abs(at(X, q)[i] - level) < 1e-9 * size;
+          if (!in_plane) continue;
+          common(i, i) = 1;
+          at(planes, i).push_back(level);
+        }
+        if (common.isZero(0)) return;
+      }
+      if (D == 3) span[edge[edge.size() / 2]] = common;
+    }
+    if (!weigh_volume(planes, 1e-9 * size)) return;
+    std::map<Index, RimPoint> rim;
+    const auto added = [&](Index point) {
+      X.push_back(at(X, point));
+      return static_cast<Index>(X.size()) - 1;
+    };
+    for (const auto& [point, directions] : span) {
+      const Index allowed = added(point), middle = added(point);
+      rim_.push_back({point, allowed, middle, Mat<D>::Identity() - directions});
+      rim.emplace(point, rim_.back());
+    }
+    for (const RimEdge& edge : edges) {
+      std::array<Index, nodes> strip{};
+      if constexpr (D == 3) {
+        for (std::size_t k = 0; k < 3; ++k) {  // the face goes round the edge in the other sense
+          const RimPoint& point = rim.at(edge[2 - k]);
+          strip[k] = point.point;
+          strip[k + 3] = point.middle;
+          strip[k + 6] = point.allowed;
+        }
+      } else {
+        const RimPoint& point = rim.at(edge[0]);
+        strip = {point.point, point.middle, point.allowed};
+        if (sides.at({edge[0], -1}) < 0) std::reverse(strip.begin(), strip.end());
+      }
+      pieces_.push_back({strip, 0});
+    }
+  }
+
+  /// The volume is the mean of INT (x_i - o_i) m_i over axes i. The rim adds nothing to its change
+  /// where it slides in the plane x_i = o_i, or in a plane along the axis. Returns false if all
+  /// axes have two planes.
+  bool weigh_volume(const std::array<std::vector<Real>, D>& planes, Real tolerance) {
+    Vec<D> weight = Vec<D>::Zero();
+    for (int i = 0; i < D; ++i) {
+      const std::vector<Real>& levels = at(planes, i);
+      const bool one = std::all_of(levels.begin(), levels.end(), [&](Real level) {
+        return std::abs(level - levels.front()) < tolerance;
+      });
+      if (!one) continue;
+      weight[i] = 1;
+      if (!levels.empty()) volume_origin_[i] = levels.front();
+    }
+    if (weight.isZero(0)) return false;
+    volume_weight_ = weight / weight.sum();
+    return true;
   }
   /// Counts the sides of a piece in the direction of the facet. In 2D the sides are its two ends,
   /// with opposite signs.
@@ -203,6 +347,15 @@ class FacePressure final : public ForceTerm {
   void find_places(const Motion& motion, NodalVectors& x) const {
     parallel_for(points(),
                  [&](Index q) { at(x, q) = at(X_, q) + value_at(rows_, q, own(motion.u)); });
+    place_held_rim(x);
+  }
+  void place_held_rim(NodalVectors& x) const {
+    for (const RimPoint& p : rim_) {
+      const Vec<D> place = vector_at<D>(x, p.point), X = vector_at<D>(X_, p.point),
+                   allowed = X + p.free * (place - X);
+      set_vector<D>(x, p.allowed, allowed);
+      set_vector<D>(x, p.middle, Vec<D>(0.5 * (place + allowed)));
+    }
   }
   static CellPoint<D, D - 1> place(const PatchFunctions<D>& f, const Piece& piece,
                                    const NodalVectors& x) {
@@ -251,6 +404,13 @@ class FacePressure final : public ForceTerm {
         Lanes& f = at(forces, at(at(pieces_, k).point, a));
         for (int i = 0; i < D; ++i) f.set(i, f[i] + at(piece_force_, k * nodes + a)[i]);
       }
+    for (const RimPoint& p : rim_) {
+      const Vec<D> middle = 0.5 * vector_at<D>(forces, p.middle);
+      set_vector<D>(forces, p.point,
+                    Vec<D>(vector_at<D>(forces, p.point) + middle +
+                           p.free * (vector_at<D>(forces, p.allowed) + middle)));
+      at(forces, p.middle) = at(forces, p.allowed) = Lanes::zero();
+    }
   }
   NodalVectors forces_at(const Motion& motion) const {
     FacePressure copy(*this);
@@ -263,7 +423,8 @@ class FacePressure final : public ForceTerm {
     for (const Piece& piece : pieces_)
       for (const PatchFunctions<D>& f : at(functions_, piece.functions)) {
         const auto at_point = place(f, piece, x);
-        sum += f.weight / D * at_point.X.dot(area_normal<D>(at_point));
+        const Vec<D> arm = volume_weight_.cwiseProduct(at_point.X - volume_origin_);
+        sum += f.weight * arm.dot(area_normal<D>(at_point));
       }
     return sum;
   }
@@ -289,6 +450,8 @@ class FacePressure final : public ForceTerm {
   std::vector<std::vector<PatchFunctions<D>>> functions_;  // of whole facets, then of quarters
   std::vector<Piece> pieces_;
   bool closed_ = false;
+  std::vector<RimPoint> rim_;  // of an open face with a potential
+  Vec<D> volume_weight_ = Vec<D>::Constant(1.0 / D), volume_origin_ = Vec<D>::Zero();
   NodalVectors X_;  // [point] reference position
   PointRows<D> rows_;
   ChunkSums chunk_sums_;
@@ -303,13 +466,14 @@ class FacePressure final : public ForceTerm {
 
 template <int D>
 std::unique_ptr<ForceTerm> face_pressure(const Body<D>& body, std::string label, FaceCells<D> cells,
-                                         Expression pressure, const Ramp& ramp) {
+                                         Expression pressure, const Ramp& ramp,
+                                         const HeldDirections& held) {
   return std::make_unique<FacePressure<D>>(body, std::move(label), std::move(cells),
-                                           std::move(pressure), ramp);
+                                           std::move(pressure), ramp, held);
 }
 template std::unique_ptr<ForceTerm> face_pressure(const Body<2>&, std::string, FaceCells<2>,
-                                                  Expression, const Ramp&);
+                                                  Expression, const Ramp&, const HeldDirections&);
 template std::unique_ptr<ForceTerm> face_pressure(const Body<3>&, std::string, FaceCells<3>,
-                                                  Expression, const Ramp&);
+                                                  Expression, const Ramp&, const HeldDirections&);
 
 }  // namespace meniscus

@@ -6,7 +6,9 @@
 #include "input/ramp.hpp"
 #include "meniscus/physics/force_term.hpp"
 
+#include <map>
 #include <memory>
+#include <vector>
 
 namespace meniscus {
 
@@ -22,8 +24,14 @@ std::unique_ptr<ForceTerm> traction(const Body<D>& body, std::string label, Face
 /// exact for a uniform p. The net force then depends on the edge of the face only: - p/2 oint x
 /// cross dx. On a closed face the net force and the net moment vanish, and the potential is p V
 /// with the enclosed volume V.
+///
+/// On an open face an even pressure has a potential, too, where the edge of the face lies on planes
+/// normal to an axis and is held there: `held` has the directions in which the face cells of the
+/// particles of the body do not move.
+using HeldDirections = std::map<Index, std::vector<Eigen::Vector3d>>;
 template <int D>
 std::unique_ptr<ForceTerm> face_pressure(const Body<D>& body, std::string label, FaceCells<D> cells,
-                                         Expression pressure, const Ramp& ramp);
+                                         Expression pressure, const Ramp& ramp,
+                                         const HeldDirections& held = {});
 
 }  // namespace meniscus

@@ -18,6 +18,16 @@ bool is_inviscid(System<D>& system, const Body<D>& body) {
   return sheared.shear - at_rest.shear <= round_off * at_rest.lame;
 }
 
+/// Of a force without a potential: what would give it one.
+std::string remedy_of(const std::string& term) {
+  if (!term.starts_with("traction")) return "";
+  return "an even pressure has an energy on a closed face, or on a face whose whole edge lies on "
+         "other faces "
+         "that are [[held]] without displacement, in all components or along the axis normal to "
+         "the plane of "
+         "the edge; hold them so, or ";
+}
+
 template <int D>
 std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice) {
   const auto refuse = [&](const std::string& what) {
@@ -38,8 +48,8 @@ std::unique_ptr<Stepper<D>> make(System<D>& system, const StepperChoice& choice)
     if (!term->potential({0, rest, rest, system.fields}))
       refuse(
           fmt::format("the force of {} is not the gradient of an energy, so that there is no "
-                      "least one; use \"relax\"",
-                      term->name()));
+                      "least one; {}use \"relax\"",
+                      term->name(), remedy_of(term->name())));
   if (std::find(choice.fluid.begin(), choice.fluid.end(), true) != choice.fluid.end())
     return std::make_unique<FlowToRest<D>>(system, choice);
   return std::make_unique<QuasiStatics<D>>(system, choice);
