@@ -89,11 +89,6 @@ struct Body {
   }
 };
 
-/// Precision in which a cell rule stores its coefficients. `full`: double. `rounded`: single,
-/// except a few coefficients per row in double that keep all sums over quadratic polynomials exact
-/// (performance note 2).
-enum class RowPrecision : std::uint8_t { full, rounded };
-
 /// The integration rule q_scni: smoothed gradients with linear moments over nodal cells (RKPM note
 /// 5.3), together with integrals of the shape functions for row-sum masses.
 template <int D>
@@ -107,7 +102,7 @@ struct CellOperator {
 template <int D>
 struct CellRows {
   /// Throws SolveError where shape functions cannot be determined.
-  CellRows(const Body<D>& body, RowPrecision precision, OwnItems cells);
+  CellRows(const Body<D>& body, OwnItems cells);
 
   CellRule<D> rule;
   SumsOverRanks shape_integral;
@@ -119,11 +114,11 @@ CellOperator<D> cell_rule_of(const Body<D>& body, CellRows<D> rows);
 /// Computes the rows of this rank, and the integrals over all cells. All ranks call this. Throws
 /// SolveError where shape functions cannot be determined.
 template <int D>
-CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision = RowPrecision::full);
+CellOperator<D> build_cell_rule(const Body<D>& body);
 /// Computes the rows of the given cells only, divided between the ranks. The rows of all other
 /// cells are empty.
 template <int D>
-CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells);
+CellOperator<D> build_cell_rule(const Body<D>& body, OwnItems cells);
 
 /// A rule with `points_per_direction` Gauss points in every cell of the grid. Has the rows of this
 /// rank.

@@ -57,6 +57,26 @@ Mat<2> square_root(const Mat<2>& S) {
   return square_root<3>(in_space).topLeftCorner<2, 2>();
 }
 
+/// With M = L L^T, y = L^T x is the last eigenvector of L^-1 A L^-T.
+Vec<3> greatest_quotient(const Mat<3>& A, const Mat<3>& M, int n) {
+  Mat<3> L = Mat<3>::Identity();
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= i; ++j) {
+      Real rest = M(i, j);
+      for (int k = 0; k < j; ++k) rest -= L(i, k) * L(j, k);
+      L(i, j) = i == j ? std::sqrt(rest) : rest / L(j, j);
+    }
+  const Mat<3> inverse_L = L.inverse(), C = inverse_L * A * inverse_L.transpose();
+  Vec<3> y = Vec<3>::Zero();
+  if (n == 2) {
+    const Real angle = 0.5 * std::atan2(2 * C(1, 0), C(0, 0) - C(1, 1));
+    y.head<2>() = Vec<2>(std::cos(angle), std::sin(angle));
+  } else {
+    y = Eigen::SelfAdjointEigenSolver<Mat<3>>(C).eigenvectors().col(2);
+  }
+  return inverse_L.transpose() * y;
+}
+
 template <>
 Eigen::Matrix<Real, 2, 1> tangents_to(const Vec<2>& n) {
   return Vec<2>(-n[1], n[0]);

@@ -67,23 +67,6 @@ struct Lanes {
   friend Lanes operator/(Real a, Lanes b) { return a / b.v; }
 };
 
-/// Four numbers in single precision.
-struct SingleLanes {
-  using Native = float __attribute__((vector_size(16)));
-
-  Native v;
-
-  static SingleLanes rounded(Lanes x) { return {__builtin_convertvector(x.v, Native)}; }
-  Lanes widened() const {
-#ifdef __AVX__
-    // g++ 12 makes seven dependent instructions from __builtin_convertvector.
-    return _mm256_cvtps_pd(v);
-#else
-    return __builtin_convertvector(v, Lanes::Native);
-#endif
-  }
-};
-
 /// The first three lanes as a vector.
 inline Eigen::Vector3d spatial(const Lanes& x) {
   return {x[0], x[1], x[2]};

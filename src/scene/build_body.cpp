@@ -172,10 +172,6 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
                     name));
 }
 
-RowPrecision row_precision(const BodySettings& settings) {
-  return settings.precision == "single" ? RowPrecision::rounded : RowPrecision::full;
-}
-
 /// Scales the masses of a body to their sum before its remap. The sum is kept to the last bit if it
 /// does not change.
 template <int D>
@@ -209,8 +205,7 @@ template <int D>
 void build_rows(const BodyPlan<D>& planned, Body<D>& body) {
   body.build_values();
   if (planned.settings.integration == "q_scni")
-    body.cell_rows = std::make_unique<CellRows<D>>(body, row_precision(planned.settings),
-                                                   body.division.own_rows(body.size()));
+    body.cell_rows = std::make_unique<CellRows<D>>(body, body.division.own_rows(body.size()));
 }
 
 template <int D>
@@ -220,7 +215,7 @@ std::unique_ptr<NematicBody<D>> build_body(const BodyPlan<D>& planned, Body<D>& 
   System<D>& system = scene.system;
   auto built = planned.material->build(
       body, {settings.integration, settings.gauss_points, settings.volumetric,
-             planned.enclosed && planned.material->fluid(), row_precision(settings)});
+             planned.enclosed && planned.material->fluid()});
   if (body.reference) keep_mass(body);
   system.mass.insert(system.mass.end(), body.mass.begin(), body.mass.end());
   report(body, built, settings, assembly);

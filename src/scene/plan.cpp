@@ -209,11 +209,6 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
                     fmt::format("'cell_average' averages over nodal cells, which integration = "
                                 "\"{}\" does not have; allowed are automatic, full",
                                 settings.integration));
-    if (settings.precision == "single" && settings.integration != "q_scni")
-      block.problem("precision",
-                    fmt::format("'single' is how integration = \"q_scni\" may store its gradients; "
-                                "with \"{}\" allowed is double",
-                                settings.integration));
     require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
     require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
     Geometry<D> geometry = read_geometry<D>(block);
@@ -311,7 +306,7 @@ Real expected_bytes(const BodyPlan<D>& body) {
   constexpr Real ball = (D == 3 ? 4.0 / 3 : 1.0) * std::numbers::pi;
   const Real pairs = ball * std::pow(reach, D);
   constexpr int gradients = D * (D + 1);  // mean gradients and linear moments
-  const Real bytes_per_pair = (s.precision == "single" ? 4.0 : 8.0) * gradients + 4;
+  constexpr Real bytes_per_pair = 8.0 * gradients + 4;
   constexpr Real rest = D == 3 ? 2e3 : 1e3;
   return Real(body.geometry.grid.node_count()) * (pairs * bytes_per_pair / ranks().size() + rest);
 }

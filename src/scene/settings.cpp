@@ -119,12 +119,6 @@ Rows<BodySettings> BodySettings::rows() {
           "incompressible; automatic: cell_average where bulk / shear modulus >= 1000, and in "
           "fluids with balanced surface tension",
           "automatic"),
-      choice_row("precision", &S::precision, {"double", "single"},
-                 "how integration = \"q_scni\" stores its gradients: single halves memory; "
-                 "steps of large bodies on several threads are an eighth shorter, those of small "
-                 "ones up to a sixth longer; forces differ by about 1e-7 of the stress, momentum "
-                 "and angular momentum are kept as in double",
-                 "double"),
       choice_row("window", &S::window, kernel_functions(), "kernel function of the shape functions",
                  "cubic_spline"),
       optional_row("support_factor", &S::support_factor, dimension::none, support_factors,

@@ -117,9 +117,6 @@ void add_force_cases() {
   const std::string group = "internal force";
   add_term_case(group, "q_scni, neo_hookean", 0, neo_hookean, hundred_pairs, "");
   add_term_case(group, "q_scni, newtonian", 0, newtonian, hundred_pairs, "");
-  const std::string single = "\nprecision = 'single'";
-  add_term_case(group, "q_scni single, neo_hookean", 0, neo_hookean, hundred_pairs + single, "");
-  add_term_case(group, "q_scni single, newtonian", 0, newtonian, hundred_pairs + single, "");
   add_term_case(group, "q_scni, neo_hookean, default support", 0, neo_hookean, "", "");
   add_term_case(group, "gauss 2, neo_hookean, default support", 0, neo_hookean,
                 "integration = 'gauss'\ngauss_points = 2", "");

@@ -32,11 +32,10 @@ PUSHED = BLOCK.replace("[time]", "[time]\nstep = 0.008").replace(
 FIELDS = 'fields = ["J", "F", "pressure", "von_mises", "cauchy_stress", "velocity"]\n' \
     'measures = ["block.volume", "block.min_J", "block.mean_pressure"]'
 VARYING = SHORT_BLOCK.replace("mu = 1e5", 'mu = "1e5*(1 + x)"')
-# [name] what the rows of the internal force can be: of cells, in single precision, of Gauss points
+# [name] what the rows of the internal force can be: of cells, of Gauss points
 # in fours and one by one, of particles, and those of a viscosity
 ROWS = {
     "cells": SHORT_BLOCK,
-    "single precision": SHORT_BLOCK.replace("[body.material]", 'precision = "single"\n[body.material]'),
     "Gauss points": SHORT_BLOCK.replace("[body.material]",
                                         'integration = "gauss"\ngauss_points = 2\n[body.material]'),
     "points of laws of their own": VARYING.replace(

@@ -589,7 +589,7 @@ class Reports(ProgramTest):
                 "[time]": "end step safety check_every viscosity solver force_tolerance shape_tolerance",
                 "[output]": "frames_every history_every fields measures precision compression "
                             "restartable checkpoint_minutes",
-                "[[body]]": "name integration gauss_points volumetric precision window support_factor "
+                "[[body]]": "name integration gauss_points volumetric window support_factor "
                             "support_by support_rank support_spacings initial_displacement initial_velocity",
                 "[[body]] of any shape": "shape map rotate rotate_axis move imperfection "
                                           "imperfection_seed jitter jitter_seed",

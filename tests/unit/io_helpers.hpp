@@ -2,6 +2,7 @@
 // Helpers for tests of files: a directory per test, a state, exceptions with their message.
 #pragma once
 #include "state/snapshot.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,14 +13,6 @@
 #include <iterator>
 #include <map>
 #include <string>
-
-#define EXPECT_THROW_WITH(statement, exception, part)                                     \
-  try {                                                                                   \
-    (void)(statement);                                                                    \
-    ADD_FAILURE() << #statement " threw nothing";                                         \
-  } catch (const exception& thrown) {                                                     \
-    EXPECT_NE(std::string(thrown.what()).find(part), std::string::npos) << thrown.what(); \
-  }
 
 namespace meniscus {
 

@@ -80,11 +80,8 @@ std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
 }
 
 const std::vector<Integration>& integrations() {
-  static const std::vector<Integration> all{{"q_scni", 0},
-                                            {"q_scni", 0, "cell_average"},
-                                            {"q_scni", 0, "full", false, RowPrecision::rounded},
-                                            {"gauss", 2},
-                                            {"nodal", 0}};
+  static const std::vector<Integration> all{
+      {"q_scni", 0}, {"q_scni", 0, "cell_average"}, {"gauss", 2}, {"nodal", 0}};
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include "body/surface/surface_points.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -195,17 +196,20 @@ TEST(Shells, WithoutAParallelSurfaceAreRefused) {
   auto spheroid = shell<SpheroidShell>(0.5, 4, 0.5);
   spheroid.radius = 5;
   spheroid.height = 3;  // radius of the tip 1.5^2 / 5 = 0.45
-  EXPECT_THROW(spheroid.geometry(), InputError);
+  EXPECT_THROW_WITH(spheroid.geometry(), InputError,
+                    "radius of 0.45, which must be larger than the thickness");
   auto cylinder = shell<CylinderShell>(0.5, 4, 0.5);
   cylinder.radius = 5;
   cylinder.height = 3;
   cylinder.edge_radius = 0.5;
-  EXPECT_THROW(cylinder.geometry(), InputError);
+  EXPECT_THROW_WITH(cylinder.geometry(), InputError,
+                    "radius of 0.5, which must be larger than the thickness");
   cylinder.edge_radius = 1.6;
-  EXPECT_THROW(cylinder.geometry(), InputError);
+  EXPECT_THROW_WITH(cylinder.geometry(), InputError,
+                    "the edge radius is 1.6, but the cylinder allows at most 1.5");
   auto disk = cell_disk();
   disk.height = 10.5;
-  EXPECT_THROW(disk.geometry(), InputError);
+  EXPECT_THROW_WITH(disk.geometry(), InputError, "cannot have a round rim of the height 10.5");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "meniscus/error.hpp"
 #include "physics/internal/internal_force.hpp"
 #include "support.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -216,10 +217,10 @@ TEST(InternalForce, FormulasOfPlaceReachTheStressPoints) {
 TEST(InternalForce, FormulasThatLeaveTheirRangeAreRefused) {
   const auto body = test::body_of<2>(small_body<2>());
   for (const Integration& integration : test::integrations())
-    EXPECT_THROW(
+    EXPECT_THROW_WITH(
         test::internal_force<2>(*body, "neo_hookean",
                                 "density = 1.25\nmu = \"0.75 + x\"\nlambda = 1.5", integration),
-        InputError);
+        InputError, "mu: ");
 }
 
 /// Owner of the first stress point with J <= 0, by a separate loop over a separate rule.

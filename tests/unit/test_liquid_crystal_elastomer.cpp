@@ -3,6 +3,7 @@
 #include "meniscus/error.hpp"
 #include "one_body.hpp"
 #include "solve/step/central_difference.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -298,10 +299,14 @@ TEST(LiquidCrystalElastomerBody, TakesItsDirectorFromTheWallsOrAFormula) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("reference_director is missing"), std::string::npos);
   }
-  EXPECT_THROW(force("reference_director = [\"x - x\", 0, 0]", {}), InputError);
-  EXPECT_THROW(force("reference_director = [1, 0]", {}), InputError);
-  EXPECT_THROW(force("reference_director = [1, 0, \"t\"]", {}), InputError);
-  EXPECT_THROW(force("reference_director = [1, 0, 0]\nactivity_ramp = [2, 1]", {}), InputError);
+  EXPECT_THROW_WITH(force("reference_director = [\"x - x\", 0, 0]", {}), InputError,
+                    "reference_director: (0, 0, 0) has no direction at X = (");
+  EXPECT_THROW_WITH(force("reference_director = [1, 0]", {}), InputError,
+                    "reference_director: has 2 ");
+  EXPECT_THROW_WITH(force("reference_director = [1, 0, \"t\"]", {}), InputError,
+                    "reference_director[2]: formula 't'");
+  EXPECT_THROW_WITH(force("reference_director = [1, 0, 0]\nactivity_ramp = [2, 1]", {}), InputError,
+                    "activity_ramp: ");
 }
 
 TEST(LiquidCrystalElastomerBody, ReportsFrankElasticity) {

@@ -4,6 +4,7 @@
 #include "body/surface/surface_points.hpp"
 #include "meniscus/error.hpp"
 #include "support.hpp"
+#include "thrown.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -126,8 +127,10 @@ TEST(RecoveredSurface, KnowsInnerFromOuter) {
 }
 
 TEST(RecoveredSurface, RefusesEdges) {
-  EXPECT_THROW(recovered_geometry<3>(test::brick<3>({2, 2, 2}).grid), InputError);
-  EXPECT_THROW(recovered_geometry<2>(test::brick<2>({2, 2}).grid), InputError);
+  EXPECT_THROW_WITH(recovered_geometry<3>(test::brick<3>({2, 2, 2}).grid), InputError,
+                    "an edge or corner at node");
+  EXPECT_THROW_WITH(recovered_geometry<2>(test::brick<2>({2, 2}).grid), InputError,
+                    "an edge or corner at node");
 }
 
 }  // namespace

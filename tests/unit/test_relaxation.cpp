@@ -6,6 +6,7 @@
 #include "run/simulation.hpp"
 #include "solve/step/central_difference.hpp"
 #include "solve/step/relaxation.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -249,10 +250,12 @@ TEST(Relaxation, GoesOnFromASnapshotWithTheSameBits) {
 
 TEST(Relaxation, LoadsMustCeaseToChange) {
   const std::string force = "[[body_force]]\nbody = \"it\"\nacceleration = [\"sin(t)\", \"0\"]\n";
-  EXPECT_THROW(Relaxed<2>(sheet + force), InputError);
+  EXPECT_THROW_WITH(Relaxed<2>(sheet + force), InputError,
+                    "body force on 'it' changes as long as the scene lasts");
   std::string late = active_bar;
   late.replace(late.find("[0, 5]"), 6, "[0, 500]");
-  EXPECT_THROW((Relaxed<3>(late)), InputError);
+  EXPECT_THROW_WITH((Relaxed<3>(late)), InputError,
+                    "until t = 500, not before the end 500 of the scene");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "remap/nodal_values.hpp"
 #include "remap/present_surface.hpp"
 #include "run/epochs.hpp"
+#include "thrown.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -259,7 +260,7 @@ TEST(Remap, ThatFoldsIsRefusedAndTheOldEpochGoesOn) {
   const std::uint64_t before = epochs.simulation().snapshot().hash();
   std::vector<Vec<3>> x = nodes_of(epochs);
   std::swap(x[0], x[x.size() / 2]);
-  EXPECT_THROW(epochs.new_epoch({{"drop", x}}), InputError);
+  EXPECT_THROW_WITH(epochs.new_epoch({{"drop", x}}), InputError, "has an edge or corner at node 0");
   x = nodes_of(epochs);
   for (Vec<3>& place : x) place *= 3;  // where there is no material
   EXPECT_THROW(epochs.new_epoch({{"drop", x}}), SolveError);

@@ -4,6 +4,7 @@
 #include "meniscus/error.hpp"
 #include "physics/contact/rigid/rigid_motion.hpp"
 #include "physics/contact/rigid/rigid_partner.hpp"
+#include "thrown.hpp"
 
 #include <functional>
 #include <random>
@@ -154,12 +155,18 @@ TEST(RigidPartner, GrowsMoreRepulsiveWithTheDepth) {
 
 TEST(RigidPartner, RefusesNonsense) {
   const Vec<3> o = Vec<3>::Zero();
-  EXPECT_THROW(rigid_half_space<3>({}, 1, o, o), InputError);
-  EXPECT_THROW(rigid_half_space<3>({PairKernel::planar}, 1, o, Vec<3>::UnitX()), InputError);
-  EXPECT_THROW(rigid_half_space<2>({}, 1, Vec<2>::Zero(), Vec<2>::UnitX()), InputError);
-  EXPECT_THROW(rigid_ball<3>({}, 1, o, 0), InputError);
-  EXPECT_THROW(rigid_cavity<3>({}, 1, o, -1), InputError);
-  EXPECT_THROW(rigid_cavity<3>({}, 1, o, 0.9 * least_gap), InputError);
+  EXPECT_THROW_WITH(rigid_half_space<3>({}, 1, o, o), InputError, "a normal that is not zero");
+  EXPECT_THROW_WITH(rigid_half_space<3>({PairKernel::planar}, 1, o, Vec<3>::UnitX()), InputError,
+                    "in 3 dimensions cannot have the kernel 'planar'; allowed is 'space'");
+  EXPECT_THROW_WITH(
+      rigid_half_space<2>({}, 1, Vec<2>::Zero(), Vec<2>::UnitX()), InputError,
+      "in 2 dimensions cannot have the kernel 'space'; allowed is 'integrated' or 'planar'");
+  EXPECT_THROW_WITH(rigid_ball<3>({}, 1, o, 0), InputError,
+                    "the radius of a rigid ball must be > 0, not 0");
+  EXPECT_THROW_WITH(rigid_cavity<3>({}, 1, o, -1), InputError,
+                    "the radius of a rigid cavity must be > 0, not -1");
+  EXPECT_THROW_WITH(rigid_cavity<3>({}, 1, o, 0.9 * least_gap), InputError,
+                    "the radius of a rigid cavity must be greater than");
 }
 
 TEST(RigidMotion, IsTheFormulaAndItsDerivative) {

@@ -5,6 +5,7 @@
 #include "meniscus/error.hpp"
 #include "physics/contact/rigid/rigid_partner.hpp"
 #include "physics/contact/rigid/segment_field.hpp"
+#include "thrown.hpp"
 
 namespace meniscus::test_rigid_polygons {
 namespace {
@@ -147,12 +148,17 @@ TEST(RigidPolygons, LongWallIsAHalfPlane) {
 
 TEST(RigidPolygons, RefuseNonsense) {
   const Vec<2> low(0, 0), high(1, 1);
-  EXPECT_THROW(rigid_frame({PairKernel::space}, 1, low, high), InputError);
-  EXPECT_THROW(rigid_frame(unit_planar, 1, high, low), InputError);
-  EXPECT_THROW(rigid_frame(unit_planar, 1, low, high, 0), InputError);
-  EXPECT_THROW(rigid_polygons(unit_planar, 1, {{low, high}}), InputError);
-  EXPECT_THROW(rigid_polygons(unit_planar, 1, {{low, high, high}}), InputError);
-  EXPECT_THROW(rigid_polygons(unit_planar, 1, {}), InputError);
+  EXPECT_THROW_WITH(rigid_frame({PairKernel::space}, 1, low, high), InputError,
+                    "cannot have the kernel 'space'");
+  EXPECT_THROW_WITH(rigid_frame(unit_planar, 1, high, low), InputError,
+                    "the inner width of a rigid frame must be > 0");
+  EXPECT_THROW_WITH(rigid_frame(unit_planar, 1, low, high, 0), InputError,
+                    "the thickness of a rigid frame must be > 0");
+  EXPECT_THROW_WITH(rigid_polygons(unit_planar, 1, {{low, high}}), InputError,
+                    "needs at least 3 vertices");
+  EXPECT_THROW_WITH(rigid_polygons(unit_planar, 1, {{low, high, high}}), InputError,
+                    "are the same");
+  EXPECT_THROW_WITH(rigid_polygons(unit_planar, 1, {}), InputError, "needs at least one of them");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/run.hpp"
 #include "run/simulation.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +68,7 @@ TEST(Run, SavedStatesContinueBitForBit) {
 }
 
 TEST(Run, NamesWhatIsWrong) {
-  EXPECT_THROW(meniscus::Run::from_text("dimension = 4"), InputError);
+  EXPECT_THROW_WITH(meniscus::Run::from_text("dimension = 4"), InputError, ": dimension: ");
   EXPECT_THROW(meniscus::Run::from_file("/no/such/scene.toml"), FileError);
   const meniscus::Run run = meniscus::Run::from_file(drop);
   const auto message = [](const auto& call) -> std::string {

@@ -3,7 +3,6 @@
 // cells and facets give its rows (RKPM note 5.6).
 #include "body/body.hpp"
 #include "body/grid/cell_integrals.hpp"
-#include "body/grid/rounded_rows.hpp"
 #include "body/sums_over_ranks.hpp"
 #include "meniscus/error.hpp"
 #include "numbers/dense.hpp"
@@ -22,9 +21,7 @@ struct CellRow {
     Flux<D> flux;
   };
   std::vector<Entry> entries;                  // by ascending particle
-  std::vector<Index> particle;                 // in the order in which they are packed
-  std::vector<std::array<Lanes, D>> gradient;  // in the same order, [K]: (a_K, B_K.)
-  std::size_t exact = 0;                       // number of leading entries that stay in double
+  std::vector<std::array<Lanes, D>> gradient;  // [entry][K]: (a_K, B_K.)
 };
 
 /// Adds to a row the fluxes through facets that the cell shares with earlier cells of its block,
@@ -94,8 +91,7 @@ void assemble_row(const Body<D>& body, Index cell, std::span<const CellIntegrals
 /// of a sample are counted. Unused reserve occupies no memory, while growing an array would need
 /// twice its memory for a moment.
 template <int D>
-void reserve_entries(const Body<D>& body, OwnItems cells, RowPrecision precision,
-                     CellRule<D>& rule) {
+void reserve_entries(const Body<D>& body, OwnItems cells, CellRule<D>& rule) {
   constexpr Index samples = 256;
   const Index step = (cells.end - cells.begin + samples - 1) / samples;
   std::vector<Candidate<D>> candidates;
@@ -106,10 +102,7 @@ void reserve_entries(const Body<D>& body, OwnItems cells, RowPrecision precision
     entries += candidates.size() * static_cast<std::size_t>(step);
   }
   rule.particle.reserve(entries);
-  if (precision == RowPrecision::full)
-    rule.coefficient.reserve(entries * D);
-  else
-    rule.rounded.reserve(entries * D);
+  rule.coefficient.reserve(entries * D);
 }
 
 /// Vertices of the regular simplex with sum t = 0 and mean t t^T = I / D.
@@ -137,44 +130,25 @@ std::array<Lanes, D> stress_points(const Mat<D>& S) {
   return xi;
 }
 
-/// Sorts the entries of a row into the order in which they are packed, and compensates rounding to
-/// single precision.
-template <int D>
-void order_row(const Body<D>& body, Index cell, RowPrecision precision, CellRow<D>& row) {
-  row.particle.clear();
-  for (const auto& entry : row.entries) row.particle.push_back(entry.particle);
-  row.exact = precision == RowPrecision::full
-                  ? row.particle.size()
-                  : make_up_for_rounding<D>(body.particles.X(), body.cells.centroid(cell),
-                                            row.particle, row.gradient);
-}
-
 /// Appends rows to the rule.
 template <int D>
 void pack(std::span<const CellRow<D>> rows, CellRule<D>& rule) {
   const std::size_t first = rule.start.size() - 1;
-  for (const CellRow<D>& row : rows) {
-    rule.start.push_back(rule.start.back() + static_cast<Offset>(row.particle.size()));
-    rule.double_start.push_back(rule.double_start.back() + static_cast<Offset>(row.exact));
-  }
+  for (const CellRow<D>& row : rows)
+    rule.start.push_back(rule.start.back() + static_cast<Offset>(row.entries.size()));
   rule.particle.resize(static_cast<std::size_t>(rule.start.back()));
-  grow(rule.coefficient, static_cast<std::size_t>(rule.double_start.back()) * D);
-  grow(rule.rounded, static_cast<std::size_t>(rule.start.back() - rule.double_start.back()) * D);
+  grow(rule.coefficient, static_cast<std::size_t>(rule.start.back()) * D);
   parallel_for(
       static_cast<Index>(rows.size()),
       [&](Index k) {
         const CellRow<D>& row = rows[static_cast<std::size_t>(k)];
-        const Offset start = at(rule.start, first + static_cast<std::size_t>(k)),
-                     double_start = at(rule.double_start, first + static_cast<std::size_t>(k));
-        std::copy(row.particle.begin(), row.particle.end(), rule.particle.begin() + start);
-        Lanes* g = rule.coefficient.data() + double_start * D;
-        SingleLanes* r = rule.rounded.data() + (start - double_start) * D;
-        for (std::size_t e = 0; e < row.particle.size(); ++e)
-          for (const Lanes& x : row.gradient[e])
-            if (e < row.exact)
-              *g++ = x;
-            else
-              *r++ = SingleLanes::rounded(x);
+        const Offset start = at(rule.start, first + static_cast<std::size_t>(k));
+        Index* A = rule.particle.data() + start;
+        Lanes* g = rule.coefficient.data() + start * D;
+        for (std::size_t e = 0; e < row.entries.size(); ++e) {
+          *A++ = row.entries[e].particle;
+          g = std::copy(row.gradient[e].begin(), row.gradient[e].end(), g);
+        }
       },
       8);
 }
@@ -203,18 +177,16 @@ template <int D>
 void end_rows(const Body<D>& body, CellRule<D>& rule) {
   const std::size_t size = static_cast<std::size_t>(body.size()) + 1;
   rule.start.resize(size, rule.start.back());
-  rule.double_start.resize(size, rule.double_start.back());
 }
 
 /// Appends the rows of the given cells to a rule without rows. Facets shared within a block of
 /// cells are computed once, and facets between blocks twice. Blocks do not depend on `cells`, so
 /// the rows have the same bits on any number of ranks.
 template <int D>
-void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, CellRule<D>& rule,
+void append_rows(const Body<D>& body, OwnItems cells, CellRule<D>& rule,
                  SumsOverRanks& shape_integral) {
   rule.start.resize(static_cast<std::size_t>(cells.begin) + 1, 0);
-  rule.double_start.resize(rule.start.size(), 0);
-  reserve_entries(body, cells, precision, rule);
+  reserve_entries(body, cells, rule);
   // The integrals need several times the memory of their rows, and rows that are not packed yet
   // twice as much: small blocks keep both small.
   constexpr Index block = 512, packed_at_once = 64;
@@ -222,22 +194,14 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
   std::vector<CellRow<D>> rows(static_cast<std::size_t>(packed_at_once));
   // Expected number of elements of the next block: as many as the block before had; for the first
   // block, its share of the reserve.
-  const auto share = [&](std::size_t reserved) {
-    return reserved * static_cast<std::size_t>(block) /
-           static_cast<std::size_t>(std::max(block, cells.end - cells.begin));
-  };
-  std::array<std::size_t, 2> taken{share(rule.coefficient.capacity()),
-                                   share(rule.rounded.capacity())};
+  std::size_t taken = rule.coefficient.capacity() * static_cast<std::size_t>(block) /
+                      static_cast<std::size_t>(std::max(block, cells.end - cells.begin));
   for (Index begin = cells.begin / block * block; begin < cells.end; begin += block) {
     const Index first = std::max(begin, cells.begin), end = std::min(begin + block, cells.end);
-    const std::array<std::size_t, 2> filled{rule.coefficient.size(), rule.rounded.size()};
+    const std::size_t filled = rule.coefficient.size();
     parallel_for((end - begin + most_in_group - 1) / most_in_group + 1,
                  [&](Index item) {
-                   if (item == 0) {
-                     take_pages_of_next(rule.coefficient, taken[0]);
-                     take_pages_of_next(rule.rounded, taken[1]);
-                     return;
-                   }
+                   if (item == 0) return take_pages_of_next(rule.coefficient, taken);
                    const Index from = begin + (item - 1) * most_in_group;
                    integrate_cells<D>(body, {from, std::min(end, from + most_in_group)},
                                       {begin, begin + block}, integrals);
@@ -246,27 +210,22 @@ void append_rows(const Body<D>& body, OwnItems cells, RowPrecision precision, Ce
     for (Index next = first; next < end; next += packed_at_once) {
       const Index count = std::min(packed_at_once, end - next);
       parallel_for(
-          count,
-          [&](Index k) {
-            assemble_row<D>(body, next + k, integrals, begin, at(rows, k));
-            order_row(body, next + k, precision, at(rows, k));
-          },
+          count, [&](Index k) { assemble_row<D>(body, next + k, integrals, begin, at(rows, k)); },
           4);
       for (Index k = 0; k < count; ++k)
         for (const auto& entry : at(rows, k).entries)
           shape_integral.add(entry.particle, entry.integral);
       pack<D>(std::span(rows).first(static_cast<std::size_t>(count)), rule);
     }
-    taken = {rule.coefficient.size() - filled[0], rule.rounded.size() - filled[1]};
+    taken = rule.coefficient.size() - filled;
   }
 }
 
 }  // namespace
 
 template <int D>
-CellRows<D>::CellRows(const Body<D>& body, RowPrecision precision, OwnItems cells)
-    : shape_integral(body.size()) {
-  append_rows(body, cells, precision, rule, shape_integral);
+CellRows<D>::CellRows(const Body<D>& body, OwnItems cells) : shape_integral(body.size()) {
+  append_rows(body, cells, rule, shape_integral);
 }
 
 template <int D>
@@ -278,22 +237,22 @@ CellOperator<D> cell_rule_of(const Body<D>& body, CellRows<D> rows) {
 }
 
 template <int D>
-CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision, OwnItems cells) {
+CellOperator<D> build_cell_rule(const Body<D>& body, OwnItems cells) {
   std::optional<CellRows<D>> rows;
-  on_each_rank([&] { rows.emplace(body, precision, cells); });
+  on_each_rank([&] { rows.emplace(body, cells); });
   return cell_rule_of(body, std::move(*rows));
 }
 
 template <int D>
-CellOperator<D> build_cell_rule(const Body<D>& body, RowPrecision precision) {
-  return build_cell_rule(body, precision, body.division.own_rows(body.size()));
+CellOperator<D> build_cell_rule(const Body<D>& body) {
+  return build_cell_rule(body, body.division.own_rows(body.size()));
 }
 
-#define MENISCUS_INSTANTIATE(D)                                           \
-  template struct CellRows<D>;                                            \
-  template CellOperator<D> cell_rule_of(const Body<D>&, CellRows<D>);     \
-  template CellOperator<D> build_cell_rule(const Body<D>&, RowPrecision); \
-  template CellOperator<D> build_cell_rule(const Body<D>&, RowPrecision, OwnItems);
+#define MENISCUS_INSTANTIATE(D)                                       \
+  template struct CellRows<D>;                                        \
+  template CellOperator<D> cell_rule_of(const Body<D>&, CellRows<D>); \
+  template CellOperator<D> build_cell_rule(const Body<D>&);           \
+  template CellOperator<D> build_cell_rule(const Body<D>&, OwnItems);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -34,20 +34,14 @@ void add_squares(const std::array<Tensor<Lanes>, D>& S, const std::array<Lanes, 
 
 /// Nodal cells with linear moments, "q_scni" (RKPM note 5.3). In cell L the gradient of a field is
 /// sum_A f_A (a_A + B_A xi). It is evaluated at D + 1 points xi_q of equal weight that reproduce
-/// volume, centroid and covariance of the cell. A group is a cell.
-///
-/// Coefficients may be in single precision. The entries of a row in double come first and make up
-/// for the rounding of the others (performance note 2). Rows of other ranks are empty.
+/// volume, centroid and covariance of the cell. A group is a cell. Rows of other ranks are empty.
 template <int D>
 struct CellRule {
-  std::vector<Offset> start{0};         ///< [cell + 1]
-  std::vector<Offset> double_start{0};  ///< [cell + 1]: number of entries in double of all cells
-                                        ///< before
-  std::vector<Index> particle;          ///< [entry]; in a row, entries in double come first
-  UnsetVector<Lanes> coefficient;       ///< [entry in double][K]: (a_AK, B_AK0, B_AK1, B_AK2)
-  UnsetVector<SingleLanes> rounded;     ///< the same in single precision, [entry][K]
-  AlignedVector<Lanes> point;           ///< [cell][M]: xi_qM, a lane per stress point q
-  std::vector<Real> volume;             ///< [cell]
+  std::vector<Offset> start{0};    ///< [cell + 1]
+  std::vector<Index> particle;     ///< [entry]
+  UnsetVector<Lanes> coefficient;  ///< [entry][K]: (a_AK, B_AK0, B_AK1, B_AK2)
+  AlignedVector<Lanes> point;      ///< [cell][M]: xi_qM, a lane per stress point q
+  std::vector<Real> volume;        ///< [cell]
 
   Index groups() const { return static_cast<Index>(volume.size()); }
   Index points_per_group() const { return D + 1; }
@@ -122,9 +116,8 @@ struct CellRule {
   }
   Offset pairs() const { return start.back(); }
   std::size_t bytes() const {
-    return (start.size() + double_start.size()) * sizeof(Offset) + particle.size() * sizeof(Index) +
-           (coefficient.size() + point.size()) * sizeof(Lanes) +
-           rounded.size() * sizeof(SingleLanes) + volume.size() * sizeof(Real);
+    return start.size() * sizeof(Offset) + particle.size() * sizeof(Index) +
+           (coefficient.size() + point.size()) * sizeof(Lanes) + volume.size() * sizeof(Real);
   }
 
  private:
@@ -132,32 +125,22 @@ struct CellRule {
   // scatter() reads them from cache. Each of the two prefetches one half of the coefficients of the
   // next cell, so that memory access and arithmetic overlap.
   enum class Half : std::uint8_t { first, second };
-  static constexpr std::ptrdiff_t bytes_ahead = 64, rounded_bytes_ahead = 32;  // per entry
+  static constexpr std::ptrdiff_t bytes_ahead = 64;  // per entry
 
   /// Calls work(particle, coefficients[K]) for the entries of a row.
   template <class F>
   [[gnu::always_inline]] void for_entries(Index cell, Half half, F&& work) const {
-    const Offset exact = at(double_start, cell), exact_end = at(double_start, cell + 1);
-    const Index* A = particle.data() + at(start, cell);
-    const Index* end = A + (exact_end - exact);
-    const Lanes* g = coefficient.data() + exact * D;
-    const char* ahead = reinterpret_cast<const char*>(coefficient.data() + exact_end * D) +
+    const Offset first = at(start, cell), next = at(start, cell + 1);
+    const Index* A = particle.data() + first;
+    const Index* const end = particle.data() + next;
+    const Lanes* g = coefficient.data() + first * D;
+    const char* ahead = reinterpret_cast<const char*>(coefficient.data() + next * D) +
                         (half == Half::second ? (end - A) * bytes_ahead : 0);
     for (; A != end; ++A, g += D, ahead += bytes_ahead) {
       prefetch(ahead);
       std::array<Lanes, D> here;
       for (int K = 0; K < D; ++K) at(here, K) = in_register(g[K]);
       work(*A, here);
-    }
-    end = particle.data() + at(start, cell + 1);
-    const SingleLanes* r = rounded.data() + (at(start, cell) - exact) * D;
-    ahead = reinterpret_cast<const char*>(rounded.data() + (at(start, cell + 1) - exact_end) * D) +
-            (half == Half::second ? (end - A) * rounded_bytes_ahead : 0);
-    for (; A != end; ++A, r += D, ahead += rounded_bytes_ahead) {
-      prefetch(ahead);
-      std::array<Lanes, D> wide;
-      for (int K = 0; K < D; ++K) at(wide, K) = in_register(r[K].widened());
-      work(*A, wide);
     }
   }
 };

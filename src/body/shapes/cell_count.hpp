@@ -11,8 +11,7 @@ namespace meniscus {
 inline constexpr Range count_in_plane{1, 10000}, count_in_space{1, 1000};
 
 /// Throws InputError if a D-dimensional grid with so many cells cannot be numbered (2e8), or if its
-/// particles would need more memory than is available. The estimate is a lower bound: for the
-/// narrowest supports in single precision.
+/// particles would need more memory than is available. The estimate is a lower bound.
 template <int D>
 void require_affordable(Real cells, Real cells_per_particle = 1);
 

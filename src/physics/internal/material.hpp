@@ -30,7 +30,6 @@ struct Integration {
   /// True if the pressure of a fluid works on the volume that its surface encloses, to balance a
   /// `balanced` surface tension. "automatic" is then cell_average with "q_scni".
   bool enclosed = false;
-  RowPrecision precision = RowPrecision::full;  ///< of the rows of "q_scni"
 };
 
 /// A material read from a scene, ready to be applied to a body.
@@ -98,8 +97,8 @@ class MaterialOf final : public Material<D> {
   [[gnu::cold]] typename Material<D>::Built build(Body<D>& body,
                                                   const Integration& integration) const override {
     if (integration.rule == "q_scni") {
-      CellOperator<D> op = body.cell_rows ? cell_rule_of(body, std::move(*body.cell_rows))
-                                          : build_cell_rule(body, integration.precision);
+      CellOperator<D> op =
+          body.cell_rows ? cell_rule_of(body, std::move(*body.cell_rows)) : build_cell_rule(body);
       body.cell_rows.reset();
       std::vector<Vec<D>> places;
       for (Index A = 0; A < body.size(); ++A) places.push_back(body.cell_origin(A));

@@ -2,9 +2,9 @@
 // Finds the critical mode of the time step by combining trial modes (Rayleigh-Ritz).
 #include "solve/step/critical_mode.hpp"
 
+#include "numbers/dense.hpp"
 #include "parallel/halo_algebra.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <utility>
 
 namespace meniscus {
@@ -89,22 +89,20 @@ void CriticalMode::include_trial(Real dt) {
         return p;
       });
   // Scale the vectors to length one. Drop the last one if it nearly is a combination of the others.
-  using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
   constexpr Real independent = 1e-6;
-  const Eigen::Vector3d size = products.leftCols<3>().diagonal().cwiseSqrt();
+  const Vec<3> size = products.leftCols<3>().diagonal().cwiseSqrt();
   if (!(size[1] > 0)) return;
-  for (int n = count; n >= 2; --n) {
-    const auto scale = size.head(n).cwiseInverse().asDiagonal();
-    const Square M = scale * products.topLeftCorner(n, n) * scale,
-                 a = scale * products.block(0, 3, n, n) * scale;
-    if (!(M.determinant() > independent) && n > 2) continue;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Square> solver(0.5 * (a + a.transpose()), M);
-    Eigen::Vector3d best = Eigen::Vector3d::Zero();
-    best.head(n) = scale * solver.eigenvectors().col(n - 1);
-    mix(halo_, way_, best[2], trial, best[1]);
-    mix(halo_, mode, best[0], way_, 1);
-    return;
-  }
+  Mat<3> M = Mat<3>::Identity(), A = Mat<3>::Zero();
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) {
+      M(i, j) = products(i, j) / (size[i] * size[j]);
+      A(i, j) = 0.5 * (products(i, 3 + j) + products(j, 3 + i)) / (size[i] * size[j]);
+    }
+  if (!(1 - M(1, 0) * M(1, 0) > independent)) return;
+  const int kept = count == 3 && determinant<3>(M) > independent ? 3 : 2;
+  const Vec<3> best = greatest_quotient(A, M, kept);
+  mix(halo_, way_, kept == 3 ? best[2] / size[2] : 0, trial, best[1] / size[1]);
+  mix(halo_, mode, best[0] / size[0], way_, 1);
 }
 
 }  // namespace meniscus
