@@ -86,6 +86,28 @@ TEST(Traction, PressureAllAroundCompressesEvenly) {
   EXPECT_LT(error_of_size<3>("shape = \"ball\"\nradius = 1\ncore = 4\nlayers = 2\n"), 8e-4);
 }
 
+/// The force is minus the gradient of the potential, at any displacement `u`.
+template <int D>
+void expect_gradient(ForceTerm& term, const NodalVectors& u) {
+  const NodalVectors w = test::random_field<D>(static_cast<Index>(u.size()), 1, 4),
+                     rest = test::zeros(u), force = test::force_of(term, u);
+  const auto potential = [&](Real h) {
+    const NodalVectors moved = test::sum_of(u, h, w);
+    return term.potential({0, moved, rest}).value();
+  };
+  // The volume is a polynomial of third degree.
+  constexpr Real h = 0.01;
+  const Real slope =
+      (8 * (potential(h) - potential(-h)) - (potential(2 * h) - potential(-2 * h))) / (12 * h);
+  EXPECT_NEAR(slope, -test::dot(force, w), 1e-11);
+  EXPECT_NEAR(term.load_power({0, u, w}), test::dot(force, w), 1e-13);
+  NodalVectors tangent = rest;
+  term.add_tangent({0, u, rest}, {0, w, rest}, tangent);
+  const NodalVectors change = test::sum_of(test::force_of(term, test::sum_of(u, h, w)), -1,
+                                           test::force_of(term, test::sum_of(u, -h, w)));
+  EXPECT_LT(test::norm(test::sum_of(change, -2 * h, tangent)), 1e-12);
+}
+
 /// A uniform pressure on the whole surface of a deformed body has no net force and no net moment,
 /// and is the gradient of p times the enclosed volume.
 template <int D>
@@ -94,29 +116,79 @@ void expect_even_pressure_balanced(const std::string& shape) {
                                      "[[traction]]\nbody = \"block\"\nwhere = 1\npressure = 0.7\n");
   ForceTerm& term = *scene.system.terms.back();
   const Body<D>& body = scene.system.bodies.front();
-  const NodalVectors u = test::random_field<D>(body.size(), 0.02, 3),
-                     w = test::random_field<D>(body.size(), 1, 4), rest = test::zeros(u);
+  const NodalVectors u = test::random_field<D>(body.size(), 0.02, 3);
   const NodalVectors force = test::force_of(term, u);
   const auto balance = test::balance_of(body, u, force);
   EXPECT_LT(balance.force, 1e-14);
   EXPECT_LT(balance.torque, 1e-14);
   EXPECT_EQ(test::report_of(term, u).outside.force_size, 0);
-  const auto potential = [&](Real h) {
-    const NodalVectors moved = test::sum_of(u, h, w);
-    return *term.potential({0, moved, rest});
-  };
-  // The volume is a polynomial of third degree, for which this difference is exact.
-  constexpr Real h = 0.01;
-  const Real slope =
-      (8 * (potential(h) - potential(-h)) - (potential(2 * h) - potential(-2 * h))) / (12 * h);
-  EXPECT_NEAR(slope, -test::dot(force, w), 1e-11);
-  EXPECT_NEAR(term.load_power({0, u, w}), test::dot(force, w), 1e-13);
+  expect_gradient<D>(term, u);
 }
 TEST(Traction, EvenPressureOnAClosedFaceIsTheGradientOfTheVolume) {
   expect_even_pressure_balanced<2>("");
   expect_even_pressure_balanced<3>("");
   expect_even_pressure_balanced<2>("shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n");
   expect_even_pressure_balanced<3>("shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2\n");
+}
+
+std::string held(const std::string& face, const std::string& components) {
+  return fmt::format("[[held]]\nbody = \"block\"\nface = \"{}\"\ncomponents = [{}]\n", face,
+                     components);
+}
+template <int D>
+std::unique_ptr<Scene<D>> pushed(const std::string& held_faces, const std::string& more = "") {
+  return std::make_unique<Scene<D>>(test::scene_of<D>(
+      block(D, "") + held_faces +
+      "[[traction]]\nbody = \"block\"\nface = \"x_max\"\npressure = 0.7\n" + more));
+}
+/// Whether newton finds a potential.
+template <int D>
+bool has_potential(Scene<D>& scene) {
+  const NodalVectors rest(static_cast<std::size_t>(scene.system.size()), Lanes::zero());
+  return scene.system.terms.back()->potential({0, rest, rest}).has_value();
+}
+
+/// An edge that is held on planes, in all directions or normal to them: the force is a gradient
+/// also where the places of the edge, which is held in the mean only, leave the planes. Where they
+/// do not, the force is that of a face whose edge is free.
+template <int D>
+void expect_gradient_of_held_edge(const std::string& held_faces, Real along = 0) {
+  const auto with = pushed<D>(held_faces), without = pushed<D>("");
+  ForceTerm &term = *with->system.terms.back(), &free_edge = *without->system.terms.back();
+  const NodalVectors u = test::random_field<D>(with->system.size(), 0.02, 3);
+  expect_gradient<D>(term, u);
+  EXPECT_GT(test::report_of(term, u).outside.force_size, 0.1);
+  const NodalVectors in_planes = test::field_on<D>(
+      with->system.bodies.front(),
+      [&](const Vec<D>& X) { return Vec<D>(along * (X[0] + 2 * X[1]) * Vec<D>::Unit(0)); });
+  const NodalVectors force = test::force_of(term, in_planes),
+                     other = test::force_of(free_edge, in_planes);
+  EXPECT_LT(test::norm(test::sum_of(force, -1, other)), 1e-14);
+}
+TEST(Traction, EvenPressureBetweenHeldEdgesIsAGradient) {
+  expect_gradient_of_held_edge<2>(held("y_min", "") + held("y_max", ""));
+  expect_gradient_of_held_edge<2>(held("y_min", "") + held("y_max", "\"y\""));
+  expect_gradient_of_held_edge<2>(held("y_min", "\"normal\"") + held("y_max", "\"y\""), 0.1);
+  expect_gradient_of_held_edge<3>(held("y_min", "") + held("y_max", "\"y\"") +
+                                  held("z_min", "\"z\"") + held("z_max", "\"z\""));
+  expect_gradient_of_held_edge<3>(held("y_min", "\"y\"") + held("y_max", "\"y\"") +
+                                      held("z_min", "\"z\"") + held("z_max", "\"z\""),
+                                  0.1);
+  expect_gradient_of_held_edge<3>(held("y_min", "") + held("y_max", "") + held("z_min", "") +
+                                  held("z_max", ""));
+}
+
+/// An edge that can leave its place, by a free end or a displacement.
+TEST(Traction, EvenPressureWithAFreeEdgeIsNone) {
+  const std::string low = held("y_min", ""), high = held("y_max", "");
+  EXPECT_TRUE(has_potential(*pushed<2>(low + high)));
+  EXPECT_TRUE(has_potential(*pushed<2>(low + held("y_max", "\"x\"")))) << "slides along the face";
+  EXPECT_FALSE(has_potential(*pushed<2>(low)));
+  EXPECT_FALSE(has_potential(*pushed<2>(low + high + "displacement = [0, \"0.1*t\"]\n")));
+  EXPECT_FALSE(has_potential(*pushed<2>(low + high + "displacement = [0, 0.1]\n")));
+  // A face that ends in the middle of others.
+  EXPECT_FALSE(has_potential(*pushed<2>(low + high, "where = \"y < 0.05\"\n")));
+  EXPECT_FALSE(has_potential(*pushed<3>(low + high)));
 }
 
 /// The net force of a uniform pressure on an open face depends on the edge of the face only: - p/2

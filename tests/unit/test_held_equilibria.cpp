@@ -228,6 +228,31 @@ TEST(HeldEquilibria, InflateThickWallsAsFarAsTheExactSolution) {
   EXPECT_NEAR(found.inner / exact_wall(3, 0.5).inner, 1, 0.015);
 }
 
+/// A quarter of the wall between two planes of symmetry, in which its edges slide, with the
+/// pressure as a traction; solved by Newton's method.
+TEST(HeldEquilibria, InflateAQuarterOfAThickWall) {
+  const auto error = [](int cells) {
+    Scene<2> scene = test::scene_of<2>(fmt::format(
+        "dimension = 2\n[time]\n{}\n[[body]]\nname = \"wall\"\nshape = \"rectangle\"\nsize = "
+        "[0.5, 1.5707963267948966]\ncorner = [0.5, 0]\ncells = [{}, {}]\nmap = [\"x*cos(y)\", "
+        "\"x*sin(y)\"]\nmaterial = {{ type = \"neo_hookean\", density = 1, mu = 1, lambda = 1.5 "
+        "}}\n[[held]]\nbody = \"wall\"\nface = \"y_min\"\ncomponents = [\"y\"]\n[[held]]\nbody = "
+        "\"wall\"\nface = \"y_max\"\ncomponents = [\"x\"]\n[[traction]]\nbody = \"wall\"\nface = "
+        "\"x_min\"\npressure = 0.4\nramp = [0, 1]\n",
+        by_newton, cells, 3 * cells));
+    Simulation<2> simulation(scene);
+    simulation.begin();
+    while (!simulation.finished()) simulation.advance();
+    for (const MeasureSource& m : scene.measures)
+      if (m.name == "wall.extent_y")
+        return m.compute(simulation.state().motion()) / exact_wall(2, 0.4).outer - 1;
+    throw std::logic_error("no extent");
+  };
+  const Real coarse = error(4), fine = error(8);
+  EXPECT_LT(std::abs(fine), 3e-4);
+  EXPECT_LT(std::abs(fine), 0.5 * std::abs(coarse));
+}
+
 /// The pressure is a traction that follows the surface; solved by relaxation. The error is of
 /// second order.
 TEST(HeldEquilibria, InflateAThickWallByATractionThatFollowsIt) {

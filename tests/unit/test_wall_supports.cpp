@@ -2,6 +2,7 @@
 // Kernels of shells stay inside the wall; the stiffness if they do not.
 #include "body/surface/surface_points.hpp"
 #include "body/wall_supports.hpp"
+#include "meniscus/error.hpp"
 #include "physics/loads/cavity.hpp"
 #include "solve/step/central_difference.hpp"
 #include "solve/step/relaxation.hpp"
@@ -147,6 +148,14 @@ TEST(WallSupports, KernelsAcrossTheCavityMakeItFarTooStiff) {
   EXPECT_GT(crossing.energy, 2.6);
   EXPECT_EQ(within.crossing, 0);
   EXPECT_NEAR(within.energy, 1.17, 0.1);
+}
+
+/// A shape with a cavity whose maker has forgotten the normal of its walls.
+TEST(WallSupports, NeedTheNormalOfTheWalls) {
+  Geometry<3> geometry = flat_cell(1);
+  ParticleSet<3> particles = default_supports(geometry);
+  geometry.director = {};
+  EXPECT_THROW(keep_supports_in_wall(particles, geometry), InputError);
 }
 
 }  // namespace
