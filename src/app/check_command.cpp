@@ -83,73 +83,52 @@ void say_what_shortens_steps(const Scene<D>& scene) {
       until);
 }
 
+/// Prints where a body is, its supports and its faces.
 template <int D>
-void check_scene(const SceneInput& input, const RunRequest& request) {
-  Scene<D> scene = set_up(input, [&] { return build_scene<D>(input); });
-  require_known_outputs(input, scene);
-  const Real stop = time_to_stop(request, scene.units);
-  const auto unit = [&](Dimension d) { return scene.units.symbol(d); };
-  if (!scene.title.empty()) say("{}\n", scene.title);
-  for (const auto& note : scene.notes) say("{}\n", note);
-  for (const Body<D>& body : scene.system.bodies) {
-    const Box<D> box = box_around<D>(body.particles.X());
-    Real least = unbounded, largest = 0;
-    for (Index A = 0; A < body.size(); ++A) {
-      least = std::min(least, at(body.particles.support(), A));
-      largest = std::max(largest, at(body.particles.support(), A));
-    }
-    std::string ranges;
-    for (int i = 0; i < D; ++i)
-      ranges += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", box.low[i], box.high[i]);
-    std::string stretched;
-    if (const Mat<D>* pressed = body.particles.pressed()) {
-      const Vec<D> shares = symmetric_eigenvalues<D>(*pressed);
-      stretched = fmt::format(", stretched by {:.4g} to {:.4g} as its cells", 1 / shares[D - 1],
-                              1 / shares[0]);
-    }
-    say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}{}\n", body.name, ranges,
-        unit(dimension::length), least, largest, unit(dimension::length), stretched);
-    std::string faces;
-    for (const auto& [name, facets] : face_names(body.geometry))
-      faces += fmt::format("{}{} ({} facets)", faces.empty() ? "" : ", ", name, facets);
-    if (!faces.empty()) say("body '{}': faces {}\n", body.name, faces);
-    constexpr Real least_drawn = 1e-6;
-    if (box.extent().maxCoeff() < least_drawn)
-      say("body '{}': viewers that compute in single precision, ParaView among them, draw lengths "
-          "below "
-          "{:g} black; other units show it, such as [units] system = \"nm-ps-ag\"\n",
-          body.name, least_drawn);
+void say_body(const Body<D>& body, const std::string& length) {
+  const Box<D> box = box_around<D>(body.particles.X());
+  Real least = unbounded, largest = 0;
+  for (Index A = 0; A < body.size(); ++A) {
+    least = std::min(least, at(body.particles.support(), A));
+    largest = std::max(largest, at(body.particles.support(), A));
   }
-  say_meshes(scene, input);
-  say_units(scene.units);
-  say_drop_numbers(scene, input);
-  for (const auto& term : scene.system.terms)
-    say("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),
-        1e-6 * static_cast<Real>(term->bytes()));
+  std::string ranges;
+  for (int i = 0; i < D; ++i)
+    ranges += fmt::format("{}[{:.4g}, {:.4g}]", i ? " x " : "", box.low[i], box.high[i]);
+  std::string stretched;
+  if (const Mat<D>* pressed = body.particles.pressed()) {
+    const Vec<D> shares = symmetric_eigenvalues<D>(*pressed);
+    stretched = fmt::format(", stretched by {:.4g} to {:.4g} as its cells", 1 / shares[D - 1],
+                            1 / shares[0]);
+  }
+  say("body '{}': occupies {} {}, supports {:.4g} to {:.4g} {}{}\n", body.name, ranges, length,
+      least, largest, length, stretched);
+  std::string faces;
+  for (const auto& [name, facets] : face_names(body.geometry))
+    faces += fmt::format("{}{} ({} facets)", faces.empty() ? "" : ", ", name, facets);
+  if (!faces.empty()) say("body '{}': faces {}\n", body.name, faces);
+  constexpr Real least_drawn = 1e-6;
+  if (box.extent().maxCoeff() < least_drawn)
+    say("body '{}': viewers that compute in single precision, ParaView among them, draw lengths "
+        "below "
+        "{:g} black; other units show it, such as [units] system = \"nm-ps-ag\"\n",
+        body.name, least_drawn);
+}
 
-  Simulation<D> simulation = set_up(input, [&] { return Simulation<D>(scene); });
-  set_up(input, [&] { simulation.begin(); });
-  for (const std::string& note : simulation.take_notes()) say("{}\n", note);
-  warn_of_idle_contacts(scene, simulation.state());
-  if (scene.time.solver == "newton") {
-    const StableStep stable = StableStepEstimator<D>(scene.system).estimate(simulation.state());
-    say("stable step of motion {:.6g} {}; newton: load steps of {:.6g}\n", stable.dt,
-        unit(dimension::time), scene.time.step.value_or(scene.time.end / 20));
-    if (const auto effort =
-            effort_to_rest(scene, simulation.state(), scene.time.safety * stable.dt, false))
-      say_effort(*effort, flows(scene));
-    for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
-    say("the scene is in order\n");
-    return;
-  }
-  const bool thin = simulation.stepper().chooses_step();
-  const StableStep stable = thin ? StableStepEstimator<D>(scene.system).estimate(simulation.state())
-                                 : simulation.controller().stable();
-  const Real stable_at_start = stable.dt;
-  const Real dt = thin ? ElasticStep<D>(scene.system, scene.time.safety)
-                             .at_state(ElasticInertia<D>(scene.system), simulation.state())
-                       : scene.time.step.value_or(scene.time.safety * stable.dt);
-  say("stable step {:.6g} {} (", stable.dt, unit(dimension::time));
+/// Prints the stable step of motion beside the load steps of `newton`.
+template <int D>
+void say_load_steps(Scene<D>& scene, const State& state) {
+  const StableStep stable = StableStepEstimator<D>(scene.system).estimate(state);
+  say("stable step of motion {:.6g} {}; newton: load steps of {:.6g}\n", stable.dt,
+      scene.units.symbol(dimension::time), scene.time.step.value_or(scene.time.end / 20));
+  if (const auto effort = effort_to_rest(scene, state, scene.time.safety * stable.dt, false))
+    say_effort(*effort, flows(scene));
+}
+
+/// Prints the stable step and its causes, and the step `dt` in use.
+template <int D>
+void say_step(const Scene<D>& scene, const StableStep& stable, Real dt, bool thin) {
+  say("stable step {:.6g} {} (", stable.dt, scene.units.symbol(dimension::time));
   if (stable.viscosity > 0)
     say("stiffness alone {:.3g}, viscosity alone {:.3g}; ", 2 / stable.stiffness,
         2 / stable.viscosity);
@@ -162,35 +141,38 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
         "long "
         "ones, for a few iterations per step\n",
         ratio);
+}
 
-  const bool relaxes = scene.time.solver == "relax";
-  std::optional<ExpectedEffort> effort;
-  if (relaxes) effort = effort_to_rest(scene, simulation.state(), dt, thin);
-  // The first steps include a search for the stable step, which later steps rarely repeat.
+/// Makes a few steps; returns the median of their seconds. The first steps include a search for the
+/// stable step, which later steps rarely repeat.
+template <int D>
+double seconds_per_step(Simulation<D>& simulation) {
   constexpr std::size_t trial_steps = 10;
   std::vector<double> seconds;
-  set_up(input, [&] {
-    while (seconds.size() < trial_steps && !simulation.finished()) {
-      const auto begin = std::chrono::steady_clock::now();
-      simulation.advance();
-      seconds.push_back(
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    }
-  });
+  while (seconds.size() < trial_steps && !simulation.finished()) {
+    const auto begin = std::chrono::steady_clock::now();
+    simulation.advance();
+    seconds.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
   std::sort(seconds.begin(), seconds.end());
-  const double per_step = seconds.empty() ? 0 : seconds[seconds.size() / 2];
-  Real steps = std::ceil(std::min(scene.time.end, stop) / dt);
+  return seconds.empty() ? 0 : seconds[seconds.size() / 2];
+}
+
+/// Prints how many steps the run takes, and how long. `steps`: those to the end of the scene.
+template <int D>
+void say_length(const Scene<D>& scene, const std::optional<ExpectedEffort>& effort, Real steps,
+                double per_step) {
   const bool changing = scene.system.steady_after() > 0 && !scene.time.step;
   std::string until = changing ? " if they stay as long as at the start" : "";
   if (effort) {
-    effort->seconds_per_step = per_step;
     say_effort(*effort, flows(scene));
     const bool rests = effort->relaxation_steps < steps;
     until = rests ? " to rest" : " to time.end, too few to come to rest";
     if (rests) steps = std::round(effort->relaxation_steps);
     if (rests && effort->uncertainty > 2)
       until += fmt::format(", or {} times more or fewer", effort->uncertainty);
-  } else if (relaxes) {
+  } else if (scene.time.solver == "relax") {
     until = " to time.end" + until + ", fewer if it comes to rest before";
   }
   say("{} steps{}, about {:.3g} s on {} threads ({:.0f} ns per particle-step), {:.1f} MB for "
@@ -199,7 +181,53 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
       steps * per_step, omp_get_max_threads(), 1e9 * per_step / scene.system.size(),
       1e-6 * static_cast<Real>(scene.system.bytes()));
   say_what_shortens_steps(scene);
-  if (!scene.time.step) say_softer_drops(scene, request, stable_at_start);
+}
+
+/// Prints the step and the length of a run that makes steps of motion.
+template <int D>
+void check_steps(Scene<D>& scene, Simulation<D>& simulation, const SceneInput& input,
+                 const RunRequest& request) {
+  const bool thin = simulation.stepper().chooses_step();
+  const StableStep stable = thin ? StableStepEstimator<D>(scene.system).estimate(simulation.state())
+                                 : simulation.controller().stable();
+  const Real dt = thin ? ElasticStep<D>(scene.system, scene.time.safety)
+                             .at_state(ElasticInertia<D>(scene.system), simulation.state())
+                       : scene.time.step.value_or(scene.time.safety * stable.dt);
+  say_step(scene, stable, dt, thin);
+  std::optional<ExpectedEffort> effort;
+  if (scene.time.solver == "relax") effort = effort_to_rest(scene, simulation.state(), dt, thin);
+  double per_step = 0;
+  set_up(input, [&] { per_step = seconds_per_step(simulation); });
+  if (effort) effort->seconds_per_step = per_step;
+  const Real stop = time_to_stop(request, scene.units);
+  say_length(scene, effort, std::ceil(std::min(scene.time.end, stop) / dt), per_step);
+  if (!scene.time.step) say_softer_drops(scene, request, stable.dt);
+}
+
+template <int D>
+void check_scene(const SceneInput& input, const RunRequest& request) {
+  Scene<D> scene = set_up(input, [&] { return build_scene<D>(input); });
+  require_known_outputs(input, scene);
+  time_to_stop(request, scene.units);  // throws if it is wrong
+  if (!scene.title.empty()) say("{}\n", scene.title);
+  for (const auto& note : scene.notes) say("{}\n", note);
+  for (const Body<D>& body : scene.system.bodies)
+    say_body(body, scene.units.symbol(dimension::length));
+  say_meshes(scene, input);
+  say_units(scene.units);
+  say_drop_numbers(scene, input);
+  for (const auto& term : scene.system.terms)
+    say("{}: {} pairs, {:.1f} MB\n", term->name(), term->pairs(),
+        1e-6 * static_cast<Real>(term->bytes()));
+
+  Simulation<D> simulation = set_up(input, [&] { return Simulation<D>(scene); });
+  set_up(input, [&] { simulation.begin(); });
+  for (const std::string& note : simulation.take_notes()) say("{}\n", note);
+  warn_of_idle_contacts(scene, simulation.state());
+  if (scene.time.solver == "newton")
+    say_load_steps(scene, simulation.state());
+  else
+    check_steps(scene, simulation, input, request);
   for (const auto& warning : scene.warnings) say("warning: {}\n", warning);
   say("the scene is in order\n");
 }

@@ -75,7 +75,7 @@ std::optional<int> run_steps(Epochs<D>& epochs, Recorder<D>& recorder, RunLog& l
   return std::nullopt;
 }
 
-/// After a numerical failure: logs the cause and writes what is known to be right. Returns the exit
+/// After a numerical failure: logs the cause and writes the last valid frame. Returns the exit
 /// code.
 template <int D>
 int end_failed(const SolveError& error, bool quiet, Recorder<D>& recorder, RunLog& log) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the log says of a run.
+// Lines of the log about a run.
 #include "app/run_report.hpp"
 
 #include "app/print.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the log says of a run: at its beginning, and at its end.
+// Lines of the log about a run: at its beginning and at its end.
 #pragma once
 #include "app/commands.hpp"
 #include "app/interruption.hpp"

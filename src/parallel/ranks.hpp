@@ -36,7 +36,7 @@ struct Leaf {
   Index root;   ///< among the roots of that rank
 };
 
-/// What a rank has sent so far.
+/// Number of messages and bytes that a rank has sent.
 struct Traffic {
   std::int64_t messages = 0, bytes = 0;
 };
@@ -51,20 +51,19 @@ class Ranks {
 
   // All ranks call these together.
 
-  /// The largest of what the ranks say.
+  /// Returns the largest of the values that the ranks pass.
   virtual std::int64_t largest(std::int64_t mine) { return mine; }
-  /// Brings all ranks what one of them has in the same array.
+  /// Copies an array from one rank to all ranks.
   virtual void hand_out([[maybe_unused]] int from, [[maybe_unused]] void* values,
                         [[maybe_unused]] std::size_t bytes) {}
-  /// Brings all ranks what each of them has in the same array, the rank r from byte begin[r] to
-  /// begin[r + 1].
+  /// Gathers an array on all ranks: rank r provides the bytes begin[r] to begin[r + 1] - 1.
   virtual void gather([[maybe_unused]] void* values,
                       [[maybe_unused]] std::span<const std::size_t> begin) {}
-  /// What one of the ranks says.
+  /// Returns the text that one rank passes, on all ranks.
   std::string of_rank(int rank, std::string mine);
-  /// What the first rank says that does not say nothing.
+  /// Returns the text of the first rank whose text is not empty; empty if there is none.
   std::string first_said(std::string mine);
-  /// For leaves that are on other ranks than their roots. Not called by a rank that is alone.
+  /// Makes an exchange for leaves whose roots are on other ranks. Not called if there is one rank.
   virtual std::unique_ptr<Exchange> exchange(Index roots, const std::vector<Leaf>& leaves);
   /// At the end of the program: returns the exit code of all. If the others do not come, this rank
   /// has failed alone: it says why and ends them.

@@ -35,9 +35,9 @@ void print_keys_as_markdown(std::ostream& out, const std::string& wanted = "");
 /// scenes, which takes a moment.
 void print_measures(std::ostream& out);
 
-/// Notes the measures that a scene asks for and that there cannot be: nothing of `names`, those of
-/// its bodies and loads, is called so, or no measure of any scene is. For a scene that has other
-/// problems, and is not built: one that is built knows its measures.
+/// Notes a problem for each measure in the output and the expectations of a scene that cannot
+/// exist: no body or load in `names` has its first part, or no scene has a measure with its second
+/// part. Used when other problems prevent the scene from being built.
 void note_unknown_measures(const Block& root, const RunSettings& run,
                            const std::vector<std::string>& names);
 

@@ -108,7 +108,7 @@ void for_measure_tables(const std::function<bool(const MeasureTable&)>& found) {
     if (name != "surface_tension") of_load(name, std::string(load.example));
 }
 
-/// A name that a scene asks for, and where.
+/// The name of a measure in a scene, and its place.
 struct AskedMeasure {
   Block block;
   std::string key, name;
@@ -178,7 +178,7 @@ void note_unknown_measures(const Block& root, const RunSettings& run,
                                          m.name, m.of(), did_you_mean(m.of(), names)));
     return true;
   });
-  // Those of a probe are called as its fields.
+  // Measures of a probe have the names of its fields.
   for (const Block& probe : root.tables("probe"))
     std::erase_if(
         asked, [name = probe.text("name", "")](const AskedMeasure& m) { return m.of() == name; });

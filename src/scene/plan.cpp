@@ -261,7 +261,7 @@ void plan_loads(const Block& root, Plan<D>& plan) {
   refuse_loads_of_other_dimension<D>(root);
 }
 
-/// Of what may have measures.
+/// Names of all bodies and loads that may have measures.
 template <int D>
 std::vector<std::string> names_of(const Plan<D>& plan) {
   std::vector<std::string> names;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Terms of [[contact]]: what the bodies say of each other, points, and checks of the start.
+// The force term of a [[contact]], its contact points, and checks of the initial state.
 #include "features/contact/contact_table.hpp"
 #include "input/text.hpp"
 #include "meniscus/error.hpp"

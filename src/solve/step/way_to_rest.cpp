@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Relaxation in few shapes.
+// Dynamic relaxation of a few shapes of a body.
 //
-// Modes that the loads do not excite do not delay the rest, and those that they excite little are
-// small from the start: the slowest mode of a body says little of how long it takes.
+// Only modes that the loads excite delay the rest. The slowest mode of a body may not be excited,
+// so its period is a poor estimate of the time to rest.
 #include "solve/step/way_to_rest.hpp"
 
 #include "body/particle_values.hpp"
