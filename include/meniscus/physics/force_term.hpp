@@ -129,8 +129,8 @@ struct MeasureSource {
   std::function<Real(const Motion&)> compute;
 };
 
-/// An effect. Only name() and add_force() are required; src/README.md lists what the other functions
-/// are for, and what happens without them.
+/// An effect. Only name() and add_force() are required; src/README.md lists what the other
+/// functions are for, and what happens without them.
 class ForceTerm {
  public:
   virtual ~ForceTerm() = default;
