@@ -24,7 +24,7 @@ if(PANDOC)
 endif()
 if(DOXYGEN)
   configure_file(tools/docs/Doxyfile.in ${CMAKE_CURRENT_BINARY_DIR}/generated/Doxyfile @ONLY)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.hpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS include/*.hpp src/*.hpp)
   add_custom_command(OUTPUT ${docs}/api/index.html DEPENDS ${headers} tools/docs/Doxyfile.in
     COMMAND ${CMAKE_COMMAND} -E make_directory ${docs}
     COMMAND ${DOXYGEN} ${CMAKE_CURRENT_BINARY_DIR}/generated/Doxyfile VERBATIM)
