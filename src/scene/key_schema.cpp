@@ -153,14 +153,15 @@ struct KeyVariants {
 
 /// All tables of one path.
 struct PathSchema {
-  bool is_array = false;
+  bool is_array = false, is_table = false;  ///< both are true if either may be written
   std::string kind_key;
   std::vector<std::string> kinds;
   std::vector<std::string> keys, required;  ///< names in the order of the tables
+  std::vector<std::string> required_in_array;
   std::map<std::string, KeyVariants> variants;
 
   void add(const KeyTable& table, const KeyHeading& heading) {
-    is_array = is_array || heading.is_array;
+    (heading.is_array ? is_array : is_table) = true;
     if (!heading.kind.empty()) {
       kind_key = heading.kind_key;
       kinds.push_back(heading.kind);
@@ -170,7 +171,8 @@ struct PathSchema {
       KeyVariants& variant = variants[key.key];
       variant.rows.push_back(key);
       variant.kinds.push_back(heading.kind);
-      if (heading.kind.empty() && key.fallback == "required") required.push_back(key.key);
+      if (heading.kind.empty() && key.fallback == "required")
+        (heading.is_array ? required_in_array : required).push_back(key.key);
     }
   }
 };
@@ -214,19 +216,25 @@ std::string schema_of(const Paths& paths, const std::string& path) {
   if (!of.kind_key.empty())
     properties.add(of.kind_key, "{\"type\":\"string\",\"enum\":" + json_list(of.kinds) + "}");
   add_tables(paths, path, properties, any);
-  std::sort(required.begin(), required.end());
-  required.erase(std::unique(required.begin(), required.end()), required.end());
-
-  JsonObject object;
-  if (path.empty()) {
-    object.add("$schema", "\"http://json-schema.org/draft-07/schema#\"");
-    object.add("title", "\"scene of Meniscus\"");
-  }
-  object.add("type", "\"object\"");
-  object.add("properties", properties.text(path.empty() ? ",\n" : ","));
-  if (!required.empty()) object.add("required", json_list(required));
-  object.add("additionalProperties", any.value_or("false"));
-  return of.is_array ? "{\"type\":\"array\",\"items\":" + object.text() + "}" : object.text();
+  const auto object_with = [&](std::vector<std::string> names) {
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    JsonObject object;
+    if (path.empty()) {
+      object.add("$schema", "\"http://json-schema.org/draft-07/schema#\"");
+      object.add("title", "\"scene of Meniscus\"");
+    }
+    object.add("type", "\"object\"");
+    object.add("properties", properties.text(path.empty() ? ",\n" : ","));
+    if (!names.empty()) object.add("required", json_list(names));
+    object.add("additionalProperties", any.value_or("false"));
+    return object.text();
+  };
+  const std::string table = object_with(required);
+  if (!of.is_array) return table;
+  required.insert(required.end(), of.required_in_array.begin(), of.required_in_array.end());
+  const std::string array = "{\"type\":\"array\",\"items\":" + object_with(required) + "}";
+  return of.is_table ? "{\"anyOf\":[" + table + "," + array + "]}" : array;
 }
 
 }  // namespace
