@@ -80,7 +80,7 @@ struct CellSamples {
 };
 
 template <int D>
-struct FourFacetPoints;  // in cell_samples.cpp
+struct FourFacetPoints;  // in nodal_cells_samples.cpp
 
 /// Volumes, centroids, covariances and quadratures of the nodal cells of a grid, by node number.
 template <int D>
