@@ -80,7 +80,7 @@ struct CellSamples {
 };
 
 template <int D>
-struct FourFacetPoints;  // in nodal_cells_samples.cpp
+struct FourFacetPoints;  // nodal_cells_samples
 
 /// Volumes, centroids, covariances and quadratures of the nodal cells of a grid, by node number.
 template <int D>
