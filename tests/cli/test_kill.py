@@ -84,7 +84,7 @@ class Kill(ProgramTest):
             process.kill()
             process.communicate()
             self.assertEqual(process.returncode, -signal.SIGKILL, "ended before it was killed")
-            frames, history = self.frames("out"), self.history("out")
+            frames, history = self.frames("out"), self.history("out", killed=True)
             self.assertTrue(all(a["time"] < b["time"] for a, b in zip(frames, frames[1:])))
             self.assertTrue((history["time"][1:] > history["time"][:-1]).all())
             has_checkpoint = any((self.directory / "out").glob("checkpoint-?.h5"))
