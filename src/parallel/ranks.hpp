@@ -76,7 +76,7 @@ class Ranks {
   virtual bool all_come() { return true; }
 };
 
-/// The ranks of this run, or those of RanksOfThread on a thread that has them.
+/// The ranks of this run. On a thread with a RanksOfThread, the ranks of that object.
 Ranks& ranks();
 /// While this object lives, ranks() returns `own` on the thread that made it.
 class RanksOfThread {

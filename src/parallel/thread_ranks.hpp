@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several ranks in one process, a thread for each: for tests of what runs on several ranks.
+// Several ranks in one process, a thread for each. Unit tests use them.
 #pragma once
 #include <functional>
 

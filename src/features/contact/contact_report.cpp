@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the log says of a [[contact]], and measures of drops on walls and on soft bodies.
+// Lines of the log about a [[contact]], and measures of drops on walls and on soft bodies.
 #include "features/contact/contact_table.hpp"
 #include "measure/ridge_measures.hpp"
 #include "measure/wetting_measures.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table [[contact]]: its keys, and what is built from them.
+// The table [[contact]]: its keys, and the term and measures that it adds.
 #pragma once
 #include "features/contact/contact_advice.hpp"
 #include "input/optional_rows.hpp"
