@@ -127,12 +127,13 @@ std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double
 template <int D>
 void report_ranks(const System<D>& system, std::int64_t steps, RunLog& log) {
   if (ranks().alone()) return;
-  log.info(system.halo
+  log.info(system.followed.halo()
                ? fmt::format("a rank makes its steps on {} of {} particles at most, {} of them "
                              "ghosts",
-                             ranks().largest(system.halo->size()), system.size(),
-                             ranks().largest(system.halo->ghosts()))
-               : "all ranks make their steps on all particles because of " + system.without_halo);
+                             ranks().largest(system.followed.halo()->size()), system.size(),
+                             ranks().largest(system.followed.halo()->ghosts()))
+               : "all ranks make their steps on all particles because of " +
+                     system.followed.reason());
   const Traffic sent = ranks().traffic();
   const std::int64_t messages = ranks().largest(sent.messages), bytes = ranks().largest(sent.bytes),
                      memory = ranks().largest(static_cast<std::int64_t>(peak_memory())),

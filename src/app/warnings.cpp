@@ -2,6 +2,8 @@
 // Warnings during a run about doubtful states.
 #include "app/warnings.hpp"
 
+#include "parallel/ranks.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -52,10 +54,12 @@ template <int D>
 void Warnings<D>::doubtful_laws() {
   for (const auto& term : simulation_->scene().system.terms) {
     if (said_.contains(term->name())) continue;
-    if (const auto warning = term->warning(simulation_->state().motion())) {
-      say_(fmt::format("t = {:.6g}: {}", simulation_->state().time, *warning));
-      said_.insert(term->name());
-    }
+    // A term looks at the rows of its process.
+    const std::string warning =
+        ranks().first_said(term->warning(simulation_->state().motion()).value_or(std::string()));
+    if (warning.empty()) continue;
+    say_(fmt::format("t = {:.6g}: {}", simulation_->state().time, warning));
+    said_.insert(term->name());
   }
 }
 

@@ -9,6 +9,8 @@
 #include "body/shared_parts.hpp"
 #include "body/sums_over_ranks.hpp"
 #include "kernel/point_rows.hpp"
+#include "kernel/row_sums.hpp"
+#include "parallel/chunk_sums.hpp"
 #include "parallel/divided.hpp"
 
 #include <memory>
@@ -65,6 +67,52 @@ struct Body {
   template <class T>
   std::span<T> part(std::span<T> all) const {
     return all.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(size()));
+  }
+  ForceVector part(const ForceVector& all) const { return all.part(first, size()); }
+  /// The sums of chunks of compressed rows with the particles of this body.
+  ChunkSums chunk_sums(std::span<const Offset> start, std::span<const Index> particle) const {
+    return {start, particle, size(), division};
+  }
+  /// Sum of f(row) over n rows, which are divided like those of this body: added in the order of
+  /// chunks, each by the process that has it. All processes call this.
+  template <class T, class F>
+  T sum_over_rows(Index n, T zero, F&& f) const {
+    return division.sum(n, zero, f);
+  }
+  /// The particles whose rows this process has.
+  ItemRange own_particles() const { return division.own_rows(size()); }
+  /// Room for a result of each chunk of particles.
+  template <class T>
+  ChunkTally<T> tally() const {
+    return {chunk_count(size()), division};
+  }
+  /// Calls f(chunk, begin, end) for the chunks of own particles, on all threads.
+  template <class F>
+  void for_chunks(F&& f) const {
+    parallel_for(
+        division.own_items(chunk_count(size())),
+        [&](Index c) {
+          const ItemRange rows = ChunkSums::rows_of(c, size());
+          f(c, rows.begin, rows.end);
+        },
+        1);
+  }
+  /// Gathers values, [particle of the body], of which each process has those of its rows. All
+  /// processes call this.
+  void gather(std::span<NodalVector> values) const {
+    division.complete_rows(size(), values.data(), sizeof values[0]);
+  }
+  /// The value at a particle of a field over all bodies. All processes call this.
+  Lanes value_at_particle(Index A, std::span<const NodalVector> field) const {
+    Lanes value = value_at(at_particles, A, field.data() + first);
+    ranks().hand_out(division.rank_of_row(size(), A), &value, sizeof value);
+    return value;
+  }
+  /// Calls use(row, make(row)) for n such rows in order. The process that has a row calls make().
+  /// All processes call this.
+  template <class Make, class Use>
+  void for_rows_in_order(Index n, Make&& make, Use&& use) const {
+    division.for_all_in_order(n, make, use);
   }
   Body(const Body&) = delete;
   Body(Body&&) = delete;

@@ -91,4 +91,28 @@ void ChunkSums::add_to(std::span<NodalVector> force) const {
   });
 }
 
+void ChunkSums::leave(const ForceVector& force) {
+  force_ = force;
+  if (!force.pending) return complete();
+  if (!is_pending_) force.pending->waiting_.push_back(this);
+  is_pending_ = true;
+}
+
+void ChunkSums::complete() {
+  is_pending_ = false;
+  if (shared_ && !division_.is_whole()) shared_->bring_sums(sums_);
+  add_to(force_);
+}
+
+void PendingSums::complete() {
+  for (ChunkSums* sums : waiting_)
+    if (sums->is_pending_) sums->complete();
+  waiting_.clear();
+}
+
+void PendingSums::forget() {
+  for (ChunkSums* sums : waiting_) sums->is_pending_ = false;
+  waiting_.clear();
+}
+
 }  // namespace meniscus

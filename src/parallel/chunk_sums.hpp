@@ -6,6 +6,7 @@
 #pragma once
 #include "parallel/aligned.hpp"
 #include "parallel/divided_sums.hpp"
+#include "parallel/gathered.hpp"
 #include "parallel/parallel.hpp"
 #include "parallel/thread_sums.hpp"
 
@@ -14,6 +15,36 @@
 #include <vector>
 
 namespace meniscus {
+
+class ChunkSums;
+
+/// Sums of chunks that are not yet added to forces. The sums of all terms are exchanged and added
+/// together, after all rows.
+class PendingSums {
+ public:
+  /// Exchanges all pending sums and adds them to their forces. All ranks call this.
+  void complete();
+  /// Forgets sums that an exception has left.
+  void forget();
+
+ private:
+  friend class ChunkSums;
+  std::vector<ChunkSums*> waiting_;
+};
+
+/// Forces on particles, and where sums of chunks wait to be added to them.
+struct ForceVector : std::span<NodalVector> {
+  ForceVector(std::span<NodalVector> force, PendingSums* waiting = nullptr)
+      : std::span<NodalVector>(force), pending(waiting) {}
+  ForceVector(NodalVectors& force) : std::span<NodalVector>(force) {}
+
+  PendingSums* pending = nullptr;  ///< null: sums are added at once
+
+  /// The forces on `count` particles from `first` on.
+  ForceVector part(Index first, Index count) const {
+    return {subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)), pending};
+  }
+};
 
 /// The chunks of a set of rows, each with sums for the particles that its rows touch.
 class ChunkSums {
@@ -26,34 +57,57 @@ class ChunkSums {
             const Division& division);
 
   /// Calls work(chunk, begin row, end row, sums) for each chunk of this rank; `work` may add to
-  /// sums[A] for the particles A of those rows. Then the sums of all chunks are added to `force`,
-  /// which must be the same on all ranks before and is so after. While a halo is entered, a
-  /// particle gets its force only on the rank that adds up its chunk_sums, until Halo::spread().
+  /// sums[A] for the particles A of those rows. The sums of all chunks are added to `force` later,
+  /// by PendingSums::complete(), or at once if it is not given. A rank gets the forces on the
+  /// particles over which it adds up chunk sums.
   template <class F>
-  void accumulate(std::span<NodalVector> force, F&& work) {
+  void accumulate(const ForceVector& force, F&& work) {
+    complete_others(force);
     parallel_for(
         static_cast<Index>(own_.size()),
         [&](Index c) {
           const RowChunk& chunk = at(own_, c);
           NodalVector* const sums = thread_sums(particles_);
-          for (Index s = chunk.sum; s < chunk.sum_end; ++s) sums[at(touched_, s)] = Lanes::zero();
+          for (Index s = chunk.sum; s < chunk.sum_end; ++s)
+            sums[at(touched_, s)] = is_pending_ ? at(sums_, s) : Lanes::zero();
           work(chunk.number, chunk.begin, chunk.end, sums);
           for (Index s = chunk.sum; s < chunk.sum_end; ++s) at(sums_, s) = sums[at(touched_, s)];
         },
         1);
-    if (shared_) shared_->bring_sums(sums_);
-    add_to(force);
-    if (shared_) shared_->spread_forces(force);
+    leave(force);
+  }
+
+  /// Values of n rows, some for each row, of which each rank has computed those of its rows.
+  template <class T>
+  Gathered gathered(Index n, T* values, std::size_t values_per_row = 1) const {
+    return {values, division_.rows(n), values_per_row};
+  }
+  /// Calls f(chunk, begin row, end row) for each chunk of this rank, on all threads.
+  template <class F>
+  void for_own_chunks(F&& f) const {
+    parallel_for(
+        static_cast<Index>(own_.size()),
+        [&](Index c) { f(at(own_, c).number, at(own_, c).begin, at(own_, c).end); }, 1);
   }
 
   /// Forwarded to DividedSums; only for runs on several ranks.
   void mark_touched(std::span<std::uint8_t> particles) const { shared_->mark_touched(particles); }
   void mark_summed(std::span<std::uint8_t> particles) const { shared_->mark_summed(particles); }
-  void keep_to(std::shared_ptr<const Halo> halo) { shared_->keep_to(std::move(halo)); }
 
   /// Number of chunks, including chunks without rows.
   int chunks() const { return chunks_; }
   const Division& division() const { return division_; }
+  /// The rows of this rank out of n, which are divided like these rows.
+  ItemRange own_rows(Index n) const { return division_.own_rows(n); }
+  /// The rows of a chunk out of n, which are divided like these rows.
+  static ItemRange rows_of(int chunk, Index n) {
+    return {chunk_begin(n, chunk), chunk_begin(n, chunk + 1)};
+  }
+  /// Room for a result of each chunk.
+  template <class T>
+  ChunkTally<T> tally() const {
+    return {chunks_, division_};
+  }
   /// Number of (row, particle) pairs in the rows of all ranks.
   Offset pairs() const { return pairs_; }
   /// Number of sums of chunks that this rank adds to forces.
@@ -67,6 +121,16 @@ class ChunkSums {
   void find_touched(std::span<const Offset> start, std::span<const Index> particle);
   void order_by_particle(const std::vector<ChunkSum>& sums, ItemRange particles);
   void add_to(std::span<NodalVector> force) const;
+  /// Completes pending sums, unless they are for the same forces.
+  void complete_others(const ForceVector& force) {
+    if (is_pending_ && (!force.pending || force.data() != force_.data())) complete();
+  }
+  /// Leaves the sums for later, or adds them at once.
+  void leave(const ForceVector& force);
+  /// Receives the sums of other ranks and adds all to force_.
+  void complete();
+
+  friend class PendingSums;
 
   Division division_;
   int chunks_ = 0;
@@ -78,6 +142,8 @@ class ChunkSums {
   std::vector<Index> sum_start_;        // [particle of summed_ + 1]
   std::vector<Index> sum_of_particle_;  // numbers of sums, ascending chunks for each particle
   NodalVectors sums_;
+  bool is_pending_ = false;  // sums_ are not yet added to force_
+  std::span<NodalVector> force_;
   std::shared_ptr<DividedSums> shared_;  // null on a single rank
 };
 

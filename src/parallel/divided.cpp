@@ -38,11 +38,6 @@ void Division::complete_items(Index n, void* values, std::size_t bytes_per_value
   complete(values, bytes_per_value, [&](int rank) { return first_item(n, rank); });
 }
 
-void Division::complete_runs(Index n, std::span<const Offset> start, void* values,
-                             std::size_t bytes_per_value) const {
-  complete(values, bytes_per_value, [&](int rank) { return at(start, first_item(n, rank)); });
-}
-
 Index Division::first_row(Index n, int rank) const {
   return chunk_begin(n, first_item(chunk_count(n), rank));
 }
@@ -62,23 +57,23 @@ void Division::complete_rows(Index n, void* values, std::size_t bytes_per_value)
   complete(values, bytes_per_value, [&](int rank) { return first_row(n, rank); });
 }
 
-namespace {
-
-/// The place in the list of the first row that is not below `row`.
-Index place_of(std::span<const Index> listed, Index row) {
-  return static_cast<Index>(std::lower_bound(listed.begin(), listed.end(), row) - listed.begin());
+Portions Division::items(Index n) const {
+  return {*this, Portions::Of::items, n};
 }
 
-}  // namespace
-
-ItemRange Division::own_listed(Index n, std::span<const Index> listed) const {
-  const ItemRange own = own_rows(n);
-  return {place_of(listed, own.begin), place_of(listed, own.end)};
+Portions Division::rows(Index n) const {
+  return {*this, Portions::Of::rows, n};
 }
 
-void Division::complete_listed(Index n, std::span<const Index> listed, void* values,
-                               std::size_t bytes_per_value) const {
-  complete(values, bytes_per_value, [&](int rank) { return place_of(listed, first_row(n, rank)); });
+Portions Division::listed(Index n, std::span<const Index> list) const {
+  return {*this, Portions::Of::list, n, list};
+}
+
+Index Portions::first(int rank) const {
+  if (kind_ == Of::items) return division_.first_item(n_, rank);
+  const Index row = division_.first_row(n_, rank);
+  if (kind_ == Of::rows) return row;
+  return static_cast<Index>(std::lower_bound(list_.begin(), list_.end(), row) - list_.begin());
 }
 
 namespace {

@@ -12,6 +12,8 @@ namespace meniscus {
 /// The range of items out of n that one rank computes.
 using OwnItems = ItemRange;
 
+class Portions;
+
 /// How the rows and items of a body are divided between the ranks: evenly, all on one rank (a small
 /// body), or all on each rank. Rows are divided at the borders of their chunks.
 class Division {
@@ -28,6 +30,8 @@ class Division {
   /// calling rank.
   int only_rank() const { return place_ == each ? ranks().rank() : place_; }
   bool is_to_each() const { return place_ == each; }
+  /// True if several ranks have rows.
+  bool is_shared() const { return place_ == even && !ranks().alone(); }
   /// True if this rank can have rows or items.
   bool has_some() const { return place_ == even || only_rank() == ranks().rank(); }
   /// The items of this rank.
@@ -38,26 +42,18 @@ class Division {
   int rank_of_item(Index n, Index item) const;
   /// Gathers values[item], of `bytes_per_value` bytes each: each rank gets the items of all others.
   void complete_items(Index n, void* values, std::size_t bytes_per_value) const;
-  /// Like complete_items(), but does nothing if one rank has all items: nobody else needs them.
-  void complete_where_rows_are(Index n, void* values, std::size_t bytes_per_value) const {
-    if (place_ == even) complete_items(n, values, bytes_per_value);
-  }
-  /// Like complete_items() for items with several values each: item i has values[start[i]] to
-  /// values[start[i + 1] - 1].
-  void complete_runs(Index n, std::span<const Offset> start, void* values,
-                     std::size_t bytes_per_value) const;
-
   // The same functions for rows instead of items.
   OwnItems own_rows(Index n) const;
   Index first_row(Index n, int rank) const;
   int rank_of_row(Index n, Index row) const;
   void complete_rows(Index n, void* values, std::size_t bytes_per_value) const;
-  /// The part of a list that belongs to this rank. `listed` has some of n rows in ascending order;
-  /// the result is a range of places in the list.
-  ItemRange own_listed(Index n, std::span<const Index> listed) const;
-  /// Gathers values[place in the list].
-  void complete_listed(Index n, std::span<const Index> listed, void* values,
-                       std::size_t bytes_per_value) const;
+
+  // The shares of the ranks in n items or n rows.
+  Portions items(Index n) const;
+  Portions rows(Index n) const;
+  /// The shares of the rows in a list of some of n rows, in ascending order. The list must live as
+  /// long as the result.
+  Portions listed(Index n, std::span<const Index> list) const;
 
   /// Calls use(i, value) on all ranks for all i < n in ascending order. The rank that has row i
   /// computes value = make(i). Values are made and sent one chunk at a time.
@@ -79,24 +75,13 @@ class Division {
   /// gathered.
   template <class T, class F>
   T sum(Index n, T zero, F&& f) const {
-    return sum_of_own(n, zero, f,
-                      [&](T* sums) { complete_items(chunk_count(n), sums, sizeof(T)); });
-  }
-  /// Like sum(), but if one rank has all rows, only that rank gets the result.
-  template <class T, class F>
-  T sum_where_rows_are(Index n, T zero, F&& f) const {
-    return sum_of_own(n, zero, f,
-                      [&](T* sums) { complete_where_rows_are(chunk_count(n), sums, sizeof(T)); });
+    const OwnItems own = own_items(chunk_count(n));
+    return sum_by_chunks<Cost::much>(
+        n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; },
+        [&](T* sums) { complete_items(chunk_count(n), sums, sizeof(T)); });
   }
 
  private:
-  template <class T, class F, class Complete>
-  T sum_of_own(Index n, T zero, F&& f, Complete&& complete) const {
-    const OwnItems own = own_items(chunk_count(n));
-    return sum_by_chunks<Cost::much>(
-        n, {0, n}, zero, f, own.end - own.begin, [&](Index k) { return own.begin + k; }, complete);
-  }
-
   static constexpr int even = -1, each = -2;
 
   template <class First>
@@ -106,6 +91,31 @@ class Division {
 };
 
 inline constexpr Division evenly{};
+
+/// The ranges of n items that the ranks have: rank r has the items first(r), ..., first(r + 1) - 1.
+class Portions {
+ public:
+  Index first(int rank) const;
+  ItemRange of(int rank) const { return {first(rank), first(rank + 1)}; }
+  ItemRange own() const { return of(ranks().rank()); }
+  /// True if ranks need items of others.
+  bool are_sent() const { return !ranks().alone() && !division_.is_to_each(); }
+  /// Number of items that others need from a rank: none if each rank has all items.
+  std::size_t sent_by(int rank) const {
+    return division_.is_to_each() ? 0 : static_cast<std::size_t>(first(rank + 1) - first(rank));
+  }
+
+ private:
+  friend class Division;
+  enum class Of { items, rows, list };
+  Portions(const Division& division, Of kind, Index n, std::span<const Index> list = {})
+      : division_(division), kind_(kind), n_(n), list_(list) {}
+
+  Division division_;
+  Of kind_;
+  Index n_;
+  std::span<const Index> list_;
+};
 
 /// Divides bodies with rows[body] rows each between the ranks. A body with at most half of the rows
 /// of a rank goes to one rank: its exchanges would cost more than its rows. Only as many bodies are
@@ -119,37 +129,6 @@ std::vector<T> said_by_ranks(const T& mine) {
   std::vector<T> all(static_cast<std::size_t>(ranks().size()), mine);
   evenly.complete_items(ranks().size(), all.data(), sizeof(T));
   return all;
-}
-
-/// Calls f(k) in parallel for the items k of this rank out of n. record(k) then returns a trivially
-/// copyable result; other ranks get it as take(k, record).
-template <class F, class Record, class Take>
-void divided_for(const Division& division, Index n, F&& f, Record&& record, Take&& take,
-                 int grain = 64) {
-  const OwnItems own = division.own_items(n);
-  parallel_for(own, f, grain);
-  if (ranks().alone() || division.is_to_each()) return;
-  std::vector<decltype(record(0))> records(static_cast<std::size_t>(n));
-  for (Index k = own.begin; k < own.end; ++k) at(records, k) = record(k);
-  division.complete_items(n, records.data(), sizeof records[0]);
-  for (Index k = 0; k < n; ++k)
-    if (k < own.begin || k >= own.end) take(k, at(records, k));
-}
-
-/// Like divided_for() for some of n rows, `listed` in ascending order: f(row), record(row) and
-/// take(row, record). Each rank computes the rows that it owns.
-template <class F, class Record, class Take>
-void divided_for_rows(const Division& division, Index n, std::span<const Index> listed, F&& f,
-                      Record&& record, Take&& take, int grain) {
-  const ItemRange own = division.own_listed(n, listed);
-  parallel_for(
-      own, [&](Index k) { f(at(listed, k)); }, grain);
-  if (ranks().alone() || division.is_to_each()) return;
-  std::vector<decltype(record(0))> records(listed.size());
-  for (Index k = own.begin; k < own.end; ++k) at(records, k) = record(at(listed, k));
-  division.complete_listed(n, listed, records.data(), sizeof records[0]);
-  for (Index k = 0; k < static_cast<Index>(listed.size()); ++k)
-    if (k < own.begin || k >= own.end) take(at(listed, k), at(records, k));
 }
 
 }  // namespace meniscus

@@ -15,7 +15,6 @@ DividedSums::DividedSums(std::vector<RowChunk> chunks, std::span<const Index> to
   const Touched by_chunks = touched_by_chunks(chunks, touched, start, division);
   exchange_of_sums(chunks, by_chunks);
   remember_touched(by_chunks);
-  particles_ = exchange_of_forces();
 }
 
 /// Gathers the particles that chunks touch. The rank of each chunk is known before its rows are.
@@ -80,23 +79,14 @@ void DividedSums::exchange_of_sums(const std::vector<RowChunk>& chunks, const To
 
 void DividedSums::remember_touched(const Touched& touched) {
   touched_.assign(static_cast<std::size_t>(border_.back()), 0);
-  for (std::size_t k = 0; k < touched.size(); ++k) {
-    const std::uint8_t bits = by_a_rank | (rank_[k] == ranks().rank() ? by_this_rank : 0);
-    for (const Index A : touched[k]) at(touched_, A) |= bits;
-  }
-}
-
-std::unique_ptr<Exchange> DividedSums::exchange_of_forces() const {
-  std::vector<Leaf> leaves;
-  for (int rank = 0; rank < ranks().size(); ++rank)
-    for (Index A = at(border_, rank); A < at(border_, rank + 1); ++A)
-      if (rank != ranks().rank() && at(touched_, A) != 0) leaves.push_back({A, rank, A});
-  return ranks().exchange(border_.back(), leaves);
+  for (std::size_t k = 0; k < touched.size(); ++k)
+    if (rank_[k] == ranks().rank())
+      for (const Index A : touched[k]) at(touched_, A) = 1;
 }
 
 void DividedSums::mark_touched(std::span<std::uint8_t> particles) const {
   for (Index A = 0; A < border_.back(); ++A)
-    if ((at(touched_, A) & by_this_rank) != 0) at(particles, A) = 1;
+    if (at(touched_, A)) at(particles, A) = 1;
 }
 
 void DividedSums::mark_summed(std::span<std::uint8_t> particles) const {

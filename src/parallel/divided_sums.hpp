@@ -3,8 +3,10 @@
 // computes the rows of some chunks and adds up the chunk sums over some particles (scaling note 2).
 #pragma once
 #include "parallel/aligned.hpp"
-#include "parallel/halo.hpp"
+#include "parallel/divided.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -47,30 +49,19 @@ class DividedSums {
   void bring_sums(NodalVectors& sums) const {
     chunk_sums_->bring(sums.data(), sums.data(), sizeof(NodalVector));
   }
-  /// Sends forces to all ranks, for the particles that any row touches. Does nothing while a halo
-  /// is entered.
-  void spread_forces(std::span<NodalVector> force) const {
-    if (!is_entered(halo_)) particles_->bring(force.data(), force.data(), sizeof(NodalVector));
-  }
   /// Marks the particles that the rows of this rank touch.
   void mark_touched(std::span<std::uint8_t> particles) const;
   /// Marks the particles over which this rank adds up chunk_sums.
   void mark_summed(std::span<std::uint8_t> particles) const;
-  /// From now on, while `halo` is entered, it spreads the forces instead of spread_forces().
-  void keep_to(std::shared_ptr<const Halo> halo) { halo_ = std::move(halo); }
 
  private:
   /// The particles that the rows of a chunk touch, [chunk].
   using Touched = std::vector<std::vector<Index>>;
-  /// Bits of `touched_`.
-  static constexpr std::uint8_t by_a_rank = 1, by_this_rank = 2;
 
   Touched touched_by_chunks(const std::vector<RowChunk>& chunks, std::span<const Index> touched,
                             std::span<const Offset> start, const Division& division);
   void exchange_of_sums(const std::vector<RowChunk>& chunks, const Touched& touched);
   void remember_touched(const Touched& touched);
-  /// The exchange of forces on particles that rows touch and that other ranks add up.
-  std::unique_ptr<Exchange> exchange_of_forces() const;
 
   std::vector<int> rank_;      // rank that computes a chunk, [chunk]
   std::vector<Index> border_;  // first particle of each rank, and the number of particles
@@ -78,9 +69,8 @@ class DividedSums {
   std::vector<ChunkSum> summed_;
   Index size_ = 0;
   Offset pairs_ = 0;
-  std::vector<std::uint8_t> touched_;  // bits: touched by some rank, by this rank, [particle]
-  std::unique_ptr<Exchange> chunk_sums_, particles_;
-  std::shared_ptr<const Halo> halo_;
+  std::vector<std::uint8_t> touched_;  // 1 if the rows of this rank touch it, [particle]
+  std::unique_ptr<Exchange> chunk_sums_;
 };
 
 }  // namespace meniscus

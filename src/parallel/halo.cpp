@@ -25,7 +25,6 @@ Halo::Halo(std::vector<std::uint8_t> read, ParticleOwners owners)
   }
   ghosts_ = size_ - own;
   partial_ = ranks().largest(n - size_) > 0;
-  if (!partial_) return;
   std::vector<Leaf> leaves;
   for (Index A = 0; A < n; ++A)
     if (const int rank = follows(A) ? owners_.adds_up(A) : ranks().rank(); rank != ranks().rank())
@@ -35,6 +34,11 @@ Halo::Halo(std::vector<std::uint8_t> read, ParticleOwners owners)
 
 void Halo::spread(std::span<NodalVector> sums) const {
   sums_->bring(sums.data(), sums.data(), sizeof(NodalVector));
+}
+
+void Halo::gather(std::span<const NodalVector> followed, NodalVectors& all) const {
+  all.assign(followed.begin(), followed.end());
+  owners_.complete(all.data(), sizeof(NodalVector));
 }
 
 void Halo::enter(std::initializer_list<NodalVectors*> motion) {

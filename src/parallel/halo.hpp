@@ -45,6 +45,9 @@ class Halo {
   /// Sends the sums over rows, [particle], from the rank that adds them up to the ranks that follow
   /// the particle. All ranks have to call this.
   void spread(std::span<NodalVector> sums) const;
+  /// Sets `all` to the values of all particles. `followed` has those of the followed particles. All
+  /// ranks have to call this.
+  void gather(std::span<const NodalVector> followed, NodalVectors& all) const;
 
   /// Calls f(begin, end) on all threads for ranges of followed particles.
   template <class F>
@@ -62,42 +65,5 @@ class Halo {
   Index size_ = 0, ghosts_ = 0;
   bool partial_ = false, entered_ = false;
 };
-
-/// Thrown on all ranks if a step in a halo needs the motion of particles outside of it. The caller
-/// takes the step back, calls leave() and repeats the step.
-struct HaloOutgrown {};
-
-/// True if `halo` is not null and entered.
-inline bool is_entered(const std::shared_ptr<const Halo>& halo) {
-  return halo && halo->is_entered();
-}
-
-/// Calls f(begin, end) on all threads for ranges of the n particles; in a halo, of the followed
-/// ones.
-template <class F>
-void for_particles(const std::shared_ptr<const Halo>& halo, Index n, F&& f) {
-  if (is_entered(halo)) return halo->for_particles(f);
-  sweep(n, f);
-}
-
-/// Sum of f(A) over a part of n particles, added in the order of the chunks of all n. In a halo
-/// each rank adds up the chunks that it owns, then sums are gathered.
-template <class T, class F>
-T sum_over_part(const std::shared_ptr<const Halo>& halo, Index n, ItemRange part, T zero, F&& f) {
-  const ParticleOwners* owners = is_entered(halo) ? &halo->owners() : nullptr;
-  return sum_by_chunks<Cost::little>(
-      n, part, zero, f, owners ? static_cast<Index>(owners->own_chunks().size()) : chunk_count(n),
-      [&](Index k) { return owners ? at(owners->own_chunks(), k) : k; },
-      [&](T* sums) {
-        if (owners) owners->complete_chunks(sums, sizeof(T));
-      });
-}
-
-/// parallel_sum() over n particles with the same bits; in a halo each rank adds up its own chunks.
-template <class T, class F>
-T sum_over_particles(const std::shared_ptr<const Halo>& halo, Index n, T zero, F&& f) {
-  return is_entered(halo) ? sum_over_part(halo, n, {0, n}, zero, f)
-                          : parallel_sum<Cost::little>(n, zero, f);
-}
 
 }  // namespace meniscus

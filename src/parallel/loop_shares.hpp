@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// Shares of neighbouring parts of a loop, one share for each thread. A thread that has done its
+/// Portions of neighbouring parts of a loop, one share for each thread. A thread that has done its
 /// share takes parts from the ends of other shares. The data that a thread wrote in the previous
 /// loop are in its cache and are used by the same thread again.
 class LoopShares {

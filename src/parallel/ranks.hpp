@@ -4,6 +4,7 @@
 #pragma once
 #include "numbers/types.hpp"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -53,6 +54,10 @@ class Ranks {
 
   /// Returns the largest of the values that the ranks pass.
   virtual std::int64_t largest(std::int64_t mine) { return mine; }
+  /// The same for numbers that are not negative; larger than all if one is not a number.
+  Real largest_size(Real mine) {
+    return std::bit_cast<Real>(largest(std::bit_cast<std::int64_t>(mine)));
+  }
   /// Copies an array from one rank to all ranks.
   virtual void hand_out([[maybe_unused]] int from, [[maybe_unused]] void* values,
                         [[maybe_unused]] std::size_t bytes) {}
@@ -61,6 +66,10 @@ class Ranks {
                       [[maybe_unused]] std::span<const std::size_t> begin) {}
   /// Returns the text that one rank passes, on all ranks.
   std::string of_rank(int rank, std::string mine);
+  /// The first rank that passes true; the last rank if there is none.
+  int first_true(bool mine) {
+    return size() - static_cast<int>(largest(mine ? size() - rank() : 1));
+  }
   /// Returns the text of the first rank whose text is not empty; empty if there is none.
   std::string first_said(std::string mine);
   /// Makes an exchange for leaves whose roots are on other ranks. Not called if there is one rank.

@@ -6,15 +6,13 @@
 
 namespace meniscus {
 
-void StepReads::rows(ChunkSums& chunk_sums, Index first) {
+void StepReads::rows(const ChunkSums& chunk_sums, Index first) {
   chunk_sums.mark_touched(std::span(read_).subspan(static_cast<std::size_t>(first)));
   sums(chunk_sums, first);
 }
 
-void StepReads::sums(ChunkSums& chunk_sums, Index first) {
+void StepReads::sums(const ChunkSums& chunk_sums, Index first) {
   chunk_sums.mark_summed(std::span(read_).subspan(static_cast<std::size_t>(first)));
-  if (std::find(chunk_sums_.begin(), chunk_sums_.end(), &chunk_sums) == chunk_sums_.end())
-    chunk_sums_.push_back(&chunk_sums);
 }
 
 void StepReads::particles(std::span<const Index> numbers, Index first) {
@@ -25,16 +23,10 @@ void StepReads::range(Index begin, Index end) {
   std::fill(read_.begin() + begin, read_.begin() + end, std::uint8_t{1});
 }
 
-void StepReads::when_shared(std::function<void(const SharedHalo&)> learn) {
-  learners_.push_back(std::move(learn));
-}
-
 std::shared_ptr<Halo> StepReads::share(ParticleOwners owners) {
   const auto halo = std::make_shared<Halo>(std::move(read_), std::move(owners));
   if (!halo->is_partial()) return nullptr;
   halo->keep(std::move(kept_));
-  for (ChunkSums* sums : chunk_sums_) sums->keep_to(halo);
-  for (const auto& learn : learners_) learn(halo);
   return halo;
 }
 

@@ -5,7 +5,6 @@
 #include "parallel/chunk_sums.hpp"
 #include "parallel/halo.hpp"
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -14,36 +13,29 @@ namespace meniscus {
 
 class StepReads {
  public:
-  using SharedHalo = std::shared_ptr<const Halo>;
-
   /// `particles`: number of particles of all bodies. None of them is marked as read.
   explicit StepReads(Index particles) : read_(static_cast<std::size_t>(particles), 0) {}
 
   /// Marks the particles that the rows of this rank touch, and the particles over which it adds up
-  /// chunk sums. Both are numbered from `first` on. `chunk_sums` gets the halo from share().
-  void rows(ChunkSums& chunk_sums, Index first);
+  /// chunk sums. Both are numbered from `first` on.
+  void rows(const ChunkSums& chunk_sums, Index first);
   /// Registers only the particles over which this rank adds up chunk_sums, for rows that read no
   /// motion.
-  void sums(ChunkSums& chunk_sums, Index first);
+  void sums(const ChunkSums& chunk_sums, Index first);
   /// Marks these particles, numbered from `first` on. They are usually the same on all ranks.
   void particles(std::span<const Index> numbers, Index first);
   /// Marks the particles begin, ..., end - 1.
   void range(Index begin, Index end);
   /// Registers a vector over all particles that steps update, for Halo::keep().
   void keeps(NodalVectors& vector) { kept_.push_back(&vector); }
-  /// Registers a function that share() calls with the halo. Objects it refers to must live until
-  /// then.
-  void when_shared(std::function<void(const SharedHalo&)> learn);
 
   /// Makes the halo of all registered particles. Returns null if every rank reads all particles.
-  /// All ranks have to call this, with their registrations in the same order.
+  /// All ranks have to call this.
   std::shared_ptr<Halo> share(ParticleOwners owners);
 
  private:
-  std::vector<std::uint8_t> read_;      // [particle]
-  std::vector<ChunkSums*> chunk_sums_;  // without repetition, in order of registration
+  std::vector<std::uint8_t> read_;  // [particle]
   std::vector<NodalVectors*> kept_;
-  std::vector<std::function<void(const SharedHalo&)>> learners_;
 };
 
 }  // namespace meniscus

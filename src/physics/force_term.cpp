@@ -2,6 +2,10 @@
 // Default functions of force terms: tangents by differences, reports summed over chunks.
 #include "meniscus/physics/force_term.hpp"
 
+#include "physics/force_phases.hpp"
+
+#include <utility>
+
 namespace meniscus {
 namespace {
 
@@ -43,27 +47,45 @@ void ForceTerm::add_tangent(const Motion& motion, const Motion& change, Forces f
     add(plus.fields[k].f, minus.fields[k].f, force.fields[k].f);
 }
 
-void ForceTerm::add_chunks(const Motion& motion, Forces force, Report& report) const {
+Report Forces::gather(std::span<const Gathered> arrays, const Motion& motion, Then then) const {
+  if (phases) {
+    phases->later(arrays, std::move(then));
+    return {};
+  }
+  GatherTogether()(arrays);
+  return then(motion, *this);
+}
+
+Report Forces::gather(std::initializer_list<Gathered> arrays, const Motion& motion,
+                      Then then) const {
+  return gather(std::span(arrays.begin(), arrays.size()), motion, std::move(then));
+}
+
+Motion Forces::everywhere(const Motion& motion) const {
+  return phases ? phases->everywhere() : motion;
+}
+
+Report ForceTerm::sum_of(const ChunkReports& of_chunks, const Motion& motion, Forces force) const {
+  Report report;
   Real stored = 0;
   Index failed = ChunkReport::nowhere;
-  for (const ChunkReport& chunk : *report.chunks) {
+  for (const ChunkReport& chunk : of_chunks) {
     report.heat += chunk.heat;
     report.external_power += chunk.external_power;
     stored += chunk.energy;
     failed = std::min(failed, chunk.failed);
   }
-  report.chunks = nullptr;
   if (force.energies && !energy_kind().empty()) force.energies->push_back({this, stored});
-  if (failed != ChunkReport::nowhere) report.failure = failure_of(failed, motion);
+  if (failed != ChunkReport::nowhere)
+    report.failure = failure_of(failed, motion).value_or(Failure());
+  return report;
 }
 
-Report ForceTerm::report_of(ChunkReports& said, const Motion& motion, Forces force) const {
-  Report report;
-  report.chunks = &said;
-  if (force.leave_chunks) return report;
-  said.complete();
-  add_chunks(motion, force, report);
-  return report;
+Report ForceTerm::report_of(ChunkReports& of_chunks, const Motion& motion, Forces force) const {
+  return force.gather({of_chunks.gathered()}, motion,
+                      [this, &of_chunks](const Motion& at_motion, const Forces& all) {
+                        return sum_of(of_chunks, at_motion, all);
+                      });
 }
 
 Real ForceTerm::work_between(const Motion& before, const Motion& after) const {

@@ -99,13 +99,12 @@ void Simulation<D>::make_stepper(bool implicit_viscosity) {
 /// The state must be complete on all ranks.
 template <int D>
 void Simulation<D>::share_steps() {
-  scene_.system.halo.reset();
   StepReads reads(scene_.system.size());
-  if (!stepper_->chooses_step()) controller_->tell_reads(reads);
-  if (stepper_->tell_reads(reads))
+  if (!stepper_->chooses_step()) controller_->list_reads(reads);
+  if (stepper_->reads(reads))
     scene_.system.share_steps(std::move(reads));
   else
-    scene_.system.without_halo = "solver = \"" + scene_.time.solver + "\"";
+    scene_.system.followed.follow_all("solver = \"" + scene_.time.solver + "\"");
 }
 
 /// If the scene leaves the viscosity automatic, chooses explicit or implicit for the present state.
@@ -168,19 +167,6 @@ bool Simulation<D>::finished() const {
   return state_.time >= scene_.time.end || stepper_->arrived() || stepper_->blocked();
 }
 
-/// Makes a step. If a rank needs particles outside its halo, the step is made again with the
-/// complete state.
-template <int D>
-void Simulation<D>::step(Real dt) {
-  try {
-    step_or_halve(dt);
-  } catch (const HaloOutgrown&) {
-    state_ = before_;
-    complete_state();
-    step_or_halve(dt);
-  }
-}
-
 /// Makes a step of dt. If the step is rejected, it is halved and tried again. After six halvings
 /// the step is made unchecked, because an impact exceeds the limits at any step.
 template <int D>
@@ -223,9 +209,9 @@ void Simulation<D>::advance() {
       complete_state();
       share_steps();
     }
-    scene_.system.enter_halo(state_);
+    scene_.system.follow(state_);
     if (keeps_state_before_)
-      step(last_step_);
+      step_or_halve(last_step_);
     else
       stepper_->step(state_, last_step_);
   });

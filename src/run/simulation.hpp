@@ -86,7 +86,6 @@ class Simulation {
   void archive_terms(const Archive& a);
   void archive_references(const Archive& a) const;
   void archive_orders(const Archive& a) const;
-  void step(Real dt);
   void step_or_halve(Real dt);
   void refuse_impossible_states();
   void refuse(const StateCheck& check) const;

@@ -45,7 +45,7 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
   constexpr int times = 3;
   effort.seconds_per_step = seconds_of(times, [&] { system.add_up(motion, f); });
   effort.seconds_per_tangent = seconds_of(times, [&] {
-    for (auto& term : system.terms) term->add_tangent(motion, {state.time, f, still}, z);
+    system.add_tangent(motion, {state.time, f, still}, z);
     if (euler) euler->add_change(f, z);
     P->apply(f, z);
   });

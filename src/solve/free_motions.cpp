@@ -56,7 +56,7 @@ FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale)
   std::vector<NodalVectors> forces;
   for (auto& term : system.terms) {
     forces.push_back(still);
-    term->add_force({motion.time, u, still, motion.fields}, forces.back());
+    system.add_force(*term, {motion.time, u, still, motion.fields}, forces.back());
   }
   std::vector<Real> held(system.constraints ? static_cast<std::size_t>(system.constraints->rows())
                                             : 0);

@@ -13,7 +13,7 @@ template <int D>
 Real least_spacing(const std::deque<Body<D>>& bodies) {
   Real least = unbounded;
   for (const Body<D>& body : bodies) {
-    const OwnItems own = body.division.own_rows(body.size());
+    const OwnItems own = body.own_particles();
     std::vector<Real> of_chunk(static_cast<std::size_t>(chunk_count(own.end - own.begin)),
                                unbounded);
     for_chunks(own.end - own.begin, [&](Index chunk, Index begin, Index end) {

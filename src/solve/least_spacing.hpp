@@ -7,7 +7,7 @@
 
 namespace meniscus {
 
-/// The smallest distance over all bodies, in their references. All ranks call this.
+/// The smallest distance over all bodies, in their references. All processes call this.
 template <int D>
 Real least_spacing(const std::deque<Body<D>>& bodies);
 

@@ -39,8 +39,7 @@ std::string describe_stiffest_term(System<D>& system, const State& state,
   const auto force_of = [&](ForceTerm& term, const NodalVectors& u, NodalVectors& force) {
     std::fill(force.begin(), force.end(), Lanes::zero());
     for (Unknown& field : fields) clear(field.f);
-    term.add_force({state.time, u, state.v, state.fields}, {force, fields});
-    system.spread(force);
+    system.add_force(term, {state.time, u, state.v, state.fields}, {force, fields});
   };
   Real all = 0, most = 0;
   const ForceTerm* stiffest = nullptr;

@@ -12,6 +12,17 @@
 #include <stdexcept>
 
 namespace meniscus {
+namespace {
+
+template <class Bodies>
+std::vector<Division> divisions_of(const Bodies& bodies) {
+  std::vector<Division> all;
+  for (const auto& body : bodies) all.push_back(body.division);
+  return all;
+}
+
+}  // namespace
+
 template <int D>
 std::size_t System<D>::add_field(const FieldSpec& spec, std::span<const Real> capacity) {
   std::size_t k = 0;
@@ -41,37 +52,28 @@ Real System<D>::steady_after() const {
   return last;
 }
 
-/// Divides the particles between ranks. The reads of values at its own particles are added here for
-/// each rank.
+/// The reads of values at its own particles are added here for each process.
 template <int D>
 void System<D>::share_steps(StepReads reads) {
-  halo.reset();
+  followed.follow_all({});
   if (ranks().alone()) return;
-  without_halo = fields.empty() ? "" : "the field '" + fields.front().spec.name + "'";
+  std::string reason = fields.empty() ? "" : "the field '" + fields.front().spec.name + "'";
   for (const auto& term : terms)
-    if (without_halo.empty() && !term->tell_reads(reads)) without_halo = term->name();
-  if (!without_halo.empty()) return;
+    if (reason.empty() && !term->reads(reads)) reason = term->name();
+  if (!reason.empty()) return followed.follow_all(reason);
   if (constraints) reads.particles(constraints->particles(), 0);
-  std::vector<Index> first;
-  std::vector<Division> division;
   for (const Body<D>& body : bodies) {
-    first.push_back(body.first);
-    division.push_back(body.division);
-  }
-  ParticleOwners owners(size(), std::move(first), std::move(division));
-  for (const Body<D>& body : bodies) {
-    const OwnItems own = body.division.own_rows(body.size());
+    const ItemRange own = body.own_particles();
     reads.particles(body.at_particles.of_rows(own.begin, own.end), body.first);
   }
-  halo = reads.share(std::move(owners));
-  if (!halo) without_halo = "forces that read all particles on every rank";
+  followed.follow(std::move(reads), particle_owners());
 }
 
 template <int D>
-void System<D>::complete(State& state) {
-  if (!in_halo()) return;
-  halo->leave({&state.u, &state.v, &state.force});
-  for (auto& term : terms) term->complete_history();
+ParticleOwners System<D>::particle_owners() const {
+  std::vector<Index> first;
+  for (const Body<D>& body : bodies) first.push_back(body.first);
+  return {size(), std::move(first), divisions_of(bodies)};
 }
 
 template <int D>
@@ -107,8 +109,7 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
   const Body<D>& body = body_of(what.particle);
   const Index A = what.particle - body.first;
   const Vec<D>& X = at(body.particles.X(), A);
-  Lanes u = value_at(body.at_particles, A, motion.u.data() + body.first);
-  ranks().hand_out(body.division.rank_of_row(body.size(), A), &u, sizeof u);
+  const Lanes u = body.value_at_particle(A, motion.u);
   std::string reference, current;
   for (int i = 0; i < D; ++i) {
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
@@ -125,37 +126,105 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
 }
 
 template <int D>
-Report System<D>::add_up(const Motion& motion, Forces force) {
+template <class F>
+void System<D>::in_phases(const Motion& motion, Forces force, F&& work) {
+  const bool in_part = followed.entered() != nullptr;
+  if (in_part)
+    everywhere_ = [this](const Motion& here) {
+      all_u_.assign(here.u.begin(), here.u.end());
+      all_v_.assign(here.v.begin(), here.v.end());
+      followed.complete(all_u_);
+      followed.complete(all_v_);
+      return Motion{here.time, all_u_, all_v_, here.fields, here.reactions};
+    };
+  work(phases_.begin(motion, force, in_part ? &everywhere_ : nullptr));
+  phases_.finish();
+}
+
+template <int D>
+template <class F>
+void System<D>::for_terms(const Motion& motion, Forces force, Wanted wanted, F&& add) {
+  Report none;
+  in_phases(motion, force, [&](const Forces& all) {
+    for (auto& term : terms)
+      if (wanted(*term))
+        phases_.run(none, [&] {
+          add(*term, all);
+          return Report();
+        });
+  });
+  spread(force);
+}
+
+template <int D>
+void System<D>::spread(Forces force) {
+  if (ranks().alone()) return;
+  followed.set_owners(particle_owners());
+  followed.spread(force);
+  for (Unknown& field : force.fields) followed.spread(field.f);
+}
+
+template <int D>
+Report System<D>::add_up_for(bool demand, const Motion& motion, Forces force) {
   for_particles([&](Index begin, Index end) {
     std::fill(force.begin() + begin, force.begin() + end, Lanes::zero());
   });
   for (Unknown& field : force.fields) clear(field.f);
-  force.leave_chunks = !ranks().alone();
-  reports_.clear();
-  for (auto& term : terms) reports_.push_back(term->add_force(motion, force));
+  force.demand = demand;
+  reports_.assign(terms.size(), Report());
+  in_phases(motion, force, [&](const Forces& all) {
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      phases_.run(reports_[k], [&] { return terms[k]->add_force(motion, all); });
+  });
   for (auto& field : carried) field->add_reaction(motion, force);
   spread(force);
-  if (force.leave_chunks) complete_reports(motion, force);
-  Report all;
+  share_failures();
+  Report sum;
   for (std::size_t k = 0; k < terms.size(); ++k) {
-    Report& report = reports_[k];
-    if (report.failure) report.failure->term = terms[k]->name();
-    all += std::move(report);
+    if (reports_[k].failure) reports_[k].failure->term = terms[k]->name();
+    sum += std::move(reports_[k]);
   }
-  return all;
+  return sum;
 }
 
-/// Completes the reports of all terms with two exchanges: one for results per chunk, one for
-/// results of single ranks.
 template <int D>
-void System<D>::complete_reports(const Motion& motion, Forces force) {
-  left_.clear();
-  for (const Report& report : reports_)
-    if (report.chunks) left_.push_back(report.chunks);
-  exchange_.complete(left_);
-  for (std::size_t k = 0; k < terms.size(); ++k)
-    if (reports_[k].chunks) terms[k]->add_chunks(motion, force, reports_[k]);
-  of_ranks_.complete(reports_);
+Report System<D>::add_up(const Motion& motion, Forces force) {
+  return add_up_for(false, motion, force);
+}
+
+template <int D>
+Report System<D>::add_force(ForceTerm& term, const Motion& motion, Forces force) {
+  Report report;
+  in_phases(motion, force, [&](const Forces& all) {
+    phases_.run(report, [&] { return term.add_force(motion, all); });
+  });
+  spread(force);
+  return report;
+}
+
+template <int D>
+void System<D>::add_tangent(const Motion& motion, const Motion& change, Forces force,
+                            Wanted wanted) {
+  for_terms(motion, force, wanted,
+            [&](ForceTerm& term, const Forces& all) { term.add_tangent(motion, change, all); });
+}
+
+template <int D>
+void System<D>::add_viscous(const Motion& motion, Forces force) {
+  for_terms(motion, force, viscous,
+            [&](ForceTerm& term, const Forces& all) { term.add_viscous(motion, all); });
+}
+
+template <int D>
+void System<D>::add_viscous_diagonal(std::span<NodalVector> diagonal) {
+  for_terms({0, {}, {}}, diagonal, viscous,
+            [](ForceTerm& term, const Forces& all) { term.add_viscous_diagonal(all); });
+}
+
+template <int D>
+void System<D>::share_failures() {
+  for (Report& report : reports_)
+    if (report.failure) report.failure = shared(*report.failure);
 }
 
 template <int D>
@@ -172,7 +241,7 @@ void System<D>::commit(const Motion& motion) {
 
 template <int D>
 Report System<D>::compute_forces(const Motion& motion, Forces force) {
-  Report report = add_up(motion, force);
+  Report report = add_up_for(true, motion, force);
   if (report.failure) throw StepError(located(*report.failure, motion));
   const Lanes total =
       sum_over_particles(Lanes::zero(), [&](Index A) { return at(force, A) * at(force, A); });
@@ -190,15 +259,14 @@ Report System<D>::compute_forces(const Motion& motion, Forces force) {
 /// The first particle whose force is not finite; the number of particles if there is none.
 template <int D>
 Index System<D>::first_not_finite(std::span<const NodalVector> force) const {
-  const auto first_in = [&](OwnItems part) {
+  const auto first_in = [&](const ItemRange& part) {
     Index A = part.begin;
     while (A < part.end && std::isfinite(sum(at(force, A) * at(force, A)))) ++A;
     return A < part.end ? A : size();
   };
-  if (!in_halo()) return first_in({0, size()});
   Index first = size();
-  for (const OwnItems part : halo->owners().own()) first = std::min(first, first_in(part));
-  return size() - static_cast<Index>(ranks().largest(size() - first));
+  followed.for_own(size(), [&](const ItemRange& part) { first = std::min(first, first_in(part)); });
+  return followed.entered() ? FollowedParticles::smallest(size(), first) : first;
 }
 
 template struct System<2>;

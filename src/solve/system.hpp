@@ -3,8 +3,9 @@
 #pragma once
 #include "body/body.hpp"
 #include "meniscus/error.hpp"
+#include "parallel/followed_particles.hpp"
 #include "physics/director/carried_field.hpp"
-#include "physics/rank_reports.hpp"
+#include "physics/force_phases.hpp"
 #include "solve/constraints.hpp"
 #include "solve/state.hpp"
 
@@ -24,10 +25,7 @@ struct System {
   std::vector<std::unique_ptr<CarriedField>> carried;  ///< fields of Evolution::carried
   std::unique_ptr<Constraints> constraints;            ///< null: no displacement is prescribed
 
-  /// Halo for steps on several ranks. Null if steps are made on all particles.
-  std::shared_ptr<Halo> halo = {};
-  /// The reason why there is no halo, e.g. the name of a term; empty if there is a halo.
-  std::string without_halo = {};
+  FollowedParticles followed;  ///< by steps on several processes
 
   Index size() const { return static_cast<Index>(mass.size()); }
   /// Adds an unknown field with initial value zero; returns its number in Motion and Forces. If two
@@ -56,33 +54,29 @@ struct System {
   /// The time after which forces and prescribed displacements depend on the motion only.
   Real steady_after() const;
 
-  /// Makes a halo for the next steps, if all terms can register their reads and some rank needs
-  /// less than all particles. `reads` has the reads of the stepper. All ranks call this, with a
-  /// complete state.
+  /// Divides the next steps between processes, if the reads of all terms are known. `reads` has the
+  /// reads of the stepper. All processes call this, with a complete state.
   void share_steps(StepReads reads);
   /// True if a term reads other particles than at the last share_steps().
   bool reads_changed() const;
-  /// Enter and leave the halo: enter_halo() before steps, complete() before other particles are
-  /// read. All ranks call these.
-  void enter_halo(State& state) {
-    if (halo) halo->enter({&state.u, &state.v, &state.force});
-  }
-  void complete(State& state);
-  bool in_halo() const { return is_entered(halo); }
-  /// Call this after terms have added to `sums`, [particle]: sends the sums to all ranks that
-  /// follow a particle.
-  void spread(std::span<NodalVector> sums) const {
-    if (in_halo()) halo->spread(sums);
-  }
-  /// Calls f(begin, end) for ranges of all particles; in a halo, of the own and ghost particles.
+  /// Begin and end steps on followed particles: follow() before steps, complete() before other
+  /// particles are read. All processes call these.
+  void follow(State& state) { followed.enter({&state.u, &state.v, &state.force}); }
+  void complete(State& state) { followed.leave({&state.u, &state.v, &state.force}); }
+  /// Calls f(begin, end) for ranges of all followed particles.
   template <class F>
   void for_particles(F&& f) const {
-    meniscus::for_particles(halo, size(), f);
+    followed.for_each(size(), f);
   }
-  /// parallel_sum() over all particles.
+  /// Sum over all particles.
   template <class T, class F>
   T sum_over_particles(T zero, F&& f) const {
-    return meniscus::sum_over_particles(halo, size(), zero, f);
+    return followed.sum(size(), zero, f);
+  }
+  /// Sum over the particles of a body.
+  template <class T, class F>
+  T sum_over_particles(const Body<D>& body, T zero, F&& f) const {
+    return followed.sum_part(size(), {body.first, body.first + body.size()}, zero, f);
   }
 
   bool viscous() const;
@@ -92,8 +86,18 @@ struct System {
   /// a term fails (J <= 0) or a force is NaN or infinite; `force` is then invalid.
   Report compute_forces(const Motion& motion, Forces force);
 
-  /// Like compute_forces() without the checks, for trial motions.
+  /// Like compute_forces() without the checks and Report::demand, for trial motions.
   Report add_up(const Motion& motion, Forces force);
+  /// force += the force of one term.
+  Report add_force(ForceTerm& term, const Motion& motion, Forces force);
+  /// force += the tangents of all terms, or of those for which wanted(term).
+  using Wanted = bool (*)(const ForceTerm&);
+  static bool every(const ForceTerm&) { return true; }
+  static bool viscous(const ForceTerm& term) { return term.viscous(); }
+  void add_tangent(const Motion& motion, const Motion& change, Forces force, Wanted wanted = every);
+  /// Add what ForceTerm::add_viscous() and add_viscous_diagonal() of all viscous terms add.
+  void add_viscous(const Motion& motion, Forces force);
+  void add_viscous_diagonal(std::span<NodalVector> diagonal);
 
   /// Call load_power() and commit() of all terms.
   Real load_power(const Motion& motion);
@@ -105,14 +109,24 @@ struct System {
   const Body<D>& body_of(Index particle) const;
 
  private:
-  /// Adds the results of all ranks to the reports of all terms.
-  void complete_reports(const Motion& motion, Forces force);
+  Report add_up_for(bool demand, const Motion& motion, Forces force);
+  /// Runs work(force) between the begin and the end of the phases at a motion.
+  template <class F>
+  void in_phases(const Motion& motion, Forces force, F&& work);
+  /// Runs add(term, force) of wanted terms in phases.
+  template <class F>
+  void for_terms(const Motion& motion, Forces force, Wanted wanted, F&& add);
+  /// Sends forces to all processes that follow a particle.
+  void spread(Forces force);
+  /// Brings the failures of reports, known to the process that has the row, to all processes.
+  void share_failures();
   Index first_not_finite(std::span<const NodalVector> force) const;
+  ParticleOwners particle_owners() const;
 
-  std::vector<Report> reports_;      // [term] of the last call
-  std::vector<ChunkReports*> left_;  // work space
-  ReportExchange exchange_;
-  RankReports of_ranks_;
+  std::vector<Report> reports_;  // [term] of the last call
+  ForcePhases phases_;
+  ForcePhases::Everywhere everywhere_;
+  NodalVectors all_u_, all_v_;  // of everywhere_
 };
 
 }  // namespace meniscus

@@ -44,6 +44,11 @@ std::vector<Case> variants(int D) {
   const std::string cavity = "body = \"drop\"\nsurface = \"outer\"\n";
   add("cavity", "pressure", cavity + "pressure = 0.3\n", all);
   add("cavity", "content", cavity + "volume_target = 0.9\npenalty = 2\nramp = [0, 0.2]\n", all);
+  add("spring", "moved by a ramp",
+      std::string("body = \"drop\"\nwhere = \"y > 0.8\"\nstiffness = 3\nramp = [0, 0.2]\n") +
+          (D == 3 ? "displacement = [0.1, \"0.2*x\", 0.05]\n"
+                  : "displacement = [0.1, \"0.2*x\"]\n"),
+      all);
   const std::string pair =
       "bodies = [\"drop\", \"other\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\nskin = 10\n";
   add("contact", "energy", pair, all);
@@ -154,6 +159,12 @@ std::vector<Case> all_cases() {
                        true});
     else
       cases.push_back({"material " + name, nematic_drop(D), {true, false}, true});
+    if (name == "liquid_crystal_elastomer")
+      cases.push_back({"material " + name + ", active",
+                       example_heading(D) + example_ball(D, "ball") + moving(D) + material +
+                           "activity = 0.3\nactivity_ramp = [0, 0.2]\n",
+                       {true, true},
+                       true});
   }
   // Mesh files named in examples, with tetrahedra and triangles.
   const Grid<D> grid = test::brick<D>(std::vector<Real>(D, 3), 0.2).grid;

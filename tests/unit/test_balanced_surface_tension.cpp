@@ -83,8 +83,9 @@ TEST(SurfacePatches, FollowTheParticles) {
   SurfacePatches<3> patches(*body);
   const NodalVectors u = test::field_on<3>(
       *body, [](const Vec<3>& X) { return Vec<3>(0.5 * X[0] + 100, 0.2 * X[0] + 3, -7); });
-  EXPECT_NEAR(patches.follow(Size::volume, u.data()) / patches.reference(Size::volume), 1.5, 1e-12);
-  EXPECT_EQ(patches.follow(Size::area, u.data()), patches.measure(Size::area, u.data()));
+  patches.place(u.data());
+  EXPECT_NEAR(patches.follow(Size::volume) / patches.reference(Size::volume), 1.5, 1e-12);
+  EXPECT_EQ(patches.follow(Size::area), patches.measure(Size::area, u.data()));
 }
 
 template <int D>

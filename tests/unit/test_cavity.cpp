@@ -4,6 +4,7 @@
 #include "meniscus/error.hpp"
 #include "physics/loads/cavity.hpp"
 #include "support.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -198,7 +199,7 @@ TEST(Cavity, GapIsFoundWhereverTheFacesComeNear) {
 
 TEST(Cavity, SolidBodyHasNoInnerSurface) {
   const auto body = test::body_of<3>(test::ball(3, 2));
-  EXPECT_THROW(cavity<3>(*body, SurfacePart::inner, {}, 3), InputError);
+  EXPECT_THROW_WITH(cavity<3>(*body, SurfacePart::inner, {}, 3), InputError, "inner surface");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "contact_support.hpp"
 #include "meniscus/error.hpp"
 #include "physics/contact/pair/contact_visits.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -317,13 +318,16 @@ TEST(Contact, RefusesWhatItCannotDo) {
   const auto pair = test::round_pair<2>(0.35);
   ContactLaw uncut = test::law<2>();
   uncut.cutoff = std::numeric_limits<Real>::infinity();
-  EXPECT_THROW(test::contact_of<2>(pair, uncut, ContactForm::energy), InputError);
-  EXPECT_THROW(test::contact_of<2>(pair, test::law<3>(), ContactForm::energy), InputError);
+  EXPECT_THROW_WITH(test::contact_of<2>(pair, uncut, ContactForm::energy), InputError,
+                    "needs a cut-off");
+  EXPECT_THROW_WITH(test::contact_of<2>(pair, test::law<3>(), ContactForm::energy), InputError,
+                    "another dimension");
   MovingPartner<2> plate;
   plate.shape = rigid_half_space<2>(uncut, 1, Vec<2>(0, -1.5), Vec<2>(0, 1));
   ContactChoice choice;
   choice.form = ContactForm::volume;
-  EXPECT_THROW(rigid_contact<2>({*pair.first, 1}, std::move(plate), uncut, choice), InputError);
+  EXPECT_THROW_WITH(rigid_contact<2>({*pair.first, 1}, std::move(plate), uncut, choice), InputError,
+                    "form = \"volume\" is for two deformable bodies");
 }
 
 }  // namespace

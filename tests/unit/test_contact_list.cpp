@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The list of clusters against a search over all pairs, on moving clouds.
 #include "physics/contact/pair/contact_list.hpp"
-#include "some_ranks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -120,32 +119,6 @@ TEST(ContactList, IsEmptyWhenTheCloudsAreApart) {
   EXPECT_TRUE(list.update(a, b));
   EXPECT_EQ(list.pairs(), 0);
   EXPECT_TRUE(list.of_first().active.empty());
-}
-
-/// Each rank finds the partners of its own clusters. It searches only clusters of the other cloud
-/// that are near them.
-TEST(ContactList, OfRanksTogetherIsThatOfOne) {
-  std::mt19937_64 generator(2);
-  const Cloud a = random_cloud<3>(200, 3, 0.1, generator);
-  const Cloud b = random_cloud<3>(150, 3, 0.1, generator);
-  ContactList<3> whole(0.4, 0.1);
-  whole.update(a, b);
-  Index found = 0;
-  as_each_of(3, [&](int rank) {
-    ContactList<3> list(0.4, 0.1);
-    list.update(a, b, evenly);
-    const OwnItems own = evenly.own_items(200);
-    for (Index c = 0; c < 200; ++c) {
-      const auto row = list.of_first().of(c), all = whole.of_first().of(c);
-      if (c >= own.begin && c < own.end)
-        EXPECT_TRUE(std::equal(row.begin(), row.end(), all.begin(), all.end())) << rank << " " << c;
-      else
-        EXPECT_TRUE(row.empty()) << "what others find is brought by them";
-      found += static_cast<Index>(row.size());
-    }
-  });
-  EXPECT_EQ(found, whole.pairs());
-  EXPECT_GT(found, 500);
 }
 
 }  // namespace

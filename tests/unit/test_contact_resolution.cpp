@@ -235,7 +235,7 @@ struct AllPairs {
       all[k].resize(static_cast<std::size_t>(side[k].clusters()));
       std::iota(all[k].begin(), all[k].end(), Index{0});
       side[k].move(motion, places[k]);
-      side[k].update_weights(all[k], motion, places[k], Division::to_each());
+      side[k].update_weights(all[k], motion, places[k]);
     }
     with_kernel(law.kernel, [&](auto K) {
       const PairLaw<K()> pairs(law);

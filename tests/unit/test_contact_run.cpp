@@ -3,6 +3,7 @@
 #include "meniscus/error.hpp"
 #include "run/simulation.hpp"
 #include "solve/step/central_difference.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -144,7 +145,8 @@ TEST(ContactRun, RelaxationNeedsPartnersThatComeToRest) {
   EXPECT_DOUBLE_EQ(displacement(stops, 1), 0.05);
   EXPECT_DOUBLE_EQ(displacement(stops, 2), 0.075);
   Scene<2> moves_on = scene_of(plate_after("0.05*t"));
-  EXPECT_THROW(Simulation<2>{moves_on}, InputError);
+  EXPECT_THROW_WITH(Simulation<2>{moves_on}, InputError,
+                    "there is no rest that \"relax\" could reach");
   Scene<2> rests = scene_of(plate_after("0.05"));
   EXPECT_EQ(rests.system.terms.back()->steady_after(), 0);
   EXPECT_TRUE(std::isnan(displacement(rests, 1)));  // there is no such measure

@@ -4,8 +4,8 @@
 #include "meniscus/error.hpp"
 #include "parallel/divided.hpp"
 #include "parallel/shared_items.hpp"
-#include "physics/rank_reports.hpp"
-#include "some_ranks.hpp"
+#include "parallel/shared_work.hpp"
+#include "parallel/thread_ranks.hpp"
 #include "straight_grid.hpp"
 #include "support.hpp"
 #include "thrown.hpp"
@@ -13,36 +13,28 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
+#include <atomic>
 #include <cstring>
 
 namespace meniscus::test_divided {
 namespace {
 
-/// One rank of several. The data received from another rank contain its number in each byte.
-class OneOf final : public OneOfRanks {
- public:
-  void gather(void* values, std::span<const std::size_t> begin) override {
-    for (std::size_t r = 0; r + 1 < begin.size(); ++r)
-      if (static_cast<int>(r) != number)
-        std::memset(static_cast<std::byte*>(values) + begin[r], static_cast<int>(r),
-                    begin[r + 1] - begin[r]);
-  }
-};
+/// Calls f(rank) on each of `size` ranks.
+template <class F>
+void on_ranks(int size, F&& f) {
+  as_ranks(size, [&] { f(ranks().rank()); });
+}
 
 TEST(Divided, EachRowIsOfOneRankInOrder) {
   for (const Index n : {0, 1, 5, 100, 40000})
-    for (const int size : {1, 2, 3, 20}) {
-      Index next = 0;
-      as_each_of<OneOf>(size, [&](int rank) {
+    for (const int size : {1, 2, 3, 20})
+      on_ranks(size, [&](int rank) {
         const OwnItems own = evenly.own_rows(n);
-        EXPECT_EQ(own.begin, next);
+        EXPECT_EQ(own.begin, evenly.first_row(n, rank));
+        EXPECT_EQ(own.end, rank + 1 < size ? evenly.first_row(n, rank + 1) : n);
         for (Index row = own.begin; row < own.end; row += 7)
           EXPECT_EQ(evenly.rank_of_row(n, row), rank);
-        next = own.end;
       });
-      EXPECT_EQ(next, n);
-    }
 }
 
 /// The rank that has all rows of each body; -1 if each rank has some.
@@ -60,7 +52,7 @@ std::vector<int> owners(const std::vector<Index>& rows) {
 TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
   using Owners = std::vector<int>;
   const std::vector<Index> equal(8, 500);
-  as_each_of<OneOf>(2, [&](int) {
+  on_ranks(2, [&](int) {
     EXPECT_EQ(owners(equal), (Owners{0, 0, 0, 0, 1, 1, 1, 1}));
     EXPECT_EQ(owners({500, 500, 500, 500}), (Owners{0, 0, 1, 1})) << "half a share each";
     EXPECT_EQ(owners({500, 500, 500}), (Owners{-1, -1, -1})) << "two thirds of a share each";
@@ -72,13 +64,12 @@ TEST(Divided, SmallBodiesAreWholeIfRanksHaveTheirShares) {
     EXPECT_EQ(owners({600, 10000, 50, 600}), (Owners{0, -1, 1, 1}));
     EXPECT_EQ(owners({10000, 600, 50}), (Owners{-1, -1, 1})) << "without the larger one";
   });
-  as_each_of<OneOf>(3,
-                    [&](int) { EXPECT_EQ(owners(equal), Owners(8, -1)) << "1.125 shares on one"; });
-  as_each_of<OneOf>(1, [&](int) { EXPECT_EQ(owners(equal), Owners(8, 0)); });
+  on_ranks(3, [&](int) { EXPECT_EQ(owners(equal), Owners(8, -1)) << "1.125 shares on one"; });
+  on_ranks(1, [&](int) { EXPECT_EQ(owners(equal), Owners(8, 0)); });
 }
 
 TEST(Divided, RowsOfAWholeBodyAreOfOneRank) {
-  as_each_of<OneOf>(3, [&](int rank) {
+  on_ranks(3, [&](int rank) {
     const Division division(1);
     const OwnItems rows = division.own_rows(70), items = division.own_items(5);
     EXPECT_EQ(rows.end - rows.begin, rank == 1 ? 70 : 0);
@@ -89,7 +80,7 @@ TEST(Divided, RowsOfAWholeBodyAreOfOneRank) {
 }
 
 TEST(Divided, WhatEachHasIsNotBrought) {
-  as_each_of<OneOf>(3, [&](int rank) {
+  on_ranks(3, [&](int rank) {
     const Division division = Division::to_each();
     const OwnItems items = division.own_items(5);
     EXPECT_EQ(items.begin, 0);
@@ -97,109 +88,75 @@ TEST(Divided, WhatEachHasIsNotBrought) {
     EXPECT_EQ(division.rank_of_item(5, 4), rank);
     std::vector<Index> values(5, rank);
     division.complete_items(5, values.data(), sizeof values[0]);
-    divided_for(
-        division, 5, [&](Index k) { at(values, k) += k; }, [](Index) { return 0; },
-        [](Index, int) { ADD_FAILURE(); });
-    for (Index k = 0; k < 5; ++k) EXPECT_EQ(at(values, k), rank + k);
+    GatherTogether()({{Gathered(values.data(), division.items(5))}});
+    for (Index k = 0; k < 5; ++k) EXPECT_EQ(at(values, k), rank);
   });
 }
 
 TEST(Divided, ItemsAreBroughtFromTheirRanks) {
-  using Values = std::vector<std::uint16_t>;
-  SharedItems items;
-  items.add(2);
-  items.add(2, Division(0));
-  items.add(3, evenly);  // divided evenly; with one rank, all items are its own
-  items.add(1);
-  as_each_of<OneOf>(3, [&](int rank) {
-    Values values(7, 7);
+  const std::vector<int> owner{2, 0, 0, 0, 1, 2, 1};
+  on_ranks(3, [&](int rank) {
+    SharedItems items;
+    items.add(2);
+    items.add(2, Division(0));
+    items.add(3, evenly);
+    items.add(1);
+    std::vector<int> values(owner.size(), 7);
+    for (std::size_t k = 0; k < owner.size(); ++k)
+      if (owner[k] == rank) values[k] = 10 * rank;
     items.complete(values.data(), sizeof values[0]);
-    const std::vector<int> of{2, 0, 0, 0, 0, 0, 1};
-    for (std::size_t k = 0; k < values.size(); ++k)
-      EXPECT_EQ(values[k], of[k] == rank ? 7 : of[k] * 0x0101) << rank << " " << k;
-    const std::vector<Offset> start{0, 0, 2, 5, 6};
-    Values runs(6, 7);
-    evenly.complete_runs(4, start, runs.data(), sizeof runs[0]);
-    for (Index k = 0; k < 6; ++k) {
-      const int owner = k < 2 ? 1 : 2;
-      EXPECT_EQ(at(runs, k), owner == rank ? 7 : owner * 0x0101);
-    }
-    Values rows(48, 7);
-    evenly.complete_rows(48, rows.data(), sizeof rows[0]);
-    for (Index row = 0; row < 48; ++row) {
-      const int owner = evenly.rank_of_row(48, row);
-      EXPECT_EQ(at(rows, row), owner == rank ? 7 : owner * 0x0101);
-    }
+    for (std::size_t k = 0; k < owner.size(); ++k) EXPECT_EQ(values[k], 10 * owner[k]);
   });
 }
 
-/// Each rank computes its own rows of a list, even if these are none or all rows.
-TEST(Divided, ListedRowsAreOfTheRanksThatHaveThem) {
+/// Values of items, of rows, of rows in a list, of each part, and of chunks, in one exchange.
+TEST(Gathered, ArraysAreCompletedTogether) {
   const std::vector<Index> listed{1, 14, 15, 33, 46, 47};
-  as_each_of<OneOf>(3, [&](int rank) {
-    std::vector<int> values(48, -1);
-    Index done = 0;
-    divided_for_rows(
-        evenly, 48, listed,
-        [&](Index row) {
-          EXPECT_EQ(evenly.rank_of_row(48, row), rank);
-          at(values, row) = row;
-          ++done;
-        },
-        [&](Index row) { return at(values, row); },
-        [&](Index row, int of_other) { at(values, row) = of_other; }, 1);
-    for (Index row = 0; row < 48; ++row) {
-      const int owner = evenly.rank_of_row(48, row),
-                expected = owner == rank ? row : owner * 0x01010101;
-      EXPECT_EQ(at(values, row),
-                std::binary_search(listed.begin(), listed.end(), row) ? expected : -1);
+  on_ranks(3, [&](int rank) {
+    const auto own_only = [rank](const Portions& portions, Index n) {
+      std::vector<Index> values(static_cast<std::size_t>(n), -1);
+      const ItemRange own = portions.own();
+      for (Index k = own.begin; k < own.end; ++k) at(values, k) = 100 * rank + k;
+      return values;
+    };
+    const Portions items = evenly.items(5), rows = evenly.rows(48),
+                   list = evenly.listed(48, listed), whole = Division(1).listed(48, listed),
+                   each = Division::to_each().items(2);
+    std::vector<Index> of_items = own_only(items, 5), of_rows = own_only(rows, 48),
+                       of_list = own_only(list, 6), of_whole = own_only(whole, 6),
+                       of_each = own_only(each, 2);
+    PartTally<int> parts(evenly), one_part(Division(2));
+    *parts.mine() = rank;
+    if (int* const mine = one_part.mine()) *mine = 5;
+    EXPECT_EQ(one_part.mine() != nullptr, rank == 2);
+    ChunkTally<Real> chunks(chunk_count(48), evenly);
+    for (int c = 0; c < chunk_count(48); ++c)
+      if (evenly.rank_of_item(chunk_count(48), c) == rank) chunks[c] = c;
+    GatherTogether gather;
+    for (int again = 0; again < 2; ++again)
+      gather({{Gathered(of_items.data(), items), Gathered(of_rows.data(), rows),
+               Gathered(of_list.data(), list), Gathered(of_whole.data(), whole),
+               Gathered(of_each.data(), each), parts.gathered(), one_part.gathered(),
+               chunks.gathered()}});
+    for (Index k = 0; k < 5; ++k) EXPECT_EQ(at(of_items, k), 100 * evenly.rank_of_item(5, k) + k);
+    for (Index k = 0; k < 48; ++k) EXPECT_EQ(at(of_rows, k), 100 * evenly.rank_of_row(48, k) + k);
+    for (Index k = 0; k < 6; ++k) {
+      EXPECT_EQ(at(of_list, k), 100 * evenly.rank_of_row(48, at(listed, k)) + k);
+      EXPECT_EQ(at(of_whole, k), 100 + k);
     }
-    EXPECT_EQ(done, (std::vector<Index>{2, 1, 3}[static_cast<std::size_t>(rank)]));
-    const ItemRange whole = Division(1).own_listed(48, listed),
-                    each = Division::to_each().own_listed(48, listed);
-    EXPECT_EQ(whole.end - whole.begin, rank == 1 ? 6 : 0);
-    EXPECT_EQ(each.end - each.begin, 6);
+    for (Index k = 0; k < 2; ++k) EXPECT_EQ(at(of_each, k), 100 * rank + k);
+    EXPECT_EQ(std::vector<int>(parts.begin(), parts.end()), (std::vector<int>{0, 1, 2}));
+    EXPECT_EQ(std::vector<int>(one_part.begin(), one_part.end()), std::vector<int>{5});
+    EXPECT_EQ(chunks.sum(0.0), chunk_count(48) * (chunk_count(48) - 1) / 2);
   });
 }
 
-TEST(RankReports, AreBroughtFromTheRankThatKnowsThem) {
-  const Real strange = std::bit_cast<Real>(std::uint64_t{0x0101010101010101});
-  as_each_of<OneOf>(2, [&](int rank) {
-    std::vector<Report> reports(3);
-    for (std::size_t k = 0; k < 3; ++k) reports[k].heat = reports[k].demand.longest = Real(k + 1);
-    reports[1].known_by = 0;
-    reports[1].failure = Failure{7, "of the first rank", true};
-    reports[2].known_by = 1;
-    RankReports().complete(reports);
-    EXPECT_EQ(reports[0].heat, 1);
-    EXPECT_EQ(reports[1].heat, rank == 0 ? 2 : 0);
-    EXPECT_EQ(reports[1].failure.has_value(), rank == 0) << "the other says that it has none";
-    if (reports[1].failure) {
-      EXPECT_EQ(reports[1].failure->cause, "of the first rank");
-      EXPECT_EQ(reports[1].failure->particle, 7);
-      EXPECT_TRUE(reports[1].failure->of_step);
-    }
-    EXPECT_EQ(reports[2].heat, rank == 1 ? 3 : strange);
-    EXPECT_EQ(reports[2].demand.longest, rank == 1 ? 3 : strange);
-    for (const Report& report : reports) EXPECT_FALSE(report.known_by.has_value());
-  });
-}
-
-TEST(RankReports, AnErrorIsThrownByAll) {
-  as_each_of<OneOf>(2, [&](int rank) {
-    std::vector<Report> reports(1);
-    reports[0].known_by = 0;
-    if (rank > 0) {  // the first rank throws nothing here
-      EXPECT_NO_THROW(RankReports().complete(reports));
-      return;
-    }
-    reports[0].error = "of the first rank";
-    try {
-      RankReports().complete(reports);
-      ADD_FAILURE();
-    } catch (const SolveError& e) {
-      EXPECT_STREQ(e.what(), "of the first rank");
-    }
+TEST(Gathered, AFailureOfOneRankIsThrownByAll) {
+  on_ranks(3, [](int rank) {
+    std::exception_ptr failure;
+    if (rank == 1) failure = std::make_exception_ptr(SolveError("of rank 1"));
+    EXPECT_THROW_WITH(GatherTogether()({}, failure), SolveError, "of rank 1");
+    EXPECT_NO_THROW(GatherTogether()({}));
   });
 }
 
@@ -216,16 +173,16 @@ TEST(Divided, AllValuesAreUsedInOrder) {
 }
 
 TEST(Divided, WhatFailsOnOneRankFailsOnAllAsTheSame) {
-  as_each_of<OneOf>(2, [](int) {
+  on_ranks(3, [](int rank) {
+    const auto fail = [rank](const auto& error) {
+      return [rank, error] {
+        if (rank == 1) throw error;
+      };
+    };
     EXPECT_NO_THROW(on_each_rank([] {}));
-    EXPECT_THROW_WITH(on_each_rank([] { throw InputError("input"); }), InputError, "input");
-    EXPECT_THROW(on_each_rank([] { throw FileError("file"); }), FileError);
-    try {
-      on_each_rank([] { throw SolveError("singular"); });
-      ADD_FAILURE();
-    } catch (const SolveError& error) {
-      EXPECT_STREQ(error.what(), "singular");
-    }
+    EXPECT_THROW_WITH(on_each_rank(fail(InputError("input"))), InputError, "input");
+    EXPECT_THROW_WITH(on_each_rank(fail(FileError("file"))), FileError, "file");
+    EXPECT_THROW_WITH(on_each_rank(fail(SolveError("singular"))), SolveError, "singular");
   });
 }
 
@@ -275,8 +232,8 @@ template <int D>
 void expect_parts_of_point_rule(Index per_group) {
   const auto body = test::body_of<D>(test::potato<D>());
   const PointRule<D> all = build_gauss_rule(*body, 2, per_group);
-  Index points = 0;
-  as_each_of<OneOf>(3, [&](int) {
+  std::atomic<Index> points = 0;
+  on_ranks(3, [&](int) {
     const PointRule<D> some = build_gauss_rule(*body, 2, per_group);
     ASSERT_EQ(some.rows.size(), all.rows.size());
     const OwnItems own = evenly.own_rows(all.groups());

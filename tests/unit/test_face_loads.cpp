@@ -6,6 +6,7 @@
 #include "meniscus/error.hpp"
 #include "run/simulation.hpp"
 #include "support.hpp"
+#include "thrown.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -406,7 +407,7 @@ TEST(SolidViscosity, IsAnOptionOfEveryMaterialThatIsNoFluid) {
   const Real damped = rate(", viscosity = 0.02 }\n");
   EXPECT_GT(damped, 0.05);
   EXPECT_NEAR(damped, rate(" }\n[[solid_viscosity]]\nbody = \"block\"\nshear = 0.02\n"), 1e-12);
-  EXPECT_THROW(rate(", viscosity = -1 }\n"), InputError);
+  EXPECT_THROW_WITH(rate(", viscosity = -1 }\n"), InputError, "viscosity");
 }
 
 /// A strip between rollers whose end is moved: a plane wave of constant form. Until the wave

@@ -5,6 +5,7 @@
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 #include "straight_grid.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -198,7 +199,7 @@ TEST(CurvedCells, FoldsOfBulgesAreFound) {
   Grid<2> disk = Disk{}.geometry().grid;
   ASSERT_FALSE(disk.bulges.empty());
   disk.bulges.front().deviation *= -50;
-  EXPECT_THROW(check_jacobians(disk, "the test"), InputError);
+  EXPECT_THROW_WITH(check_jacobians(disk, "the test"), InputError, "the test folds cell");
 }
 
 }  // namespace

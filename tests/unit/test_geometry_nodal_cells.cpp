@@ -3,6 +3,7 @@
 #include "body/grid/nodal_cells.hpp"
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -188,7 +189,7 @@ TEST(NodalCells, NeighboursShareTheirPoints) {
 TEST(NodalCells, NodeWithoutCellIsRefused) {
   Grid<2> grid = jittered_brick<2>();
   grid.X.push_back(Vec<2>(9, 9));
-  EXPECT_THROW(NodalCells<2>{grid}, InputError);
+  EXPECT_THROW_WITH(NodalCells<2>{grid}, InputError, "belongs to no cell");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 #include "parallel/parallel.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -115,9 +116,9 @@ TEST(Ordering, RefusesWhatIsNoPermutation) {
   std::vector<Index> order(disk.grid.X.size());
   std::iota(order.begin(), order.end(), 0);
   order[1] = 0;
-  EXPECT_THROW(renumber<2>(disk.grid, order), InputError);
+  EXPECT_THROW_WITH(renumber<2>(disk.grid, order), InputError, "not a permutation");
   order.pop_back();
-  EXPECT_THROW(renumber<2>(disk.grid, order), InputError);
+  EXPECT_THROW_WITH(renumber<2>(disk.grid, order), InputError, "not a permutation");
 }
 
 }  // namespace

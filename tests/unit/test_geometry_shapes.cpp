@@ -4,6 +4,7 @@
 #include "meniscus/body/shapes.hpp"
 #include "meniscus/error.hpp"
 #include "straight_grid.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,7 +65,7 @@ TEST(Shapes, HalfSphereIsHalfABall) {
     EXPECT_NEAR((Y - Vec<3>(X[0], -X[1], -X[2])).norm(), 0, 1e-14);
   }
   shape.core = 5;
-  EXPECT_THROW(shape.geometry(), InputError);
+  EXPECT_THROW_WITH(shape.geometry(), InputError, "even number of cells along the core");
 }
 
 template <int D>
@@ -199,19 +200,19 @@ TEST(Shapes, BoxBySpacingFromCorner) {
 
 TEST(Shapes, BoxNeedsCellsOrSpacing) {
   Brick<2> box;
-  EXPECT_THROW(box.geometry(), InputError);
+  EXPECT_THROW_WITH(box.geometry(), InputError, "either the cells per direction or the spacing");
   box.spacing = 0.1;
   box.cells = {10, 10};
-  EXPECT_THROW(box.geometry(), InputError);
+  EXPECT_THROW_WITH(box.geometry(), InputError, "either the cells per direction or the spacing");
   box.spacing = 0;
   box.cells = {10, 2.5};
-  EXPECT_THROW(box.geometry(), InputError);
+  EXPECT_THROW_WITH(box.geometry(), InputError, "must be whole, from 1 to 1e6");
   box.cells = {1e5, 1e5};
-  EXPECT_THROW(box.geometry(), InputError);
+  EXPECT_THROW_WITH(box.geometry(), InputError, "cells; ");
   box.cells = {2, 2};
   EXPECT_NO_THROW(box.geometry());
   box.corner = box.centre = {0, 0};
-  EXPECT_THROW(box.geometry(), InputError);
+  EXPECT_THROW_WITH(box.geometry(), InputError, "either the corner or the centre");
 }
 
 TEST(Shapes, AreRegisteredWithTheirKeys) {
@@ -345,7 +346,7 @@ TEST(Grid, SideOfThreeCellsIsRefused) {
   brick.cells = {2, 1};
   Grid<2> grid = brick.geometry().grid;
   grid.cells.push_back(grid.cells.front());
-  EXPECT_THROW(find_boundary(grid), InputError);
+  EXPECT_THROW_WITH(find_boundary(grid), InputError, "share one side");
 }
 
 TEST(Grid, JitterMovesInteriorNodesReproducibly) {
@@ -388,8 +389,8 @@ TEST(Grid, StrongJitterFoldsNoCell) {
 
 TEST(Grid, ImpossibleJitterIsRefused) {
   Grid<2> grid = Disk{}.geometry().grid;
-  EXPECT_THROW(jitter_interior(grid, 1e6, 1), InputError);
-  EXPECT_THROW(jitter_interior(grid, -0.1, 1), InputError);
+  EXPECT_THROW_WITH(jitter_interior(grid, 1e6, 1), InputError, "folds the cells at node");
+  EXPECT_THROW_WITH(jitter_interior(grid, -0.1, 1), InputError, "must not be negative");
 }
 
 template <int D>

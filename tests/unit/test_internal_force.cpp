@@ -66,15 +66,6 @@ void expect_reported_energy(Body<D>& body, ForceTerm& term) {
   const Real energy = term.stored_energy(motion).value();
   EXPECT_NEAR(energies[0].value, energy, 1e-13 * std::abs(energy));
   EXPECT_EQ(test::norm(test::sum_of(force, -1, without)), 0);
-
-  asked.leave_chunks = true;
-  Report report = term.add_force(motion, asked);
-  EXPECT_EQ(energies.size(), 1U) << "left for later";
-  ASSERT_TRUE(report.chunks);
-  term.add_chunks(motion, asked, report);
-  EXPECT_FALSE(report.chunks);
-  ASSERT_EQ(energies.size(), 2U);
-  EXPECT_EQ(energies[1].value, energies[0].value);
 }
 
 TEST(InternalForce, ReportsItsEnergyWhereItIsAskedFor) {

@@ -2,48 +2,29 @@
 // An exception on one rank is thrown on all ranks.
 #include "meniscus/error.hpp"
 #include "parallel/ranks.hpp"
-#include "some_ranks.hpp"
+#include "parallel/thread_ranks.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <deque>
 #include <new>
+#include <stdexcept>
 
 namespace meniscus::test_ranks {
 namespace {
 
-/// Ranks run one after the other. Rank 0 stores the values that it hands out, and rank 1 reads
-/// them.
-class Broadcast final : public OneOfRanks {
- public:
-  static inline std::deque<std::string> sent;
-  void hand_out(int from, void* values, std::size_t bytes) override {
-    ASSERT_EQ(from, 0);
-    if (number == 0) {
-      sent.emplace_back(static_cast<const char*>(values), bytes);
-    } else {
-      ASSERT_EQ(sent.front().size(), bytes);
-      std::memcpy(values, sent.front().data(), bytes);
-      sent.pop_front();
-    }
-  }
-};
-
 /// Throws `error` on the first rank. Both ranks must throw `Expected` with the words of the first.
 template <class Expected, class Error>
 void expect_on_both(const Error& error, const std::string& words) {
-  as_each_of<Broadcast>(2, [&](int rank) {
+  as_ranks(2, [&] {
     try {
       on_first_rank([&] { throw error; });
-      ADD_FAILURE() << "rank " << rank << " goes on";
+      ADD_FAILURE() << "rank " << ranks().rank() << " goes on";
     } catch (const Expected& thrown) {
-      EXPECT_EQ(thrown.what(), words) << "rank " << rank;
+      EXPECT_EQ(thrown.what(), words) << "rank " << ranks().rank();
     } catch (const std::exception& other) {
-      ADD_FAILURE() << "rank " << rank << ": " << other.what();
+      ADD_FAILURE() << "rank " << ranks().rank() << ": " << other.what();
     }
   });
-  EXPECT_TRUE(Broadcast::sent.empty());
 }
 
 TEST(OnFirstRank, WhatIsThrownThereIsThrownOnAll) {
@@ -57,10 +38,9 @@ TEST(OnFirstRank, WhatIsThrownThereIsThrownOnAll) {
 }
 
 TEST(RequireAlike, RefusesATextThatOnlyOneRankHas) {
-  as_each_of<Broadcast>(2, [](int) { require_alike("a", "scene"); });
-  as_each_of<Broadcast>(2, [](int rank) {
-    if (rank == 0) return require_alike("a", "scene 's.toml'");
-    EXPECT_THROW(require_alike("b", "scene 's.toml'"), FileError);
+  as_ranks(2, [] { require_alike("a", "scene"); });
+  as_ranks(2, [] {
+    EXPECT_THROW(require_alike(ranks().first() ? "a" : "b", "scene 's.toml'"), FileError);
   });
 }
 

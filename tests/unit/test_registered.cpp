@@ -107,6 +107,40 @@ TEST(Registered, ForcesAreTheGradientOfTheEnergyWhereClaimed) {
   expect_gradients<3>();
 }
 
+/// The power of ramps is the change of the energy in time at fixed positions. Adhesion and tension
+/// that change, and moved partners, are booked as work instead.
+template <int D>
+int expect_powers() {
+  int with_power = 0;
+  for_all<D>([&](const Case& c, Scene<D>& scene) {
+    const NodalVectors u = test::random_field<D>(scene.system.size(), 0.01, 5);
+    const std::vector<Unknown>& fields = scene.initial.fields;
+    constexpr Real time = 0.05, h = 1e-5;
+    for (const auto& term : own_terms(c, scene)) {
+      const auto energy_at = [&](Real t) {
+        return term->stored_energy({t, u, test::zeros(u), fields}).value_or(0);
+      };
+      SCOPED_TRACE(term->name());
+      const Real rate = (energy_at(time + h) - energy_at(time - h)) / (2 * h);
+      NodalVectors force = test::zeros(u);
+      std::vector<Unknown> forces = fields;
+      const Report report =
+          term->add_force({time, u, test::zeros(u), fields}, Forces(force, forces));
+      const bool by_work =
+          term->name().starts_with("contact") || term->name().starts_with("varying tension");
+      if (by_work) continue;
+      EXPECT_NEAR(report.external_power, rate, 1e-6 * std::abs(energy_at(time)) + 1e-9);
+      with_power += std::abs(rate) > 1e-3 * std::abs(energy_at(time));
+    }
+  });
+  return with_power;
+}
+
+TEST(Registered, PowerOfRampsIsTheChangeOfTheEnergyInTime) {
+  EXPECT_GE(expect_powers<2>(), 3) << "cavities, springs and laws that ramps change";
+  EXPECT_GE(expect_powers<3>(), 3);
+}
+
 template <int D>
 void expect_tangents() {
   for_all<D>([](const Case& c, Scene<D>& scene) {

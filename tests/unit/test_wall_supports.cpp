@@ -8,6 +8,7 @@
 #include "solve/step/relaxation.hpp"
 #include "solve/step/step_controller.hpp"
 #include "support.hpp"
+#include "thrown.hpp"
 
 #include <gtest/gtest.h>
 
@@ -155,7 +156,7 @@ TEST(WallSupports, NeedTheNormalOfTheWalls) {
   Geometry<3> geometry = flat_cell(1);
   ParticleSet<3> particles = default_supports(geometry);
   geometry.director = {};
-  EXPECT_THROW(keep_supports_in_wall(particles, geometry), InputError);
+  EXPECT_THROW_WITH(keep_supports_in_wall(particles, geometry), InputError, "normal");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // The interface of all physical effects. A system is a list of force terms. If an effect is not
 // named in the scene, it is not in the list and costs nothing.
 #pragma once
-#include "parallel/chunk_reports.hpp"
+#include "parallel/gathered.hpp"
 #include "parallel/step_reads.hpp"
 #include "physics/constraint.hpp"
 #include "physics/resultant.hpp"
@@ -11,8 +11,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,28 +39,46 @@ struct StoredEnergy {
   Real value;
 };
 
+struct Report;
+class ForcePhases;
+
 /// The forces on the displacement coefficients of all particles, and the fields, whose forces are
 /// in Unknown::f.
-struct Forces : std::span<NodalVector> {
+struct Forces : ForceVector {
+  /// The next phase of a force.
+  using Then = std::function<Report(const Motion&, Forces)>;
+
   Forces(std::span<NodalVector> f, std::span<Unknown> unknowns = {})
-      : std::span<NodalVector>(f), fields(unknowns) {}
-  Forces(NodalVectors& f) : std::span<NodalVector>(f) {}
+      : ForceVector(f), fields(unknowns) {}
+  Forces(NodalVectors& f) : ForceVector(f) {}
 
   std::span<Unknown> fields;
   /// Terms that get their stored energy as a by-product of the force add it here. Null if no
   /// energies are needed.
   std::vector<StoredEnergy>* energies = nullptr;
-  /// If true, terms leave their results per chunk of rows in Report::chunks, and the system sums
-  /// them.
-  bool leave_chunks = false;
+  /// If false, Report::demand is not needed.
+  bool demand = true;
+  /// The phases of all terms of a system. Null: those of one term run one after the other.
+  ForcePhases* phases = nullptr;
+
+  /// The forces on a field.
+  ForceVector of_field(std::size_t number) const { return {at(fields, number).f, pending}; }
+  /// Ends a phase of a term. Goes on with then(motion, force) when these arrays are complete: each
+  /// has been computed in shares. Returns the report of that phase, or an empty one if it runs
+  /// later. The calls of a term must be the same on all processes.
+  Report gather(std::span<const Gathered> arrays, const Motion& motion, Then then) const;
+  Report gather(std::initializer_list<Gathered> arrays, const Motion& motion, Then then) const;
+  /// The motion at all particles; `motion` may be known to the rows of a process only. The calls
+  /// must be the same on all processes.
+  Motion everywhere(const Motion& motion) const;
 };
 
 /// Reason why a term could not compute a valid force.
 struct Failure {
-  Index particle;         ///< global number of the particle nearest to the failure
-  std::string cause;      ///< e.g. "J = -0.3 at a stress point; F = [...]"
-  bool of_step = false;   ///< a shorter step may avoid it
-  std::string term = {};  ///< name of the term; the system fills it in
+  Index particle = -1;     ///< global number of the particle nearest to the failure
+  std::string cause = {};  ///< e.g. "J = -0.3 at a stress point; F = [...]"
+  bool of_step = false;    ///< a shorter step may avoid it
+  std::string term = {};   ///< name of the term; the system fills it in
 };
 
 /// Limits for the next step until the stable step is estimated again. Only terms whose stiffness
@@ -89,15 +107,6 @@ struct Report {
   Resultant outside = {};
   StepDemand demand = {};
   std::optional<Failure> failure = {};
-  /// Results per chunk of this rank. The system gathers the results of all ranks and passes them to
-  /// ForceTerm::add_chunks(). Null if there are none.
-  ChunkReports* chunks = nullptr;
-  /// The only rank that has the values above. The system then sends them to all ranks. Empty if all
-  /// ranks have them.
-  std::optional<int> known_by = {};
-  /// Message of a SolveError that only one rank found. The system throws it on all ranks. Empty if
-  /// there is none.
-  std::string error = {};
 
   /// Adds another report; keeps the first failure.
   Report& operator+=(Report other) {
@@ -110,6 +119,17 @@ struct Report {
     return *this;
   }
 };
+
+/// Results of a chunk of rows.
+struct ChunkReport {
+  Real heat = 0;            ///< power turned into heat
+  Real external_power = 0;  ///< power supplied by explicit dependence on time
+  Real energy = 0;          ///< stored energy, if requested
+  Index failed = nowhere;   ///< first row with a failure, or nowhere
+
+  static constexpr Index nowhere = std::numeric_limits<Index>::max();
+};
+using ChunkReports = ChunkTally<ChunkReport>;
 
 /// A result per particle that a term can compute for output.
 struct FieldSource {
@@ -139,37 +159,27 @@ class ForceTerm {
   virtual std::string name() const = 0;
 
   /// force[A] += the force of the term on each particle A. The result has the same bits for any
-  /// number of threads. `motion` may also be a trial motion, so this does not change the history of
-  /// the term.
+  /// number of threads and processes. `motion` may also be a trial motion, so this does not change
+  /// the history of the term. A force that depends on sums over all rows is computed in phases
+  /// (Forces::gather).
   virtual Report add_force(const Motion& motion, Forces force) = 0;
-  /// Adds the results per chunk in Report::chunks, gathered from all ranks, to `report`. All ranks
-  /// call this.
-  void add_chunks(const Motion& motion, Forces force, Report& report) const;
   /// force[A] += derivative of the forces in the direction `change` (du, dv and changes of fields;
   /// its time is ignored). The result is linear in `change`, whose size should be about one
   /// spacing: terms without an exact tangent use the difference of the forces over a millionth of
   /// `change`.
   virtual void add_tangent(const Motion& motion, const Motion& change, Forces force);
 
-  /// For runs on several ranks: registers the particles whose motion this rank reads in
-  /// add_force(), load_power() and commit(). The halo follows from these reads. In a halo, the
-  /// three functions compute the forces on this rank's own and ghost particles only, and the motion
-  /// of all other particles is invalid. Returns false if the term may read any particle; the halo
-  /// is then switched off. All ranks call this.
-  virtual bool tell_reads(StepReads&) { return false; }
-  /// True if the reads registered by tell_reads() are out of date because neighbours have changed.
+  /// Registers the particles whose motion the rows of this process read in add_force(),
+  /// load_power() and commit(). Returns false if the term may read any particle: then each process
+  /// follows the motion of all particles.
+  virtual bool reads(StepReads&) { return false; }
+  /// True if the particles registered by reads() are out of date because neighbours have changed.
   virtual bool reads_changed() const { return false; }
-  /// True if add_force() can need more particles than were registered, in the middle of a step. It
-  /// then throws HaloOutgrown on all ranks.
-  virtual bool may_outgrow_halo() const { return false; }
 
   /// Called when the step to `motion` is accepted. A term with a history updates it.
   virtual void commit(const Motion&) {}
   /// Saves or restores the history of the term. Does nothing if there is none.
   virtual void archive(const Archive&) {}
-  /// Called after steps in a halo: gathers on all ranks the history that only some of them have
-  /// updated. All ranks call this.
-  virtual void complete_history() {}
 
   /// True if the force depends on the velocity. It must then be linear in the velocity.
   virtual bool viscous() const { return false; }
@@ -183,7 +193,7 @@ class ForceTerm {
   virtual void add_viscous(const Motion& motion, Forces force);
   /// diagonal[A] += the diagonal entries of C for the components of particle A, at the displacement
   /// of the last add_force(). Missing entries only cost iterations.
-  virtual void add_viscous_diagonal(std::span<NodalVector>) {}
+  virtual void add_viscous_diagonal(Forces) {}
 
   /// Stored energy. energy_kind() is the column of the audit to which it belongs ("strain",
   /// "surface"). Empty if the force has no potential.
@@ -222,7 +232,7 @@ class ForceTerm {
   virtual std::vector<FieldSource> fields() const { return {}; }
   virtual std::vector<MeasureSource> measures() const { return {}; }
 
-  /// Describes the failure of a row. All ranks call this.
+  /// Describes the failure of a row. Empty if this process does not have the row.
   virtual std::optional<Failure> failure_of(Index, const Motion&) const { return std::nullopt; }
 
   /// Bytes of memory that the term uses during the time loop.
@@ -231,8 +241,10 @@ class ForceTerm {
   virtual Offset pairs() const { return 0; }
 
  protected:
-  /// Makes the report of a term from its results per chunk.
-  Report report_of(ChunkReports& said, const Motion& motion, Forces force) const;
+  /// Gathers the results of all chunks and sums them.
+  Report report_of(ChunkReports& of_chunks, const Motion& motion, Forces force) const;
+  /// Sums the results of all chunks, once they are gathered.
+  Report sum_of(const ChunkReports& of_chunks, const Motion& motion, Forces force) const;
 };
 
 }  // namespace meniscus

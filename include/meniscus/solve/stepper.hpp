@@ -44,9 +44,10 @@ class Stepper {
   /// True if try_step() may reject a step.
   virtual bool may_reject_steps() const { return false; }
 
-  /// For runs on several ranks: registers the particles that step() reads in addition to forces and
-  /// sums over all particles (System::share_steps()). Returns false if it may read any particle.
-  virtual bool tell_reads(StepReads&) { return false; }
+  /// Registers the particles whose motion step() reads in addition to forces and sums over all
+  /// particles. Returns false if it may read any particle: then each process follows the motion of
+  /// all particles.
+  virtual bool reads(StepReads&) { return false; }
 
   /// During a long step, the given function is called now and then. If it returns true, the step
   /// throws Interrupted, and the caller restores the stepper.

@@ -111,8 +111,9 @@ struct CellRule {
     });
   }
 
-  ChunkSums chunk_sums(Index particles, const Division& division) const {
-    return {start, particle, particles, division};
+  template <class Body>
+  ChunkSums chunk_sums(const Body& body) const {
+    return body.chunk_sums(start, particle);
   }
   Offset pairs() const { return start.back(); }
   std::size_t bytes() const {
@@ -214,12 +215,13 @@ struct PointRule {
   }
 
   Offset pairs() const { return rows.entries(); }
-  ChunkSums chunk_sums(Index particles, const Division& division) const {
+  template <class Body>
+  ChunkSums chunk_sums(const Body& body) const {
     // Each group counts as one row.
     std::vector<Offset> group_start;
     for (Index g = 0; g < groups(); ++g) group_start.push_back(at(rows.start, g * per_group));
     group_start.push_back(rows.entries());
-    return {group_start, rows.particle, particles, division};
+    return body.chunk_sums(group_start, rows.particle);
   }
   std::size_t bytes() const {
     return rows.bytes() + point_weight.size() * sizeof(Real) + point_owner.size() * sizeof(Index);

@@ -26,7 +26,7 @@ struct BoundarySimplices {
     for (auto& simplex : corners)
       for (Index& A : simplex) A = at(number, A);
     rows = build_point_rows<D>(body.particles, X, {.value = true}, body.name);
-    chunk_sums = {rows.start, rows.particle, body.size(), body.division};
+    chunk_sums = body.chunk_sums(rows.start, rows.particle);
   }
 
   /// Sets x[B] to the current positions, at the displacement coefficients u of the body. x has the
@@ -41,7 +41,7 @@ struct BoundarySimplices {
     return moved;
   }
   /// force_A += sum_B N_A(X_B) load_B over the particles A of the body.
-  void scatter(const NodalVectors& load, std::span<NodalVector> force) {
+  void scatter(const NodalVectors& load, const ForceVector& force) {
     chunk_sums.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
       for (Index B = begin; B < end; ++B) scatter_value(rows, B, at(load, B), f);
     });
@@ -54,7 +54,7 @@ struct BoundarySimplices {
   }
   /// Registers the reads of a step. Every rank reads all boundary particles. `first`: number of the
   /// first particle of the body.
-  void tell_reads(StepReads& reads, Index first) {
+  void list_reads(StepReads& reads, Index first) const {
     reads.particles(rows.particle, first);
     reads.rows(chunk_sums, first);
   }

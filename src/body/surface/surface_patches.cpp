@@ -17,13 +17,14 @@ SurfacePatches<D>::SurfacePatches(const Body<D>& body)
       patches_(static_cast<Index>(body.geometry.grid.facets.size())) {
   number_points(body.geometry);
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
-  chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
+  chunk_sums_ = body.chunk_sums(rows_.start, rows_.particle);
   list_shares();
   x_.assign(X_.size(), Lanes::zero());
   for (Index q = 0; q < point_count(); ++q) set_vector<D>(x_, q, at(X_, q));
   area_ = size_of_all(Size::area, x_);
   volume_ = size_of_all(Size::volume, x_);
   gradient_.assign(static_cast<std::size_t>(group_count()) * nodes * D, Lanes::zero());
+  moments_ = chunk_sums_.template tally<Eigen::Vector3d>();
 }
 
 template <int D>
@@ -131,17 +132,20 @@ Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
 }
 
 template <int D>
-bool SurfacePatches<D>::move_points(const NodalVector* u) {
-  const Division& division = chunk_sums_.division();
-  if (!division.has_some()) return false;
-  parallel_for(division.own_rows(point_count()), [&](Index q) { at(x_, q) = place_of(q, u); });
-  if (!division.is_whole()) division.complete_rows(point_count(), x_.data(), sizeof(NodalVector));
-  return true;
+void SurfacePatches<D>::place(const NodalVector* u) {
+  parallel_for(own_points(), [&](Index q) { at(x_, q) = place_of(q, u); });
 }
 
 template <int D>
-Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
-  if (!move_points(u)) return 0;
+Gathered SurfacePatches<D>::places() {
+  // If one rank has all points, nobody else needs them.
+  const Division& division = chunk_sums_.division();
+  return {x_.data(), (division.is_whole() ? Division::to_each() : division).rows(point_count())};
+}
+
+template <int D>
+Real SurfacePatches<D>::follow(Size size) {
+  if (!chunk_sums_.division().has_some()) return 0;
   return parallel_sum(group_count(), 0.0, [&](Index g) {
     return sum_of_patches(g,
                           group_size(size, corners(g, x_),
@@ -150,14 +154,13 @@ Real SurfacePatches<D>::follow(Size size, const NodalVector* u) {
 }
 
 template <int D>
-void SurfacePatches<D>::add_gradient(Real factor, std::span<NodalVector> force) {
+void SurfacePatches<D>::add_gradient(Real factor, const ForceVector& force) {
   add_to_particles(factor, gradient_, force);
 }
 
 template <int D>
 void SurfacePatches<D>::add_gradient_change(Size size, const NodalVector* u, const NodalVector* du,
-                                            const Dual<Real>& factor,
-                                            std::span<NodalVector> force) {
+                                            const Dual<Real>& factor, const ForceVector& force) {
   NodalVectors x(X_.size());
   place(u, x);
   const NodalVectors dx = values(du);
@@ -185,7 +188,7 @@ NodalVector SurfacePatches<D>::gradient_of_point(Index point,
 
 template <int D>
 void SurfacePatches<D>::add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
-                                         std::span<NodalVector> force) {
+                                         const ForceVector& force) {
   chunk_sums_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index q = begin; q < end; ++q) {
       const Lanes sum = gradient_of_point(q, gradient);

@@ -35,46 +35,51 @@ class SurfacePatches {
   Real reference(Size size) const { return size == Size::area ? area_ : volume_; }
   /// The area or volume at the displacement coefficients `u` of the body.
   Real measure(Size size, const NodalVector* u) const;
-  /// Like measure(), but also stores the gradient for add_gradient(). Each rank computes the
-  /// positions of a part of the points. Allocates nothing. Returns zero on a rank that has no rows
-  /// of the body.
-  Real follow(Size size, const NodalVector* u);
+  /// Moves this rank's points to `u`. All others have to be gathered (places()) before follow() and
+  /// follow_height().
+  void place(const NodalVector* u);
+  Gathered places();
+  /// Like measure(), at the places of the points; also stores the gradient for add_gradient().
+  /// Allocates nothing. Returns zero on a rank that has no rows of the body.
+  Real follow(Size size);
   /// force_A += factor d(size)/du_A for all particles of the body, with the gradient that the last
   /// follow() or follow_height() stored.
-  void add_gradient(Real factor, std::span<NodalVector> force);
+  void add_gradient(Real factor, const ForceVector& force);
 
   /// The area or volume at `u`, and its derivative in the direction `du`.
   Dual<Real> measure(Size size, const NodalVector* u, const NodalVector* du) const;
   /// force_A += derivative, in the direction `du`, of factor d(size)/du_A at `u`. Stores nothing.
   void add_gradient_change(Size size, const NodalVector* u, const NodalVector* du,
-                           const Dual<Real>& factor, std::span<NodalVector> force);
+                           const Dual<Real>& factor, const ForceVector& force);
 
   /// Height of the centroid of the enclosed volume along the unit vector `along`.
   Real height(const Vec<D>& along, const NodalVector* u) const;
-  /// Like height(), but also stores the gradient, as follow() does.
-  Real follow_height(const Vec<D>& along, const NodalVector* u);
+  /// Like height(), at the places of the points; also stores the gradient, as follow() does.
+  Real follow_height(const Vec<D>& along);
   /// force_A += factor times the derivative, in the direction `du`, of the gradient of the height
   /// at `u`. Stores nothing.
   void add_height_gradient_change(const Vec<D>& along, const NodalVector* u, const NodalVector* du,
-                                  Real factor, std::span<NodalVector> force);
+                                  Real factor, const ForceVector& force);
   /// Derivative, in the direction `du`, of the quantity that was followed last. All ranks call
   /// this; each reads `du` at its own points.
   Real followed_change(const NodalVector* du) const;
-  /// Sum of x cross g over the points, with their positions x and the stored gradient g of the
-  /// quantity that was followed last. All ranks call this.
-  Eigen::Vector3d followed_moment() const;
+  /// Sums of x cross g over the points of each chunk, with their positions x and the stored
+  /// gradient g of the quantity that was followed last; the result is to be gathered.
+  ChunkTally<Eigen::Vector3d>& followed_moments();
 
   /// force_A += factor sum_a N_A(X_a) g_a. Here g_a is the sum of `gradient` over the patches that
   /// contain point a; `gradient` is [group of four patches][a][i] with one lane per patch. Points
   /// with g_a = 0 are skipped.
   void add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
-                        std::span<NodalVector> force);
+                        const ForceVector& force);
 
-  /// Registers the particles that follow() and add_gradient() read and sum into: the particles of
-  /// this rank's own points. `first` is the number of the first particle of the body.
-  void tell_reads(StepReads& reads, Index first) { reads.rows(chunk_sums_, first); }
+  /// Registers the particles that place() reads and add_gradient() sums into: the particles of this
+  /// rank's own points. `first` is the number of the first particle of the body.
+  void list_reads(StepReads& reads, Index first) const { reads.rows(chunk_sums_, first); }
   /// Registers only the particles that add_to_particles() sums into.
-  void tell_sums(StepReads& reads, Index first) { reads.sums(chunk_sums_, first); }
+  void list_sums(StepReads& reads, Index first) const { reads.sums(chunk_sums_, first); }
+  /// The points of this rank.
+  ItemRange own_points() const { return chunk_sums_.own_rows(point_count()); }
 
   Index point_count() const { return static_cast<Index>(X_.size()); }
   Index patch_count() const { return patches_; }
@@ -126,9 +131,6 @@ class SurfacePatches {
   /// Integral of the height over the volume, measured from the first point.
   template <class T>
   T group_moment(const Vec<D>& along, const Corners<T>& place, T* gradient) const;
-  /// Computes the positions at `u` of this rank's points and gathers the positions of all others.
-  /// Returns false on a rank that has no rows of the body.
-  bool move_points(const NodalVector* u);
   /// Gradient with respect to a point, from `gradient` [group][a][i].
   NodalVector gradient_of_point(Index point, const AlignedVector<Lanes>& gradient) const;
   /// Sum of `size` over the patches of a group. The last group may have lanes without a patch.
@@ -147,6 +149,7 @@ class SurfacePatches {
   NodalVectors x_;
   AlignedVector<Lanes> gradient_;
   AlignedVector<Lanes> volume_gradient_;  // work space of follow_height(); empty before its first
+  ChunkTally<Eigen::Vector3d> moments_;
 };
 
 }  // namespace meniscus

@@ -50,8 +50,8 @@ Real SurfacePatches<D>::height(const Vec<D>& along, const NodalVector* u) const 
 }
 
 template <int D>
-Real SurfacePatches<D>::follow_height(const Vec<D>& along, const NodalVector* u) {
-  if (!move_points(u)) return 0;
+Real SurfacePatches<D>::follow_height(const Vec<D>& along) {
+  if (!chunk_sums_.division().has_some()) return 0;
   volume_gradient_.resize(gradient_.size());
   const auto all = parallel_sum(group_count(), VolumeAndMoment<Real>{0, 0}, [&](Index g) {
     const Corners<Lanes> of_group = corners(g, x_);
@@ -70,7 +70,7 @@ Real SurfacePatches<D>::follow_height(const Vec<D>& along, const NodalVector* u)
 template <int D>
 void SurfacePatches<D>::add_height_gradient_change(const Vec<D>& along, const NodalVector* u,
                                                    const NodalVector* du, Real factor,
-                                                   std::span<NodalVector> force) {
+                                                   const ForceVector& force) {
   NodalVectors x(X_.size());
   place(u, x);
   const NodalVectors dx = values(du);
@@ -106,20 +106,23 @@ Real SurfacePatches<D>::followed_change(const NodalVector* du) const {
 }
 
 template <int D>
-Eigen::Vector3d SurfacePatches<D>::followed_moment() const {
-  return chunk_sums_.division().sum(
-      point_count(), Eigen::Vector3d(Eigen::Vector3d::Zero()), [&](Index q) {
-        return Eigen::Vector3d(cross(spatial(at(x_, q)), spatial(gradient_of_point(q, gradient_))));
-      });
+ChunkTally<Eigen::Vector3d>& SurfacePatches<D>::followed_moments() {
+  chunk_sums_.for_own_chunks([&](int chunk, Index begin, Index end) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (Index q = begin; q < end; ++q)
+      sum += cross(spatial(at(x_, q)), spatial(gradient_of_point(q, gradient_)));
+    moments_[chunk] = sum;
+  });
+  return moments_;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                             \
-  template Real SurfacePatches<D>::height(const Vec<D>&, const NodalVector*) const;         \
-  template Real SurfacePatches<D>::follow_height(const Vec<D>&, const NodalVector*);        \
-  template void SurfacePatches<D>::add_height_gradient_change(                              \
-      const Vec<D>&, const NodalVector*, const NodalVector*, Real, std::span<NodalVector>); \
-  template Real SurfacePatches<D>::followed_change(const NodalVector*) const;               \
-  template Eigen::Vector3d SurfacePatches<D>::followed_moment() const;
+#define MENISCUS_INSTANTIATE(D)                                                         \
+  template Real SurfacePatches<D>::height(const Vec<D>&, const NodalVector*) const;     \
+  template Real SurfacePatches<D>::follow_height(const Vec<D>&);                        \
+  template void SurfacePatches<D>::add_height_gradient_change(                          \
+      const Vec<D>&, const NodalVector*, const NodalVector*, Real, const ForceVector&); \
+  template Real SurfacePatches<D>::followed_change(const NodalVector*) const;           \
+  template ChunkTally<Eigen::Vector3d>& SurfacePatches<D>::followed_moments();
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

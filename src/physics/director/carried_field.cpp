@@ -37,6 +37,7 @@ Real CarriedField::held_energy(const NodalVector* x) const {
 void CarriedField::held_force(const NodalVector* x, std::span<NodalVector> f) const {
   std::fill(f.begin(), f.end(), Lanes::zero());
   for (FieldEnergy* energy : energies_) energy->add_held_force(x, f);
+  gather(f);
 }
 
 void CarriedField::depart(std::span<const NodalVector> u) {

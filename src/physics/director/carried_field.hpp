@@ -18,8 +18,8 @@ class FieldEnergy {
   virtual void hold_places(const NodalVector* u) = 0;
   /// The energy E of the values x of the field.
   virtual Real held_energy(const NodalVector* x) const = 0;
-  /// f -= dE/dx.
-  virtual void add_held_force(const NodalVector* x, std::span<NodalVector> f) = 0;
+  /// f -= dE/dx, on the particles over which a process adds up the forces.
+  virtual void add_held_force(const NodalVector* x, const ForceVector& f) = 0;
 };
 
 /// A field of one body with c x' = f at fixed positions. A step of dt has three parts. The field is
@@ -44,6 +44,8 @@ class CarriedField {
   /// Transports x from the displacements `from` of the body to the displacements `to`.
   virtual void carry(const NodalVector* from, const NodalVector* to,
                      std::span<NodalVector> x) const = 0;
+  /// Gives the values x that a process has at its particles to all processes.
+  virtual void gather(std::span<NodalVector> x) const = 0;
   /// Adds the reaction of the field on the motion of the body, which follows from the forces on the
   /// field. `force` must contain all forces on the field. Does nothing if `force` has no fields.
   virtual void add_reaction(const Motion& motion, Forces force) = 0;

@@ -47,7 +47,7 @@ Director<D>::Director(const Body<D>& body, std::size_t number, const NematicBody
       numbers_(nematic.numbers),
       gradients_(
           build_point_rows<D>(body.particles, body.particles.X(), {.gradient = true}, body.name)),
-      chunk_sums_(gradients_.start, gradients_.particle, body.size(), body.division),
+      chunk_sums_(body.chunk_sums(gradients_.start, gradients_.particle)),
       volume_(nematic.volume) {
   for (const Vec<D>& h : nematic.director) initial_.push_back(spatial<D>(h));
 }
@@ -59,7 +59,7 @@ template <int D>
 void Director<D>::carry(const NodalVector* from, const NodalVector* to,
                         std::span<NodalVector> x) const {
   const Real lambda = numbers_.flow_alignment, nu2 = numbers_.dilatation_coupling;
-  parallel_for(body_.division.own_rows(body_.size()), [&](Index A) {
+  parallel_for(chunk_sums_.own_rows(body_.size()), [&](Index A) {
     const Tensor<Real> H0 = gradient_of(gradients_, A, from), H1 = gradient_of(gradients_, A, to);
     const Tensor<Real> change = (H1 - H0) * inverse_of(deformation_gradient(0.5 * (H0 + H1)));
     const Tensor<Real> half =
@@ -70,7 +70,12 @@ void Director<D>::carry(const NodalVector* from, const NodalVector* to,
     const Tensor<Real> one = Tensor<Real>::identity();
     at(x, A) = lanes_of(product(inverse_of(one - half), product(one + half, spatial(at(x, A)))));
   });
-  body_.division.complete_rows(body_.size(), x.data(), sizeof x[0]);
+  gather(x);
+}
+
+template <int D>
+void Director<D>::gather(std::span<NodalVector> x) const {
+  body_.gather(x);
 }
 
 template <int D>
@@ -80,24 +85,23 @@ void Director<D>::add_reaction(const Motion& motion, Forces force) {
   const auto x = part(std::span<const NodalVector>(at(motion.fields, number()).x));
   const auto forces_on_x = part(std::span<const NodalVector>(at(force.fields, number()).f));
   const Real lambda = numbers_.flow_alignment, nu2 = numbers_.dilatation_coupling;
-  chunk_sums_.accumulate(
-      body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end, NodalVector* f) {
-        for (Index A = begin; A < end; ++A) {
-          const Eigen::Vector3d h = spatial(at(x, A)), S = -spatial(at(forces_on_x, A));
-          const Tensor<Real> F = deformation_gradient(gradient_of(gradients_, A, u));
-          const Tensor<Real> Y =
-              add_diagonal(Tensor<Real>::map([&](int i, int j) {
-                             return 0.5 * ((lambda - 1) * h[i] * S[j] + (lambda + 1) * S[i] * h[j]);
-                           }),
-                           -nu2 * S.dot(h));
-          const Tensor<Real> P = (1 / determinant(F)) * (Y * cofactor(F));
-          std::array<Lanes, D> column;
-          for (int K = 0; K < D; ++K) at(column, K) = Lanes(P(0, K), P(1, K), P(2, K), 0);
-          for (Offset e = at(gradients_.start, A); e < at(gradients_.start, A + 1); ++e)
-            for (int K = 0; K < D; ++K)
-              f[at(gradients_.particle, e)] -= at(gradients_.gradient, e * D + K) * at(column, K);
-        }
-      });
+  chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+    for (Index A = begin; A < end; ++A) {
+      const Eigen::Vector3d h = spatial(at(x, A)), S = -spatial(at(forces_on_x, A));
+      const Tensor<Real> F = deformation_gradient(gradient_of(gradients_, A, u));
+      const Tensor<Real> Y =
+          add_diagonal(Tensor<Real>::map([&](int i, int j) {
+                         return 0.5 * ((lambda - 1) * h[i] * S[j] + (lambda + 1) * S[i] * h[j]);
+                       }),
+                       -nu2 * S.dot(h));
+      const Tensor<Real> P = (1 / determinant(F)) * (Y * cofactor(F));
+      std::array<Lanes, D> column;
+      for (int K = 0; K < D; ++K) at(column, K) = Lanes(P(0, K), P(1, K), P(2, K), 0);
+      for (Offset e = at(gradients_.start, A); e < at(gradients_.start, A + 1); ++e)
+        for (int K = 0; K < D; ++K)
+          f[at(gradients_.particle, e)] -= at(gradients_.gradient, e * D + K) * at(column, K);
+    }
+  });
 }
 
 template <int D>

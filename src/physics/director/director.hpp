@@ -21,6 +21,7 @@ class Director final : public CarriedField {
 
   void carry(const NodalVector* from, const NodalVector* to,
              std::span<NodalVector> x) const override;
+  void gather(std::span<NodalVector> x) const override;
   void add_reaction(const Motion& motion, Forces force) override;
   std::size_t bytes() const override;
 

@@ -4,7 +4,6 @@
 
 #include "kernel/monomials.hpp"
 #include "kernel/row_sums.hpp"
-#include "parallel/divided.hpp"
 
 #include <fmt/core.h>
 
@@ -18,8 +17,8 @@ FrankEnergy<D>::FrankEnergy(const Body<D>& body, std::size_t field, const Nemati
       numbers_(numbers),
       length_stiffness_(numbers.frank_constant / (numbers.core_length * numbers.core_length)),
       rule_(std::move(rule)),
-      cell_sums_(rule_.chunk_sums(body.size(), body.division)),
-      value_sums_(body.at_particles.start, body.at_particles.particle, body.size(), body.division),
+      cell_sums_(rule_.chunk_sums(body)),
+      value_sums_(body.chunk_sums(body.at_particles.start, body.at_particles.particle)),
       metric_(static_cast<std::size_t>(rule_.groups())),
       volume_(metric_.size()) {}
 
@@ -52,8 +51,7 @@ template <int D>
 Report FrankEnergy<D>::add_force(const Motion& motion, Forces force) {
   const NodalVector *u = motion.u.data() + body_.first, *h = director(motion);
   const Real K = numbers_.frank_constant;
-  cell_sums_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int, Index begin, Index end,
-                                                                       NodalVector* f) {
+  cell_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
     for (Index P = begin; P < end; ++P) {
       Tensor<Lanes> H, slope;
       rule_.gather(P, u, H);
@@ -70,15 +68,14 @@ Report FrankEnergy<D>::add_force(const Motion& motion, Forces force) {
       at(volume_, P) = sum(w * J);
     }
   });
-  if (!force.fields.empty())
-    add_held_force(h, body_.part(std::span<NodalVector>(at(force.fields, field_).f)));
+  if (!force.fields.empty()) add_held_force(h, body_.part(force.of_field(field_)));
   return {};
 }
 
 template <int D>
 std::optional<Real> FrankEnergy<D>::stored_energy(const Motion& motion) const {
   const NodalVector *u = motion.u.data() + body_.first, *h = director(motion);
-  return body_.division.sum(rule_.groups(), 0.0, [&](Index P) {
+  return body_.sum_over_rows(rule_.groups(), 0.0, [&](Index P) {
     Tensor<Lanes> H, slope;
     rule_.gather(P, u, H);
     rule_.gather(P, h, slope);
@@ -92,8 +89,7 @@ std::optional<Real> FrankEnergy<D>::stored_energy(const Motion& motion) const {
 
 template <int D>
 void FrankEnergy<D>::hold_places(const NodalVector* u) {
-  const OwnItems own = body_.division.own_rows(rule_.groups());
-  parallel_for(own, [&](Index P) {
+  parallel_for(cell_sums_.own_rows(rule_.groups()), [&](Index P) {
     Tensor<Lanes> H;
     rule_.gather(P, u, H);
     const Lanes J = 1.0 + volume_change(H);
@@ -118,7 +114,7 @@ Tensor<Lanes> weighted(const Tensor<Lanes>& x, const Metric& M) {
 
 template <int D>
 Real FrankEnergy<D>::held_energy(const NodalVector* x) const {
-  return body_.division.sum(rule_.groups(), 0.0, [&](Index P) {
+  return body_.sum_over_rows(rule_.groups(), 0.0, [&](Index P) {
     Tensor<Lanes> slope;
     rule_.gather(P, x, slope);
     const Real r = excess(P, x);
@@ -129,7 +125,7 @@ Real FrankEnergy<D>::held_energy(const NodalVector* x) const {
 }
 
 template <int D>
-void FrankEnergy<D>::add_held_force(const NodalVector* x, std::span<NodalVector> f) {
+void FrankEnergy<D>::add_held_force(const NodalVector* x, const ForceVector& f) {
   const Lanes minus_K = -numbers_.frank_constant;
   cell_sums_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
     for (Index P = begin; P < end; ++P) {

@@ -32,7 +32,7 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
 
   void hold_places(const NodalVector* u) override;
   Real held_energy(const NodalVector* x) const override;
-  void add_held_force(const NodalVector* x, std::span<NodalVector> f) override;
+  void add_held_force(const NodalVector* x, const ForceVector& f) override;
 
  private:
   /// w J F^-1 F^-T at four quadrature points, one per lane: the metric of |grad h|^2.
@@ -49,7 +49,7 @@ class FrankEnergy final : public ForceTerm, public FieldEnergy {
   Real length_stiffness_;  // K/eps^2
   CellRule<D> rule_;
   ChunkSums cell_sums_, value_sums_;
-  // For the positions set by hold_places() and the cells whose rows this rank has:
+  // For the positions set by hold_places() and the cells whose rows this process has:
   AlignedVector<Metric> metric_;  // [cell]
   std::vector<Real> volume_;      // [cell]
 };

@@ -13,9 +13,9 @@ class CoefficientDamping final : public ForceTerm {
  public:
   CoefficientDamping(const Body<D>& body, std::span<const Real> viscosity, Real strength)
       : body_(body),
-        chunk_sums_(body.at_particles.start, body.at_particles.particle, body.size(),
-                    body.division),
-        said_(chunk_sums_),
+        chunk_sums_(body.chunk_sums(body.at_particles.start, body.at_particles.particle)),
+        of_chunks_(chunk_sums_.tally<ChunkReport>()),
+        rotations_(chunk_sums_.tally<Rotation>()),
         slip_(static_cast<std::size_t>(body.size())),
         offset_(slip_) {
     const Real h = mean_spacing(body.geometry.grid);
@@ -28,50 +28,37 @@ class CoefficientDamping final : public ForceTerm {
   std::optional<Real> potential(const Motion&) override { return 0; }
 
   void add_viscous(const Motion& motion, Forces force) override {
-    force.leave_chunks = true;  // the heat is not used
-    add_force(motion, force);
+    subtract_places(motion);
+    force.gather({rotations_.gathered_where_rows_are()}, motion,
+                 [this](const Motion&, const Forces& all) {
+                   add_damping(all);
+                   return Report();
+                 });
   }
-  void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
-    const auto own = body_.part(diagonal);
-    chunk_sums_.accumulate(own, [&](int, Index begin, Index end, NodalVector* sum) {
-      const PointRows<D>& rows = body_.at_particles;
-      for (Index A = begin; A < end; ++A)
-        for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
-          const Index B = at(rows.particle, k);
-          const Real e = (A == B ? 1 : 0) - at(rows.value, k);
-          sum[B] += at(rate_, A) * e * e;
-        }
-    });
+  void add_viscous_diagonal(Forces diagonal) override {
+    chunk_sums_.accumulate(body_.part(diagonal),
+                           [&](int, Index begin, Index end, NodalVector* sum) {
+                             const PointRows<D>& rows = body_.at_particles;
+                             for (Index A = begin; A < end; ++A)
+                               for (Offset k = at(rows.start, A); k < at(rows.start, A + 1); ++k) {
+                                 const Index B = at(rows.particle, k);
+                                 const Real e = (A == B ? 1 : 0) - at(rows.value, k);
+                                 sum[B] += at(rate_, A) * e * e;
+                               }
+                           });
   }
 
   Report add_force(const Motion& motion, Forces force) override {
-    const Rotation sums = subtract_places(motion);
-    const Eigen::Vector3d w = sums.rate();
-    const auto own = body_.part(std::span<NodalVector>(force));
-    chunk_sums_.accumulate(own, [&](int chunk, Index begin, Index end, NodalVector* f) {
-      Real heat = 0;
-      for (Index A = begin; A < end; ++A) {
-        const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
-        const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0);
-        at(slip_, A) = at(rate_, A) * s;
-        heat += at(rate_, A) * sum(s * s);
-        scatter_value(body_.at_particles, A, at(slip_, A), f);
-      }
-      said_[chunk].heat = heat;
-    });
-    if (is_entered(halo_))
-      slips_->bring(slip_.data(), slip_.data(), sizeof(Lanes));
-    else
-      body_.division.complete_rows(body_.size(), slip_.data(), sizeof(Lanes));
-    for (Index A = 0; A < body_.size(); ++A) at(own, A) -= at(slip_, A);
-    return report_of(said_, motion, force);
+    subtract_places(motion);
+    return force.gather({rotations_.gathered_where_rows_are()}, motion,
+                        [this](const Motion& at_motion, const Forces& all) {
+                          add_damping(all);
+                          return report_of(of_chunks_, at_motion, all);
+                        });
   }
 
-  bool tell_reads(StepReads& reads) override {
-    const OwnItems own = body_.division.own_rows(body_.size());
-    reads.particles(body_.at_particles.of_rows(own.begin, own.end), body_.first);
+  bool reads(StepReads& reads) override {
     reads.rows(chunk_sums_, body_.first);
-    reads.when_shared([this](const auto& halo) { keep_to(halo); });
     return true;
   }
 
@@ -82,16 +69,6 @@ class CoefficientDamping final : public ForceTerm {
   Offset pairs() const override { return chunk_sums_.pairs(); }
 
  private:
-  void keep_to(const std::shared_ptr<const Halo>& halo) {
-    halo_ = halo;
-    const OwnItems rows = body_.division.own_rows(body_.size());
-    std::vector<Leaf> leaves;
-    for (Index A = 0; A < body_.size(); ++A)
-      if (halo->follows(body_.first + A) && (A < rows.begin || A >= rows.end))
-        leaves.push_back({A, body_.division.rank_of_row(body_.size(), A), A});
-    slips_ = ranks().exchange(body_.size(), leaves);
-  }
-
   /// Sums of c (|e|^2 I - e e) and c e x d with d = (I - N) v and e = (I - N) x.
   struct Rotation {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
@@ -108,28 +85,52 @@ class CoefficientDamping final : public ForceTerm {
     }
   };
 
-  /// Sets slip_ to d and offset_ to e. Positions are reproduced, so (I - N) x = (I - N) u.
-  Rotation subtract_places(const Motion& motion) {
+  /// Sets slip_ to d and offset_ to e, and sums them. Positions are reproduced, so (I - N) x = (I -
+  /// N) u.
+  void subtract_places(const Motion& motion) {
     const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
-    return body_.division.sum_where_rows_are(body_.size(), Rotation{}, [&](Index A) {
+    chunk_sums_.for_own_chunks([&](int chunk, Index begin, Index end) {
       const PointRows<D>& rows = body_.at_particles;
-      const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
-      at(slip_, A) = d;
-      at(offset_, A) = e;
-      const Eigen::Vector3d x = spatial(e);
-      const Real c = at(rate_, A);
-      return Rotation{c * (x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose()),
-                      c * cross(x, spatial(d))};
+      Rotation sum;
+      for (Index A = begin; A < end; ++A) {
+        const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
+        at(slip_, A) = d;
+        at(offset_, A) = e;
+        const Eigen::Vector3d x = spatial(e);
+        const Real c = at(rate_, A);
+        sum =
+            sum + Rotation{c * (x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose()),
+                           c * cross(x, spatial(d))};
+      }
+      rotations_[chunk] = sum;
     });
+  }
+
+  /// Adds the forces -c s at the particles and +c s at the coefficients, with the slip s = d - w x
+  /// e.
+  void add_damping(Forces force) {
+    const Eigen::Vector3d w = rotations_.sum(Rotation{}).rate();
+    chunk_sums_.accumulate(
+        body_.part(force), [&](int chunk, Index begin, Index end, NodalVector* f) {
+          Real heat = 0;
+          for (Index A = begin; A < end; ++A) {
+            const Eigen::Vector3d turned = cross(w, spatial(at(offset_, A)));
+            const Lanes s = at(slip_, A) - Lanes(turned[0], turned[1], turned[2], 0.0),
+                        pull = at(rate_, A) * s;
+            heat += at(rate_, A) * sum(s * s);
+            scatter_value(body_.at_particles, A, pull, f);
+            f[A] -= pull;
+          }
+          of_chunks_[chunk].heat = heat;
+        });
   }
 
   const Body<D>& body_;
   ChunkSums chunk_sums_;
-  ChunkReports said_;
+  ChunkReports of_chunks_;
+  ChunkTally<Rotation> rotations_;
   std::vector<Real> rate_;  // c, [particle]
   NodalVectors slip_, offset_;
-  std::shared_ptr<const Halo> halo_;
-  std::unique_ptr<Exchange> slips_;  // sends slips of ghost particles
 };
 
 }  // namespace

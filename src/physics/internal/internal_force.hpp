@@ -26,13 +26,44 @@ class InternalForce final : public StressPointForce<D, Rule> {
   }
 
   Report add_force(const Motion& motion, Forces force) override {
+    if constexpr (EnclosedLaw<L>) {
+      if (this->has_surface())
+        return force.gather({this->place_surface(motion.u.data() + this->body().first)}, motion,
+                            [this](const Motion& at_motion, const Forces& all) {
+                              return add_rows(this->follow_enclosed(), at_motion, all);
+                            });
+      return add_rows(0, motion, force);
+    } else {
+      return add_rows(0, motion, force);
+    }
+  }
+
+  void add_viscous([[maybe_unused]] const Motion& motion, [[maybe_unused]] Forces force) override {
+    if constexpr (L::viscous) {
+      const auto& laws = static_cast<const PointLawsOf<L>&>(this->laws());
+      const Rule& rule = this->rule();
+      const NodalVector* v = motion.v.data() + this->body().first;
+      this->accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
+        for (Index g = begin; g < end; ++g) {
+          Tensor<Lanes> F_rate;
+          rule.gather(g, v, F_rate);
+          const auto& law = laws.at(g, motion.time);
+          rule.scatter(g, -rule.weight(g) * law.viscous_stress(this->kept()[g], F_rate), f);
+        }
+      });
+    }
+  }
+
+ private:
+  /// Adds the forces of all rows. `enclosed`: J_e - 1 of the surface, for an EnclosedLaw.
+  Report add_rows([[maybe_unused]] Real enclosed, const Motion& motion, Forces force) {
     auto& laws = static_cast<PointLawsOf<L>&>(this->laws());
     const Rule& rule = this->rule();
     const NodalVector* u = motion.u.data() + this->body().first;
     [[maybe_unused]] const NodalVector* v = motion.v.data() + this->body().first;
-    if constexpr (EnclosedLaw<L>) laws.enclose(this->follow_enclosed(u));
-    PerChunk<Real> pull(EnclosedLaw<L> ? this->chunks() : 0, 0);
-    ChunkReports& said = this->said();
+    if constexpr (EnclosedLaw<L>) laws.enclose(enclosed);
+    ChunkReports& of_chunks = this->of_chunks();
+    ChunkTally<Real>& pulls = this->pulls();
     this->accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
       Lanes::Mask folded{};
       [[maybe_unused]] KeptDeformations kept(this->kept());
@@ -60,29 +91,20 @@ class InternalForce final : public StressPointForce<D, Rule> {
         rule.scatter(g, -w * P, f);
       }
       // `work` is the power that changes the parameters of the law.
-      said[chunk] = {sum(heat), sum(work), sum(stored)};
+      of_chunks[chunk] = {sum(heat), sum(work), sum(stored)};
       if (folded[0] | folded[1] | folded[2] | folded[3])
-        said[chunk].failed = this->first_folded(begin, end, u);
-      if constexpr (EnclosedLaw<L>) at(pull, chunk) = sum(on_enclosed);
+        of_chunks[chunk].failed = this->first_folded(begin, end, u);
+      if constexpr (EnclosedLaw<L>)
+        if (this->has_surface()) pulls[chunk] = sum(on_enclosed);
     });
-    if constexpr (EnclosedLaw<L>) this->pull_on_surface(this->sum_of_chunks(pull), force);
-    return this->report_of(said, motion, force);
-  }
-
-  void add_viscous([[maybe_unused]] const Motion& motion, [[maybe_unused]] Forces force) override {
-    if constexpr (L::viscous) {
-      const auto& laws = static_cast<const PointLawsOf<L>&>(this->laws());
-      const Rule& rule = this->rule();
-      const NodalVector* v = motion.v.data() + this->body().first;
-      this->accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
-        for (Index g = begin; g < end; ++g) {
-          Tensor<Lanes> F_rate;
-          rule.gather(g, v, F_rate);
-          const auto& law = laws.at(g, motion.time);
-          rule.scatter(g, -rule.weight(g) * law.viscous_stress(this->kept()[g], F_rate), f);
-        }
-      });
-    }
+    if constexpr (EnclosedLaw<L>)
+      if (this->has_surface())
+        return force.gather({of_chunks.gathered(), pulls.gathered_where_rows_are()}, motion,
+                            [this](const Motion& at_motion, const Forces& all) {
+                              this->pull_on_surface(this->pulls().sum(0.0), all);
+                              return this->sum_of(this->of_chunks(), at_motion, all);
+                            });
+    return this->report_of(of_chunks, motion, force);
   }
 };
 

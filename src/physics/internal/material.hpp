@@ -123,9 +123,9 @@ class MaterialOf final : public Material<D> {
   bool same_numbers() const { return laws_.size() == 1 && laws_.front().uniform(); }
   bool uniform() const { return same_numbers() && (!director_ || director_->uniform()); }
   using Share = std::span<const Real>;  // [region] of a place
-  using Shares = std::vector<Share>;    // [place]; empty for a body of one material
-  Shares shares_of_nodes(const Body<D>& body) const {
-    Shares shares;
+  using Portions = std::vector<Share>;  // [place]; empty for a body of one material
+  Portions shares_of_nodes(const Body<D>& body) const {
+    Portions shares;
     for (Index A = 0; laws_.size() > 1 && A < body.size(); ++A)
       shares.push_back(mesh_regions(body.geometry)->at_node(A));
     return shares;
@@ -158,7 +158,7 @@ class MaterialOf final : public Material<D> {
   }
 
   /// One law for all groups of stress points if the material is uniform, else one law for each.
-  std::vector<L> laws_at(const std::vector<Vec<D>>& places, const Shares& shares,
+  std::vector<L> laws_at(const std::vector<Vec<D>>& places, const Portions& shares,
                          const Geometry<D>& geometry) const {
     std::vector<L> laws;
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -195,7 +195,7 @@ class MaterialOf final : public Material<D> {
                                                        const Integration& integration) const {
     std::vector<Real> density, viscosity;
     Real least = unbounded, most = 0;
-    const Shares shares = shares_of_nodes(body);
+    const Portions shares = shares_of_nodes(body);
     for (Index A = 0; A < body.size(); ++A) {
       const L law =
           same_numbers()

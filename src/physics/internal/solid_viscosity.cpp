@@ -14,15 +14,15 @@ class SolidViscosity final : public ForceTerm {
   SolidViscosity(const Body<D>& body, Real shear, Real volumetric)
       : body_(body),
         rule_(build_cell_rule(body).rule),
-        chunk_sums_(rule_.chunk_sums(body.size(), body.division)),
-        said_(chunk_sums_),
-        own_(body.division.own_rows(rule_.groups())),
+        chunk_sums_(rule_.chunk_sums(body)),
+        of_chunks_(chunk_sums_.tally<ChunkReport>()),
+        own_(chunk_sums_.own_rows(rule_.groups())),
         shear_(shear),
         volumetric_(volumetric) {}
 
   std::string name() const override { return "viscosity of '" + body_.name + "'"; }
   bool viscous() const override { return true; }
-  bool tell_reads(StepReads& reads) override {
+  bool reads(StepReads& reads) override {
     reads.rows(chunk_sums_, body_.first);
     return true;
   }
@@ -30,7 +30,7 @@ class SolidViscosity final : public ForceTerm {
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector* u = motion.u.data() + body_.first;
     const NodalVector* v = motion.v.data() + body_.first;
-    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)),
+    chunk_sums_.accumulate(body_.part(force),
                            [&](int chunk, Index begin, Index end, NodalVector* f) {
                              Lanes power = Lanes::zero();
                              KeptDeformations kept(this->kept());
@@ -44,9 +44,9 @@ class SolidViscosity final : public ForceTerm {
                                power += w * contract(P, F_rate);
                                rule_.scatter(g, -w * P, f);
                              }
-                             said_[chunk].heat = sum(power);
+                             of_chunks_[chunk].heat = sum(power);
                            });
-    return report_of(said_, motion, force);
+    return report_of(of_chunks_, motion, force);
   }
 
   void expect_viscous_calls() override {
@@ -54,18 +54,17 @@ class SolidViscosity final : public ForceTerm {
   }
   void add_viscous(const Motion& motion, Forces force) override {
     const NodalVector* v = motion.v.data() + body_.first;
-    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)),
-                           [&](int, Index begin, Index end, NodalVector* f) {
-                             for (Index g = begin; g < end; ++g) {
-                               Tensor<Lanes> F_rate;
-                               rule_.gather(g, v, F_rate);
-                               rule_.scatter(g, -rule_.weight(g) * stress(kept()[g], F_rate), f);
-                             }
-                           });
+    chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+      for (Index g = begin; g < end; ++g) {
+        Tensor<Lanes> F_rate;
+        rule_.gather(g, v, F_rate);
+        rule_.scatter(g, -rule_.weight(g) * stress(kept()[g], F_rate), f);
+      }
+    });
   }
   /// The diagonal for component i: mu |F_i|^2 delta_KL + (mu + lambda) F_iK F_iL with the rows F_i
   /// of F.
-  void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
+  void add_viscous_diagonal(Forces diagonal) override {
     chunk_sums_.accumulate(
         body_.part(diagonal), [&](int, Index begin, Index end, NodalVector* sum) {
           for (Index g = begin; g < end; ++g) {
@@ -90,7 +89,7 @@ class SolidViscosity final : public ForceTerm {
   Offset pairs() const override { return chunk_sums_.pairs(); }
 
  private:
-  /// H of each group of this rank, indexed by the group; null if not kept.
+  /// H of each group of this process, indexed by the group; null if not kept.
   Tensor<Lanes>* kept() { return kept_.empty() ? nullptr : kept_.data() - own_.begin; }
   Tensor<Lanes> stress(const Tensor<Lanes>& H, const Tensor<Lanes>& F_rate) const {
     const Tensor<Lanes> F = add_diagonal(H, Lanes(1.0));
@@ -102,8 +101,8 @@ class SolidViscosity final : public ForceTerm {
   const Body<D>& body_;
   CellRule<D> rule_;
   ChunkSums chunk_sums_;
-  ChunkReports said_;
-  OwnItems own_;  // groups whose rows this rank has
+  ChunkReports of_chunks_;
+  ItemRange own_;  // groups whose rows this process has
   Lanes shear_, volumetric_;
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group] H
 };

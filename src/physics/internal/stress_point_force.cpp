@@ -32,7 +32,6 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
   Dual<Real> enclosed(0.0);
   if (surface_)
     enclosed = surface_->measure(Size::volume, u, du) / surface_->reference(Size::volume) - 1.0;
-  PerChunk<Dual<Real>> pull(chunks(), 0.0);
   accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
     DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
     Dual<Lanes> sum_of_pulls(0.0);
@@ -44,16 +43,21 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
       rule_.scatter(g, -w * stress.P, f);
       sum_of_pulls += w * stress.pull_on_enclosed;
     }
-    at(pull, chunk) = sum(sum_of_pulls);
+    if (surface_) pull_changes_[chunk] = sum(sum_of_pulls);
   });
   if (!surface_) return;
-  const Dual<Real> slope = sum_of_chunks(pull);
-  surface_->add_gradient_change(Size::volume, u, du, -slope / surface_->reference(Size::volume),
-                                body_.part(std::span<NodalVector>(force)));
+  force.gather({pull_changes_.gathered_where_rows_are()}, motion,
+               [this, u, du](const Motion&, const Forces& all) {
+                 const Dual<Real> slope = pull_changes_.sum(Dual<Real>(0.0));
+                 surface_->add_gradient_change(Size::volume, u, du,
+                                               -slope / surface_->reference(Size::volume),
+                                               body_.part(all));
+                 return Report();
+               });
 }
 
 template <int D, class Rule>
-void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diagonal) {
+void StressPointForce<D, Rule>::add_viscous_diagonal(Forces diagonal) {
   if (!keeps_) return;
   accumulate(diagonal, [&](int, Index begin, Index end, NodalVector* sum) {
     for (Index g = begin; g < end; ++g) {
@@ -68,7 +72,7 @@ void StressPointForce<D, Rule>::add_viscous_diagonal(std::span<NodalVector> diag
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  return body_.division.sum(rule_.groups(), 0.0, [&](Index g) {
+  return body_.sum_over_rows(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws.energy_density(g, motion.time, gradients(g, u)));
   });
 }
@@ -83,7 +87,7 @@ std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motio
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  const Real force = body_.division.sum(rule_.groups(), 0.0, [&](Index g) {
+  const Real force = body_.sum_over_rows(rule_.groups(), 0.0, [&](Index g) {
     return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
   });
   return force / spacing_;
@@ -102,8 +106,8 @@ Index StressPointForce<D, Rule>::first_folded(Index begin, Index end, const Noda
 template <int D, class Rule>
 std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
                                                              const Motion& motion) const {
-  Tensor<Lanes> H = gradients(group, motion.u.data() + body_.first);
-  ranks().hand_out(body_.division.rank_of_row(rule_.groups(), group), &H, sizeof H);
+  if (group < own_.begin || group >= own_.end) return {};
+  const Tensor<Lanes> H = gradients(group, motion.u.data() + body_.first);
   int lane = 0;
   while (lane + 1 < rule_.points_per_group() && 1 + volume_change(lane_of(H, lane)) > 0) ++lane;
   const Tensor<Real> F = deformation_gradient(lane_of(H, lane));
@@ -119,12 +123,6 @@ std::optional<Failure> StressPointForce<D, Rule>::failure_of(Index group,
 template <int D, class Rule>
 std::optional<std::string> StressPointForce<D, Rule>::warning(const Motion& motion) const {
   if (!laws_->warns()) return {};
-  const std::string said = ranks().first_said(own_warning(motion));
-  return said.empty() ? std::nullopt : std::optional(said);
-}
-
-template <int D, class Rule>
-std::string StressPointForce<D, Rule>::own_warning(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
   for (Index g = own_.begin; g < own_.end; ++g) {
     const Tensor<Lanes> H = gradients(g, u);
@@ -142,7 +140,7 @@ template <int D, class Rule>
 void StressPointForce<D, Rule>::visit(const Motion& motion,
                                       const std::function<void(const StressPoint&)>& f) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  body_.division.for_all_in_order(
+  body_.for_rows_in_order(
       rule_.groups(), [&](Index g) { return gradients(g, u); },
       [&](Index g, const Tensor<Lanes>& H) {
         const Tensor<Lanes> P = laws_->stress(g, motion.time, H);

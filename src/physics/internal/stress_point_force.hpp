@@ -6,7 +6,6 @@
 #include "body/grid/stress_rules.hpp"
 #include "body/surface/surface_patches.hpp"
 #include "meniscus/physics/force_term.hpp"
-#include "parallel/divided.hpp"
 #include "physics/internal/point_laws.hpp"
 #include "physics/internal/stress_output.hpp"
 
@@ -47,10 +46,10 @@ class StressPointForce : public ForceTerm {
     return rule_.bytes() + chunk_sums_.bytes() + laws_->bytes() +
            (surface_ ? surface_->bytes() : 0) + kept_.size() * sizeof(Tensor<Lanes>);
   }
-  void add_viscous_diagonal(std::span<NodalVector> diagonal) final;
-  bool tell_reads(StepReads& reads) final {
+  void add_viscous_diagonal(Forces diagonal) final;
+  bool reads(StepReads& reads) final {
     reads.rows(chunk_sums_, body_.first);
-    if (surface_) surface_->tell_reads(reads, body_.first);
+    if (surface_) surface_->list_reads(reads, body_.first);
     return true;
   }
   std::optional<Failure> failure_of(Index group, const Motion& motion) const final;
@@ -61,46 +60,48 @@ class StressPointForce : public ForceTerm {
                    std::unique_ptr<SurfacePatches<D>> surface)
       : body_(body),
         rule_(std::move(rule)),
-        chunk_sums_(rule_.chunk_sums(body.size(), body.division)),
-        said_(chunk_sums_),
-        own_(body.division.own_rows(rule_.groups())),
+        chunk_sums_(rule_.chunk_sums(body)),
+        of_chunks_(chunk_sums_.tally<ChunkReport>()),
+        own_(chunk_sums_.own_rows(rule_.groups())),
         laws_(std::move(laws)),
         surface_(std::move(surface)),
-        spacing_(mean_spacing(body.geometry.grid)) {}
+        spacing_(mean_spacing(body.geometry.grid)) {
+    if (!surface_) return;
+    pulls_ = chunk_sums_.tally<Real>();
+    pull_changes_ = chunk_sums_.tally<Dual<Real>>();
+  }
 
   const Body<D>& body() const { return body_; }
   const Rule& rule() const { return rule_; }
   PointLaws& laws() { return *laws_; }
   int chunks() const { return chunk_sums_.chunks(); }
-  ChunkReports& said() { return said_; }
+  ChunkReports& of_chunks() { return of_chunks_; }
   /// Adds the forces on the particles of this body to `all`; see ChunkSums::accumulate().
   template <class F>
-  void accumulate(std::span<NodalVector> all, F&& work) {
+  void accumulate(const ForceVector& all, F&& work) {
     chunk_sums_.accumulate(body_.part(all), work);
   }
-  /// Sum of `left` [chunk] over the chunks of all ranks that have rows of this body.
-  template <class T>
-  T sum_of_chunks(PerChunk<T>& left) const {
-    body_.division.complete_where_rows_are(chunks(), left.begin(), sizeof(T));
-    T sum(0.0);
-    for (const T& of_chunk : left) sum += of_chunk;
-    return sum;
+  /// The pulls of chunks on the enclosed volume.
+  ChunkTally<Real>& pulls() { return pulls_; }
+  bool has_surface() const { return surface_ != nullptr; }
+  /// Moves the points of the surface that belong to this process to the displacements `u` of the
+  /// body; the result is to be gathered.
+  Gathered place_surface(const NodalVector* u) {
+    surface_->place(u);
+    return surface_->places();
   }
-
-  /// J_e - 1 of the surface at the displacements `u` of the body; stores its gradient for
-  /// pull_on_surface(). Zero without a surface.
-  Real follow_enclosed(const NodalVector* u) {
-    return surface_ ? surface_->follow(Size::volume, u) / surface_->reference(Size::volume) - 1 : 0;
+  /// J_e - 1 of the placed surface; stores its gradient for pull_on_surface().
+  Real follow_enclosed() {
+    return surface_->follow(Size::volume) / surface_->reference(Size::volume) - 1;
   }
   /// Adds the forces -slope dJ_e/du of an energy E(J_e) to the particles of the body. J_e is the
   /// volume inside the surface patches divided by its reference value, and `slope` is dE/dJ_e. Uses
-  /// the gradient of the last follow_enclosed(). Does nothing without patches.
-  void pull_on_surface(Real slope, std::span<NodalVector> all) {
-    if (surface_)
-      surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
+  /// the gradient of the last follow_enclosed().
+  void pull_on_surface(Real slope, const ForceVector& all) {
+    surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
 
-  /// From now on add_force() stores H of the groups of this rank in kept()[group].
+  /// From now on add_force() stores H of the groups of this process in kept()[group].
   void keep_deformations() {
     keeps_ = true;
     kept_.resize(static_cast<std::size_t>(own_.end - own_.begin));
@@ -120,19 +121,19 @@ class StressPointForce : public ForceTerm {
   Tensor<Dual<Lanes>> gradients(Index group, const NodalVector* u, const NodalVector* du) const {
     return dual(gradients(group, u), gradients(group, du));
   }
-  /// The warning of this rank's groups of stress points; empty if there is none.
-  std::string own_warning(const Motion& motion) const;
   void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
   VisitStressPoints visitor() const;
 
   const Body<D>& body_;
   Rule rule_;
   ChunkSums chunk_sums_;
-  ChunkReports said_;
-  OwnItems own_;  // groups whose rows this rank has
+  ChunkReports of_chunks_;
+  ItemRange own_;  // groups whose rows this process has
   std::unique_ptr<PointLaws> laws_;
   std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
   Real spacing_;
+  ChunkTally<Real> pulls_;  // empty without a surface
+  ChunkTally<Dual<Real>> pull_changes_;
   bool keeps_ = false;
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group]
 };

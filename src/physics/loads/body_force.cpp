@@ -3,7 +3,6 @@
 #include "physics/loads/body_force.hpp"
 
 #include "numbers/dense.hpp"
-#include "parallel/divided.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -16,7 +15,11 @@ class BodyForce final : public ForceTerm {
  public:
   BodyForce(const Body<D>& body, const std::vector<Real>& mass,
             std::vector<Expression> acceleration)
-      : body_(body), mass_(mass), acceleration_(std::move(acceleration)), load_(mass.size()) {
+      : body_(body),
+        mass_(mass),
+        acceleration_(std::move(acceleration)),
+        load_(mass.size()),
+        outside_(body.template tally<Resultant>()) {
     for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
   }
 
@@ -25,17 +28,24 @@ class BodyForce final : public ForceTerm {
   Report add_force(const Motion& motion, Forces force) override {
     evaluate(motion.time);
     for (Index A = 0; A < body_.size(); ++A) at(force, body_.first + A) += at(load_, A);
-    Report report;
-    const Resultant all = body_.division.sum(body_.size(), Resultant(), [&](Index A) {
-      const Eigen::Vector3d f = spatial(at(load_, A)), X = spatial<D>(at(body_.particles.X(), A));
-      return Resultant(f, cross(X + spatial(at(motion.u, body_.first + A)), f));
+    body_.for_chunks([&](int chunk, Index begin, Index end) {
+      Resultant sum;
+      for (Index A = begin; A < end; ++A) {
+        const Eigen::Vector3d f = spatial(at(load_, A)), X = spatial<D>(at(body_.particles.X(), A));
+        sum = sum + Resultant(f, cross(X + spatial(at(motion.u, body_.first + A)), f));
+      }
+      outside_[chunk] = sum;
     });
-    report.outside = {all.force, all.moment};
-    return report;
+    return force.gather({outside_.gathered()}, motion, [this](const Motion&, const Forces&) {
+      const Resultant all = outside_.sum(Resultant());
+      Report report;
+      report.outside = {all.force, all.moment};
+      return report;
+    });
   }
   void add_tangent(const Motion&, const Motion&, Forces) override {}  // a constant force
-  bool tell_reads(StepReads& reads) override {
-    const OwnItems own = body_.division.own_rows(body_.size());
+  bool reads(StepReads& reads) override {
+    const ItemRange own = body_.own_particles();
     reads.range(body_.first + own.begin, body_.first + own.end);
     return true;
   }
@@ -48,7 +58,7 @@ class BodyForce final : public ForceTerm {
   Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
   Real load_power(const Motion& motion) override {
     evaluate(motion.time);
-    return body_.division.sum(body_.size(), 0.0, [&](Index A) {
+    return body_.sum_over_rows(body_.size(), 0.0, [&](Index A) {
       return sum(at(load_, A) * at(motion.v, body_.first + A));
     });
   }
@@ -70,6 +80,7 @@ class BodyForce final : public ForceTerm {
   const std::vector<Real>& mass_;
   std::vector<Expression> acceleration_;
   NodalVectors load_;
+  ChunkTally<Resultant> outside_;
   bool steady_ = true;
   static constexpr Real never = -unbounded;
   Real evaluated_at_ = never;

@@ -65,8 +65,8 @@ class Cavity final : public ForceTerm {
   std::optional<Real> potential(const Motion& motion) override {
     return vented() ? 0 : stored_energy(motion);
   }
-  bool tell_reads(StepReads& reads) override {
-    surface_.tell_reads(reads);
+  bool reads(StepReads& reads) override {
+    surface_.list_reads(reads);
     return true;
   }
   Real steady_after() const override { return vented() ? 0 : filling_.ramp.end; }

@@ -55,7 +55,7 @@ class FacePressure final : public ForceTerm {
     for (int quarter = -1; quarter < corners; ++quarter)
       functions_.push_back(exact_functions<D>(quarter));
     list_pieces(held);
-    chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
+    chunk_sums_ = body.chunk_sums(rows_.start, rows_.particle);
     x_ = point_force_ = X_;
     piece_force_.resize(pieces_.size() * nodes);
     values_.resize(pieces_.size() * functions_.front().size());
@@ -102,7 +102,7 @@ class FacePressure final : public ForceTerm {
       return sum(at(point_force_, q) * value_at(rows_, q, own(motion.v)));
     });
   }
-  bool tell_reads(StepReads& reads) override {
+  bool reads(StepReads& reads) override {
     reads.particles(rows_.particle, body_.first);
     reads.rows(chunk_sums_, body_.first);
     return true;

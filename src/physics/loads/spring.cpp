@@ -58,7 +58,7 @@ class Spring final : public ForceTerm {
     for (Index k = 0; k < size(); ++k)
       scatter(k, -at(springs_.damping, k) * mean(motion.v, k), force);
   }
-  void add_viscous_diagonal(std::span<NodalVector> diagonal) override {
+  void add_viscous_diagonal(Forces diagonal) override {
     for (Index k = 0; k < size(); ++k)
       for (Offset e = at(springs_.mean.start, k); e < at(springs_.mean.start, k + 1); ++e) {
         const Real C = at(springs_.mean.value, e);
@@ -74,7 +74,7 @@ class Spring final : public ForceTerm {
     }
     return energy;
   }
-  bool tell_reads(StepReads& reads) override {
+  bool reads(StepReads& reads) override {
     reads.particles(springs_.mean.particle, body_.first);
     return true;
   }

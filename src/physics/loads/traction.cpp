@@ -42,7 +42,7 @@ class Traction final : public ForceTerm {
   void add_tangent(const Motion&, const Motion&, Forces) override {}
   std::optional<Real> potential(const Motion& motion) override { return -power(motion, motion.u); }
   Real load_power(const Motion& motion) override { return power(motion, motion.v); }
-  bool tell_reads(StepReads& reads) override {
+  bool reads(StepReads& reads) override {
     reads.particles(cells_.mean.particle, body_.first);
     return true;
   }

@@ -28,19 +28,17 @@ class WeightOnPatches final : public ForceTerm {
   std::string name() const override { return "body force on '" + body_.name + "'"; }
 
   Report add_force(const Motion& motion, Forces force) override {
-    const Vec<D> weight = weight_at(motion.time);
-    patches_.follow_height(weight, own(motion.u));
-    patches_.add_gradient(1, body_.part(std::span<NodalVector>(force)));
-    Report report;
-    report.outside = {spatial<D>(weight), patches_.followed_moment()};
-    return report;
+    patches_.place(own(motion.u));
+    return force.gather(
+        {patches_.places()}, motion,
+        [this](const Motion& at_motion, const Forces& all) { return add_weight(at_motion, all); });
   }
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     patches_.add_height_gradient_change(weight_at(motion.time), own(motion.u), own(change.u), 1,
-                                        body_.part(std::span<NodalVector>(force)));
+                                        body_.part(force));
   }
-  bool tell_reads(StepReads& reads) override {
-    patches_.tell_reads(reads, body_.first);
+  bool reads(StepReads& reads) override {
+    patches_.list_reads(reads, body_.first);
     return true;
   }
   std::optional<Real> potential(const Motion& motion) override {
@@ -49,13 +47,28 @@ class WeightOnPatches final : public ForceTerm {
   }
   Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
   Real load_power(const Motion& motion) override {
-    patches_.follow_height(weight_at(motion.time), own(motion.u));
+    patches_.place(own(motion.u));
+    GatherTogether()({{patches_.places()}});
+    patches_.follow_height(weight_at(motion.time));
     return patches_.followed_change(own(motion.v));
   }
   std::size_t bytes() const override { return patches_.bytes(); }
   Offset pairs() const override { return patches_.pairs(); }
 
  private:
+  /// Adds the force when the surface is placed.
+  Report add_weight(const Motion& motion, Forces force) {
+    patches_.follow_height(weight_at(motion.time));
+    patches_.add_gradient(1, body_.part(force));
+    ChunkTally<Eigen::Vector3d>& moments = patches_.followed_moments();
+    return force.gather({moments.gathered()}, motion,
+                        [this, &moments](const Motion& at_motion, const Forces&) {
+                          Report report;
+                          report.outside = {spatial<D>(weight_at(at_motion.time)),
+                                            moments.sum(Eigen::Vector3d::Zero())};
+                          return report;
+                        });
+  }
   const NodalVector* own(std::span<const NodalVector> field) const {
     return field.data() + body_.first;
   }

@@ -23,17 +23,20 @@ class BalancedSurfaceTension final : public TensionTerm<D> {
   }
 
   Report add_force(const Motion& motion, Forces force) override {
-    patches_.follow(Size::area, this->displacements(motion));
-    patches_.add_gradient(-this->gamma_ * correction_, this->own_part(force));
-    return {};
+    patches_.place(this->displacements(motion));
+    return force.gather({patches_.places()}, motion, [this](const Motion&, const Forces& all) {
+      patches_.follow(Size::area);
+      patches_.add_gradient(-this->gamma_ * correction_, this->own_part(all));
+      return Report();
+    });
   }
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     patches_.add_gradient_change(Size::area, this->displacements(motion),
                                  this->displacements(change), -this->gamma_ * correction_,
                                  this->own_part(force));
   }
-  bool tell_reads(StepReads& reads) override {
-    patches_.tell_reads(reads, this->body_.first);
+  bool reads(StepReads& reads) override {
+    patches_.list_reads(reads, this->body_.first);
     return true;
   }
   std::size_t bytes() const override { return patches_.bytes(); }

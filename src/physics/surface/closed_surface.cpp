@@ -52,7 +52,7 @@ ClosedSurface<D>::ClosedSurface(const Body<D>& body, SurfacePart part, int point
   rule_.rows = build_point_rows<D>(body.particles, reference_.X, {.value = true, .gradient = true},
                                    body.name);
   rule_.point_weight = reference_.area;
-  chunk_sums_ = rule_.chunk_sums(body.size(), body.division);
+  chunk_sums_ = rule_.chunk_sums(body);
 
   origin_ = Vec<D>::Zero();
   for (Index q = 0; q < reference_.size(); ++q) {
@@ -127,7 +127,7 @@ typename ClosedSurface<D>::Size ClosedSurface<D>::size(const Motion& motion) con
 /// derivative is therefore x' x (N_L+1 f_L+2 - N_L+2 f_L+1).
 template <int D>
 void ClosedSurface<D>::add_volume_gradient(const Placed& placed, Real factor,
-                                           std::span<NodalVector> force) {
+                                           const ForceVector& force) {
   chunk_sums_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
     for (Index g = begin; g < end; ++g) {
       const Group& points = at(placed.groups, g);

@@ -50,14 +50,14 @@ class ClosedSurface {
   Size size(const Motion& motion) const;
 
   /// force_A += factor dV/dd_A over the particles A of the body.
-  void add_volume_gradient(const Placed& placed, Real factor, std::span<NodalVector> force);
+  void add_volume_gradient(const Placed& placed, Real factor, const ForceVector& force);
 
   const Body<D>& body() const { return body_; }
   const SurfacePoints<D>& reference() const { return reference_; }
   /// The particle with the largest shape function at a point, numbered in the body.
   Index owner(Index point) const;
-  /// Registers the reads of a step: every rank reads the motion of all points.
-  void tell_reads(StepReads& reads) {
+  /// Registers the reads of a step: the motion of all points.
+  void list_reads(StepReads& reads) const {
     reads.particles(rule_.rows.particle, body_.first);
     reads.rows(chunk_sums_, body_.first);
   }

@@ -26,7 +26,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
                       body.name));
     rows_ = build_point_rows<D>(body.particles, surface_.X,
                                 {.value = true, .gradient = true, .hessian = true}, body.name);
-    chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
+    chunk_sums_ = body.chunk_sums(rows_.start, rows_.particle);
   }
 
   /// No potential: the force is not the gradient of the energy.
@@ -57,7 +57,7 @@ class CurvatureSurfaceTension final : public TensionTerm<D> {
     });
   }
 
-  bool tell_reads(StepReads& reads) override {
+  bool reads(StepReads& reads) override {
     reads.rows(chunk_sums_, body_.first);
     return true;
   }

@@ -24,8 +24,8 @@ class SurfaceCheck {
   SurfaceCheck(std::vector<const Body<D>*> bodies,
                std::function<std::string(std::size_t, std::size_t)> remedy);
 
-  /// The deepest crossing. If there is none, a face that is turned inside out. All ranks call this
-  /// and get the same result.
+  /// The deepest crossing. If there is none, a face that is turned inside out. All processes call
+  /// this and get the same result.
   std::optional<Failure> find(const Motion& motion) const;
   /// Like find(), but does not look for faces that are turned inside out.
   std::optional<Failure> crossing(const Motion& motion) const {

@@ -80,14 +80,14 @@ class SurfaceTerm : public ForceTerm {
       : body_(body),
         law_(law),
         surface_(body, points),
-        chunk_sums_(surface_.points.chunk_sums(body.size(), body.division)) {}
+        chunk_sums_(surface_.points.chunk_sums(body)) {}
 
   std::string name() const override {
     return std::string(L::type_name) + " of the surface of '" + body_.name + "'";
   }
   std::vector<MeasureSource> measures() const override { return {surface_.area_measure(body_)}; }
   /// Laws read the motion in the loop over rows only.
-  bool tell_reads(StepReads& reads) override {
+  bool reads(StepReads& reads) override {
     reads.rows(chunk_sums_, body_.first);
     return true;
   }

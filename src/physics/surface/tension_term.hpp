@@ -28,7 +28,7 @@ class TensionTerm : public ForceTerm {
 
   /// The displacements and forces of the body.
   const Lanes* displacements(const Motion& motion) const { return motion.u.data() + body_.first; }
-  std::span<NodalVector> own_part(std::span<NodalVector> force) const { return body_.part(force); }
+  ForceVector own_part(const ForceVector& force) const { return body_.part(force); }
 
   const Body<D>& body_;
   Real gamma_;

@@ -86,8 +86,8 @@ class TriangleSurfaceTension final : public TensionTerm<D> {
     scatter(pull, force);
   }
 
-  bool tell_reads(StepReads& reads) override {
-    boundary_.tell_reads(reads, body_.first);
+  bool reads(StepReads& reads) override {
+    boundary_.list_reads(reads, body_.first);
     return true;
   }
 
@@ -103,7 +103,7 @@ class TriangleSurfaceTension final : public TensionTerm<D> {
   void find_places(const Motion& motion, std::vector<Vec<D>>& x) const {
     boundary_.find_places(this->displacements(motion), x);
   }
-  void scatter(const std::vector<Vec<D>>& pull, std::span<NodalVector> force) {
+  void scatter(const std::vector<Vec<D>>& pull, const ForceVector& force) {
     for (Index B = 0; B < boundary_.rows.size(); ++B) set_vector<D>(load_, B, at(pull, B));
     boundary_.scatter(load_, this->own_part(force));
   }

@@ -145,9 +145,8 @@ Real strain_square(System<D>& system, const Body<D>& body, const Mat<D>& gradien
     for (int i = 0; i < D; ++i) at(du, body.first + A).set(i, w[i]);
     at(dv, body.first + A) = rate * at(du, body.first + A);
   }
-  for (auto& term : system.terms)
-    if (term->energy_kind() == "strain")
-      term->add_tangent({0, rest, rest, system.fields}, {0, du, dv, system.fields}, df);
+  system.add_tangent({0, rest, rest, system.fields}, {0, du, dv, system.fields}, df,
+                     [](const ForceTerm& term) { return term.energy_kind() == "strain"; });
   return -parallel_sum(system.size(), 0.0, [&](Index A) { return sum(at(du, A) * at(df, A)); });
 }
 

@@ -34,8 +34,7 @@ Real ImplicitEuler<D>::add_force(const NodalVectors& u, NodalVectors& force) {
   });
   // Add viscous forces as tangents, because add_viscous() would need the last force to be at the
   // positions u_.
-  for (auto& term : system_.terms)
-    if (term->viscous()) term->add_tangent({time_, u_, still_}, {time_, still_, velocity}, Rw_);
+  system_.add_tangent({time_, u_, still_}, {time_, still_, velocity}, Rw_, System<D>::viscous);
   sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(force, A) += at(Rw_, A);
   });
@@ -46,7 +45,7 @@ Real ImplicitEuler<D>::add_force(const NodalVectors& u, NodalVectors& force) {
 template <int D>
 void ImplicitEuler<D>::look_back() {
   for (auto& term : system_.terms)
-    if (term->viscous()) term->add_force({time_, u_, still_}, Rw_);
+    if (term->viscous()) system_.add_force(*term, {time_, u_, still_}, Rw_);
 }
 
 template <int D>
@@ -57,8 +56,7 @@ void ImplicitEuler<D>::add_change(const NodalVectors& w, NodalVectors& force) {
       at(force, A) -= (at(system_.mass, A) / tau_) * at(w_, A);
     }
   });
-  for (auto& term : system_.terms)
-    if (term->viscous()) term->add_viscous({time_, u_, w_}, force);
+  system_.add_viscous({time_, u_, w_}, force);
 }
 
 template class ImplicitEuler<2>;

@@ -107,8 +107,7 @@ Real NewtonMethod<D>::apply(Real time, const NodalVectors& u) {
       at(q_, A) = Lanes::zero();
     }
   });
-  for (auto& term : system_.terms)
-    term->add_tangent({time, u, still_}, {time, scaled_, still_}, q_);
+  system_.add_tangent({time, u, still_}, {time, scaled_, still_}, q_);
   if (step_) step_->add_change(scaled_, q_);
   sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(q_, A) = (-1 / scale) * at(q_, A);
@@ -191,7 +190,7 @@ typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const 
 /// True if the equilibrium is stable. Forces of a symmetric scene have no component along modes
 /// that break the symmetry, so iterations that start with them never find such modes. Therefore
 /// these iterations start with random forces, whose numbers are the same on any machine, with any
-/// number of threads and ranks. They end when the least eigenvalue hardly falls relative to its
+/// number of threads and processes. They end when the least eigenvalue hardly falls relative to its
 /// size; the nearer it is to zero, the more accurate it becomes.
 template <int D>
 bool NewtonMethod<D>::is_stable_at(Real time, const NodalVectors& u) {

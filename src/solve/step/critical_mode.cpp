@@ -3,32 +3,31 @@
 #include "solve/step/critical_mode.hpp"
 
 #include "numbers/dense.hpp"
-#include "parallel/halo_algebra.hpp"
+#include "parallel/followed_particles.hpp"
 
 #include <utility>
 
 namespace meniscus {
 namespace {
 
-using SharedHalo = std::shared_ptr<const Halo>;
-
 /// a = factor_of_a a + factor b. An empty a counts as zero. If b is empty (no viscosity), nothing
 /// changes.
-void mix(const SharedHalo& halo, NodalScratch& a, Real factor_of_a, const NodalScratch& b,
-         Real factor) {
+void mix(const FollowedParticles& particles, NodalScratch& a, Real factor_of_a,
+         const NodalScratch& b, Real factor) {
   if (b.empty()) return;
   const bool is_new = a.empty();
   a.resize(b.size());
-  for_particles(halo, static_cast<Index>(a.size()), [&](Index begin, Index end) {
+  particles.for_each(static_cast<Index>(a.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A)
       at(a, A) = factor_of_a * (is_new ? Lanes::zero() : at(a, A)) + factor * at(b, A);
   });
 }
 
-void mix(const SharedHalo& halo, TrialMode& a, Real factor_of_a, const TrialMode& b, Real factor) {
-  mix(halo, a.w, factor_of_a, b.w, factor);
-  mix(halo, a.Kw, factor_of_a, b.Kw, factor);
-  mix(halo, a.Cw, factor_of_a, b.Cw, factor);
+void mix(const FollowedParticles& particles, TrialMode& a, Real factor_of_a, const TrialMode& b,
+         Real factor) {
+  mix(particles, a.w, factor_of_a, b.w, factor);
+  mix(particles, a.Kw, factor_of_a, b.Kw, factor);
+  mix(particles, a.Cw, factor_of_a, b.Cw, factor);
 }
 
 }  // namespace
@@ -40,7 +39,7 @@ Lanes CriticalMode::force(const TrialMode& of, Real dt, Index A) const {
 
 void CriticalMode::begin(std::span<const NodalVector> start) {
   trial.w.resize(start.size());
-  copy(halo_, start, trial.w);
+  particles_.copy(start, trial.w);
   for (TrialMode* none : {&mode, &way_})
     for (NodalScratch* field : {&none->w, &none->Kw, &none->Cw}) field->clear();
 }
@@ -53,7 +52,7 @@ ModeRates CriticalMode::rates(const TrialMode& of) const {
     }
   };
   const bool viscous = !of.Cw.empty();
-  const Sums all = sum_over_particles(halo_, static_cast<Index>(of.w.size()), Sums{}, [&](Index A) {
+  const Sums all = particles_.sum(static_cast<Index>(of.w.size()), Sums{}, [&](Index A) {
     const Lanes& w = at(of.w, A);
     return Sums{at(mass_, A) * sum(w * w), sum(w * at(of.Kw, A)),
                 viscous ? sum(w * at(of.Cw, A)) : 0};
@@ -65,7 +64,7 @@ void CriticalMode::propose_trial(Real dt) {
   const ModeRates q = rates(mode);
   const Real lambda = dt * dt / 4 * q.stiffness + dt / 2 * q.viscosity;
   trial.w.resize(mode.w.size());
-  for_particles(halo_, static_cast<Index>(mode.w.size()), [&](Index begin, Index end) {
+  particles_.for_each(static_cast<Index>(mode.w.size()), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A)
       at(trial.w, A) = (1 / at(mass_, A)) * force(mode, dt, A) - lambda * at(mode.w, A);
   });
@@ -76,8 +75,8 @@ void CriticalMode::include_trial(Real dt) {
   using Products = Eigen::Matrix<Real, 3, 6>;  // products with M, then with A
   const std::array<const TrialMode*, 3> all{&mode, &trial, &way_};
   const int count = way_.w.empty() ? 2 : 3;
-  const Products products = sum_over_particles(
-      halo_, static_cast<Index>(mode.w.size()), Products(Products::Zero()), [&](Index A) {
+  const Products products =
+      particles_.sum(static_cast<Index>(mode.w.size()), Products(Products::Zero()), [&](Index A) {
         Products p = Products::Zero();
         for (int j = 0; j < count; ++j) {
           const Lanes momentum = at(mass_, A) * at(at(all, j)->w, A), f = force(*at(all, j), dt, A);
@@ -101,8 +100,8 @@ void CriticalMode::include_trial(Real dt) {
   if (!(1 - M(1, 0) * M(1, 0) > independent)) return;
   const int kept = count == 3 && determinant<3>(M) > independent ? 3 : 2;
   const Vec<3> best = greatest_quotient(A, M, kept);
-  mix(halo_, way_, kept == 3 ? best[2] / size[2] : 0, trial, best[1] / size[1]);
-  mix(halo_, mode, best[0] / size[0], way_, 1);
+  mix(particles_, way_, kept == 3 ? best[2] / size[2] : 0, trial, best[1] / size[1]);
+  mix(particles_, mode, best[0] / size[0], way_, 1);
 }
 
 }  // namespace meniscus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The mode that becomes unstable first, found from the forces of trial displacements.
 #pragma once
-#include "parallel/halo.hpp"
+#include "parallel/followed_particles.hpp"
 
 #include <cmath>
 #include <memory>
@@ -30,13 +30,13 @@ struct ModeRates {
 /// Finds the largest eigenvalue of A = dt^2/4 K + dt/2 C relative to the masses, by conjugate
 /// gradients for one mode (Knyazev, SIAM J. Sci. Comput. 23 (2001) 517). Each iteration takes the
 /// best combination of three vectors: the present mode, the residual of its equation, and the last
-/// change. An iteration needs the forces of one trial. In a halo, the vectors contain only this
-/// rank's own and ghost particles.
+/// change. An iteration needs the forces of one trial. The vectors contain followed
+/// particles only.
 class CriticalMode {
  public:
-  /// `mass` and `halo` must outlive this object.
-  CriticalMode(const std::vector<Real>& mass, const std::shared_ptr<Halo>& halo)
-      : mass_(mass), halo_(halo) {}
+  /// `mass` and `particles` must outlive this object.
+  CriticalMode(const std::vector<Real>& mass, const FollowedParticles& particles)
+      : mass_(mass), particles_(particles) {}
 
   /// Begins a new search with the trial `start`. Memory is reused between searches.
   void begin(std::span<const NodalVector> start);
@@ -56,7 +56,7 @@ class CriticalMode {
   Lanes force(const TrialMode& of, Real dt, Index A) const;
 
   const std::vector<Real>& mass_;
-  const std::shared_ptr<Halo>& halo_;
+  const FollowedParticles& particles_;
   TrialMode way_;  // last change of the mode; empty at first
 };
 

@@ -35,8 +35,8 @@ class Dynamics final : public Stepper<D> {
                  [&](const State& after) { resolution_.judge(system_, after, dt); });
   }
   bool may_reject_steps() const override { return true; }
-  bool tell_reads(StepReads& reads) override {
-    if (viscosity_) viscosity_->tell_reads(reads);
+  bool reads(StepReads& reads) override {
+    if (viscosity_) viscosity_->list_reads(reads);
     return true;
   }
   std::string effort() const override {

@@ -57,9 +57,10 @@ ForcePrediction::ForcePrediction(std::size_t particles) {
 
 /// The best coefficients b. A difference that is nearly a combination of the others, or is unknown,
 /// has the coefficient 0.
-Eigen::Vector3d ForcePrediction::best(const std::vector<Real>& mass, const SharedHalo& halo) const {
+Eigen::Vector3d ForcePrediction::best(const std::vector<Real>& mass,
+                                      const FollowedParticles& particles) const {
   const auto n = static_cast<Index>(mass.size());
-  const Products all = sum_over_particles(halo, n, Products{}, [&](Index A) {
+  const Products all = particles.sum(n, Products{}, [&](Index A) {
     const auto d = differences(at(f_[1], A), at(f_[2], A), at(f_[3], A));
     const Lanes missing = at(f_[0], A) - at(f_[1], A);
     Products p;
@@ -84,16 +85,16 @@ Eigen::Vector3d ForcePrediction::best(const std::vector<Real>& mass, const Share
 }
 
 void ForcePrediction::predict(const NodalVectors& now, Real dt, const std::vector<Real>& mass,
-                              NodalVectors& next, const SharedHalo& halo) {
+                              NodalVectors& next, const FollowedParticles& particles) {
   constexpr Real considerably = 1.3;
   const auto n = static_cast<Index>(now.size());
-  for_particles(halo, n, [&](Index begin, Index end) {
+  particles.for_each(n, [&](Index begin, Index end) {
     std::copy(now.begin() + begin, now.begin() + end, f_[0].begin() + begin);
   });
   tried_dt_ = dt;
   if (dt > considerably * dt_ || dt < dt_ / considerably) known_ = 0;
-  const Eigen::Vector3d b = best(mass, halo);
-  for_particles(halo, n, [&](Index begin, Index end) {
+  const Eigen::Vector3d b = best(mass, particles);
+  particles.for_each(n, [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) {
       const auto d = differences(at(f_[0], A), at(f_[1], A), at(f_[2], A));
       at(next, A) = at(now, A) + b[0] * d[0] + b[1] * d[1] + b[2] * d[2];
@@ -107,7 +108,7 @@ void ForcePrediction::step_stands() {
   dt_ = tried_dt_;
 }
 
-void ForcePrediction::tell_reads(StepReads& reads) {
+void ForcePrediction::list_reads(StepReads& reads) {
   for (NodalVectors& f : f_) reads.keeps(f);
 }
 

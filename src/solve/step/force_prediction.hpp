@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Predicts the forces of the next step from the forces of earlier steps.
 #pragma once
-#include "parallel/step_reads.hpp"
+#include "parallel/followed_particles.hpp"
 #include "state/archive.hpp"
 
 #include <array>
@@ -19,19 +19,17 @@ class ForcePrediction {
  public:
   explicit ForcePrediction(std::size_t particles);
 
-  using SharedHalo = std::shared_ptr<const Halo>;
-
-  /// Predicts f_n+1 into `next`, from `now` = f_n after a step of dt, for the particles of the
-  /// halo. `now` is kept for later predictions only when step_stands() is called.
+  /// Predicts f_n+1 into `next`, from `now` = f_n after a step of dt, for followed particles. `now`
+  /// is kept for later predictions only when step_stands() is called.
   void predict(const NodalVectors& now, Real dt, const std::vector<Real>& mass, NodalVectors& next,
-               const SharedHalo& halo = {});
+               const FollowedParticles& particles = {});
   void step_stands();
-  void tell_reads(StepReads& reads);
+  void list_reads(StepReads& reads);
   void archive(const Archive& a, int components);
 
  private:
   static constexpr int order = 3;
-  Eigen::Vector3d best(const std::vector<Real>& mass, const SharedHalo& halo) const;
+  Eigen::Vector3d best(const std::vector<Real>& mass, const FollowedParticles& particles) const;
 
   std::array<NodalVectors, order + 1> f_;  // f_n, f_n-1, f_n-2, f_n-3
   std::int64_t known_ = 0;                 // number of known forces before f_n

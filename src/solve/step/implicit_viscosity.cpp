@@ -72,7 +72,7 @@ void ImplicitViscosity<D>::advance(State& state, Real dt) {
   });
   // First guess of v_n+1, from the predicted force.
   NodalVectors& predicted = r_;
-  prediction_.predict(state.force, dt, system_.mass, predicted, system_.halo);
+  prediction_.predict(state.force, dt, system_.mass, predicted, system_.followed);
   system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A)
       at(state.v, A) += (dt / 2 / at(system_.mass, A)) * at(predicted, A);
@@ -153,12 +153,10 @@ template <int D>
 void ImplicitViscosity<D>::add_missing_drag(const State& state, Resultant& outside) const {
   if (outside.force_size == 0) return;
   for (const Body<D>& body : system_.bodies) {
-    const Resultant change =
-        sum_over_part(system_.halo, system_.size(), {body.first, body.first + body.size()},
-                      Resultant(), [&](Index A) {
-                        const Eigen::Vector3d f = -spatial(at(Ce_, A));
-                        return Resultant(f, cross(place(body, state, A), f));
-                      });
+    const Resultant change = system_.sum_over_particles(body, Resultant(), [&](Index A) {
+      const Eigen::Vector3d f = -spatial(at(Ce_, A));
+      return Resultant(f, cross(place(body, state, A), f));
+    });
     outside.force += change.force;
     outside.moment += change.moment;
   }
@@ -169,9 +167,7 @@ void ImplicitViscosity<D>::add_missing_drag(const State& state, Resultant& outsi
 template <int D>
 StepError ImplicitViscosity<D>::not_found(const State& state, Real residual) {
   age_ = longest_age;
-  if (system_.in_halo())
-    for (NodalVectors* x : {&r_, &z_})
-      system_.halo->owners().complete(x->data(), sizeof(NodalVector));
+  for (NodalVectors* x : {&r_, &z_}) system_.followed.complete(*x);
   Index worst = 0;
   for (Index A = 0; A < system_.size(); ++A)
     if (sum(at(r_, A) * at(z_, A)) > sum(at(r_, worst) * at(z_, worst))) worst = A;
@@ -187,9 +183,7 @@ void ImplicitViscosity<D>::renew_diagonal() {
   system_.for_particles([&](Index begin, Index end) {
     std::fill(diagonal_.begin() + begin, diagonal_.begin() + end, Lanes::zero());
   });
-  for (auto& term : system_.terms)
-    if (term->viscous()) term->add_viscous_diagonal(diagonal_);
-  system_.spread(diagonal_);
+  system_.add_viscous_diagonal(diagonal_);
   age_ = 0;
 }
 
@@ -211,18 +205,16 @@ Real ImplicitViscosity<D>::apply(const State& state, Real dt) {
   system_.for_particles([&](Index begin, Index end) {
     std::fill(q_.begin() + begin, q_.begin() + end, Lanes::zero());
   });
-  for (auto& term : system_.terms)
-    if (term->viscous()) term->add_viscous({state.time, state.u, p_, state.fields}, q_);
-  system_.spread(q_);
+  system_.add_viscous({state.time, state.u, p_, state.fields}, q_);
   return system_.sum_over_particles(0.0, [&](Index A) {
     return sum(at(p_, A) * (at(system_.mass, A) * at(p_, A) - dt / 2 * at(q_, A)));
   });
 }
 
 template <int D>
-void ImplicitViscosity<D>::tell_reads(StepReads& reads) {
+void ImplicitViscosity<D>::list_reads(StepReads& reads) {
   reads.keeps(diagonal_);
-  prediction_.tell_reads(reads);
+  prediction_.list_reads(reads);
 }
 
 /// Adds the rigid motion of each body whose momenta are the sums of the residual. Rigid motions
@@ -249,8 +241,7 @@ template <int D>
 typename ImplicitViscosity<D>::RigidVelocity ImplicitViscosity<D>::missing_motion(
     const Body<D>& body, const State& state) const {
   const auto sum_over_body = [&](auto zero, auto&& f) {
-    return sum_over_part(system_.halo, system_.size(), {body.first, body.first + body.size()}, zero,
-                         f);
+    return system_.sum_over_particles(body, zero, f);
   };
   const Moments all = sum_over_body(Moments{}, [&](Index A) {
     const Real m = at(system_.mass, A);

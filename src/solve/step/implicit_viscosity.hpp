@@ -30,7 +30,7 @@ class ImplicitViscosity {
   /// found.
   void advance(State& state, Real dt);
 
-  void tell_reads(StepReads& reads);
+  void list_reads(StepReads& reads);
 
   /// Iterations per step, averaged over all steps of this object.
   Real mean_iterations() const {

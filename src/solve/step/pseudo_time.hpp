@@ -20,7 +20,7 @@ class PseudoTime final : public Relaxation<D> {
   bool chooses_step() const override { return true; }
   Real longest_step(const State& state) override { return step_.at_state(inertia_, state); }
   /// M^-1 reads the forces on all particles.
-  bool tell_reads(StepReads&) override { return false; }
+  bool reads(StepReads&) override { return false; }
   std::string effort() const override;
   void archive(const Archive& a, const State& state) override;
 

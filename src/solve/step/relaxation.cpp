@@ -16,7 +16,6 @@
 
 #include "kernel/row_sums.hpp"
 #include "numbers/box.hpp"
-#include "parallel/divided.hpp"
 #include "parallel/nodal_algebra.hpp"
 #include "parallel/parallel.hpp"
 #include "solve/newton/newton_method.hpp"
@@ -209,17 +208,13 @@ Real Relaxation<D>::largest_change() const {
   Real largest = 0;
   for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
     const Body<D>& body = system_.bodies[b];
-    const OwnItems own = body.division.own_rows(body.size());
+    const ItemRange own = body.own_particles();
     Real square = 0;
     for (Index A = own.begin; A < own.end; ++A) {
       const Lanes moved = value_at(body.at_particles, A, du_.data() + body.first);
       square = std::max(square, sum(moved * moved));
     }
-    for (int rank = 0; rank < ranks().size(); ++rank) {
-      Real of_rank = square;
-      ranks().hand_out(rank, &of_rank, sizeof of_rank);
-      largest = std::max(largest, std::sqrt(of_rank) / extents_[b]);
-    }
+    largest = std::max(largest, std::sqrt(ranks().largest_size(square)) / extents_[b]);
   }
   return largest;
 }

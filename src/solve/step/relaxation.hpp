@@ -42,7 +42,7 @@ class Relaxation : public Stepper<D> {
   /// Begins the observation of rest.
   void begin(const State& state) override;
   /// The measures of rest read all particles, but only at the ends of intervals.
-  bool tell_reads(StepReads&) override { return true; }
+  bool reads(StepReads&) override { return true; }
   void step(State& state, Real dt) override;
   /// True if the bodies are at rest.
   bool arrived() const override { return settled_intervals_ >= 2; }

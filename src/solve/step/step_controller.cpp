@@ -36,7 +36,7 @@ std::string describe_shorter_step(std::string_view what, Real first, const Stabl
 
 template <int D>
 void StepController<D>::begin(State& state) {
-  if (estimator_.keeps_to_halo()) system_.enter_halo(state);
+  system_.follow(state);
   // At u = 0 the damping of coefficients is not a smooth function of u, unless v = 0.
   State at_rest = state;
   std::fill(at_rest.v.begin(), at_rest.v.end(), Lanes::zero());
@@ -69,7 +69,7 @@ void StepController<D>::choose_step() {
 
 template <int D>
 void StepController<D>::reconsider(State& state) {
-  estimator_.keeps_to_halo() ? system_.enter_halo(state) : system_.complete(state);
+  system_.follow(state);
   const Real before = stable_.dt;
   stable_ = estimator_.estimate_again(state, stable_);
   // Choose the interval so that the limit changes by 2 % between estimates; 4 % with implicit

@@ -25,11 +25,11 @@ class StepController {
       : system_(system), estimator_(system, !choice.implicit_viscosity), choice_(choice) {}
 
   /// Estimates the stable step at the start of a run. Throws InputError if the fixed step is
-  /// longer. The state is complete on all ranks before and after this call.
+  /// longer. The state is complete on all processes before and after this call.
   void begin(State& state);
 
   /// Registers the particles that estimates between steps read.
-  void tell_reads(StepReads& reads) { estimator_.tell_reads(reads); }
+  void list_reads(StepReads& reads) { estimator_.list_reads(reads); }
 
   /// The next step. Unless it is fixed, it is at most `accurate`, but at least a tenth of the
   /// allowed step (a thousandth with implicit viscosity). The last two steps are shortened to end

@@ -3,7 +3,7 @@
 #include "solve/step/time_step.hpp"
 
 #include "meniscus/error.hpp"
-#include "parallel/halo_algebra.hpp"
+#include "parallel/followed_particles.hpp"
 #include "parallel/nodal_algebra.hpp"
 #include "solve/least_spacing.hpp"
 #include "solve/stiffest_term.hpp"
@@ -43,12 +43,9 @@ struct FallingLimit {
   bool found() const { return settled >= 4; }
 };
 
-/// A start vector with all wavelengths, the same on every machine. In a halo, only the particles
-/// that the rank follows are set.
-void make_rough(const std::shared_ptr<const Halo>& halo, std::span<NodalVector> mode,
-                int components) {
+/// A start vector with all wavelengths, the same on every machine; only followed particles are set.
+void make_rough(const FollowedParticles& particles, std::span<NodalVector> mode, int components) {
   std::uint64_t bits = 0x9e3779b97f4a7c15;
-  const Halo* const some = is_entered(halo) ? halo.get() : nullptr;
   for (Index A = 0; A < static_cast<Index>(mode.size()); ++A) {
     NodalVector w = Lanes::zero();
     for (int i = 0; i < components; ++i) {
@@ -57,13 +54,13 @@ void make_rough(const std::shared_ptr<const Halo>& halo, std::span<NodalVector> 
       bits ^= bits << 17;
       w.set(i, static_cast<Real>(bits >> 11) * 0x1p-52 - 1);
     }
-    if (!some || some->follows(A)) at(mode, A) = w;
+    if (particles.follows(A)) at(mode, A) = w;
   }
 }
 
 NodalVectors rough_mode(Index n, int components) {
   NodalVectors mode(static_cast<std::size_t>(n));
-  make_rough(nullptr, mode, components);
+  make_rough({}, mode, components);
   return mode;
 }
 
@@ -87,12 +84,9 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
       may_jump_(std::any_of(
           system.terms.begin(), system.terms.end(),
           [](const std::unique_ptr<ForceTerm>& term) { return term->may_reject_steps(); })),
-      keeps_to_halo_(std::none_of(
-          system.terms.begin(), system.terms.end(),
-          [](const std::unique_ptr<ForceTerm>& term) { return term->may_outgrow_halo(); })),
       spacing_(least_spacing(system.bodies)),
       trial_size_(smallest_trial),
-      critical_(system.mass, system.halo),
+      critical_(system.mass, system.followed),
       mode_(rough_mode(system.size(), D)),
       trial_force_(mode_.size()),
       known_response_(mode_.size(), Lanes::zero()),
@@ -102,15 +96,14 @@ StableStepEstimator<D>::StableStepEstimator(System<D>& system, bool viscous)
 }
 
 template <int D>
-void StableStepEstimator<D>::tell_reads(StepReads& reads) {
-  if (!keeps_to_halo()) return;
+void StableStepEstimator<D>::list_reads(StepReads& reads) {
   reads.keeps(mode_);
   reads.keeps(known_response_);
 }
 
 template <int D>
 Real StableStepEstimator<D>::largest(std::span<const NodalVector> w) const {
-  return meniscus::largest(system_.halo, w);
+  return system_.followed.largest(w);
 }
 
 template <int D>
@@ -214,7 +207,7 @@ StableStep StableStepEstimator<D>::limit_of_motion(const State& state) {
     critical_.propose_trial(limit);
     if (system_.constraints) system_.constraints->project(critical_.trial.w);
   }
-  if (!critical_.mode.w.empty()) copy(system_.halo, critical_.mode.w, mode_);
+  if (!critical_.mode.w.empty()) system_.followed.copy(critical_.mode.w, mode_);
   return best;
 }
 
@@ -242,7 +235,7 @@ template <int D>
 bool StableStepEstimator<D>::is_smooth(const State& state, StableStep& found) {
   constexpr Real about = 1.5;
   TrialMode& trial = critical_.trial;
-  copy(system_.halo, mode_, trial.w);
+  system_.followed.copy(mode_, trial.w);
   if (!(largest(trial.w) > 0)) return true;
   find_stiff_forces(state, wider * trial_size_, trial);
   ++found.evaluations;
@@ -258,7 +251,8 @@ void StableStepEstimator<D>::start_where_it_changed() {
     for (Index A = begin; A < end; ++A)
       at(change, A) = (1 / at(system_.mass, A)) * (at(known_response_, A) - at(response_, A));
   });
-  const Real scale = std::sqrt(dot(system_.halo, mode_, mode_) / dot(system_.halo, change, change));
+  const Real scale =
+      std::sqrt(system_.followed.dot(mode_, mode_) / system_.followed.dot(change, change));
   system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(mode_, A) += scale * at(change, A);
   });
@@ -269,7 +263,7 @@ void StableStepEstimator<D>::start_where_it_changed() {
 template <int D>
 void StableStepEstimator<D>::find_response(const State& state, std::span<NodalVector> response) {
   NodalScratch& rough = trial_force_;
-  make_rough(system_.halo, rough, D);
+  make_rough(system_.followed, rough, D);
   if (system_.constraints) system_.constraints->project(rough);
   const Real dt = response_step_, size = smallest_trial * spacing_ / largest(rough) / (dt * dt / 4);
   const bool viscous = viscous_counts_ && system_.viscous();
@@ -323,7 +317,7 @@ StableStep StableStepEstimator<D>::estimate_again(const State& state, const Stab
     find_base_forces(state);
   } else {
     base_.resize(mode_.size());
-    copy(system_.halo, state.force, base_);
+    system_.followed.copy(state.force, base_);
   }
   find_response(state, response_);
   if (responds_as_before(same_response)) {
@@ -346,7 +340,7 @@ template <int D>
 StableStep StableStepEstimator<D>::limit_from_base(const State& state, Real doubtful) {
   // Normalise the mode: each iteration makes it a little longer, so that it would overflow in a
   // long run.
-  const Real length = std::sqrt(dot(system_.halo, mode_, mode_));
+  const Real length = std::sqrt(system_.followed.dot(mode_, mode_));
   system_.for_particles([&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(mode_, A) /= length;
   });

@@ -29,8 +29,7 @@ struct StableStep {
 ///
 /// Forces that jump, e.g. when a contact point passes the edge between two facets, look very stiff
 /// for small trial displacements, but do not make steps unstable. If a term may have such jumps and
-/// the step comes out short, the search is repeated with larger trial displacements. In a halo,
-/// each rank uses its own and ghost particles only.
+/// the step comes out short, the search is repeated with larger trial displacements.
 template <int D>
 class StableStepEstimator {
  public:
@@ -38,10 +37,8 @@ class StableStepEstimator {
   /// velocity is taken as zero.
   explicit StableStepEstimator(System<D>& system, bool viscous = true);
 
-  /// True if estimates can be made in a halo. Contacts may need more particles.
-  bool keeps_to_halo() const { return keeps_to_halo_; }
   /// Registers the vectors that are kept between estimates.
-  void tell_reads(StepReads& reads);
+  void list_reads(StepReads& reads);
 
   /// Throws SolveError if no finite limit can be found.
   StableStep estimate(const State& state);
@@ -77,8 +74,7 @@ class StableStepEstimator {
 
   System<D>& system_;
   bool viscous_counts_;
-  bool may_jump_;  ///< forces of a term may jump
-  bool keeps_to_halo_;
+  bool may_jump_;    ///< forces of a term may jump
   Real spacing_;     ///< smallest particle distance
   Real trial_size_;  ///< size of trial displacements / spacing
   CriticalMode critical_;

@@ -77,7 +77,7 @@ NodalVectors WayToRest<D>::stiff_force(const Motion& motion, const NodalVectors&
   if (!(size > 0)) return f;
   const Real scale = 1e-3 * std::cbrt(system_.bodies.front().cells.volume(0)) / size;
   for (NodalVector& x : scaled) x *= scale;
-  for (auto& term : system_.terms) term->add_tangent(motion, {motion.time, scaled, motion.v}, f);
+  system_.add_tangent(motion, {motion.time, scaled, motion.v}, f);
   for (NodalVector& x : f) x *= -1 / scale;
   return f;
 }

@@ -4,8 +4,8 @@
 #include "physics/contact/contact_terms.hpp"
 #include "physics/contact/gap/gap_side.hpp"
 #include "physics/contact/pair/contact_demand.hpp"
-#include "physics/contact/pair/contact_ranks.hpp"
 #include "physics/contact/pair/contact_visits.hpp"
+#include "physics/contact/phases.hpp"
 
 #include <fmt/core.h>
 
@@ -42,7 +42,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
         second_(second, first, law_.range(), choice, 1),
         now_first_(first_, law_.pattern()),
         now_second_(second_, law_.pattern()),
-        ranks_({first.division, second.division}) {
+        shared_({first.division, second.division}) {
     if (law_.up()) ground_ = first_.facets.facing(*law_.up());
     if (law_.placed()) require_adhesion();
   }
@@ -52,7 +52,14 @@ class GapPair final : public ForceTerm, public ContactVisits {
 
   Report add_force(const Motion& motion, Forces force) override {
     work_.begin(motion.time);
-    return ranks_.report_of([&] { return add_known_force(motion, force); });
+    if (!shared_.takes_part()) return share_summary(motion, force);
+    gathered_.clear();
+    for_sides([&](const GapSide<D>& side, GapForces<D>& now) {
+      const auto [points, corners] = now.place(side, shared_, motion);
+      gathered_.push_back(points);
+      gathered_.push_back(corners);
+    });
+    return go_on<&GapPair::take_forces>(*this, shared_, gathered_, motion, force);
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
@@ -63,19 +70,14 @@ class GapPair final : public ForceTerm, public ContactVisits {
   }
   /// Accepts the step. The last computed force must belong to this motion.
   void commit(const Motion& motion) override {
-    if (law_.pattern() && !ranks_.is_absent()) work_.commit(motion.time, supply_);
+    if (law_.pattern()) work_.commit(motion.time, summary_.supply);
   }
   void archive(const Archive& a) override {
     if (law_.pattern()) work_.archive(a, D);
   }
-  void complete_history() override {
-    if (law_.pattern()) ranks_.complete(work_);
-  }
-  bool tell_reads(StepReads& reads) override {
-    ranks_.learn_halo(reads);
-    const bool reads_all = !ranks_.are_few() || ranks_.takes_part();
-    first_.tell_reads(reads, reads_all);
-    second_.tell_reads(reads, reads_all);
+  bool reads(StepReads& reads) override {
+    first_.list_reads(reads, shared_.takes_part());
+    second_.list_reads(reads, shared_.takes_part());
     return true;
   }
   bool may_reject_steps() const override { return true; }
@@ -113,25 +115,58 @@ class GapPair final : public ForceTerm, public ContactVisits {
   Offset pairs() const override { return first_.pairs() + second_.pairs(); }
 
  private:
-  /// Adds the force on a rank that takes part in the contact.
-  Report add_known_force(const Motion& motion, Forces force) {
+  /// Calls f for the sides that store energy.
+  template <class F>
+  void for_sides(F&& f) {
+    f(first_, now_first_);
+    if (!law_.up()) f(second_, now_second_);
+  }
+  /// Computes the forces on a share of the points, when all are placed.
+  Report take_forces(const Motion& motion, Forces force) {
     Offset visited = 0;
-    for (auto [side, now] : {std::pair{&first_, &now_first_}, std::pair{&second_, &now_second_}}) {
-      if (side == &second_ && law_.up()) break;
-      now->move(*side, motion, ranks_.division());
-      side->list.update(now->places.x, now->others.samples, ranks_.division());
-      visited += side->list.pairs() * Lanes::width;
-      take_forces(*side, side->list, law_, motion, ranks_.division(), *now);
-      if (const auto& active = side->list.of_first().active; !active.empty())
-        side->points.add_force(now->places, active, now->T, now->S, force);
-      side->facets.add_force(now->pull, force);
-    }
+    gathered_.clear();
+    for_sides([&](GapSide<D>& side, GapForces<D>& now) {
+      now.take_placed(side, shared_);
+      side.list.update(now.places.x, now.others.samples);
+      visited += side.list.pairs() * Lanes::width;
+      update_weights(side, motion, now);
+      gathered_.push_back(
+          meniscus::take_forces(side, side.list, law_, motion, shares_of(side), now));
+    });
     count(visited);
-    supply_ = supply(motion.time);
-    return report(motion);
+    return go_on<&GapPair::add_forces>(*this, shared_, gathered_, motion, force);
+  }
+  /// Adds the forces on all points to the particles.
+  Report add_forces(const Motion& motion, Forces force) {
+    for_sides([&](GapSide<D>& side, GapForces<D>& now) {
+      add_up(side, side.list, shares_of(side), now);
+      if (const auto& active = side.list.of_first().active; !active.empty())
+        side.points.add_force(now.places, active, now.T, now.S, force);
+      side.facets.add_force(now.pull, force);
+    });
+    summarise(motion, force.demand);
+    return share_summary(motion, force);
+  }
+  Report share_summary(const Motion& motion, Forces force) {
+    return force.gather({shared_.reported(&summary_)}, motion,
+                        [this](const Motion& m, const Forces&) { return report(m.time); });
+  }
+  /// Updates the weights of the points that this process computes, and of those whose rows it has.
+  void update_weights(const GapSide<D>& side, const Motion& motion, GapForces<D>& now) const {
+    const std::span<const Index> active = side.list.of_first().active;
+    const auto update = [&](const ItemRange& part) {
+      side.points.update_weights(active.subspan(static_cast<std::size_t>(part.begin),
+                                                static_cast<std::size_t>(part.end - part.begin)),
+                                 motion, now.places);
+    };
+    update(shares_of(side).own());
+    if (shares_of(side).are_sent()) update(side.points.rows_of(active, shared_).own());
+  }
+  Portions shares_of(const GapSide<D>& side) const {
+    return meniscus::shares_of(side.list, law_, shared_);
   }
   GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side) const {
-    return meniscus::forces_at(motion, side, law_, ranks_.division());
+    return meniscus::forces_at(motion, side, law_);
   }
   void require_adhesion() const;
   /// The largest adhesion at this time, at the positions of the last force.
@@ -161,7 +196,8 @@ class GapPair final : public ForceTerm, public ContactVisits {
     return !law_.up() ? std::max(first_.points.spacing(), second_.points.spacing())
                       : first_.points.spacing();
   }
-  Report report(const Motion& motion) const;
+  void summarise(const Motion& motion, bool demand);
+  Report report(Real time) const;
 
   std::string name_;
   GapLaw<D> law_;
@@ -172,8 +208,18 @@ class GapPair final : public ForceTerm, public ContactVisits {
   GapSide<D> first_, second_;
   std::vector<Index> ground_;            // facets of the second that face up in the reference
   GapForces<D> now_first_, now_second_;  // work space of a force
-  AdhesionSupply supply_;                // work of the adhesion, from the last force
-  ContactRanks ranks_;
+  SharedWork shared_;
+  std::vector<Gathered> gathered_;  // work space of a force
+  /// Results of the last force.
+  struct Summary {
+    AdhesionSupply supply;  ///< work of the adhesion
+    Real gap = unbounded;
+    bool on_first = true;  ///< the smallest gap is that of the point `nearest` of the first body
+    Index nearest = 0;
+    Index folded = -1;  ///< facet of the ground that has turned over, or -1
+    StepDemand demand;
+  };
+  Summary summary_;
 };
 
 /// Evaluates W at all corners of the ground before a run, so that a failing formula is reported
@@ -192,36 +238,46 @@ void GapPair<D>::require_adhesion() const try {
   throw InputError(error.what());
 }
 
-/// Report of the last force: external work, failures, and the limit of the step from present
-/// positions and velocities.
+/// Summarises the last force: work of the adhesion, smallest gap, and the limit of the step from
+/// present positions and velocities.
 template <int D>
-Report GapPair<D>::report(const Motion& motion) const {
-  Report report;
+void GapPair<D>::summarise(const Motion& motion, bool demand) {
   const std::optional<Vec<D>>& up = law_.up();
-  if (law_.pattern()) report.external_work = work_.since_step(supply_);
-  if (const Index facet = up ? first_.facets.turned_over(now_first_.others, *up, ground_) : -1;
-      facet >= 0)
-    report.failure =
-        Failure{first_.facets.particle_at(facet),
-                fmt::format("the surface of '{}' folds over{}", second_.points.body().name, fold_)};
-  const bool on_first = now_first_.gap <= now_second_.gap;
-  const Real gap = std::min(now_first_.gap, now_second_.gap);
-  if (!(gap < law_.range())) return report;
-  if (gap < law_.interaction().least_gap() && !report.failure) {
-    const GapSide<D>& side = on_first ? first_ : second_;
-    report.failure = Failure{
-        side.points.particle_at(on_first ? now_first_.nearest : now_second_.nearest),
-        fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g}, least is {:.4g}{}",
-                    first_.points.body().name, second_.points.body().name, gap,
-                    law_.interaction().least_gap(), motion.time > 0 ? overlap_ : ""),
-        true};
-  }
-  const Real speed = closing_speed<D>(first_.points, now_first_.near, &second_.points,
-                                      now_second_.near, Vec<D>::Zero(), motion);
+  summary_ = {};
+  summary_.supply = supply(motion.time);
+  summary_.on_first = now_first_.gap <= now_second_.gap;
+  summary_.gap = std::min(now_first_.gap, now_second_.gap);
+  summary_.nearest = summary_.on_first ? now_first_.nearest : now_second_.nearest;
+  if (up) summary_.folded = first_.facets.turned_over(now_first_.others, *up, ground_);
+  const Real gap = summary_.gap;
+  if (!demand || !(gap < law_.range())) return;
+  const Real speed =
+      closing_speed<D>(first_.points, now_first_.near, second_.points, now_second_.near, motion);
   const Real strength = law_.varies_at(gap) ? largest_adhesion(motion.time) : 1;
   const Real inverse_inertia = 1 / first_.points.inertia() + 1 / second_.points.inertia();
-  report.demand =
+  summary_.demand =
       contact_demand({law_.interaction(), strength * inverse_inertia, 0, D}, gap, {speed});
+}
+
+/// Report of the last force: external work, failures, and the limit of the step.
+template <int D>
+Report GapPair<D>::report(Real time) const {
+  Report report;
+  report.demand = summary_.demand;
+  if (law_.pattern()) report.external_work = work_.since_step(summary_.supply);
+  if (summary_.folded >= 0) {
+    report.failure =
+        Failure{first_.facets.particle_at(summary_.folded),
+                fmt::format("the surface of '{}' folds over{}", second_.points.body().name, fold_)};
+  } else if (summary_.gap < law_.interaction().least_gap()) {
+    const GapSide<D>& side = summary_.on_first ? first_ : second_;
+    report.failure = Failure{
+        side.points.particle_at(summary_.nearest),
+        fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g}, least is {:.4g}{}",
+                    first_.points.body().name, second_.points.body().name, summary_.gap,
+                    law_.interaction().least_gap(), time > 0 ? overlap_ : ""),
+        true};
+  }
   return report;
 }
 

@@ -5,41 +5,34 @@
 namespace meniscus {
 namespace {
 
-/// Results of a cluster, as sent to other ranks; not used for adhesion that depends on the place.
 template <int D>
-struct OfCluster {
-  struct Point {
-    typename ContactFacets<D>::Foot foot;
-    Real stored, unit;
-  };
-  Lanes T[D], S[D];
-  std::array<Point, Lanes::width> point;
+OfCluster<D> results_of(const GapForces<D>& forces, Index c) {
+  OfCluster<D> results;
+  for (int i = 0; i < D; ++i) {
+    results.T[i] = at(forces.T, c * D + i);
+    results.S[i] = at(forces.S, c * D + i);
+  }
+  for (Index lane = 0; lane < Lanes::width; ++lane) {
+    const Index q = c * Lanes::width + lane;
+    at(results.point, lane) = {at(forces.foot, q), at(forces.stored, q),
+                               forces.unit.empty() ? 0 : at(forces.unit, q)};
+  }
+  return results;
+}
 
-  OfCluster() = default;
-  OfCluster(const GapForces<D>& forces, Index c) {
-    for (int i = 0; i < D; ++i) {
-      T[i] = at(forces.T, c * D + i);
-      S[i] = at(forces.S, c * D + i);
-    }
-    for (Index lane = 0; lane < Lanes::width; ++lane) {
-      const Index q = c * Lanes::width + lane;
-      at(point, lane) = {at(forces.foot, q), at(forces.stored, q),
-                         forces.unit.empty() ? 0 : at(forces.unit, q)};
-    }
+template <int D>
+void put(const OfCluster<D>& results, Index c, GapForces<D>& forces) {
+  for (int i = 0; i < D; ++i) {
+    at(forces.T, c * D + i) = results.T[i];
+    at(forces.S, c * D + i) = results.S[i];
   }
-  void put(Index c, GapForces<D>& forces) const {
-    for (int i = 0; i < D; ++i) {
-      at(forces.T, c * D + i) = T[i];
-      at(forces.S, c * D + i) = S[i];
-    }
-    for (Index lane = 0; lane < Lanes::width; ++lane) {
-      const Index q = c * Lanes::width + lane;
-      at(forces.foot, q) = at(point, lane).foot;
-      at(forces.stored, q) = at(point, lane).stored;
-      if (!forces.unit.empty()) at(forces.unit, q) = at(point, lane).unit;
-    }
+  for (Index lane = 0; lane < Lanes::width; ++lane) {
+    const Index q = c * Lanes::width + lane;
+    at(forces.foot, q) = at(results.point, lane).foot;
+    at(forces.stored, q) = at(results.point, lane).stored;
+    if (!forces.unit.empty()) at(forces.unit, q) = at(results.point, lane).unit;
   }
-};
+}
 
 }  // namespace
 
@@ -111,20 +104,25 @@ void pull_corners(const GapSide<D>& side, std::span<const Index> active, GapForc
 }  // namespace
 
 template <int D>
-void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
-                 const Motion& motion, const Division& division, GapForces<D>& forces) {
+Portions shares_of(const ContactList<D>& list, const GapLaw<D>& law, const SharedWork& work) {
+  const auto active = static_cast<Index>(list.of_first().active.size());
+  return law.placed() ? Division::to_each().items(active) : work.items(active);
+}
+
+template <int D>
+Gathered take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
+                     const Motion& motion, const Portions& shares, GapForces<D>& forces) {
   const auto& active = list.of_first().active;
   const std::optional<Vec<D>>& up = law.up();
   const AdhesionPattern* pattern = law.pattern();
   const Real even = law.adhesion(motion.time);
-  side.points.update_weights(active, motion, forces.places, division);
+  const ItemRange own = shares.own();
   std::fill(forces.foot.begin(), forces.foot.end(), typename ContactFacets<D>::Foot());
   std::fill(forces.stored.begin(), forces.stored.end(), 0.0);
   std::fill(forces.unit.begin(), forces.unit.end(), 0.0);
   std::fill(forces.W.begin(), forces.W.end(), 0.0);
-  divided_for(
-      // A position without adhesion must fail on all ranks, so each rank computes all points.
-      law.placed() ? Division::to_each() : division, static_cast<Index>(active.size()),
+  parallel_for(
+      own,
       [&](Index k) {
         const Index c = at(active, k);
         for (int i = 0; i < D; ++i)
@@ -158,19 +156,37 @@ void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLa
           if (pattern) at(forces.unit, q) = area * e.unit;
         }
       },
-      [&](Index k) { return OfCluster<D>(forces, at(active, k)); },
-      [&](Index k, const OfCluster<D>& of_other) { of_other.put(at(active, k), forces); }, 4);
+      4);
+  if (shares.are_sent()) {
+    forces.sent.resize(active.size());
+    for (Index k = own.begin; k < own.end; ++k)
+      at(forces.sent, k) = results_of(forces, at(active, k));
+  }
+  return {forces.sent.data(), shares};
+}
+
+template <int D>
+void add_up(const GapSide<D>& side, const ContactList<D>& list, const Portions& shares,
+            GapForces<D>& forces) {
+  const auto& active = list.of_first().active;
+  const ItemRange own = shares.own();
+  if (shares.are_sent())
+    for (Index k = 0; k < static_cast<Index>(active.size()); ++k)
+      if (k < own.begin || k >= own.end) put(at(forces.sent, k), at(active, k), forces);
   pull_corners<D>(side, active, forces);
 }
 
 template <int D>
-GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law,
-                       const Division& division) {
+GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law) {
   GapForces<D> forces(side, law.pattern());
-  forces.move(side, motion, division);
+  side.points.move(motion, forces.places);
+  side.facets.move(motion, forces.others);
   ContactList<D> list(side.list.reach(), side.list.skin());
-  list.update(forces.places.x, forces.others.samples, division);
-  take_forces(side, list, law, motion, division, forces);
+  list.update(forces.places.x, forces.others.samples);
+  const Portions shares = shares_of(list, law, SharedWork::of_all());
+  side.points.update_weights(list.of_first().active, motion, forces.places);
+  GatherTogether()({{take_forces(side, list, law, motion, shares, forces)}});
+  add_up(side, list, shares, forces);
   return forces;
 }
 
@@ -189,13 +205,14 @@ AdhesionSupply supply_of(const GapSide<D>& side, const GapForces<D>& forces,
   return supply;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                         \
-  template struct GapForces<D>;                                                         \
-  template void take_forces(const GapSide<D>&, const ContactList<D>&, const GapLaw<D>&, \
-                            const Motion&, const Division&, GapForces<D>&);             \
-  template GapForces<D> forces_at(const Motion&, const GapSide<D>&, const GapLaw<D>&,   \
-                                  const Division&);                                     \
-  template AdhesionSupply supply_of(const GapSide<D>&, const GapForces<D>&,             \
+#define MENISCUS_INSTANTIATE(D)                                                                   \
+  template struct GapForces<D>;                                                                   \
+  template Portions shares_of(const ContactList<D>&, const GapLaw<D>&, const SharedWork&);        \
+  template Gathered take_forces(const GapSide<D>&, const ContactList<D>&, const GapLaw<D>&,       \
+                                const Motion&, const Portions&, GapForces<D>&);                   \
+  template void add_up(const GapSide<D>&, const ContactList<D>&, const Portions&, GapForces<D>&); \
+  template GapForces<D> forces_at(const Motion&, const GapSide<D>&, const GapLaw<D>&);            \
+  template AdhesionSupply supply_of(const GapSide<D>&, const GapForces<D>&,                       \
                                     const AdhesionPattern&, const AdhesionWork&, Real);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

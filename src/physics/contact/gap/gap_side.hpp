@@ -25,13 +25,24 @@ struct GapSide {
         // Points of a facet that has less than doubled its size are no farther from its samples
         // than this.
         list(range + facets.longest_edge(), choice.skin * range / 4) {}
-  /// Registers the reads of a step: all points and facets, or none.
-  void tell_reads(StepReads& reads, bool reads_all) {
-    points.tell_reads_alone(reads, reads_all);
-    facets.tell_reads(reads, reads_all);
+  /// Registers the reads of a force: all points and facets, or none.
+  void list_reads(StepReads& reads, bool reads_all) const {
+    reads_all ? points.list_reads(reads) : points.list_sums(reads);
+    facets.list_reads(reads, reads_all);
   }
   std::size_t bytes() const { return points.bytes() + facets.bytes() + list.bytes(); }
   Offset pairs() const { return points.pairs() + facets.pairs() + list.pairs(); }
+};
+
+/// The results at the points of a cluster.
+template <int D>
+struct OfCluster {
+  struct Point {
+    typename ContactFacets<D>::Foot foot;
+    Real stored, unit;
+  };
+  Lanes T[D], S[D];
+  std::array<Point, Lanes::width> point;
 };
 
 /// Positions, energies and forces of a side.
@@ -42,17 +53,26 @@ struct GapForces {
   AlignedVector<Lanes> T, S;                          ///< [cluster][i]: dE/dx, dE/dV
   std::vector<typename ContactFacets<D>::Foot> foot;  ///< [point] nearest point
   std::vector<Real> stored;                           ///< [point] energy
-  std::vector<Real> unit;    ///< [point] energy at unit adhesion without core; if W varies
-  std::vector<Real> W;       ///< [point] adhesion, if it depends on position
-  std::vector<Vec<D>> pull;  ///< [corner] force
-  std::vector<Index> near;   ///< clusters within the range; the list has more
+  std::vector<Real> unit;          ///< [point] energy at unit adhesion without core; if W varies
+  std::vector<Real> W;             ///< [point] adhesion, if it depends on position
+  std::vector<Vec<D>> pull;        ///< [corner] force
+  std::vector<Index> near;         ///< clusters within the range; the list has more
+  std::vector<OfCluster<D>> sent;  ///< work space: results for other processes, [k of the list]
   Real gap = unbounded;
   Index nearest = 0;  ///< number of the point with the smallest gap
 
   GapForces(const GapSide<D>& side, const AdhesionPattern* pattern);
-  void move(const GapSide<D>& side, const Motion& motion, const Division& division) {
-    side.points.move(motion, places, division);
-    side.facets.move(motion, others, division);
+  /// Moves all points and facets, each process those whose rows it has. The result is to be
+  /// gathered before take_placed().
+  std::array<Gathered, 2> place(const GapSide<D>& side, const SharedWork& work,
+                                const Motion& motion) {
+    return {side.points.place(side.points.all(), work, ContactPoints<D>::Placed::positions, motion,
+                              places),
+            side.facets.place(work, motion, others)};
+  }
+  void take_placed(const GapSide<D>& side, const SharedWork& work) {
+    side.points.take_placed(side.points.all(), work, ContactPoints<D>::Placed::positions, places);
+    side.facets.take_placed(others);
   }
   std::size_t bytes() const;
   Real energy() const;
@@ -60,16 +80,25 @@ struct GapForces {
   Real force_on_facets(int i) const;
 };
 
-/// Computes the forces at this motion. Positions and list have to be up to date for it; ranks
-/// divide the points of the list by `division`.
+/// The part of the points of the list that this process computes: all where adhesion depends on the
+/// place, so that a position without adhesion fails everywhere.
 template <int D>
-void take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
-                 const Motion& motion, const Division& division, GapForces<D>& forces);
+Portions shares_of(const ContactList<D>& list, const GapLaw<D>& law, const SharedWork& work);
+/// Computes the forces on this share, at a motion for which positions, weights and list are up
+/// to date. The
+/// result is to be gathered before add_up().
+template <int D>
+Gathered take_forces(const GapSide<D>& side, const ContactList<D>& list, const GapLaw<D>& law,
+                     const Motion& motion, const Portions& shares, GapForces<D>& forces);
+/// Adds the forces of the points to the corners of the facets they act on, and finds the smallest
+/// gap.
+template <int D>
+void add_up(const GapSide<D>& side, const ContactList<D>& list, const Portions& shares,
+            GapForces<D>& forces);
 
-/// Computes the forces at any motion; allocates memory.
+/// Computes the forces at any motion that is known everywhere; allocates memory.
 template <int D>
-GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law,
-                       const Division& division);
+GapForces<D> forces_at(const Motion& motion, const GapSide<D>& side, const GapLaw<D>& law);
 
 /// The supply of adhesion that depends on the place, at the time of the forces.
 template <int D>

@@ -3,13 +3,12 @@
 #include "physics/contact/pair/contact_demand.hpp"
 
 #include "kernel/neighbor_search.hpp"
-#include "numbers/box.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 namespace meniscus {
 namespace {
@@ -33,61 +32,17 @@ Vec<D> mean_velocity(const ContactPoints<D>& points, std::span<const Index> acti
   return mean / (4 * std::max<Real>(1, static_cast<Real>(active.size())));
 }
 
-template <int D>
-Real largest_deviation(const ContactPoints<D>& points, std::span<const Index> active,
-                       const Vec<D>& from, const Motion& motion) {
+/// The largest |v - from| of points. velocity(cluster, v) sets the velocities of four of them.
+template <int D, class F>
+Real largest_deviation(std::span<const Index> active, const Vec<D>& from, F&& velocity) {
   Lanes largest = Lanes::zero(), v[D];
   for (const Index c : active) {
-    points.velocity_nearby(c, motion, v);
+    velocity(c, v);
     Lanes square = Lanes::zero();
     for (int i = 0; i < D; ++i) square += (v[i] - from[i]) * (v[i] - from[i]);
     largest = max(square, largest);
   }
   return std::sqrt(std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3])));
-}
-
-/// Bounding box of the velocity coefficients that points read.
-template <int D>
-Box<D> velocities(const ContactPoints<D>& points, const Motion& motion) {
-  const auto v = points.body().part(motion.v);
-  Lanes low(unbounded), high(-unbounded);
-  points.for_own_particles([&](Index k) {
-    const Lanes& of_particle = at(v, at(points.particles(), k));
-    low = min(low, of_particle);
-    high = max(high, of_particle);
-  });
-  Box<D> box;
-  for (int i = 0; i < D; ++i) {
-    box.low[i] = low[i];
-    box.high[i] = high[i];
-  }
-  return box;
-}
-
-/// Bounding box of the position coefficients that points read.
-template <int D>
-Box<D> places(const ContactPoints<D>& points, const Motion& motion) {
-  const auto u = points.body().part(motion.u);
-  Box<D> box;
-  points.for_own_particles([&](Index k) {
-    const Index A = at(points.particles(), k);
-    Vec<D> d = at(points.body().particles.X(), A);
-    for (int i = 0; i < D; ++i) d[i] += at(u, A)[i];
-    box.include(d);
-  });
-  return box;
-}
-
-/// Bounding boxes of all coefficients: in a halo the boxes of all ranks are joined.
-template <int D, std::size_t n>
-std::array<Box<D>, n> of_all(const ContactPoints<D>& points, std::array<Box<D>, n> boxes) {
-  if (!points.in_halo()) return boxes;
-  for (const std::array<Box<D>, n>& of_rank : said_by_ranks(boxes))
-    for (std::size_t k = 0; k < n; ++k) {
-      boxes[k].low = boxes[k].low.cwiseMin(of_rank[k].low);
-      boxes[k].high = boxes[k].high.cwiseMax(of_rank[k].high);
-    }
-  return boxes;
 }
 
 /// A box that contains sum_A N_A c_A at all contact points if `coefficients` contains all c_A. A
@@ -142,28 +97,61 @@ Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second) 
 
 template <int D>
 Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active,
-                   const ContactPoints<D>* other, std::span<const Index> other_active,
-                   const Vec<D>& rigid_velocity, const Motion& motion) {
-  const Vec<D> mean = other ? mean_velocity(*other, other_active, motion) : rigid_velocity;
-  const Real own = largest_deviation(points, active, mean, motion);
-  return other ? own + largest_deviation(*other, other_active, mean, motion) : own;
+                   const ContactPoints<D>& other, std::span<const Index> other_active,
+                   const Motion& motion) {
+  const Vec<D> mean = mean_velocity(other, other_active, motion);
+  const auto of = [&](const ContactPoints<D>& side) {
+    return [&](Index c, Lanes* v) { side.velocity_nearby(c, motion, v); };
+  };
+  return largest_deviation<D>(active, mean, of(points)) +
+         largest_deviation<D>(other_active, mean, of(other));
 }
 
 template <int D>
-Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
-                  const Motion& motion) {
-  const auto [x, y, v, w] =
-      of_all(first, std::array{places(first, motion), places(second, motion),
-                               velocities(first, motion), velocities(second, motion)});
-  return {distance_between(of_points(x, first), of_points(y, second)),
-          farthest_between(of_points(v, first), of_points(w, second))};
+Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active,
+                   const SharedWork& work, const Vec<D>& velocity, const Motion& motion) {
+  return largest_deviation<D>(active, velocity, [&](Index c, Lanes* v) {
+    points.velocity_nearby(c, work, velocity, motion, v);
+  });
 }
 
 template <int D>
-Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
-                  const Motion& motion) {
-  const auto [v] = of_all(points, std::array{velocities(points, motion)});
-  return {distance, farthest_between(of_points(v, points), Box<D>{velocity, velocity})};
+CoefficientBoxes<D>::CoefficientBoxes(const ContactPoints<D>& points,
+                                      std::span<const Index> particles, const Motion& motion) {
+  const auto u = points.body().part(motion.u), v = points.body().part(motion.v);
+  for (const Index A : particles) {
+    Vec<D> d = at(points.body().particles.X(), A), rate;
+    for (int i = 0; i < D; ++i) {
+      d[i] += at(u, A)[i];
+      rate[i] = at(v, A)[i];
+    }
+    places.include(d);
+    velocities.include(rate);
+  }
+}
+
+template <int D>
+void CoefficientBoxes<D>::join(const CoefficientBoxes& other) {
+  for (auto [box, added] :
+       {std::pair{&places, &other.places}, std::pair{&velocities, &other.velocities}}) {
+    box->low = box->low.cwiseMin(added->low);
+    box->high = box->high.cwiseMax(added->high);
+  }
+}
+
+template <int D>
+Approach approach(const ContactPoints<D>& first, const CoefficientBoxes<D>& of_first,
+                  const ContactPoints<D>& second, const CoefficientBoxes<D>& of_second) {
+  return {distance_between(of_points(of_first.places, first), of_points(of_second.places, second)),
+          farthest_between(of_points(of_first.velocities, first),
+                           of_points(of_second.velocities, second))};
+}
+
+template <int D>
+Approach approach(const ContactPoints<D>& points, const CoefficientBoxes<D>& boxes, Real distance,
+                  const Vec<D>& velocity) {
+  return {distance,
+          farthest_between(of_points(boxes.velocities, points), Box<D>{velocity, velocity})};
 }
 
 StepDemand approach_demand(const Approach& approach, Real range) {
@@ -203,13 +191,17 @@ std::optional<std::string> unresolved_gap(const std::string& contact, Real gap, 
       contact, gap, spacing);
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                                \
-  template Real gap_between(const ContactPlaces<D>&, const ContactPlaces<D>&);                 \
-  template Real closing_speed(const ContactPoints<D>&, std::span<const Index>,                 \
-                              const ContactPoints<D>*, std::span<const Index>, const Vec<D>&,  \
-                              const Motion&);                                                  \
-  template Approach approach(const ContactPoints<D>&, const ContactPoints<D>&, const Motion&); \
-  template Approach approach(const ContactPoints<D>&, Real, const Vec<D>&, const Motion&);
+#define MENISCUS_INSTANTIATE(D)                                                                   \
+  template Real gap_between(const ContactPlaces<D>&, const ContactPlaces<D>&);                    \
+  template Real closing_speed(const ContactPoints<D>&, std::span<const Index>,                    \
+                              const ContactPoints<D>&, std::span<const Index>, const Motion&);    \
+  template Real closing_speed(const ContactPoints<D>&, std::span<const Index>, const SharedWork&, \
+                              const Vec<D>&, const Motion&);                                      \
+  template struct CoefficientBoxes<D>;                                                            \
+  template Approach approach(const ContactPoints<D>&, const CoefficientBoxes<D>&,                 \
+                             const ContactPoints<D>&, const CoefficientBoxes<D>&);                \
+  template Approach approach(const ContactPoints<D>&, const CoefficientBoxes<D>&, Real,           \
+                             const Vec<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Limits of contact on the time step, and resolution of its gap.
 #pragma once
+#include "numbers/box.hpp"
 #include "physics/contact/gap/interaction.hpp"
 #include "physics/contact/points/contact_points.hpp"
 
@@ -13,27 +14,42 @@ namespace meniscus {
 template <int D>
 Real gap_between(const ContactPlaces<D>& first, const ContactPlaces<D>& second);
 
-/// An upper bound of the speed at which active points of a body and of `other` approach each other:
-/// the sum of the largest deviations from the mean velocity of `other`. Without `other` the partner
-/// moves with `rigid_velocity`.
+/// An upper bound of the speed at which active points of two bodies approach each other: the sum of
+/// the largest deviations from the mean velocity of `other`.
 template <int D>
 Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active,
-                   const ContactPoints<D>* other, std::span<const Index> other_active,
-                   const Vec<D>& rigid_velocity, const Motion& motion);
+                   const ContactPoints<D>& other, std::span<const Index> other_active,
+                   const Motion& motion);
+/// The same for a partner that moves with `velocity`, for the points that this process knows.
+template <int D>
+Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active,
+                   const SharedWork& work, const Vec<D>& velocity, const Motion& motion);
+
+/// Boxes around the position and velocity coefficients that contact points read.
+template <int D>
+struct CoefficientBoxes {
+  Box<D> places, velocities;
+
+  CoefficientBoxes() = default;
+  /// Of these particles of the body.
+  CoefficientBoxes(const ContactPoints<D>& points, std::span<const Index> particles,
+                   const Motion& motion);
+  void join(const CoefficientBoxes& other);
+};
 
 /// Lower bound of the distance between two bodies, and upper bound of the speed of their approach.
-/// Both come from bounding boxes of positions and velocities, which is cheap for bodies far apart.
+/// Both come from boxes of coefficients, which is cheap for bodies far apart.
 struct Approach {
   Real distance, speed;
 };
-/// For two bodies, from their coefficients alone: contact points are not moved.
+/// For two bodies, from the boxes of all their coefficients: contact points are not moved.
 template <int D>
-Approach approach(const ContactPoints<D>& first, const ContactPoints<D>& second,
-                  const Motion& motion);
+Approach approach(const ContactPoints<D>& first, const CoefficientBoxes<D>& of_first,
+                  const ContactPoints<D>& second, const CoefficientBoxes<D>& of_second);
 /// For a body at a known distance from a rigid partner that moves with `velocity`.
 template <int D>
-Approach approach(const ContactPoints<D>& points, Real distance, const Vec<D>& velocity,
-                  const Motion& motion);
+Approach approach(const ContactPoints<D>& points, const CoefficientBoxes<D>& boxes, Real distance,
+                  const Vec<D>& velocity);
 
 /// Limits a step so that bodies get at most a quarter of the range into it. At any speed they
 /// interact before they meet.

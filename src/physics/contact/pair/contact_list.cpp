@@ -92,10 +92,9 @@ void find_active(const std::vector<Offset>& start, std::vector<Index>& active) {
 }  // namespace
 
 template <int D>
-bool ContactList<D>::update(std::span<const Lanes> first, std::span<const Lanes> second,
-                            const Division& division) {
+bool ContactList<D>::update(std::span<const Lanes> first, std::span<const Lanes> second) {
   if (valid(first, second)) return false;
-  build(first, second, division);
+  build(first, second);
   return true;
 }
 
@@ -107,13 +106,12 @@ bool ContactList<D>::valid(std::span<const Lanes> first, std::span<const Lanes> 
 }
 
 template <int D>
-void ContactList<D>::build(std::span<const Lanes> first, std::span<const Lanes> second,
-                           const Division& division) {
+void ContactList<D>::build(std::span<const Lanes> first, std::span<const Lanes> second) {
   first_.active.reserve(first.size() / D);
   second_.active.reserve(second.size() / D);
   built_first_.assign(first.begin(), first.end());
   built_second_.assign(second.begin(), second.end());
-  find_partners(first, second, division);
+  find_partners(first, second);
   transpose(clusters_of<D>(second));
   find_active(first_.start, first_.active);
   find_active(second_.start, second_.active);
@@ -121,19 +119,17 @@ void ContactList<D>::build(std::span<const Lanes> first, std::span<const Lanes> 
 }
 
 template <int D>
-void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const Lanes> second,
-                                   const Division& division) {
+void ContactList<D>::find_partners(std::span<const Lanes> first, std::span<const Lanes> second) {
   const Index clusters = clusters_of<D>(first);
-  const OwnItems own = division.own_items(clusters);
   Box<D> box;
-  for (Index c = own.begin; c < own.end; ++c) box.include(box_of<D>(&at(first, c * D)));
+  for (Index c = 0; c < clusters; ++c) box.include(box_of<D>(&at(first, c * D)));
   box.grow((reach_ + skin_) * (1 + 1e-12));
   // The first search contains all clusters. Later searches contain fewer and fit into its memory.
   if (!search_) box.grow(unbounded);
   const Real radius = find_met(box, second);
   first_.start.assign(static_cast<std::size_t>(clusters) + 1, 0);
-  find_partners_of(own, radius, first, second);
-  take_rows(own, clusters, division);
+  find_partners_of(clusters, radius, first, second);
+  take_rows();
 }
 
 /// Finds the clusters of the second cloud that intersect `box`, and builds the neighbour search on
@@ -160,14 +156,14 @@ Real ContactList<D>::find_met(const Box<D>& box, std::span<const Lanes> second) 
 /// Searches the clusters found by find_met(), chunk by chunk. first_.start[c + 1] becomes the
 /// number of partners of cluster c.
 template <int D>
-void ContactList<D>::find_partners_of(OwnItems own, Real radius, std::span<const Lanes> first,
+void ContactList<D>::find_partners_of(Index clusters, Real radius, std::span<const Lanes> first,
                                       std::span<const Lanes> second) {
   const Real distance = reach_ + skin_;
-  found_.resize(static_cast<std::size_t>(chunk_count(own.end - own.begin)));
-  for_chunks(own.end - own.begin, [&](Index chunk, Index begin, Index end) {
+  found_.resize(static_cast<std::size_t>(chunk_count(clusters)));
+  for_chunks(clusters, [&](Index chunk, Index begin, Index end) {
     Found& found = at(found_, chunk);
     found.partner.clear();
-    for (Index c = own.begin + begin; c < own.begin + end; ++c) {
+    for (Index c = begin; c < end; ++c) {
       const Lanes* x = &at(first, c * D);
       const Vec<D> centre = centre_of<D>(x);
       search_->within(centre, distance + radius + radius_of<D>(x, centre), found.candidates);
@@ -180,11 +176,10 @@ void ContactList<D>::find_partners_of(OwnItems own, Real radius, std::span<const
   });
 }
 
-/// Gathers the rows of all ranks from the results of chunks and the numbers of partners.
+/// Takes the rows from the results of chunks and the numbers of partners.
 template <int D>
-void ContactList<D>::take_rows(OwnItems own, Index clusters, const Division& division) {
+void ContactList<D>::take_rows() {
   std::vector<Offset>& start = first_.start;
-  division.complete_items(clusters, start.data() + 1, sizeof(Offset));
   std::partial_sum(start.begin(), start.end(), start.begin());
   // Other chunks get as much memory as the largest, for contacts that move along the surface.
   std::size_t most_partners = 0, most_candidates = 0;
@@ -200,10 +195,9 @@ void ContactList<D>::take_rows(OwnItems own, Index clusters, const Division& div
   make_room(first_.partner, pairs);
   make_room(second_.partner, pairs);
   first_.partner.resize(pairs);
-  auto next = first_.partner.begin() + at(start, own.begin);
+  auto next = first_.partner.begin();
   for (const Found& found : found_)
     next = std::copy(found.partner.begin(), found.partner.end(), next);
-  division.complete_runs(clusters, start, first_.partner.data(), sizeof(Index));
 }
 
 /// The rows of the second cloud; partners ascend because the rows of the first are read in order.

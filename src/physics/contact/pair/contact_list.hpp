@@ -4,7 +4,7 @@
 #include "kernel/neighbor_search.hpp"
 #include "numbers/box.hpp"
 #include "parallel/aligned.hpp"
-#include "parallel/divided.hpp"
+#include "parallel/parallel.hpp"
 
 namespace meniscus {
 
@@ -13,8 +13,7 @@ namespace meniscus {
 /// zero, sums over partners have the same bits whenever the list was built.
 ///
 /// The list is built for reach + skin. It is valid while the largest move in the first cloud plus
-/// that in the second is at most `skin`. Ranks divide it: each searches clusters of the second
-/// cloud that meet the box around its own clusters of the first.
+/// that in the second is at most `skin`.
 template <int D>
 class ContactList {
  public:
@@ -22,13 +21,11 @@ class ContactList {
 
   /// Rebuilds the list if it is not valid for the positions [cluster][i] of two clouds, whose sizes
   /// must not change. Returns true if it was rebuilt. Does not allocate once the rows have their
-  /// final size. All ranks have to call this, unless the division is to_each().
-  bool update(std::span<const Lanes> first, std::span<const Lanes> second,
-              const Division& division = Division::to_each());
+  /// final size.
+  bool update(std::span<const Lanes> first, std::span<const Lanes> second);
 
   /// Rebuilds the list unconditionally, for callers that track displacements themselves.
-  void build(std::span<const Lanes> first, std::span<const Lanes> second,
-             const Division& division = Division::to_each());
+  void build(std::span<const Lanes> first, std::span<const Lanes> second);
 
   /// The rows of one cloud: cluster c has partner[start[c]] ... partner[start[c + 1] - 1].
   struct Rows {
@@ -51,12 +48,11 @@ class ContactList {
 
  private:
   bool valid(std::span<const Lanes> first, std::span<const Lanes> second) const;
-  void find_partners(std::span<const Lanes> first, std::span<const Lanes> second,
-                     const Division& division);
+  void find_partners(std::span<const Lanes> first, std::span<const Lanes> second);
   Real find_met(const Box<D>& box, std::span<const Lanes> second);
-  void find_partners_of(OwnItems own, Real radius, std::span<const Lanes> first,
+  void find_partners_of(Index clusters, Real radius, std::span<const Lanes> first,
                         std::span<const Lanes> second);
-  void take_rows(OwnItems own, Index clusters, const Division& division);
+  void take_rows();
   void transpose(Index second_clusters);
 
   Real reach_, skin_;
@@ -65,7 +61,7 @@ class ContactList {
   std::vector<Index> met_;                     // clusters of the second cloud that may be near
   std::vector<Vec<D>> centre_;                 // [k of met_] their centres
   std::unique_ptr<NeighborSearch<D>> search_;  // searches these centres
-  struct Found {                               // of a chunk of own clusters of the first
+  struct Found {                               // of a chunk of clusters of the first
     std::vector<Index> candidates, partner;
   };
   std::vector<Found> found_;

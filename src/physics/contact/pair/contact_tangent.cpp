@@ -5,7 +5,6 @@
 #include "physics/contact/points/patch_points.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace meniscus {
 
@@ -55,10 +54,8 @@ ContactChanges<D> ContactPoints<D>::changes(std::span<const Index> clusters,
   all.weight.assign(offset(this->clusters(), components_), Lanes::zero());
   NodalVectors ahead, behind;
   if (made_->patches) {
-    std::vector<Index> every(places.nodes.size());
-    std::iota(every.begin(), every.end(), Index{0});
-    all.nodes.resize(places.nodes.size());
-    made_->patches->values(du, every, Division::to_each(), all.nodes);
+    for (Index node = 0; node < made_->patches->node_count(); ++node)
+      all.nodes.push_back(made_->patches->value(node, du));
     ahead = behind = places.nodes;
     for (std::size_t a = 0; a < ahead.size(); ++a) {
       ahead[a] += all.nodes[a];
@@ -99,7 +96,7 @@ void ContactPoints<D>::add_force_change(const ContactPlaces<D>& places,
                                         const ContactChanges<D>& changes, const Motion& motion,
                                         const Motion& change, std::span<const Index> clusters,
                                         std::span<const Lanes> dT, std::span<const Lanes> S,
-                                        std::span<const Lanes> dS, std::span<NodalVector> force) {
+                                        std::span<const Lanes> dS, const Forces& force) {
   if (made_->patches) return add_change_on_patches(places, changes, clusters, dT, S, dS, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
   made_->chunk_sums.accumulate(
@@ -127,8 +124,7 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
                                              const ContactChanges<D>& changes,
                                              std::span<const Index> clusters,
                                              std::span<const Lanes> dT, std::span<const Lanes> S,
-                                             std::span<const Lanes> dS,
-                                             std::span<NodalVector> force) {
+                                             std::span<const Lanes> dS, const Forces& force) {
   for (const Index c : clusters) at(pushed_, c) = 1;
   parallel_for(static_cast<Index>(made_->of_group.size()), [&](Index group) {
     made_->patches->begin_force(group);
@@ -158,7 +154,7 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
   template void ContactPoints<D>::add_force_change(                                         \
       const ContactPlaces<D>&, const ContactChanges<D>&, const Motion&, const Motion&,      \
       std::span<const Index>, std::span<const Lanes>, std::span<const Lanes>,               \
-      std::span<const Lanes>, std::span<NodalVector>);
+      std::span<const Lanes>, const Forces&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

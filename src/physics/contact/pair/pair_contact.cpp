@@ -8,6 +8,7 @@
 #include "physics/contact/pair/contact_visits.hpp"
 #include "physics/contact/pair/pair_sums.hpp"
 #include "physics/contact/pair/pair_visits.hpp"
+#include "physics/contact/phases.hpp"
 
 #include <fmt/core.h>
 
@@ -21,7 +22,7 @@ namespace {
 struct NearestCluster {
   Real distance = unbounded;
   std::size_t grade = 0;
-  Index cluster = 0;  ///< number among the clusters with partners
+  Index cluster = 0;
 };
 
 template <int D>
@@ -35,6 +36,8 @@ class PairContact final : public ForceTerm, public ContactVisits {
         sums_(pair_sums<D>(law, choice.form)),
         interaction_(law, first.beta * second.beta),
         visits_(first, second, interaction_, law, choice) {
+    first_boxes_ = PartTally<CoefficientBoxes<D>>(visits_.work().rows(first.body.division));
+    second_boxes_ = PartTally<CoefficientBoxes<D>>(visits_.work().rows(second.body.division));
     for (std::size_t g = 0; g < visits_.grades(); ++g) {
       first_result_.emplace_back(visits_.first(g).clusters(), sums_->moment());
       second_result_.emplace_back(visits_.second(g).clusters(), sums_->moment());
@@ -46,8 +49,11 @@ class PairContact final : public ForceTerm, public ContactVisits {
   std::string name() const override { return "contact '" + name_ + "'"; }
   std::string_view energy_kind() const override { return "contact"; }
 
+  /// Finds the points that may be near, gathers their places, gathers the forces on them, and adds
+  /// these to the particles.
   Report add_force(const Motion& motion, Forces force) override {
-    return visits_.ranks().report_of([&] { return add_known_force(motion, force); });
+    if (!visits_.work().takes_part()) return share_summary(motion, force);
+    return go_on<&PairContact::place>(*this, visits_.work(), visits_.moves(motion), motion, force);
   }
 
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
@@ -70,8 +76,11 @@ class PairContact final : public ForceTerm, public ContactVisits {
     return visits_.look_at(motion, [&](const VisitedPair<D>& visited) {
       Real energy = 0;
       for (std::size_t g = 0; g < visits_.grades(); ++g)
-        energy += sums_->energy(visited.first[g], visits_.first(g).clusters(), visited.of_first(g),
-                                visited.second[g], division());
+        // Sum over all clusters, so that the order of summation does not depend on the active ones.
+        energy +=
+            visits_.first(g).body().sum_over_rows(visits_.first(g).clusters(), 0.0, [&](Index c) {
+              return sums_->energy(visited.first[g], c, visited.of_first(g), visited.second[g]);
+            });
       return energy;
     });
   }
@@ -82,18 +91,17 @@ class PairContact final : public ForceTerm, public ContactVisits {
     return stored_energy(motion);
   }
 
-  bool tell_reads(StepReads& reads) override {
-    visits_.tell_reads(reads);
+  bool reads(StepReads& reads) override {
+    visits_.list_reads(reads);
     return true;
   }
   bool reads_changed() const override { return visits_.reads_changed(); }
-  bool may_outgrow_halo() const override { return !visits_.ranks().are_few(); }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
   std::optional<std::string> warning(const Motion& motion) const override {
     return visits_.look_at(motion, [&](const VisitedPair<D>& visited) {
-      return unresolved_gap(name_, nearest_of(evaluated(visited)).distance, spacing(),
+      return unresolved_gap(name_, nearest_of(evaluated(visited), visited).distance, spacing(),
                             interaction_.range());
     });
   }
@@ -114,44 +122,101 @@ class PairContact final : public ForceTerm, public ContactVisits {
   }
 
  private:
-  const Division& division() const { return visits_.ranks().division(); }
-  /// Adds the force on a rank that takes part in the contact.
-  Report add_known_force(const Motion& motion, Forces force) {
-    const bool reports = visits_.ranks().reports();
-    visits_.visit(motion);
+  /// Moves the coarsest points; if the list does not cover the motion, all of them.
+  Report place(const Motion& motion, Forces force) {
+    const bool known = visits_.covers() || visits_.work().is_of_few();
+    const Motion here = known ? motion : force.everywhere(motion);
+    return go_on<&PairContact::choose>(*this, visits_.work(), visits_.place(here), here, force);
+  }
+  Report choose(const Motion& motion, Forces force) {
+    visits_.choose(motion);
+    if (visits_.grades() == 1) return evaluate(motion, force);
+    return go_on<&PairContact::take_grades>(*this, visits_.work(), visits_.place_grades(motion),
+                                            motion, force);
+  }
+  Report take_grades(const Motion& motion, Forces force) {
+    visits_.take_grades();
+    return evaluate(motion, force);
+  }
+  /// Sums the forces on a share of the points.
+  Report evaluate(const Motion& motion, Forces force) {
     count(visits_.point_pairs());
     const VisitedPair<D>& now = visits_.now();
+    gathered_.clear();
+    const auto evaluate_side = [&](const ContactPlaces<D>& points, const FacetRows<D>& rows,
+                                   const ContactPlaces<D>& others, PairEvaluation<D>& result) {
+      const Portions shares = shares_of(rows);
+      sums_->evaluate(points, rows, others, shares.own(), result);
+      gathered_.push_back(result.packed(rows, shares));
+      gathered_.push_back(result.nearest_of(shares));
+    };
     for (std::size_t g = 0; g < visits_.grades(); ++g) {
-      const FacetRows<D> first = now.of_first(g), second = now.of_second(g);
-      if (reports) {
-        sums_->evaluate(now.first[g], first, now.second[g], division(), first_result_[g]);
-        if (!first.clusters.empty())
-          visits_.first(g).add_force(now.first[g], first.clusters, first_result_[g].T,
-                                     first_result_[g].S, force);
-      }
-      sums_->evaluate(now.second[g], second, now.first[g], division(), second_result_[g]);
-      if (!second.clusters.empty())
-        visits_.second(g).add_force(now.second[g], second.clusters, second_result_[g].T,
-                                    second_result_[g].S, force);
+      if (visits_.work().reports())
+        evaluate_side(now.first[g], now.of_first(g), now.second[g], first_result_[g]);
+      evaluate_side(now.second[g], now.of_second(g), now.first[g], second_result_[g]);
     }
-    return reports ? report(motion) : Report();
+    if (force.demand) take_boxes(motion);
+    gathered_.push_back(first_boxes_.gathered());
+    gathered_.push_back(second_boxes_.gathered());
+    return go_on<&PairContact::add_forces>(*this, visits_.work(), gathered_, motion, force);
+  }
+  /// Adds the forces on all points to the particles.
+  Report add_forces(const Motion& motion, Forces force) {
+    const VisitedPair<D>& now = visits_.now();
+    const auto add_side = [&](ContactPoints<D>& points, const ContactPlaces<D>& places,
+                              const FacetRows<D>& rows, PairEvaluation<D>& result) {
+      result.take(rows, shares_of(rows));
+      if (!rows.clusters.empty())
+        points.add_force(places, rows.clusters, result.T, result.S, force);
+    };
+    for (std::size_t g = 0; g < visits_.grades(); ++g) {
+      if (visits_.work().reports())
+        add_side(visits_.first(g), now.first[g], now.of_first(g), first_result_[g]);
+      add_side(visits_.second(g), now.second[g], now.of_second(g), second_result_[g]);
+    }
+    if (visits_.work().reports()) summarise(motion, force.demand);
+    return share_summary(motion, force);
+  }
+  Report share_summary(const Motion& motion, Forces force) {
+    return force.gather({visits_.work().reported(&summary_)}, motion,
+                        [this](const Motion& m, const Forces&) { return report(m.time); });
+  }
+  Portions shares_of(const FacetRows<D>& rows) const {
+    return visits_.work().items(static_cast<Index>(rows.clusters.size()));
+  }
+  void take_boxes(const Motion& motion) {
+    const ContactPoints<D>&first = visits_.first(0), &second = visits_.second(0);
+    if (auto* const mine = first_boxes_.mine())
+      *mine = {first, first.own_particles(visits_.work()), motion};
+    if (auto* const mine = second_boxes_.mine())
+      *mine = {second, second.own_particles(visits_.work()), motion};
+  }
+  static CoefficientBoxes<D> joined(const PartTally<CoefficientBoxes<D>>& boxes) {
+    CoefficientBoxes<D> all;
+    for (const CoefficientBoxes<D>& of_part : boxes) all.join(of_part);
+    return all;
   }
   /// Sums on the first body, by grade.
   std::vector<PairEvaluation<D>> evaluated(const VisitedPair<D>& visited) const {
     std::vector<PairEvaluation<D>> results;
     for (std::size_t g = 0; g < visits_.grades(); ++g) {
-      results.emplace_back(visits_.first(g).clusters(), sums_->moment());
-      sums_->evaluate(visited.first[g], visited.of_first(g), visited.second[g], division(),
-                      results.back());
+      PairEvaluation<D>& result =
+          results.emplace_back(visits_.first(g).clusters(), sums_->moment());
+      const FacetRows<D> rows = visited.of_first(g);
+      const Portions shares = evenly.items(static_cast<Index>(rows.clusters.size()));
+      sums_->evaluate(visited.first[g], rows, visited.second[g], shares.own(), result);
+      GatherTogether()({{result.packed(rows, shares), result.nearest_of(shares)}});
+      result.take(rows, shares);
     }
     return results;
   }
-  static NearestCluster nearest_of(const std::vector<PairEvaluation<D>>& results) {
+  static NearestCluster nearest_of(const std::vector<PairEvaluation<D>>& results,
+                                   const VisitedPair<D>& visited) {
     NearestCluster least;
     for (std::size_t g = 0; g < results.size(); ++g)
       for (std::size_t k = 0; k < results[g].nearest.size(); ++k)
         if (const Real distance = std::sqrt(results[g].nearest[k]); distance < least.distance)
-          least = {distance, g, static_cast<Index>(k)};
+          least = {distance, g, visited.of_first(g).clusters[k]};
     return least;
   }
 
@@ -171,7 +236,8 @@ class PairContact final : public ForceTerm, public ContactVisits {
                                 by.S, by.dS, force);
   }
 
-  Report report(const Motion& motion);
+  void summarise(const Motion& motion, bool demand);
+  Report report(Real time) const;
   Real closing_speed_of(std::size_t grade, Real within, const Motion& motion);
   Failure describe_overlap(const NearestCluster& nearest, Real time) const;
   Real spacing() const { return std::max(visits_.first(0).spacing(), visits_.second(0).spacing()); }
@@ -183,7 +249,14 @@ class PairContact final : public ForceTerm, public ContactVisits {
   std::unique_ptr<PairSums<D>> sums_;
   LennardJones interaction_;
   PairVisits<D> visits_;
-  // Work space of a force.
+  struct Summary {
+    NearestCluster nearest;
+    StepDemand demand;
+  };
+  // Results and work space of a force.
+  Summary summary_;
+  PartTally<CoefficientBoxes<D>> first_boxes_, second_boxes_;
+  std::vector<Gathered> gathered_;
   std::vector<PairEvaluation<D>> first_result_, second_result_;  // [grade]
   struct {
     std::vector<Index> first, second;
@@ -206,40 +279,45 @@ Real PairContact<D>::closing_speed_of(std::size_t grade, Real within, const Moti
   find_close(now.of_first(grade), first_result_[grade].nearest, within, close_.first);
   find_close(now.of_second(grade), second_result_[grade].nearest, within, close_.second);
   if (close_.first.empty()) return 0;
-  return closing_speed<D>(visits_.first(grade), close_.first, &visits_.second(grade), close_.second,
-                          Vec<D>::Zero(), motion);
+  return closing_speed<D>(visits_.first(grade), close_.first, visits_.second(grade), close_.second,
+                          motion);
 }
 
-/// Report of the last force: failures, and the limit of the step from present positions and
-/// velocities. Pairs of the list that are out of reach have no influence.
+/// Finds the nearest points, and the limit of the step from present positions and velocities. Pairs
+/// of the list that are out of reach have no influence.
 template <int D>
-Report PairContact<D>::report(const Motion& motion) {
-  Report report;
+void PairContact<D>::summarise(const Motion& motion, bool demand) {
   const ContactPoints<D>&first = visits_.first(0), &second = visits_.second(0);
-  const NearestCluster nearest = nearest_of(first_result_);
-  const Approach any = approach(first, second, motion);
-  if (!(nearest.distance < law_.reach())) {
-    report.demand = approach_demand(any, law_.reach());
-    return report;
+  summary_ = {nearest_of(first_result_, visits_.now()), {}};
+  if (!demand) return;
+  const Real gap = summary_.nearest.distance;
+  const Approach any = approach(first, joined(first_boxes_), second, joined(second_boxes_));
+  if (!(gap < law_.reach())) {
+    summary_.demand = approach_demand(any, law_.reach());
+    return;
   }
-  if (nearest.distance < interaction_.least_gap())
-    report.failure = describe_overlap(nearest, motion.time);
-  const Real within = std::min(close_by(nearest.distance), law_.reach());
+  const Real within = std::min(close_by(gap), law_.reach());
   Real speed = 0;
   for (std::size_t g = 0; g < visits_.grades(); ++g)
     speed = std::max(speed, closing_speed_of(g, within, motion));
   const Real inverse_inertia = 1 / first.inertia() + 1 / second.inertia();
-  report.demand = contact_demand({interaction_, inverse_inertia, spacing(), D}, nearest.distance,
-                                 {speed, within, any.speed});
+  summary_.demand = contact_demand({interaction_, inverse_inertia, spacing(), D}, gap,
+                                   {speed, within, any.speed});
+}
+
+template <int D>
+Report PairContact<D>::report(Real time) const {
+  Report report;
+  report.demand = summary_.demand;
+  if (summary_.nearest.distance < interaction_.least_gap())
+    report.failure = describe_overlap(summary_.nearest, time);
   return report;
 }
 
 template <int D>
 Failure PairContact<D>::describe_overlap(const NearestCluster& nearest, Real time) const {
   const ContactPoints<D>& points = visits_.first(nearest.grade);
-  const Index cluster =
-      visits_.now().of_first(nearest.grade).clusters[static_cast<std::size_t>(nearest.cluster)];
-  return {points.particle_at(cluster * Lanes::width),
+  return {points.particle_at(nearest.cluster * Lanes::width),
           fmt::format("surfaces overlap: the gap between '{}' and '{}' is {:.4g} = {:.3g} sigma0, "
                       "least is {:.2g} sigma0{}",
                       points.body().name, visits_.second(0).body().name, nearest.distance,

@@ -4,7 +4,6 @@
 #include "physics/contact/pair/pair_sums.hpp"
 
 #include "meniscus/error.hpp"
-#include "parallel/divided.hpp"
 #include "parallel/parallel.hpp"
 #include "physics/contact/pair/contact_forms.hpp"
 
@@ -24,11 +23,11 @@ class PairSumsOf final : public PairSums<D> {
   }
 
   void evaluate(const ContactPlaces<D>& points, const FacetRows<D>& rows,
-                const ContactPlaces<D>& others, const Division& division,
+                const ContactPlaces<D>& others, const ItemRange& share,
                 PairEvaluation<D>& result) const override {
     result.nearest.resize(rows.clusters.size());
-    divided_for(
-        division, static_cast<Index>(rows.clusters.size()),
+    parallel_for(
+        share,
         [&](Index k) {
           const Index c = at(rows.clusters, k);
           Lanes T[D], S[D];
@@ -42,15 +41,6 @@ class PairSumsOf final : public PairSums<D> {
             at(result.T, c * D + i) = T[i];
             if (Form::moment) at(result.S, c * D + i) = S[i];
           }
-        },
-        [&](Index k) { return record_of(at(rows.clusters, k), at(result.nearest, k), result); },
-        [&](Index k, const Record& record) {
-          const Index c = at(rows.clusters, k);
-          for (int i = 0; i < D; ++i) {
-            at(result.T, c * D + i) = record.T[i];
-            if (Form::moment) at(result.S, c * D + i) = record.S[i];
-          }
-          at(result.nearest, k) = record.nearest;
         },
         4);
   }
@@ -81,35 +71,17 @@ class PairSumsOf final : public PairSums<D> {
     return result;
   }
 
-  Real energy(const ContactPlaces<D>& points, Index clusters, const FacetRows<D>& rows,
-              const ContactPlaces<D>& others, const Division& division) const override {
-    // Sum over all clusters, so that the order of summation does not depend on the active ones.
-    return division.sum(clusters, 0.0, [&](Index c) {
-      Lanes T[D], S[1];
-      T[0] = Lanes::zero();
-      contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
-          law_, reach_, points.x_of(c), points.weight_of(c), rows.partners_of(c),
-          rows.clusters_per_facet, others, T, S);
-      return sum(T[0]);
-    });
+  Real energy(const ContactPlaces<D>& points, Index c, const FacetRows<D>& rows,
+              const ContactPlaces<D>& others) const override {
+    Lanes T[D], S[1];
+    T[0] = Lanes::zero();
+    contact::sum_over_partners<contact::Potential<D, Form::components>, D>(
+        law_, reach_, points.x_of(c), points.weight_of(c), rows.partners_of(c),
+        rows.clusters_per_facet, others, T, S);
+    return sum(T[0]);
   }
 
  private:
-  /// Results of a cluster, as sent to other ranks.
-  struct Record {
-    Lanes T[D], S[D];
-    Real nearest;
-  };
-  static Record record_of(Index cluster, Real nearest, const PairEvaluation<D>& result) {
-    Record record;
-    for (int i = 0; i < D; ++i) {
-      record.T[i] = at(result.T, cluster * D + i);
-      record.S[i] = Form::moment ? at(result.S, cluster * D + i) : Lanes::zero();
-    }
-    record.nearest = nearest;
-    return record;
-  }
-
   PairLaw<K> law_;
   Real reach_;
 };
@@ -133,6 +105,38 @@ std::unique_ptr<PairSums<D>> with_form(const ContactLaw& law, ContactForm form) 
 }  // namespace
 
 template <int D>
+void PairEvaluation<D>::copy(const FacetRows<D>& rows, const ItemRange& part, bool back) {
+  const std::size_t each = S.empty() ? D : 2 * D;
+  for (Index k = part.begin; k < part.end; ++k) {
+    Lanes* next = sent.data() + static_cast<std::size_t>(k) * each;
+    for (AlignedVector<Lanes>* field : {&T, &S}) {
+      if (field->empty()) continue;
+      Lanes* const own = &at(*field, at(rows.clusters, k) * D);
+      back ? std::copy_n(next, D, own) : std::copy_n(own, D, next);
+      next += D;
+    }
+  }
+}
+
+template <int D>
+Gathered PairEvaluation<D>::packed(const FacetRows<D>& rows, const Portions& shares) {
+  const std::size_t each = S.empty() ? D : 2 * D;
+  if (shares.are_sent()) {
+    sent.resize(rows.clusters.size() * each);
+    copy(rows, shares.own(), false);
+  }
+  return {sent.data(), shares, each};
+}
+
+template <int D>
+void PairEvaluation<D>::take(const FacetRows<D>& rows, const Portions& shares) {
+  if (!shares.are_sent()) return;
+  const ItemRange own = shares.own();
+  copy(rows, {0, own.begin}, true);
+  copy(rows, {own.end, static_cast<Index>(rows.clusters.size())}, true);
+}
+
+template <int D>
 std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form) {
   if (dimension_of(law.kernel) != D)
     throw InputError("the kernel of the contact has another dimension than the bodies");
@@ -144,6 +148,8 @@ std::unique_ptr<PairSums<D>> pair_sums(const ContactLaw& law, ContactForm form) 
     return with_form<D, PairKernel::integrated>(law, form);
 }
 
+template struct PairEvaluation<2>;
+template struct PairEvaluation<3>;
 template std::unique_ptr<PairSums<2>> pair_sums(const ContactLaw&, ContactForm);
 template std::unique_ptr<PairSums<3>> pair_sums(const ContactLaw&, ContactForm);
 

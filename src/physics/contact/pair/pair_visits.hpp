@@ -3,10 +3,10 @@
 #pragma once
 #include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_list.hpp"
-#include "physics/contact/pair/contact_ranks.hpp"
 #include "physics/contact/pair/facet_pairs.hpp"
 #include "physics/contact/points/moved_since.hpp"
 
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -55,9 +55,26 @@ class PairVisits {
   ContactPoints<D>& second(std::size_t grade) { return second_[grade]; }
   const ContactPoints<D>& first(std::size_t grade) const { return first_[grade]; }
   const ContactPoints<D>& second(std::size_t grade) const { return second_[grade]; }
+  const SharedWork& work() const { return work_; }
 
-  /// Updates now() to this motion. The list of the coarsest points gives the pairs that may be
-  /// within reach. Does not allocate while the list is valid.
+  // The parts of a visit, in order; arrays that a part returns are to be gathered before the next
+  // part. The list of the coarsest points gives the pairs that may be within reach. Nothing is
+  // allocated while the list is valid.
+
+  /// How far the points have moved since the list was made; to be gathered before covers().
+  std::array<Gathered, 2> moves(const Motion& motion);
+  /// True if the list has all pairs within reach, and this process reads the motion of its points.
+  bool covers();
+  /// Moves the coarsest points: those of the list, or all if it does not cover the motion.
+  std::array<Gathered, 2> place(const Motion& motion);
+  /// Makes a new list if necessary, and chooses the grades of facets.
+  void choose(const Motion& motion);
+  /// Moves the points of all grades, with their weights.
+  std::span<const Gathered> place_grades(const Motion& motion);
+  /// Ends the visit of several grades.
+  void take_grades();
+
+  /// Makes all parts for a motion that is known everywhere.
   void visit(const Motion& motion);
   const VisitedPair<D>& now() const { return now_; }
 
@@ -65,41 +82,57 @@ class PairVisits {
   template <class F>
   auto look_at(const Motion& motion, F&& f) const {
     VisitedPair<D> at_motion = at_rest();
-    std::optional<ContactList<D>> own;
+    ContactList<D> list(list_.reach(), list_.skin());
     if (holds(motion))
       move_listed(motion, at_motion);
     else
-      make_list(motion, own.emplace(list_.reach(), list_.skin()), at_motion);
-    bring_others(motion, at_motion);
+      make_list(motion, list, at_motion);
+    move_others(motion, at_motion);
     return f(std::as_const(at_motion));
   }
 
-  const ContactRanks& ranks() const { return ranks_; }
-  /// Registers the reads of a step: all points if few ranks compute the contact, otherwise the
-  /// points of the list if there is one.
-  void tell_reads(StepReads& reads);
-  /// True if the list was rebuilt since tell_reads().
-  bool reads_changed() const { return told_list_ && list_.builds() != *told_list_; }
+  /// Registers the reads of a force: all points if the work is of few, otherwise the points of the
+  /// list if there is one.
+  void list_reads(StepReads& reads);
+  /// True if the list was rebuilt since list_reads().
+  bool reads_changed() const { return read_list_ && list_.builds() != *read_list_; }
   std::size_t bytes() const;
   /// Number of pairs of points, counted from both sides.
   Offset point_pairs() const;
 
  private:
+  using Points = ContactPoints<D>;
+
   VisitedPair<D> at_rest() const;
-  void tell_reads(StepReads& reads, GradedPoints<D>& side, std::span<const Index> listed) const;
+  void list_reads(StepReads& reads, const GradedPoints<D>& side,
+                  std::span<const Index> listed) const;
   bool holds(const Motion& motion) const;
   void move_listed(const Motion& motion, VisitedPair<D>& at_motion) const;
   void make_list(const Motion& motion, ContactList<D>& list, VisitedPair<D>& at_motion) const;
-  void bring_others(const Motion& motion, VisitedPair<D>& at_motion) const;
+  void move_others(const Motion& motion, VisitedPair<D>& at_motion) const;
+  void begin_list(const Motion& motion);
+  /// What place() computes.
+  typename Points::Placed placed() const {
+    return grades() == 1 ? Points::Placed::weights : Points::Placed::positions;
+  }
+  std::span<const Index> placed_first() const {
+    return covers_ ? std::span<const Index>(list_.of_first().active) : first_.back().all();
+  }
+  std::span<const Index> placed_second() const {
+    return covers_ ? std::span<const Index>(list_.of_second().active) : second_.back().all();
+  }
 
   Real reach_;
   FacetGrades grades_;
   GradedPoints<D> first_, second_;
-  ContactRanks ranks_;
+  SharedWork work_;
   ContactList<D> list_;                       // list of the coarsest points
   MovedSince<D> first_since_, second_since_;  // displacements since the list was built
+  PartTally<Real> first_moves_, second_moves_;
+  bool covers_ = false;           // at the last visit
+  std::vector<Gathered> placed_;  // [grade, first or second] of the last visit
   VisitedPair<D> now_;
-  std::optional<std::int64_t> told_list_;  // list_.builds() at tell_reads()
+  std::optional<std::int64_t> read_list_;  // list_.builds() at list_reads()
 };
 
 }  // namespace meniscus

@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// Shares of the corners in the point of a segment nearest to x.
+/// Portions of the corners in the point of a segment nearest to x.
 template <int D>
 std::array<Real, 2> nearest_on_segment(const Vec<D>& x, const Vec<D>& a, const Vec<D>& b) {
   const Vec<D> edge = b - a;
@@ -19,7 +19,7 @@ std::array<Real, 2> nearest_on_segment(const Vec<D>& x, const Vec<D>& a, const V
   return {1 - t, t};
 }
 
-/// Shares of the corners in the point of a facet nearest to x.
+/// Portions of the corners in the point of a facet nearest to x.
 std::array<Real, 2> nearest_on(const Vec<2>& x, const std::array<Vec<2>, 2>& corner) {
   return nearest_on_segment<2>(x, corner[0], corner[1]);
 }
@@ -53,7 +53,7 @@ Vec<3> normal_of(const std::array<Vec<3>, 3>& corner) {
   return (corner[1] - corner[0]).cross(corner[2] - corner[0]);
 }
 
-/// Shares of the corners in the point where the line through x along `up` meets the plane of a
+/// Portions of the corners in the point where the line through x along `up` meets the plane of a
 /// facet with normal n.
 std::array<Real, 2> shares_below(const Vec<2>& x, const Vec<2>& up, const Vec<2>& n,
                                  const std::array<Vec<2>, 2>& corner) {
@@ -83,7 +83,7 @@ ContactFacets<D>::ContactFacets(const Body<D>& body)
   for (auto& simplex : simplices_)
     for (Index& A : simplex) A = at(number, A);
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
-  chunk_sums_ = {rows_.start, rows_.particle, body.size(), body.division};
+  chunk_sums_ = body.chunk_sums(rows_.start, rows_.particle);
 }
 
 template <int D>
@@ -95,14 +95,26 @@ typename ContactFacets<D>::Places ContactFacets<D>::at_rest() const {
 }
 
 template <int D>
-void ContactFacets<D>::move(const Motion& motion, Places& places, const Division& division) const {
+void ContactFacets<D>::move(const ItemRange& corners, const Motion& motion, Places& places) const {
   const NodalVector* u = motion.u.data() + body_.first;
-  parallel_for(division.own_items(rows_.size()), [&](Index B) {
+  parallel_for(corners, [&](Index B) {
     const Lanes moved = value_at(rows_, B, u);
     for (int i = 0; i < D; ++i) at(places.corner, B)[i] = at(X_, B)[i] + moved[i];
   });
-  division.complete_items(rows_.size(), places.corner.data(), sizeof(Vec<D>));
+}
+
+template <int D>
+void ContactFacets<D>::move(const Motion& motion, Places& places) const {
+  move({0, rows_.size()}, motion, places);
   sample(places);
+}
+
+template <int D>
+Gathered ContactFacets<D>::place(const SharedWork& work, const Motion& motion,
+                                 Places& places) const {
+  const Portions shares = work.rows(body_.division).rows(rows_.size());
+  move(shares.own(), motion, places);
+  return {places.corner.data(), shares};
 }
 
 template <int D>
@@ -228,7 +240,7 @@ Index ContactFacets<D>::turned_over(const Places& places, const Vec<D>& up,
 }
 
 template <int D>
-void ContactFacets<D>::add_force(const std::vector<Vec<D>>& pull, std::span<NodalVector> force) {
+void ContactFacets<D>::add_force(const std::vector<Vec<D>>& pull, const Forces& force) {
   chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
     for (Index B = begin; B < end; ++B) {
       if (at(pull, B).isZero(0)) continue;

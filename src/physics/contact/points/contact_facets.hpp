@@ -3,6 +3,7 @@
 #pragma once
 #include "body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
+#include "parallel/shared_work.hpp"
 
 #include <array>
 #include <span>
@@ -23,8 +24,12 @@ class ContactFacets {
     std::vector<Real> radius;      ///< [facet] largest distance of a corner from the middle
   };
   Places at_rest() const;
-  /// Moves all facets with the body; ranks divide them by `division`. Does not allocate.
-  void move(const Motion& motion, Places& places, const Division& division) const;
+  /// Moves all facets with the body. Does not allocate.
+  void move(const Motion& motion, Places& places) const;
+  /// Like move(), but each process moves the corners whose rows it has. The result is to be
+  /// gathered before take_placed().
+  Gathered place(const SharedWork& work, const Motion& motion, Places& places) const;
+  void take_placed(Places& places) const { sample(places); }
 
   /// The nearest point of the surface: sum_k share_k x_k over the corners of a facet. If the
   /// corners move by dx_k, the distance changes by -normal . sum_k share_k dx_k.
@@ -57,11 +62,11 @@ class ContactFacets {
 
   const std::array<Index, D>& corners_of(Index facet) const { return at(simplices_, facet); }
   /// force_A += sum over the corners of N_A pull[corner].
-  void add_force(const std::vector<Vec<D>>& pull, std::span<NodalVector> force);
+  void add_force(const std::vector<Vec<D>>& pull, const Forces& force);
 
-  /// Registers the reads of a step: the motion of all facets, or, unless `reads_all`, only of the
-  /// own rows.
-  void tell_reads(StepReads& reads, bool reads_all) {
+  /// Registers the reads of a force: the motion of all facets, or, unless `reads_all`, only of
+  /// those whose rows this process has.
+  void list_reads(StepReads& reads, bool reads_all) const {
     if (reads_all) reads.particles(rows_.particle, body_.first);
     reads.rows(chunk_sums_, body_.first);
   }
@@ -77,6 +82,7 @@ class ContactFacets {
  private:
   std::array<Vec<D>, D> corners(const std::vector<Vec<D>>& x, Index facet) const;
   void sample(Places& places) const;
+  void move(const ItemRange& corners, const Motion& motion, Places& places) const;
 
   const Body<D>& body_;
   std::vector<std::array<Index, D>> simplices_;  // corners

@@ -35,20 +35,6 @@ void order_in_space(const std::vector<Vec<D>>& X, std::span<Index> order, std::s
   order_in_space(X, order.subspan(half), together);
 }
 
-/// A vector at each point of a cluster, as sent to other ranks.
-template <int D>
-struct VectorOf {
-  Lanes component[D];
-
-  VectorOf() = default;
-  VectorOf(const AlignedVector<Lanes>& of_clusters, Index c) {
-    for (int i = 0; i < D; ++i) component[i] = at(of_clusters, c * D + i);
-  }
-  void put(Index c, AlignedVector<Lanes>& of_clusters) const {
-    for (int i = 0; i < D; ++i) at(of_clusters, c * D + i) = component[i];
-  }
-};
-
 std::vector<Index> numbers(std::size_t count) {
   std::vector<Index> all(count);
   std::iota(all.begin(), all.end(), Index{0});
@@ -123,7 +109,7 @@ void ContactPoints<D>::build_rows(RowContent content) {
   const std::vector<Offset> start = std::exchange(made_->rule.rows.start, {0});
   for (Index q = 0, point = 0; q < size(); ++q)
     made_->rule.rows.start.push_back(at(start, has_point(q) ? ++point : point));
-  made_->chunk_sums = made_->rule.chunk_sums(body_->size(), body_->division);
+  made_->chunk_sums = made_->rule.chunk_sums(*body_);
 }
 
 template <int D>
@@ -136,31 +122,14 @@ void ContactPoints<D>::list_particles() {
 }
 
 template <int D>
-void ContactPoints<D>::tell_reads(StepReads& reads) {
-  told_all_ = true;
+void ContactPoints<D>::list_reads(StepReads& reads) const {
   reads.particles(made_->particles, body_->first);
-  tell_sums(reads);
-  learn_halo(reads);
+  list_sums(reads);
 }
 
 template <int D>
-void ContactPoints<D>::tell_reads_alone(StepReads& reads, bool reads_all) {
-  if (reads_all) reads.particles(made_->particles, body_->first);
-  tell_sums(reads);
-}
-
-template <int D>
-void ContactPoints<D>::tell_reads(StepReads& reads, const ItemRange& part) {
-  if (part.end - part.begin == clusters()) return tell_reads(reads);
-  std::vector<Index> of_part(static_cast<std::size_t>(part.end - part.begin));
-  std::iota(of_part.begin(), of_part.end(), part.begin);
-  tell_reads(reads, of_part);
-  told_all_ = true;
-}
-
-template <int D>
-void ContactPoints<D>::tell_reads(StepReads& reads, std::span<const Index> clusters) {
-  const auto tell_row = [&](const PointRows<D>& rows, Index row) {
+void ContactPoints<D>::list_reads(StepReads& reads, std::span<const Index> clusters) const {
+  const auto list_row = [&](const PointRows<D>& rows, Index row) {
     const Offset begin = at(rows.start, row), count = at(rows.start, row + 1) - begin;
     reads.particles(std::span(rows.particle)
                         .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(count)),
@@ -172,34 +141,34 @@ void ContactPoints<D>::tell_reads(StepReads& reads, std::span<const Index> clust
       for (Index lane = 0; lane < points_in(c); ++lane)
         made_->patches->want(at(made_->order, c * Lanes::width + lane), is_wanted);
     for (Index node = 0; node < made_->patches->node_count(); ++node)
-      if (at(is_wanted, node)) tell_row(made_->patches->rows(), node);
+      if (at(is_wanted, node)) list_row(made_->patches->rows(), node);
   } else {
     for (const Index c : clusters)
       for (Index lane = 0; lane < points_in(c); ++lane)
-        tell_row(made_->rule.rows, c * Lanes::width + lane);
+        list_row(made_->rule.rows, c * Lanes::width + lane);
   }
-  told_all_ = false;
-  tell_sums(reads);
-  learn_halo(reads);
+  list_sums(reads);
 }
 
 template <int D>
-void ContactPoints<D>::tell_sums(StepReads& reads) {
+void ContactPoints<D>::list_sums(StepReads& reads) const {
   if (made_->patches)
-    made_->patches->tell_sums(reads, body_->first);
+    made_->patches->list_sums(reads, body_->first);
   else
     reads.sums(made_->chunk_sums, body_->first);
 }
 
 template <int D>
-void ContactPoints<D>::learn_halo(StepReads& reads) {
-  reads.when_shared([this](const auto& halo) {
-    halo_ = halo;
-    own_particles_.clear();
-    for (Index k = 0; k < static_cast<Index>(made_->particles.size()); ++k)
-      if (halo->owners().owner(body_->first + at(made_->particles, k)) == ranks().rank())
-        own_particles_.push_back(k);
-  });
+void ContactPoints<D>::list_own_nodes(StepReads& reads) const {
+  made_->patches->list_reads(reads, body_->first);
+}
+
+template <int D>
+std::span<const Index> ContactPoints<D>::own_particles(const SharedWork& work) const {
+  const ItemRange part = work.rows(body_->division).listed(body_->size(), made_->particles).own();
+  return std::span(made_->particles)
+      .subspan(static_cast<std::size_t>(part.begin),
+               static_cast<std::size_t>(part.end - part.begin));
 }
 
 template <int D>
@@ -243,6 +212,7 @@ void ContactPoints<D>::share(const std::string& name, Make&& make) {
   made_ = body_->shared.template get<SharedContactPoints<D>>("contact points " + name, [&] {
     made_ = std::make_shared<SharedContactPoints<D>>();
     make();
+    made_->all = numbers(made_->points_in.size());
     list_particles();
     take_inertia();
     is_first_ = true;
@@ -369,18 +339,8 @@ void ContactPoints<D>::move_on_patches(Index c, ContactPlaces<D>& places) const 
 }
 
 template <int D>
-void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places,
-                            const Division& division) const {
-  const NodalVector* u = motion.u.data() + body_->first;
-  if (made_->patches) {
-    made_->patches->place_nodes(u, division, places.nodes);
-    parallel_for(
-        clusters(), [&](Index c) { move_on_patches(c, places); }, 16);
-  } else {
-    parallel_for(
-        division.own_items(clusters()), [&](Index c) { move(c, u, places); }, 16);
-    division.complete_items(clusters(), places.x.data(), D * sizeof(Lanes));
-  }
+void ContactPoints<D>::move(const Motion& motion, ContactPlaces<D>& places) const {
+  move(all(), motion, places);
 }
 
 template <int D>
@@ -393,33 +353,111 @@ void ContactPoints<D>::move(const ItemRange& clusters, const Motion& motion,
 
 template <int D>
 void ContactPoints<D>::move(std::span<const Index> clusters, const Motion& motion,
-                            ContactPlaces<D>& places, const Division& division) const {
+                            ContactPlaces<D>& places) const {
   const NodalVector* u = motion.u.data() + body_->first;
   if (made_->patches) {
     want_nodes(clusters, places);
-    made_->patches->place_nodes(u, places.wanted, division, places.nodes);
-    parallel_for(
-        static_cast<Index>(clusters.size()),
-        [&](Index k) { move_on_patches(at(clusters, k), places); }, 16);
-    return;
+    parallel_for(static_cast<Index>(places.wanted.size()), [&](Index k) {
+      const Index node = at(places.wanted, k);
+      at(places.nodes, node) = made_->patches->place_of_node(node, u);
+    });
   }
-  divided_for_rows(
-      rows_for(division), this->clusters(), clusters, [&](Index c) { move(c, u, places); },
-      [&](Index c) { return VectorOf<D>(places.x, c); },
-      [&](Index c, const VectorOf<D>& of_other) { of_other.put(c, places.x); }, 16);
+  parallel_for(
+      static_cast<Index>(clusters.size()),
+      [&](Index k) {
+        const Index c = at(clusters, k);
+        made_->patches ? move_on_patches(c, places) : move(c, u, places);
+      },
+      16);
 }
 
 template <int D>
 void ContactPoints<D>::update_weights(std::span<const Index> clusters, const Motion& motion,
-                                      ContactPlaces<D>& places, const Division& division) const {
+                                      ContactPlaces<D>& places) const {
   if (components_ == 1) return;
   const NodalVector* u = motion.u.data() + body_->first;
-  // On patches the positions of the nodes determine all points, so each rank computes them itself.
-  divided_for_rows(
-      made_->patches ? Division::to_each() : rows_for(division), this->clusters(), clusters,
-      [&](Index c) { update_weights(c, u, places); },
-      [&](Index c) { return VectorOf<D>(places.weight, c); },
-      [&](Index c, const VectorOf<D>& of_other) { of_other.put(c, places.weight); }, 16);
+  parallel_for(
+      static_cast<Index>(clusters.size()),
+      [&](Index k) { update_weights(at(clusters, k), u, places); }, 16);
+}
+
+template <int D>
+Portions ContactPoints<D>::sent_rows(std::span<const Index> clusters, const SharedWork& work,
+                                     const ContactPlaces<D>& places) const {
+  return made_->patches
+             ? work.rows(body_->division).listed(made_->patches->node_count(), places.wanted)
+             : rows_of(clusters, work);
+}
+
+/// Number of lanes of a cluster, or of a node, that place() sends.
+template <int D>
+std::size_t ContactPoints<D>::values_sent(Placed what) const {
+  if (made_->patches) return what == Placed::velocities ? 2 : 1;
+  return what == Placed::weights && components_ == D ? 2 * D : D;
+}
+
+template <int D>
+Gathered ContactPoints<D>::place(std::span<const Index> clusters, const SharedWork& work,
+                                 Placed what, const Motion& motion,
+                                 ContactPlaces<D>& places) const {
+  const NodalVector *u = motion.u.data() + body_->first, *v = motion.v.data() + body_->first;
+  if (made_->patches) want_nodes(clusters, places);
+  const std::size_t values = values_sent(what);
+  const Portions shares = sent_rows(clusters, work, places);
+  const bool sends = shares.are_sent();
+  if (sends) places.sent.resize((made_->patches ? places.wanted.size() : clusters.size()) * values);
+  if (what == Placed::velocities) places.node_v.resize(places.nodes.size());
+  parallel_for(
+      shares.own(),
+      [&](Index k) {
+        Lanes* const sent =
+            sends ? places.sent.data() + static_cast<std::size_t>(k) * values : nullptr;
+        if (made_->patches) {
+          const Index node = at(places.wanted, k);
+          at(places.nodes, node) = made_->patches->place_of_node(node, u);
+          if (sends) sent[0] = at(places.nodes, node);
+          if (what != Placed::velocities) return;
+          at(places.node_v, node) = made_->patches->value(node, v);
+          if (sends) sent[1] = at(places.node_v, node);
+          return;
+        }
+        const Index c = at(clusters, k);
+        move(c, u, places);
+        if (sends) std::copy_n(places.x_of(c), D, sent);
+        if (what != Placed::weights || components_ == 1) return;
+        update_weights(c, u, places);
+        if (sends) std::copy_n(places.weight_of(c), D, sent + D);
+      },
+      16);
+  return {places.sent.data(), shares, values};
+}
+
+template <int D>
+void ContactPoints<D>::take_placed(std::span<const Index> clusters, const SharedWork& work,
+                                   Placed what, ContactPlaces<D>& places) const {
+  const std::size_t values = values_sent(what);
+  const ItemRange own = sent_rows(clusters, work, places).own();
+  const auto count = static_cast<Index>(made_->patches ? places.wanted.size() : clusters.size());
+  for (Index k = 0; k < count; ++k) {
+    if (k >= own.begin && k < own.end) continue;
+    const Lanes* const sent = places.sent.data() + static_cast<std::size_t>(k) * values;
+    if (made_->patches) {
+      at(places.nodes, at(places.wanted, k)) = sent[0];
+      if (what == Placed::velocities) at(places.node_v, at(places.wanted, k)) = sent[1];
+      continue;
+    }
+    const Index c = at(clusters, k);
+    std::copy_n(sent, D, &at(places.x, c * D));
+    if (values == 2 * D) std::copy_n(sent + D, D, &at(places.weight, c * D));
+  }
+  if (!made_->patches) return;
+  parallel_for(
+      static_cast<Index>(clusters.size()),
+      [&](Index k) {
+        move_on_patches(at(clusters, k), places);
+        if (what != Placed::positions) update_weights(at(clusters, k), nullptr, places);
+      },
+      16);
 }
 
 template <int D>
@@ -460,12 +498,12 @@ void ContactPoints<D>::want_nodes(std::span<const Index> clusters, ContactPlaces
 
 template <int D>
 void ContactPoints<D>::prepare_velocities(std::span<const Index> clusters, const Motion& motion,
-                                          ContactPlaces<D>& places,
-                                          const Division& division) const {
+                                          ContactPlaces<D>& places) const {
   if (!made_->patches) return;
   want_nodes(clusters, places);
   places.node_v.resize(places.nodes.size());
-  made_->patches->values(motion.v.data() + body_->first, places.wanted, division, places.node_v);
+  for (const Index node : places.wanted)
+    at(places.node_v, node) = made_->patches->value(node, motion.v.data() + body_->first);
 }
 
 template <int D>
@@ -482,8 +520,26 @@ template <int D>
 void ContactPoints<D>::velocity_nearby(Index cluster, const Motion& motion, Lanes* v) const {
   const NodalVector* field = motion.v.data() + body_->first;
   for_points(cluster, [&](Index q, auto&& set) {
-    const Lanes rate = made_->patches ? made_->patches->velocity_nearby(at(made_->order, q), field)
+    const Lanes rate = made_->patches ? made_->patches->value(
+                                            made_->patches->node_nearby(at(made_->order, q)), field)
                                       : value_at(made_->rule.rows, q, field);
+    for (int i = 0; i < D; ++i) set(v[i], rate[i]);
+  });
+}
+
+template <int D>
+void ContactPoints<D>::velocity_nearby(Index cluster, const SharedWork& work,
+                                       const Vec<D>& otherwise, const Motion& motion,
+                                       Lanes* v) const {
+  if (!made_->patches) return velocity_nearby(cluster, motion, v);
+  const ItemRange own = work.rows(body_->division).own_rows(made_->patches->node_count());
+  for_points(cluster, [&](Index q, auto&& set) {
+    const Index node = made_->patches->node_nearby(at(made_->order, q));
+    Vec<D> rate = otherwise;
+    if (node >= own.begin && node < own.end) {
+      const Lanes known = made_->patches->value(node, motion.v.data() + body_->first);
+      for (int i = 0; i < D; ++i) rate[i] = known[i];
+    }
     for (int i = 0; i < D; ++i) set(v[i], rate[i]);
   });
 }
@@ -507,7 +563,7 @@ Tensor<Lanes> ContactPoints<D>::stress(const ContactPlaces<D>& places, Index clu
 template <int D>
 void ContactPoints<D>::add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
                                  std::span<const Lanes> T, std::span<const Lanes> S,
-                                 std::span<NodalVector> force) {
+                                 const Forces& force) {
   if (made_->patches) return add_force_on_patches(places, clusters, T, S, force);
   for (const Index c : clusters) at(pushed_, c) = 1;
   made_->chunk_sums.accumulate(
@@ -529,7 +585,7 @@ template <int D>
 void ContactPoints<D>::add_force_on_patches(const ContactPlaces<D>& places,
                                             std::span<const Index> clusters,
                                             std::span<const Lanes> T, std::span<const Lanes> S,
-                                            std::span<NodalVector> force) {
+                                            const Forces& force) {
   for (const Index c : clusters) at(pushed_, c) = 1;
   parallel_for(static_cast<Index>(made_->of_group.size()), [&](Index group) {
     made_->patches->begin_force(group);
@@ -556,7 +612,7 @@ Offset ContactPoints<D>::pairs() const {
 template <int D>
 std::size_t SharedContactPoints<D>::bytes() const {
   return rule.bytes() + chunk_sums.bytes() + X.size() * sizeof(Lanes) +
-         (order.size() + points_in.size() + particles.size()) * sizeof(Index) +
+         (order.size() + points_in.size() + particles.size() + all.size()) * sizeof(Index) +
          (patches ? patches->bytes() : 0);
 }
 

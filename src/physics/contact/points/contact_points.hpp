@@ -4,6 +4,7 @@
 #include "body/body.hpp"
 #include "meniscus/physics/force_term.hpp"
 #include "numbers/dual.hpp"
+#include "parallel/shared_work.hpp"
 
 #include <memory>
 
@@ -28,9 +29,10 @@ struct ContactPlaces {
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> inverse;  ///< [cluster] F^-1
   // Only for points on patches.
   NodalVectors nodes = {}, node_v = {};  ///< positions and velocities of the nodes of patches
-  // Work space: the nodes that are needed, as a list and as flags.
+  // Work space: the nodes that are needed, as a list and as flags, and values for other processes.
   std::vector<Index> wanted = {};
   std::vector<std::uint8_t> is_wanted = {};
+  AlignedVector<Lanes> sent = {};
 
   const Lanes* x_of(Index cluster) const { return &at(x, cluster * D); }
   const Lanes* weight_of(Index cluster) const { return &at(weight, cluster * components); }
@@ -67,7 +69,7 @@ struct SharedContactPoints {
   ChunkSums chunk_sums;
   std::shared_ptr<PatchPoints<D>> patches;   ///< null for points by shape functions
   std::vector<std::vector<Index>> of_group;  ///< [group of patches] points
-  std::vector<Index> particles;
+  std::vector<Index> particles, all;         ///< all: the numbers of all clusters
   Real spacing = 0, inertia = 0, gain = 0;
   AlignedVector<Lanes> X;  ///< [cluster][i]
 
@@ -115,41 +117,56 @@ class ContactPoints {
       X[i] = at(made_->X, point / Lanes::width * D + i)[point % Lanes::width];
     return X;
   }
-  /// Moves all points with the body. Ranks that all call this can divide them.
-  void move(const Motion& motion, ContactPlaces<D>& places,
-            const Division& division = Division::to_each()) const;
+  /// Moves all points, or the points of these clusters, with the body.
+  void move(const Motion& motion, ContactPlaces<D>& places) const;
+  void move(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places) const;
   /// Moves the points of a range of clusters; not for patches.
   void move(const ItemRange& clusters, const Motion& motion, ContactPlaces<D>& places) const;
-  /// Moves the points of clusters listed in ascending order. Ranks that all call this with the same
-  /// list divide them, unless the division is to_each().
-  void move(std::span<const Index> clusters, const Motion& motion, ContactPlaces<D>& places,
-            const Division& division) const;
+  /// Updates the weights of these clusters, whose points have been moved.
+  void update_weights(std::span<const Index> clusters, const Motion& motion,
+                      ContactPlaces<D>& places) const;
+  /// The numbers of all clusters.
+  std::span<const Index> all() const { return made_->all; }
+
+  /// What place() computes besides positions.
+  enum class Placed { positions, weights, velocities };
+  /// Computes the positions of the clusters in the list (ascending), and more, each process for its
+  /// rows. The result is to be gathered; take_placed() with the same arguments then makes it
+  /// complete, but for F^-1, which a process has for its rows.
+  Gathered place(std::span<const Index> clusters, const SharedWork& work, Placed what,
+                 const Motion& motion, ContactPlaces<D>& places) const;
+  void take_placed(std::span<const Index> clusters, const SharedWork& work, Placed what,
+                   ContactPlaces<D>& places) const;
+  /// The part of a list of clusters whose rows each process has.
+  Portions rows_of(std::span<const Index> clusters, const SharedWork& work) const {
+    return work.rows(body_->division).listed(this->clusters(), clusters);
+  }
   /// No point moves farther than this factor times the largest change of a displacement
   /// coefficient.
   Real gain() const { return made_->gain; }
-  /// Updates the weights of these clusters, divided as in move(). A rank gets F^-1 for the clusters
-  /// whose forces it adds up.
-  void update_weights(std::span<const Index> clusters, const Motion& motion,
-                      ContactPlaces<D>& places, const Division& division) const;
 
   /// The particle nearest to a point, numbered over all bodies.
   Index particle_at(Index point) const { return body_->first + at(made_->rule.point_owner, point); }
 
-  /// Prepares velocity() for these clusters, divided as in move(). Call it before velocity().
+  /// Prepares velocity() for these clusters. Call it before velocity(), or Placed::velocities.
   void prepare_velocities(std::span<const Index> clusters, const Motion& motion,
-                          ContactPlaces<D>& places, const Division& division) const;
+                          ContactPlaces<D>& places) const;
   /// The velocities of the points of a cluster.
   void velocity(Index cluster, const Motion& motion, const ContactPlaces<D>& places,
                 Lanes* v) const;
   /// Like velocity(), without preparation; on patches it takes velocities of nearby nodes.
   void velocity_nearby(Index cluster, const Motion& motion, Lanes* v) const;
+  /// Like velocity_nearby(), with `otherwise` at points whose nearby node has no row in this
+  /// process.
+  void velocity_nearby(Index cluster, const SharedWork& work, const Vec<D>& otherwise,
+                       const Motion& motion, Lanes* v) const;
 
   /// Adds the forces -dE/du of these clusters, given dE/dx = T ([cluster][i]) and, on the surface,
   /// dE/dV = S: f_A = - sum_s { N_A T + (S.V) g_A [constant density only] - (S.g_A) V } with g_A =
-  /// F^-T grad N_A (CGCM note 4). If S is empty, only the first term is added. All ranks have to
-  /// call this, also without clusters. If ranks share clusters, each adds its own part.
+  /// F^-T grad N_A (CGCM note 4). If S is empty, only the first term is added. `clusters` has at
+  /// least those whose rows the process has.
   void add_force(const ContactPlaces<D>& places, std::span<const Index> clusters,
-                 std::span<const Lanes> T, std::span<const Lanes> S, std::span<NodalVector> force);
+                 std::span<const Lanes> T, std::span<const Lanes> S, const Forces& force);
 
   /// The changes of these clusters, whose places and weights are up to date. Allocates memory.
   ContactChanges<D> changes(std::span<const Index> clusters, const ContactPlaces<D>& places,
@@ -159,29 +176,19 @@ class ContactPoints {
   void add_force_change(const ContactPlaces<D>& places, const ContactChanges<D>& changes,
                         const Motion& motion, const Motion& change, std::span<const Index> clusters,
                         std::span<const Lanes> dT, std::span<const Lanes> S,
-                        std::span<const Lanes> dS, std::span<NodalVector> force);
+                        std::span<const Lanes> dS, const Forces& force);
 
   /// The particles of the body that move the points, in ascending order.
   std::span<const Index> particles() const { return made_->particles; }
-  /// Calls f(k) for the particles particles()[k] over which this rank searches a maximum: its own
-  /// in a halo, else all.
-  template <class F>
-  void for_own_particles(F&& f) const {
-    if (in_halo())
-      for (const Index k : own_particles_) f(k);
-    else
-      for (Index k = 0; k < static_cast<Index>(made_->particles.size()); ++k) f(k);
-  }
-  bool in_halo() const { return is_entered(halo_); }
-  bool follows_all() const { return !in_halo() || told_all_; }
-  /// Register the reads of a step: this rank reads the motion of all points, of a part of them that
-  /// every rank has, or of these clusters.
-  void tell_reads(StepReads& reads);
-  void tell_reads(StepReads& reads, const ItemRange& part);
-  void tell_reads(StepReads& reads, std::span<const Index> clusters);
-  /// Registers the reads of a contact that only a few ranks compute. This rank reads all points, or
-  /// none if `reads_all` is false. How far points have moved is not exchanged between ranks.
-  void tell_reads_alone(StepReads& reads, bool reads_all);
+  /// The part of particles() that belongs to this process.
+  std::span<const Index> own_particles(const SharedWork& work) const;
+  // Register the reads of a force: the motion of all points, of the points in these clusters, or of
+  // none but for the forces on the particles.
+  void list_reads(StepReads& reads) const;
+  void list_reads(StepReads& reads, std::span<const Index> clusters) const;
+  void list_sums(StepReads& reads) const;
+  /// On patches: the motion of the nodes whose rows this process has.
+  void list_own_nodes(StepReads& reads) const;
 
   /// Memory of these points. Data shared between contacts are counted where they were made.
   std::size_t bytes() const;
@@ -199,8 +206,6 @@ class ContactPoints {
   bool has_point(Index lane) const { return lane % Lanes::width < points_in(lane / Lanes::width); }
   void build_rows(RowContent content);
   void list_particles();
-  void tell_sums(StepReads& reads);
-  void learn_halo(StepReads& reads);
   template <class F>
   void take_weights(F&& weight_of);
   void take_inertia();
@@ -217,18 +222,18 @@ class ContactPoints {
   void update_weights(Index cluster, const NodalVector* u, ContactPlaces<D>& places) const;
   void add_force_on_patches(const ContactPlaces<D>& places, std::span<const Index> clusters,
                             std::span<const Lanes> T, std::span<const Lanes> S,
-                            std::span<NodalVector> force);
-  /// The division of clusters, unless it is to_each(): the same as for adding up their forces.
-  Division rows_for(const Division& division) const {
-    return division.is_to_each() ? division : made_->chunk_sums.division();
-  }
+                            const Forces& force);
+  /// The part of the list, or on patches of the wanted nodes, whose rows each process has.
+  Portions sent_rows(std::span<const Index> clusters, const SharedWork& work,
+                     const ContactPlaces<D>& places) const;
+  std::size_t values_sent(Placed what) const;
   static std::size_t offset(Index cluster, int count) {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(count);
   }
   void add_change_on_patches(const ContactPlaces<D>& places, const ContactChanges<D>& changes,
                              std::span<const Index> clusters, std::span<const Lanes> dT,
                              std::span<const Lanes> S, std::span<const Lanes> dS,
-                             std::span<NodalVector> force);
+                             const Forces& force);
   Tensor<Lanes> stress(const ContactPlaces<D>& places, Index cluster, const Lanes* S) const;
   /// F^-1 and the weights of a cluster, with their changes.
   struct Turned {
@@ -243,10 +248,7 @@ class ContactPoints {
   SiteDensity density_ = SiteDensity::referential;
   Real beta_ = 1;  // on patches: weight per area
   std::shared_ptr<SharedContactPoints<D>> made_;
-  bool is_first_ = false;  // these points have made the shared data
-  std::shared_ptr<const Halo> halo_;
-  std::vector<Index> own_particles_;  // in a halo, indices into particles()
-  bool told_all_ = false;             // at the last registration of reads
+  bool is_first_ = false;             // these points have made the shared data
   AlignedVector<Lanes> reference_;    // [cluster][i]: weights in the reference
   std::vector<std::uint8_t> pushed_;  // [cluster] 1 while its force is added
 };

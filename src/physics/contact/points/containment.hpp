@@ -55,7 +55,7 @@ struct Contained {
   Failure failure;
 };
 /// The first pair of bodies of which one has a particle inside the other. Only pairs (first,
-/// second) for which watched() is true are tested. All ranks call this and get the same result.
+/// second) for which watched() is true are tested. All processes call this and get the same result.
 template <int D>
 std::optional<Contained> any_body_inside(
     const std::vector<const Body<D>*>& bodies, const Motion& motion,

@@ -15,27 +15,27 @@ class MovedSince {
  public:
   void begin(const ContactPoints<D>& points, const Motion& motion) {
     const auto u = points.body().part(motion.u);
-    u_.clear();
-    for (const Index A : points.particles()) u_.push_back(at(u, A));
+    u_.resize(static_cast<std::size_t>(points.body().size()));
+    for (const Index A : points.particles()) at(u_, A) = at(u, A);
   }
-  /// The bound; infinite before begin(). In a halo all ranks have to call this.
-  Real farthest(const ContactPoints<D>& points, const Motion& motion) const {
+  /// The bound for points that these particles move, of particles(). Infinite before begin().
+  Real farthest(const ContactPoints<D>& points, std::span<const Index> particles,
+                const Motion& motion) const {
     if (u_.empty()) return unbounded;
     const auto u = points.body().part(motion.u);
-    Lanes most = Lanes::zero();
-    points.for_own_particles([&](Index k) {
-      const Lanes change = at(u, at(points.particles(), k)) - at(u_, k);
-      most = max(most, Lanes(sum(change * change)));
-    });
-    Real square = most[0];
-    if (points.in_halo())
-      for (const Real of_rank : said_by_ranks(square)) square = std::max(square, of_rank);
-    return points.gain() * std::sqrt(square);
+    Real most = 0;
+    for (const Index A : particles) {
+      const Lanes change = at(u, A) - at(u_, A);
+      const Real square = sum(change * change);
+      if (std::isnan(square)) return unbounded;
+      most = std::max(most, square);
+    }
+    return points.gain() * std::sqrt(most);
   }
   std::size_t bytes() const { return u_.size() * sizeof(NodalVector); }
 
  private:
-  NodalVectors u_;  // displacements at begin() of particles that move points
+  NodalVectors u_;  // [particle] displacements at begin() of those that move points
 };
 
 }  // namespace meniscus

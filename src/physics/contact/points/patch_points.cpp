@@ -2,8 +2,6 @@
 // Positions, area vectors and forces of contact points on patches.
 #include "physics/contact/points/patch_points.hpp"
 
-#include "kernel/row_sums.hpp"
-
 #include <algorithm>
 
 namespace meniscus {
@@ -26,16 +24,6 @@ Vec<2> area_normal(const std::array<Vec<2>, 1>& t) {
 Vec<3> area_normal(const std::array<Vec<3>, 2>& t) {
   return cross(t[0], t[1]);
 }
-/// Sets values[a] = value(a) for the wanted nodes; ranks divide them.
-template <class F>
-void take_at(std::span<const Index> wanted, const Division& division, NodalVectors& values,
-             F&& value) {
-  divided_for(
-      division, static_cast<Index>(wanted.size()),
-      [&](Index k) { at(values, at(wanted, k)) = value(at(wanted, k)); },
-      [&](Index k) { return at(values, at(wanted, k)); },
-      [&](Index k, const NodalVector& of_other) { at(values, at(wanted, k)) = of_other; });
-}
 /// The vectors c_k of b . dm = sum_k c_k . dt_k.
 std::array<Vec<2>, 1> through_tangents(const std::array<Vec<2>, 1>&, const Vec<2>& b) {
   return {Vec<2>(-b[1], b[0])};
@@ -54,27 +42,6 @@ PatchPoints<D>::PatchPoints(const Body<D>& body, int points)
     reference_.push_back(Lanes(X[0], X[1], D == 3 ? X[D - 1] : 0.0, 0.0));
   }
   gradient_.assign(static_cast<std::size_t>(surface_.group_count()) * nodes * D, Lanes::zero());
-}
-
-template <int D>
-void PatchPoints<D>::place_nodes(const NodalVector* u, std::span<const Index> wanted,
-                                 const Division& division, NodalVectors& places) const {
-  take_at(wanted, division, places, [&](Index a) { return place_of_node(a, u); });
-}
-
-template <int D>
-void PatchPoints<D>::place_nodes(const NodalVector* u, const Division& division,
-                                 NodalVectors& places) const {
-  parallel_for(division.own_items(node_count()),
-               [&](Index a) { at(places, a) = place_of_node(a, u); });
-  division.complete_items(node_count(), places.data(), sizeof(NodalVector));
-}
-
-template <int D>
-void PatchPoints<D>::values(const NodalVector* field, std::span<const Index> wanted,
-                            const Division& division, NodalVectors& nodes_of_field) const {
-  take_at(wanted, division, nodes_of_field,
-          [&](Index a) { return value_at(surface_.rows(), a, field); });
 }
 
 template <int D>
@@ -109,10 +76,10 @@ Vec<D> PatchPoints<D>::area_vector(Index point, const NodalVectors& places) cons
 }
 
 template <int D>
-Lanes PatchPoints<D>::velocity_nearby(Index point, const NodalVector* v) const {
+Index PatchPoints<D>::node_nearby(Index point) const {
   const auto& L = functions(point).L;
   const auto nearest = std::max_element(L.begin(), L.end()) - L.begin();
-  return value_at(surface_.rows(), at(surface_.points_of(patch(point)), nearest), v);
+  return at(surface_.points_of(patch(point)), nearest);
 }
 
 template <int D>

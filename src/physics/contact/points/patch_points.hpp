@@ -3,6 +3,7 @@
 // the same surface (static-drop note 2): tension, enclosed volume and contact use one surface.
 #pragma once
 #include "body/surface/surface_patches.hpp"
+#include "kernel/row_sums.hpp"
 
 #include <cstdint>
 
@@ -19,14 +20,13 @@ class PatchPoints {
   /// Positions of the nodes in the reference.
   const NodalVectors& reference_nodes() const { return reference_; }
 
-  /// Sets the values of a field at the wanted nodes; ranks divide them.
-  void values(const NodalVector* field, std::span<const Index> wanted, const Division& division,
-              NodalVectors& nodes) const;
-  /// Sets the positions of the wanted nodes.
-  void place_nodes(const NodalVector* u, std::span<const Index> wanted, const Division& division,
-                   NodalVectors& nodes) const;
-  /// Sets the positions of all nodes.
-  void place_nodes(const NodalVector* u, const Division& division, NodalVectors& nodes) const;
+  /// The value of a field at a node, and its position.
+  NodalVector value(Index node, const NodalVector* field) const {
+    return value_at(surface_.rows(), node, field);
+  }
+  NodalVector place_of_node(Index node, const NodalVector* u) const {
+    return at(reference_, node) + value(node, u);
+  }
   /// is_wanted[node] = 1 for the nodes of the patch of a point.
   void want(Index point, std::span<std::uint8_t> is_wanted) const;
 
@@ -34,8 +34,8 @@ class PatchPoints {
   Vec<D> place(Index point, const NodalVectors& nodes) const;
   /// The outward area vector m dA.
   Vec<D> area_vector(Index point, const NodalVectors& nodes) const;
-  /// Velocity at the node nearest to the point.
-  Lanes velocity_nearby(Index point, const NodalVector* v) const;
+  /// The node nearest to the point.
+  Index node_nearby(Index point) const;
   /// Calls f(A, value) with the derivative of the position of a point with respect to the
   /// displacement of particle A. A particle may occur several times, once for each node of the
   /// patch; the values add up.
@@ -57,11 +57,13 @@ class PatchPoints {
   void begin_force(Index group);
   void add(Index point, const Vec<D>& T, const Vec<D>& S, const NodalVectors& nodes);
   /// force_A -= the collected derivatives.
-  void end_force(std::span<NodalVector> force) { surface_.add_to_particles(-1, gradient_, force); }
+  void end_force(const ForceVector& force) { surface_.add_to_particles(-1, gradient_, force); }
 
   /// The shape functions at the nodes.
   const PointRows<D>& rows() const { return surface_.rows(); }
-  void tell_sums(StepReads& reads, Index first) { surface_.tell_sums(reads, first); }
+  void list_sums(StepReads& reads, Index first) const { surface_.list_sums(reads, first); }
+  /// Registers the reads of the nodes whose rows this process has.
+  void list_reads(StepReads& reads, Index first) const { surface_.list_reads(reads, first); }
 
   std::size_t bytes() const {
     return surface_.bytes() + (reference_.size() + gradient_.size()) * sizeof(Lanes);
@@ -71,9 +73,6 @@ class PatchPoints {
  private:
   static constexpr int nodes = PatchFunctions<D>::nodes;
 
-  NodalVector place_of_node(Index node, const NodalVector* u) const {
-    return at(reference_, node) + value_at(surface_.rows(), node, u);
-  }
   Index per_patch() const { return static_cast<Index>(functions_.size()); }
   Index patch(Index point) const { return point / per_patch(); }
   const PatchFunctions<D>& functions(Index point) const {

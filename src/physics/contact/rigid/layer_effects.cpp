@@ -13,34 +13,6 @@ struct Frame {
   Vec<D> shift, velocity;
 };
 
-/// Keeps the first failure among the clusters of a grade, so that all ranks fail together.
-class FirstFailure {
- public:
-  template <class F>
-  WallSums of(Index cluster, F&& add) {
-    try {
-      return add();
-    } catch (const SolveError&) {
-#pragma omp critical(meniscus_wall_effects)
-      if (cluster < first_) {
-        first_ = cluster;
-        failure_ = std::current_exception();
-      }
-    }
-    return {};
-  }
-  void fail(const Division& division) const {
-    const auto fail_here = [&] {
-      if (failure_) std::rethrow_exception(failure_);
-    };
-    division.is_to_each() ? fail_here() : on_each_rank(fail_here);
-  }
-
- private:
-  Index first_ = std::numeric_limits<Index>::max();
-  std::exception_ptr failure_;
-};
-
 template <int D>
 WallPoints<D> wall_points(const ContactPoints<D>& of_grade, Index cluster, const Motion& motion,
                           const Frame<D>& frame, PartnerLayer<D>& layer) {
@@ -74,23 +46,17 @@ void require_adhesion(const BodyAndPartner<D>& pair, const AdhesionPattern& W) t
 }
 
 template <int D>
-WallSums add_effects(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
-                     const Motion& motion, PartnerLayers<D>& layers) {
-  WallSums sums;
-  if (!effects.any()) return sums;
+void add_effects(const BodyAndPartner<D>& pair, const WallEffects<D>& effects, const Motion& motion,
+                 PartnerLayers<D>& layers, LayerTallies<WallSums>& sums) {
   const Frame<D> frame{pair.shift(motion), pair.velocity(motion)};
-  for (std::size_t g = 0; g < layers.size(); ++g) {
-    PartnerLayer<D>& layer = layers[g];
-    pair.points[g].prepare_velocities(layer.visited, motion, layer.places, pair.parts());
-    FirstFailure failure;
-    sums = sums + pair.division.sum(pair.points[g].clusters(), WallSums(), [&](Index c) {
-      if (!(layer.nearest_of(c) < pair.interaction->range())) return WallSums();
-      WallPoints<D> points = wall_points(pair.points[g], c, motion, frame, layer);
-      return failure.of(c, [&] { return effects.add(points, motion.time); });
-    });
-    if (effects.pattern()) failure.fail(pair.division);
-  }
-  return sums;
+  sum_visited(
+      pair, layers, WallSums(),
+      [&](std::size_t g, Index c) {
+        if (!(layers[g].nearest_of(c) < pair.interaction->range())) return WallSums();
+        WallPoints<D> points = wall_points(pair.points[g], c, motion, frame, layers[g]);
+        return effects.add(points, motion.time);
+      },
+      sums);
 }
 
 template <int D>
@@ -100,7 +66,6 @@ void take_friction(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
   for (std::size_t g = 0; g < layers.size(); ++g) {
     PartnerLayer<D>& layer = layers[g];
     std::fill(layer.T.begin(), layer.T.end(), Lanes::zero());
-    pair.points[g].prepare_velocities(layer.near, motion, layer.places, pair.parts());
     parallel_for(static_cast<Index>(layer.near.size()), [&](Index k) {
       WallPoints<D> points = wall_points(pair.points[g], at(layer.near, k), motion, frame, layer);
       effects.rub(points);
@@ -112,24 +77,23 @@ template <int D>
 Real unit_energy(const BodyAndPartner<D>& pair, const WallEffects<D>& effects, const Motion& motion,
                  const PartnerLayers<D>& layers) {
   const Vec<D> shift = pair.shift(motion);
-  Real sum_of_layers = 0;
-  for (std::size_t g = 0; g < layers.size(); ++g) {
-    const PartnerLayer<D>& layer = layers[g];
-    sum_of_layers += sum_of_visited(pair, layers, g, 0.0, [&](Index c) {
-      Real energy = 0;
-      for (int lane = 0; lane < pair.points[g].points_in(c); ++lane) {
-        Vec<D> V, S;
-        for (int i = 0; i < D; ++i) {
-          V[i] = layer.places.weight_of(c)[i][lane];
-          S[i] = at(layer.S, c * D + i)[lane];
-        }
-        const Index q = c * Lanes::width + lane;
-        energy += effects.unit_energy(layer.places.place(q) - shift, layer.distance(q), V, S);
-      }
-      return energy;
-    });
-  }
-  return sum_of_layers;
+  Real sum = 0;
+  for (const Real of_grade : sums_of_visited(pair, layers, 0.0, [&](std::size_t g, Index c) {
+         const PartnerLayer<D>& layer = layers[g];
+         Real energy = 0;
+         for (int lane = 0; lane < pair.points[g].points_in(c); ++lane) {
+           Vec<D> V, S;
+           for (int i = 0; i < D; ++i) {
+             V[i] = layer.places.weight_of(c)[i][lane];
+             S[i] = at(layer.S, c * D + i)[lane];
+           }
+           const Index q = c * Lanes::width + lane;
+           energy += effects.unit_energy(layer.places.place(q) - shift, layer.distance(q), V, S);
+         }
+         return energy;
+       }))
+    sum += of_grade;
+  return sum;
 }
 
 template <int D>
@@ -138,30 +102,31 @@ Vec<D> mean_slip(const BodyAndPartner<D>& pair, const WallEffects<D>& effects, c
   const Frame<D> frame{pair.shift(motion), pair.velocity(motion)};
   using AreaAndSlip = Eigen::Matrix<Real, D + 1, 1>;
   const AreaAndSlip none = AreaAndSlip::Zero();
+  for (std::size_t g = 0; g < layers.size(); ++g)
+    pair.points[g].prepare_velocities(layers[g].visited, motion, layers[g].places);
   AreaAndSlip sum = none;
-  for (std::size_t g = 0; g < layers.size(); ++g) {
-    PartnerLayer<D>& layer = layers[g];
-    pair.points[g].prepare_velocities(layer.visited, motion, layer.places, pair.parts());
-    sum += sum_of_visited(pair, layers, g, none, [&](Index c) {
-      const auto [area, slip] = effects.slip(wall_points(pair.points[g], c, motion, frame, layer));
-      AreaAndSlip both;
-      both << area, slip;
-      return both;
-    });
-  }
+  for (const AreaAndSlip& of_grade :
+       sums_of_visited(pair, layers, none, [&](std::size_t g, Index c) -> AreaAndSlip {
+         const auto [area, slip] =
+             effects.slip(wall_points(pair.points[g], c, motion, frame, layers[g]));
+         AreaAndSlip both;
+         both << area, slip;
+         return both;
+       }))
+    sum += of_grade;
   const Vec<D> slip = sum.template tail<D>();
   return sum[0] > 0 ? Vec<D>(slip / sum[0]) : slip;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                                 \
-  template void require_adhesion(const BodyAndPartner<D>&, const AdhesionPattern&);             \
-  template WallSums add_effects(const BodyAndPartner<D>&, const WallEffects<D>&, const Motion&, \
-                                PartnerLayers<D>&);                                             \
-  template void take_friction(const BodyAndPartner<D>&, const WallEffects<D>&, const Motion&,   \
-                              PartnerLayers<D>&);                                               \
-  template Real unit_energy(const BodyAndPartner<D>&, const WallEffects<D>&, const Motion&,     \
-                            const PartnerLayers<D>&);                                           \
-  template Vec<D> mean_slip(const BodyAndPartner<D>&, const WallEffects<D>&, const Motion&,     \
+#define MENISCUS_INSTANTIATE(D)                                                               \
+  template void require_adhesion(const BodyAndPartner<D>&, const AdhesionPattern&);           \
+  template void add_effects(const BodyAndPartner<D>&, const WallEffects<D>&, const Motion&,   \
+                            PartnerLayers<D>&, LayerTallies<WallSums>&);                      \
+  template void take_friction(const BodyAndPartner<D>&, const WallEffects<D>&, const Motion&, \
+                              PartnerLayers<D>&);                                             \
+  template Real unit_energy(const BodyAndPartner<D>&, const WallEffects<D>&, const Motion&,   \
+                            const PartnerLayers<D>&);                                         \
+  template Vec<D> mean_slip(const BodyAndPartner<D>&, const WallEffects<D>&, const Motion&,   \
                             PartnerLayers<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

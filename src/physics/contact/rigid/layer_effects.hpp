@@ -11,13 +11,14 @@ namespace meniscus {
 template <int D>
 void require_adhesion(const BodyAndPartner<D>& pair, const AdhesionPattern& W);
 
-/// Adds varying adhesion and friction to the forces of the points within the range.
+/// Adds varying adhesion and friction to the forces of the points within the range. Velocities have
+/// to be prepared (ContactPoints::prepare_velocities()).
 template <int D>
-WallSums add_effects(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
-                     const Motion& motion, PartnerLayers<D>& layers);
+void add_effects(const BodyAndPartner<D>& pair, const WallEffects<D>& effects, const Motion& motion,
+                 PartnerLayers<D>& layers, LayerTallies<WallSums>& sums);
 
 /// Sets T to friction only, for near points at the positions of the layers, with the velocity of
-/// this motion.
+/// this motion. Velocities have to be prepared.
 template <int D>
 void take_friction(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
                    const Motion& motion, PartnerLayers<D>& layers);

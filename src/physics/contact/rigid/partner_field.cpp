@@ -2,31 +2,10 @@
 // Distances and forces of contact points beside a rigid partner, cluster by cluster.
 #include "physics/contact/rigid/partner_field.hpp"
 
-#include "parallel/divided.hpp"
+#include <algorithm>
 
 namespace meniscus {
 namespace {
-
-/// Results of a cluster, as sent to other ranks.
-template <int D>
-struct AtCluster {
-  Lanes T[D], S[D], distances;
-
-  AtCluster() = default;
-  AtCluster(const PartnerLayer<D>& layer, Index c) : distances(at(layer.distances, c)) {
-    for (int i = 0; i < D; ++i) {
-      T[i] = at(layer.T, c * D + i);
-      S[i] = at(layer.S, c * D + i);
-    }
-  }
-  void put(Index c, PartnerLayer<D>& layer) const {
-    for (int i = 0; i < D; ++i) {
-      at(layer.T, c * D + i) = T[i];
-      at(layer.S, c * D + i) = S[i];
-    }
-    at(layer.distances, c) = distances;
-  }
-};
 
 /// Positions of a cluster in the frame of the partner.
 template <int D>
@@ -59,47 +38,93 @@ void take_forces(const BodyAndPartner<D>& pair, const ContactPoints<D>& points, 
 }  // namespace
 
 template <int D>
-void take_distances(const BodyAndPartner<D>& pair, std::size_t grade, const Motion& motion,
-                    PartnerLayer<D>& layer) {
+void move_points(const BodyAndPartner<D>& pair, std::size_t grade, const Motion& motion,
+                 PartnerLayer<D>& layer) {
   const ContactPoints<D>& points = pair.points[grade];
-  const Vec<D> shift = pair.shift(motion);
-  const auto take = [&](Index c) {
-    at(layer.distances, c) = pair.partner.shape->distances(place_beside(shift, layer.places, c));
-  };
-  if (const Division parts = pair.parts(); pair.division.is_to_each()) {
-    points.move(motion, layer.places, parts);
-    parallel_for(parts.own_items(points.clusters()), take, 16);
-    parts.complete_items(points.clusters(), layer.distances.data(), sizeof(Lanes));
-  } else {
-    points.move(pair.moved_clusters(grade), motion, layer.places);
-    parallel_for(pair.moved_clusters(grade), take, 16);
-  }
+  points.on_patches() ? points.move(motion, layer.places)
+                      : points.move(pair.moved_clusters(grade), motion, layer.places);
 }
 
 template <int D>
-void take_forces(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers) {
+void take_distances(const BodyAndPartner<D>& pair, std::size_t grade, const Motion& motion,
+                    PartnerLayer<D>& layer) {
   const Vec<D> shift = pair.shift(motion);
-  const Division parts = pair.parts();
+  parallel_for(
+      pair.moved_clusters(grade),
+      [&](Index c) {
+        at(layer.distances, c) =
+            pair.partner.shape->distances(place_beside(shift, layer.places, c));
+      },
+      16);
+}
+
+template <int D>
+void move_visited(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers) {
   for (std::size_t g = 0; g < layers.size(); ++g) {
     const ContactPoints<D>& points = pair.points[g];
     PartnerLayer<D>& layer = layers[g];
     // With several grades, the coarsest points were moved already to find the grades.
     if (layers.size() == 1 || g + 1 < layers.size())
-      points.move(layer.visited, motion, layer.places, parts);
-    points.update_weights(layer.visited, motion, layer.places, parts);
-    divided_for(
-        parts, static_cast<Index>(layer.visited.size()),
-        [&](Index k) { take_forces(pair, points, at(layer.visited, k), shift, layer); },
-        [&](Index k) { return AtCluster<D>(layer, at(layer.visited, k)); },
-        [&](Index k, const AtCluster<D>& of_other) { of_other.put(at(layer.visited, k), layer); },
-        16);
+      points.move(layer.visited, motion, layer.places);
+    points.update_weights(layer.visited, motion, layer.places);
   }
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                      \
-  template void take_distances(const BodyAndPartner<D>&, std::size_t, const Motion&, \
-                               PartnerLayer<D>&);                                    \
-  template void take_forces(const BodyAndPartner<D>&, const Motion&, PartnerLayers<D>&);
+template <int D>
+Gathered take_forces(const BodyAndPartner<D>& pair, std::size_t grade, const Motion& motion,
+                     const Portions& shares, PartnerLayer<D>& layer) {
+  constexpr std::size_t each = 2 * D + 1;
+  const Vec<D> shift = pair.shift(motion);
+  const bool sends = shares.are_sent();
+  if (sends) layer.sent.resize(layer.visited.size() * each);
+  parallel_for(
+      shares.own(),
+      [&](Index k) {
+        const Index c = at(layer.visited, k);
+        take_forces(pair, pair.points[grade], c, shift, layer);
+        if (!sends) return;
+        Lanes* const sent = layer.sent.data() + static_cast<std::size_t>(k) * each;
+        std::copy_n(&at(layer.T, c * D), D, sent);
+        std::copy_n(&at(layer.S, c * D), D, sent + D);
+        sent[2 * D] = at(layer.distances, c);
+      },
+      16);
+  return {layer.sent.data(), shares, each};
+}
+
+template <int D>
+void take_sent(const Portions& shares, PartnerLayer<D>& layer) {
+  if (!shares.are_sent()) return;
+  constexpr std::size_t each = 2 * D + 1;
+  const ItemRange own = shares.own();
+  for (Index k = 0; k < static_cast<Index>(layer.visited.size()); ++k) {
+    if (k >= own.begin && k < own.end) continue;
+    const Index c = at(layer.visited, k);
+    const Lanes* const sent = layer.sent.data() + static_cast<std::size_t>(k) * each;
+    std::copy_n(sent, D, &at(layer.T, c * D));
+    std::copy_n(sent + D, D, &at(layer.S, c * D));
+    at(layer.distances, c) = sent[2 * D];
+  }
+}
+
+template <int D>
+void take_layers(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers) {
+  move_visited(pair, motion, layers);
+  for (std::size_t g = 0; g < layers.size(); ++g)
+    take_forces(pair, g, motion,
+                Division::to_each().items(static_cast<Index>(layers[g].visited.size())), layers[g]);
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                           \
+  template void move_points(const BodyAndPartner<D>&, std::size_t, const Motion&,         \
+                            PartnerLayer<D>&);                                            \
+  template void take_distances(const BodyAndPartner<D>&, std::size_t, const Motion&,      \
+                               PartnerLayer<D>&);                                         \
+  template void move_visited(const BodyAndPartner<D>&, const Motion&, PartnerLayers<D>&); \
+  template Gathered take_forces(const BodyAndPartner<D>&, std::size_t, const Motion&,     \
+                                const Portions&, PartnerLayer<D>&);                       \
+  template void take_sent(const Portions&, PartnerLayer<D>&);                             \
+  template void take_layers(const BodyAndPartner<D>&, const Motion&, PartnerLayers<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -2,7 +2,6 @@
 // A body beside a rigid partner: its contact points in layers, one per grade, and their forces.
 #pragma once
 #include "physics/contact/contact_terms.hpp"
-#include "physics/contact/pair/contact_ranks.hpp"
 #include "physics/contact/points/contact_resolution.hpp"
 
 #include <algorithm>
@@ -20,11 +19,10 @@ struct BodyAndPartner {
   ContactForm form;
   FacetGrades grades;
   std::vector<ContactPoints<D>> points;  ///< contact points of the body, [grade]
-  ContactRanks ranks;
-  /// Each rank moves and visits the clusters whose forces it sums. With to_each(), every rank
-  /// visits all clusters. This is needed if few ranks have the body, and on patches, whose forces
-  /// reach the particles through nodes.
+  /// Who has the results at the clusters: the process that has their rows, or each process (on
+  /// patches, whose forces reach the particles through nodes).
   Division division;
+  SharedWork work;
 
   BodyAndPartner(const ContactBody<D>& body, MovingPartner<D> moving_partner,
                  std::shared_ptr<const Interaction> law, const ContactChoice& choice)
@@ -33,18 +31,18 @@ struct BodyAndPartner {
         form(choice.form),
         grades(choice.points, *interaction, facet_edges(body.body).least),
         points(graded_contact_points(body.body, body.beta, choice, 0, grades)),
-        ranks({body.body.division}),
-        division(ranks.are_few() || finest().on_patches() ? Division::to_each()
-                                                          : body.body.division) {}
-
+        division(on_patches() && !body.body.division.is_whole() ? Division::to_each()
+                                                                : body.body.division),
+        work({body.body.division}) {}
+  bool on_patches() const { return finest().on_patches(); }
   const ContactPoints<D>& finest() const { return points.front(); }
   const ContactPoints<D>& coarsest() const { return points.back(); }
-  /// The clusters whose forces this rank adds up.
+  /// The clusters whose results this process has.
   ItemRange own_clusters(std::size_t grade) const {
     return division.own_rows(points[grade].clusters());
   }
-  /// The clusters that this rank moves. With several grades it also needs the coarsest points, one
-  /// cluster per facet, of facets with own clusters of other grades, to find the grades.
+  /// The clusters that this process moves. With several grades it also needs the coarsest points,
+  /// one cluster per facet, of facets with own clusters of other grades, to find the grades.
   ItemRange moved_clusters(std::size_t grade) const {
     ItemRange moved = own_clusters(grade);
     if (grade + 1 < points.size()) return moved;
@@ -57,17 +55,19 @@ struct BodyAndPartner {
     }
     return moved;
   }
-  /// The division of work that all ranks have to do for the same clusters.
-  Division parts() const { return division.is_to_each() ? ranks.division() : Division::to_each(); }
-  /// True if no rank has any of such clusters, given that this rank has none.
-  bool without(const std::vector<Index>& clusters) const {
-    return clusters.empty() && (division.is_to_each() || meniscus::ranks().alone());
+  std::span<const Index> moved(std::size_t grade) const {
+    const ItemRange range = moved_clusters(grade);
+    return points[grade].all().subspan(static_cast<std::size_t>(range.begin),
+                                       static_cast<std::size_t>(range.end - range.begin));
   }
-  /// The largest value of all ranks, if each rank has computed a part.
-  Real largest(Real mine) const {
-    if (ranks.division().is_to_each() || meniscus::ranks().alone()) return mine;
-    const std::vector<Real> all = said_by_ranks(mine);
-    return *std::max_element(all.begin(), all.end());
+  /// True if no process has any of such clusters, given that this one has none.
+  bool without(const std::vector<Index>& list) const {
+    return list.empty() && !division.is_shared();
+  }
+  /// The clusters of a list whose field this process evaluates: a share if each has the results.
+  Portions evaluated(std::span<const Index> list) const {
+    return (division.is_to_each() ? evenly : Division::to_each())
+        .items(static_cast<Index>(list.size()));
   }
   /// Displacement and velocity of the partner.
   Vec<D> shift(const Motion& motion) const { return partner.motion.displacement(motion.time); }
@@ -80,16 +80,17 @@ struct BodyAndPartner {
 /// contact_forms.hpp.
 template <int D>
 struct PartnerLayer {
-  /// Clusters of this rank that interact with the partner, in ascending order. Only they have
+  /// Clusters of this process that interact with the partner, in ascending order. Only they have
   /// forces.
   std::vector<Index> visited;
   std::vector<Index> near;  ///< visited clusters within the range
   ContactPlaces<D> places;
   AlignedVector<Lanes> T, S;
+  AlignedVector<Lanes> sent;       ///< work space: results for other processes, [k of visited]
   AlignedVector<Lanes> distances;  ///< [cluster] distance from the partner; unbounded if not
                                    ///< visited
 
-  /// A layer of a grade in which all clusters of this rank are visited.
+  /// A layer of a grade in which all clusters of this process are visited.
   PartnerLayer(const BodyAndPartner<D>& pair, std::size_t grade)
       : places(pair.points[grade].at_rest()) {
     const auto clusters = static_cast<std::size_t>(pair.points[grade].clusters());
@@ -124,26 +125,51 @@ PartnerLayers<D> layers_at_rest(const BodyAndPartner<D>& pair) {
   return layers;
 }
 
-/// Sum of f(c) over the clusters of a grade that all ranks visit, added in the order of the chunks
-/// of all clusters.
+/// Results of chunks of clusters, [grade].
+template <class T>
+using LayerTallies = std::vector<ChunkTally<T>>;
+
+template <class T, int D>
+LayerTallies<T> layer_tallies(const BodyAndPartner<D>& pair) {
+  LayerTallies<T> tallies;
+  for (const ContactPoints<D>& points : pair.points)
+    tallies.emplace_back(chunk_count(points.clusters()), pair.division);
+  return tallies;
+}
+
+/// Sums f(grade, c) over the visited clusters of each chunk of this process.
 template <int D, class T, class F>
-T sum_of_visited(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers, std::size_t grade,
-                 const T& zero, F&& f) {
-  const Index clusters = pair.points[grade].clusters();
-  const std::vector<Index>& visited = layers[grade].visited;
-  PerChunk<T> sums(chunk_count(clusters), zero);
-  parallel_for(
-      pair.division.own_items(chunk_count(clusters)),
-      [&](Index chunk) {
-        const Index end = chunk_begin(clusters, chunk + 1);
-        auto c = std::lower_bound(visited.begin(), visited.end(), chunk_begin(clusters, chunk));
-        T sum = zero;
-        for (; c != visited.end() && *c < end; ++c) sum += f(*c);
-        at(sums, chunk) = sum;
-      },
-      1);
-  pair.division.complete_items(chunk_count(clusters), sums.begin(), sizeof(T));
-  return std::accumulate(sums.begin(), sums.end(), zero);
+void sum_visited(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers, const T& zero,
+                 F&& f, LayerTallies<T>& sums) {
+  for (std::size_t g = 0; g < layers.size(); ++g) {
+    const Index clusters = pair.points[g].clusters();
+    const std::vector<Index>& visited = layers[g].visited;
+    parallel_for(
+        pair.division.own_items(chunk_count(clusters)),
+        [&](Index chunk) {
+          const Index end = chunk_begin(clusters, chunk + 1);
+          auto c = std::lower_bound(visited.begin(), visited.end(), chunk_begin(clusters, chunk));
+          T sum = zero;
+          for (; c != visited.end() && *c < end; ++c) sum = sum + f(g, *c);
+          sums[g][chunk] = sum;
+        },
+        1);
+  }
+}
+
+/// The sums over all clusters of each grade, for layers at a motion that is known everywhere. All
+/// processes call this.
+template <int D, class T, class F>
+std::vector<T> sums_of_visited(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
+                               const T& zero, F&& f) {
+  LayerTallies<T> sums = layer_tallies<T>(pair);
+  sum_visited(pair, layers, zero, f, sums);
+  std::vector<T> all;
+  for (ChunkTally<T>& of_grade : sums) {
+    GatherTogether()({{of_grade.gathered()}});
+    all.push_back(of_grade.sum(zero));
+  }
+  return all;
 }
 
 }  // namespace meniscus

@@ -15,7 +15,7 @@ template <int D>
 PartnerLayers<D> layers_without_effects(const BodyAndPartner<D>& pair, const Motion& motion) {
   PartnerLayers<D> layers = layers_at_rest(pair);
   choose_grades(pair, motion, layers);
-  take_forces(pair, motion, layers);
+  take_layers(pair, motion, layers);
   return layers;
 }
 
@@ -42,38 +42,51 @@ template <int D>
 PartnerLayers<D> layers_at(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
                            const Motion& motion) {
   PartnerLayers<D> layers = layers_without_effects(pair, motion);
-  add_effects(pair, effects, motion, layers);
+  if (!effects.any()) return layers;
+  for (std::size_t g = 0; g < layers.size(); ++g)
+    pair.points[g].prepare_velocities(layers[g].visited, motion, layers[g].places);
+  LayerTallies<WallSums> sums = layer_tallies<WallSums>(pair);
+  add_effects(pair, effects, motion, layers, sums);
   return layers;
 }
 
 template <int D>
 Real energy_of(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
   Real energy = 0;
-  for (std::size_t g = 0; g < layers.size(); ++g)
-    energy += sum_of_visited(pair, layers, g, 0.0, [&layer = layers[g]](Index c) {
-      Lanes E = Lanes::zero();
-      for (int i = 0; i < D; ++i) E += at(layer.S, c * D + i) * layer.places.weight_of(c)[i];
-      return sum(E);
-    });
+  for (const Real of_grade : sums_of_visited(pair, layers, 0.0, [&](std::size_t g, Index c) {
+         Lanes E = Lanes::zero();
+         for (int i = 0; i < D; ++i)
+           E += at(layers[g].S, c * D + i) * layers[g].places.weight_of(c)[i];
+         return sum(E);
+       }))
+    energy += of_grade;
   return energy;
 }
 
 template <int D>
-Resultant resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
+void sum_resultants(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
+                    LayerTallies<Resultant>& sums) {
+  sum_visited(
+      pair, layers, Resultant(),
+      [&](std::size_t g, Index c) {
+        Resultant of_cluster;
+        for (int i = 0; i < D; ++i) of_cluster.force[i] = sum(at(layers[g].T, c * D + i));
+        for (int lane = 0; lane < Lanes::width; ++lane) {
+          of_cluster.moment += cross(vector_of<D>(layers[g].places.x_of(c), lane),
+                                     vector_of<D>(&at(layers[g].T, c * D), lane));
+          if (pair.form == ContactForm::energy)
+            of_cluster.moment += cross(vector_of<D>(layers[g].places.weight_of(c), lane),
+                                       vector_of<D>(&at(layers[g].S, c * D), lane));
+        }
+        return of_cluster;
+      },
+      sums);
+}
+
+Resultant resultant(const LayerTallies<Resultant>& sums) {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
-  for (std::size_t g = 0; g < layers.size(); ++g) {
-    const Resultant of_grade = sum_of_visited(pair, layers, g, Resultant(), [&](Index c) {
-      Resultant of_cluster;
-      for (int i = 0; i < D; ++i) of_cluster.force[i] = sum(at(layers[g].T, c * D + i));
-      for (int lane = 0; lane < Lanes::width; ++lane) {
-        of_cluster.moment += cross(vector_of<D>(layers[g].places.x_of(c), lane),
-                                   vector_of<D>(&at(layers[g].T, c * D), lane));
-        if (pair.form == ContactForm::energy)
-          of_cluster.moment += cross(vector_of<D>(layers[g].places.weight_of(c), lane),
-                                     vector_of<D>(&at(layers[g].S, c * D), lane));
-      }
-      return of_cluster;
-    });
+  for (const ChunkTally<Resultant>& of_chunks : sums) {
+    const Resultant of_grade = of_chunks.sum(Resultant());
     force -= of_grade.force;
     moment -= of_grade.moment;
   }
@@ -81,12 +94,25 @@ Resultant resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layer
 }
 
 template <int D>
+Resultant resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
+  LayerTallies<Resultant> sums = layer_tallies<Resultant>(pair);
+  sum_resultants(pair, layers, sums);
+  for (ChunkTally<Resultant>& of_grade : sums) GatherTogether()({{of_grade.gathered()}});
+  return resultant(sums);
+}
+
+template <int D>
 Real gap_at(const BodyAndPartner<D>& pair, const Motion& motion) {
   PartnerLayer<D> layer(pair, 0);
+  move_points(pair, 0, motion, layer);
   take_distances(pair, 0, motion, layer);
-  Real least = unbounded;
-  for (const Index c : layer.visited) least = std::min(least, layer.nearest_of(c));
-  return -pair.largest(-least);
+  PartTally<Real> least(pair.division);
+  if (Real* const mine = least.mine()) {
+    *mine = unbounded;
+    for (const Index c : layer.visited) *mine = std::min(*mine, layer.nearest_of(c));
+  }
+  GatherTogether()({{least.gathered()}});
+  return *std::min_element(least.begin(), least.end());
 }
 
 template <int D>
@@ -147,6 +173,8 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
                                       const Motion&);                                              \
   template Real energy_of(const BodyAndPartner<D>&, const PartnerLayers<D>&);                      \
   template Resultant resultant(const BodyAndPartner<D>&, const PartnerLayers<D>&);                 \
+  template void sum_resultants(const BodyAndPartner<D>&, const PartnerLayers<D>&,                  \
+                               LayerTallies<Resultant>&);                                          \
   template Real gap_at(const BodyAndPartner<D>&, const Motion&);                                   \
   template std::vector<MeasureSource> measures_of(const BodyAndPartner<D>&, const WallEffects<D>&, \
                                                   bool);

@@ -11,7 +11,7 @@ namespace {
 template <int D>
 void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& pair,
                             const PartnerLayer<D>& layer, const Motion& motion,
-                            const Motion& change, std::span<NodalVector> force) {
+                            const Motion& change, const Forces& force) {
   constexpr Real part_of_gap = 3e-4;
   const Vec<D> shift = pair.shift(motion);
   const ContactChanges<D> changes = points.changes(layer.visited, layer.places, motion, change);
@@ -63,8 +63,7 @@ void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& p
 
 template <int D>
 void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
-                            const Motion& motion, const Motion& change,
-                            std::span<NodalVector> force) {
+                            const Motion& motion, const Motion& change, const Forces& force) {
   for (std::size_t g = 0; g < layers.size(); ++g)
     if (!pair.without(layers[g].visited))
       add_tangent_of_partner(pair.points[g], pair, layers[g], motion, change, force);
@@ -72,7 +71,7 @@ void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& lay
 
 #define MENISCUS_INSTANTIATE(D)                                                                    \
   template void add_tangent_of_partner(BodyAndPartner<D>&, const PartnerLayers<D>&, const Motion&, \
-                                       const Motion&, std::span<NodalVector>);
+                                       const Motion&, const Forces&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

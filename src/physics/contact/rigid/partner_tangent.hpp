@@ -8,7 +8,6 @@ namespace meniscus {
 /// force += the change of the forces of the partner on visited points, for uniform strength.
 template <int D>
 void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
-                            const Motion& motion, const Motion& change,
-                            std::span<NodalVector> force);
+                            const Motion& motion, const Motion& change, const Forces& force);
 
 }  // namespace meniscus

@@ -8,25 +8,6 @@
 #include <tuple>
 
 namespace meniscus {
-namespace {
-
-/// Keeps the clusters of the list as long as no other point can be within the range.
-template <int D>
-void choose_within_reach(const BodyAndPartner<D>& pair, const Motion& motion, ReachList<D>& list,
-                         PartnerLayer<D>& layer) {
-  const ContactPoints<D>& points = pair.finest();
-  const Vec<D> shift = pair.shift(motion);
-  if (list.holds(points, motion, shift)) return;
-  if (points.in_halo()) throw HaloOutgrown();
-  take_distances(pair, 0, motion, layer);
-  list.begin(points, motion, shift);
-  layer.visited.clear();
-  const ItemRange own = pair.own_clusters(0);
-  for (Index c = own.begin; c < own.end; ++c)
-    if (layer.nearest_of(c) < list.distance()) layer.visited.push_back(c);
-}
-
-/// The nearest point among the points of this rank.
 template <int D>
 NearestPoint nearest_point(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers) {
   NearestPoint nearest;
@@ -40,37 +21,45 @@ NearestPoint nearest_point(const BodyAndPartner<D>& pair, const PartnerLayers<D>
   return nearest;
 }
 
-/// Joins the results of all ranks. If several points are at the same distance, the first one is
-/// taken.
-template <int D>
-VisitedPoints of_all_ranks(const BodyAndPartner<D>& pair, const VisitedPoints& mine) {
-  if (pair.division.is_to_each() || ranks().alone()) return mine;
+NearestPoint nearer(const NearestPoint& a, const NearestPoint& b) {
   const auto order = [](const NearestPoint& p) { return std::tuple(p.distance, p.grade, p.point); };
-  VisitedPoints all;
-  for (const VisitedPoints& of_rank : said_by_ranks(mine)) {
-    if (order(of_rank.nearest) < order(all.nearest)) all.nearest = of_rank.nearest;
-    all.count += of_rank.count;
-  }
-  return all;
+  return order(b) < order(a) ? b : a;
 }
 
-}  // namespace
+template <int D>
+void choose_within_reach(const BodyAndPartner<D>& pair, const ReachList<D>& list,
+                         PartnerLayer<D>& layer) {
+  layer.visited.clear();
+  const ItemRange own = pair.own_clusters(0);
+  for (Index c = own.begin; c < own.end; ++c)
+    if (layer.nearest_of(c) < list.distance()) layer.visited.push_back(c);
+}
 
 template <int D>
 void choose_visited(const BodyAndPartner<D>& pair, const Motion& motion, ReachList<D>& list,
                     PartnerLayers<D>& layers) {
-  if (pair.interaction->ends())
-    choose_within_reach(pair, motion, list, layers.front());
-  else
-    choose_grades(pair, motion, layers);
+  if (!pair.interaction->ends()) return choose_grades(pair, motion, layers);
+  const ContactPoints<D>& points = pair.finest();
+  const Vec<D> shift = pair.shift(motion);
+  if (list.holds(list.farthest(points, points.particles(), motion), shift)) return;
+  move_points(pair, 0, motion, layers.front());
+  take_distances(pair, 0, motion, layers.front());
+  list.begin(points, motion, shift);
+  choose_within_reach(pair, list, layers.front());
 }
 
 template <int D>
 void choose_grades(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers) {
   if (pair.grades.count() == 1) return;
+  move_points(pair, layers.size() - 1, motion, layers.back());
+  take_distances(pair, layers.size() - 1, motion, layers.back());
+  choose_grades(pair, layers);
+}
+
+template <int D>
+void choose_grades(const BodyAndPartner<D>& pair, PartnerLayers<D>& layers) {
   const ContactPoints<D>& coarsest = pair.coarsest();
   PartnerLayer<D>& layer = layers.back();
-  take_distances(pair, layers.size() - 1, motion, layer);
   for (PartnerLayer<D>& each : layers) {
     each.visited.clear();
     if (&each != &layer) std::fill(each.distances.begin(), each.distances.end(), Lanes(unbounded));
@@ -98,27 +87,15 @@ void find_near(const BodyAndPartner<D>& pair, PartnerLayers<D>& layers) {
   }
 }
 
-template <int D>
-VisitedPoints visited_points(const BodyAndPartner<D>& pair, const Motion& motion,
-                             PartnerLayers<D>& layers) {
-  VisitedPoints mine{nearest_point(pair, layers)};
-  for (const PartnerLayer<D>& layer : layers)
-    mine.count += static_cast<Offset>(layer.visited.size()) * Lanes::width;
-  const VisitedPoints all = of_all_ranks(pair, mine);
-  if (all.nearest.distance < pair.interaction->range() || !pair.interaction->ends()) return all;
-  // The distances of points out of reach are from the last build of the list.
-  if (!pair.finest().follows_all()) throw HaloOutgrown();
-  take_distances(pair, 0, motion, layers.front());
-  mine.nearest = nearest_point(pair, layers);
-  return of_all_ranks(pair, mine);
-}
-
 #define MENISCUS_INSTANTIATE(D)                                                            \
+  template void choose_within_reach(const BodyAndPartner<D>&, const ReachList<D>&,         \
+                                    PartnerLayer<D>&);                                     \
   template void choose_visited(const BodyAndPartner<D>&, const Motion&, ReachList<D>&,     \
                                PartnerLayers<D>&);                                         \
   template void choose_grades(const BodyAndPartner<D>&, const Motion&, PartnerLayers<D>&); \
+  template void choose_grades(const BodyAndPartner<D>&, PartnerLayers<D>&);                \
   template void find_near(const BodyAndPartner<D>&, PartnerLayers<D>&);                    \
-  template VisitedPoints visited_points(const BodyAndPartner<D>&, const Motion&, PartnerLayers<D>&);
+  template NearestPoint nearest_point(const BodyAndPartner<D>&, const PartnerLayers<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

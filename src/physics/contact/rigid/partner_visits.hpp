@@ -7,15 +7,21 @@
 
 namespace meniscus {
 
-/// Chooses the visited clusters. For an interaction of finite range, these are the clusters that
-/// may be within the range while the list is valid. For others, clusters are chosen by the grades
-/// of facets.
+/// For an interaction of finite range: keeps as visited the clusters that may come within the range
+/// while the list is valid. Their distances are known.
+template <int D>
+void choose_within_reach(const BodyAndPartner<D>& pair, const ReachList<D>& list,
+                         PartnerLayer<D>& layer);
+
+/// For other interactions: gives each facet the grade for the distance of its coarsest points,
+/// whose distances are known. It depends on the current motion only.
+template <int D>
+void choose_grades(const BodyAndPartner<D>& pair, PartnerLayers<D>& layers);
+
+/// Both, at a motion that is known everywhere.
 template <int D>
 void choose_visited(const BodyAndPartner<D>& pair, const Motion& motion, ReachList<D>& list,
                     PartnerLayers<D>& layers);
-
-/// Gives each facet the grade for the distance of its coarsest points, which are moved here. It
-/// depends on the current motion only. Does nothing if there is one grade.
 template <int D>
 void choose_grades(const BodyAndPartner<D>& pair, const Motion& motion, PartnerLayers<D>& layers);
 
@@ -30,15 +36,10 @@ struct NearestPoint {
   Index point = 0;
 };
 
-/// Nearest point and number of visited points, over all ranks.
-struct VisitedPoints {
-  NearestPoint nearest;
-  Offset count = 0;
-};
-/// Returns the nearest point and the number of visited points. If no point is within the range, the
-/// distances of all points are updated to this motion, visited or not.
+/// The nearest point among the points of this process.
 template <int D>
-VisitedPoints visited_points(const BodyAndPartner<D>& pair, const Motion& motion,
-                             PartnerLayers<D>& layers);
+NearestPoint nearest_point(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers);
+/// The nearer one; of points at the same distance the first.
+NearestPoint nearer(const NearestPoint& a, const NearestPoint& b);
 
 }  // namespace meniscus

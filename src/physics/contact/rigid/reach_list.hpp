@@ -13,19 +13,23 @@ class ReachList {
  public:
   explicit ReachList(Real range) : range_(range) {}
 
-  bool holds(const ContactPoints<D>& points, const Motion& motion, const Vec<D>& shift) const {
+  /// Bound of the displacements since begin() of the points that these particles move.
+  Real farthest(const ContactPoints<D>& points, std::span<const Index> particles,
+                const Motion& motion) const {
+    return since_.farthest(points, particles, motion);
+  }
+  /// True if the list is valid, given the largest displacement of a point and the displacement of
+  /// the partner.
+  bool holds(Real farthest, const Vec<D>& shift) const {
     const Real left = range_ * (1 - 1e-12) - (shift - shift_).norm();
-    return left > 0 && since_.farthest(points, motion) <= left;
+    return left > 0 && farthest <= left;
   }
   /// Starts a new list. Must be called at the motion for which the clusters within distance() were
   /// found.
   void begin(const ContactPoints<D>& points, const Motion& motion, const Vec<D>& shift) {
     since_.begin(points, motion);
     shift_ = shift;
-    ++times_;
   }
-  /// Number of calls of begin().
-  std::int64_t times() const { return times_; }
   Real distance() const { return 2 * range_; }
   std::size_t bytes() const { return since_.bytes(); }
 
@@ -33,7 +37,6 @@ class ReachList {
   Real range_;
   MovedSince<D> since_;  // displacements since begin()
   Vec<D> shift_ = Vec<D>::Zero();
-  std::int64_t times_ = 0;
 };
 
 }  // namespace meniscus

@@ -5,6 +5,7 @@
 #include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_demand.hpp"
 #include "physics/contact/pair/contact_visits.hpp"
+#include "physics/contact/phases.hpp"
 #include "physics/contact/rigid/layer_effects.hpp"
 #include "physics/contact/rigid/partner_field.hpp"
 #include "physics/contact/rigid/partner_measures.hpp"
@@ -42,7 +43,12 @@ class RigidContact final : public ForceTerm, public ContactVisits {
         effects_(*pair_.interaction, pair_.partner, choice.friction),
         steady_after_(end_of_motion(pair_.partner)),
         layers_(layers_at_rest(pair_)),
-        list_(pair_.interaction->range()) {
+        effect_sums_(layer_tallies<WallSums>(pair_)),
+        force_sums_(layer_tallies<Resultant>(pair_)),
+        list_(pair_.interaction->range()),
+        moves_(body.body.division),
+        speeds_(body.body.division),
+        of_parts_(body.body.division) {
     close_.reserve(static_cast<std::size_t>(pair_.finest().clusters()));
     if (const auto* pattern = effects_.pattern()) {
       require_adhesion(pair_, *pattern);
@@ -55,14 +61,19 @@ class RigidContact final : public ForceTerm, public ContactVisits {
 
   Report add_force(const Motion& motion, Forces force) override {
     effects_.begin(motion.time);
-    return pair_.ranks.report_of([&] { return add_known_force(motion, force); });
+    if (!pair_.work.takes_part()) return sum_up(motion, force);
+    if (!pair_.interaction->ends()) return place(motion, force);
+    if (Real* const mine = moves_.mine())
+      *mine = list_.farthest(pair_.finest(), pair_.finest().own_particles(pair_.work), motion);
+    gathered_.assign(1, moves_.gathered());
+    return go_on<&RigidContact::place>(*this, pair_.work, gathered_, motion, force);
   }
 
   /// Adds the exact tangent. With varying adhesion or friction, a difference of forces replaces it.
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     if (effects_.any()) return ForceTerm::add_tangent(motion, change, force);
     choose_visited(pair_, motion, list_, layers_);
-    take_forces(pair_, motion, layers_);
+    take_layers(pair_, motion, layers_);
     add_tangent_of_partner(pair_, layers_, motion, change, force);
   }
 
@@ -85,7 +96,6 @@ class RigidContact final : public ForceTerm, public ContactVisits {
 
   /// Accepts the step. The last computed force must belong to this motion.
   void commit(const Motion& motion) override {
-    if (pair_.ranks.is_absent()) return;
     effects_.commit(motion.time, sums_);
     if (pair_.partner.motion.moves())
       work_.commit(spatial<D>(pair_.shift(motion)), resultant_.force);
@@ -94,27 +104,12 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     effects_.archive(a);
     if (pair_.partner.motion.moves()) work_.archive(a, D);
   }
-  void complete_history() override {
-    effects_.complete_history(pair_.ranks);
-    if (pair_.partner.motion.moves()) pair_.ranks.complete(work_);
-  }
-  bool tell_reads(StepReads& reads) override {
-    pair_.ranks.learn_halo(reads);
-    if (pair_.ranks.are_few()) {
-      for (ContactPoints<D>& points : pair_.points)
-        points.tell_reads_alone(reads, pair_.ranks.takes_part());
-      return true;
-    }
-    told_ = visited_parts();
-    if (told_->touches)
-      pair_.points.front().tell_reads(reads, layers_.front().visited);
-    else
-      for (std::size_t g = 0; g < pair_.points.size(); ++g)
-        pair_.points[g].tell_reads(reads, pair_.moved_clusters(g));
+  bool reads(StepReads& reads) override {
+    for (std::size_t g = 0; g < pair_.points.size(); ++g)
+      pair_.on_patches() ? pair_.points[g].list_own_nodes(reads)
+                         : pair_.points[g].list_reads(reads, pair_.moved(g));
     return true;
   }
-  bool reads_changed() const override { return told_ && *told_ != visited_parts(); }
-  bool may_outgrow_halo() const override { return !pair_.ranks.are_few(); }
   bool may_reject_steps() const override { return true; }
   bool stops_drift() const override { return true; }
 
@@ -122,11 +117,13 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   /// Adds friction with this velocity at the positions of the last force. Overwrites T of that
   /// force.
   void add_viscous(const Motion& motion, Forces force) override {
-    if (pair_.ranks.is_absent()) return;
-    take_friction(pair_, effects_, motion, layers_);
-    for (std::size_t g = 0; g < layers_.size(); ++g)
-      if (!pair_.without(layers_[g].near))
-        pair_.points[g].add_force(layers_[g].places, layers_[g].near, layers_[g].T, {}, force);
+    if (!pair_.work.takes_part()) return;
+    gathered_.clear();
+    if (pair_.on_patches())
+      for (std::size_t g = 0; g < layers_.size(); ++g)
+        gathered_.push_back(pair_.points[g].place(layers_[g].near, pair_.work, Placed::velocities,
+                                                  motion, layers_[g].places));
+    go_on<&RigidContact::add_friction>(*this, pair_.work, gathered_, motion, force);
   }
 
   /// Warns if the contact points are too coarse for the gap. Not for planes and spheres: their
@@ -154,11 +151,88 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   }
 
  private:
-  /// Adds the force on a rank that takes part in the contact.
-  Report add_known_force(const Motion& motion, Forces force) {
-    choose_visited(pair_, motion, list_, layers_);
-    take_forces(pair_, motion, layers_);
-    sums_ = add_effects(pair_, effects_, motion, layers_);
+  using Placed = typename ContactPoints<D>::Placed;
+
+  /// Moves the points that are known to be needed: for a finite range those of the list, or all if
+  /// the list is not valid any more; otherwise the coarsest.
+  Report place(const Motion& motion, Forces force) {
+    const bool ends = pair_.interaction->ends();
+    listed_ =
+        ends && list_.holds(*std::max_element(moves_.begin(), moves_.end()), pair_.shift(motion));
+    return place_points<&RigidContact::choose>({ends ? 0 : layers_.size() - 1, !listed_, what()},
+                                               motion, force);
+  }
+  /// Points that place() moves.
+  struct Places {
+    std::size_t grade = 0;
+    bool all = false;  ///< or only the visited ones
+    Placed what = Placed::positions;
+  };
+  template <auto next>
+  Report place_points(const Places& wanted, const Motion& motion, Forces force) {
+    wanted_ = wanted;
+    PartnerLayer<D>& layer = layers_[wanted.grade];
+    if (!pair_.on_patches()) {
+      // Visited points are moved with their weights, by move_visited().
+      if (wanted.all && (pair_.interaction->ends() || layers_.size() > 1))
+        move_points(pair_, wanted.grade, motion, layer);
+      return (this->*next)(motion, force);
+    }
+    gathered_.assign(1, pair_.points[wanted.grade].place(placed(), pair_.work, wanted.what, motion,
+                                                         layer.places));
+    return go_on<next>(*this, pair_.work, gathered_, motion, force);
+  }
+  std::span<const Index> placed() const {
+    return wanted_.all ? pair_.points[wanted_.grade].all()
+                       : std::span<const Index>(layers_[wanted_.grade].visited);
+  }
+  Placed what() const { return effects_.any() ? Placed::velocities : Placed::weights; }
+  /// Takes the points that place() has moved.
+  void take_placed() {
+    if (pair_.on_patches())
+      pair_.points[wanted_.grade].take_placed(placed(), pair_.work, wanted_.what,
+                                              layers_[wanted_.grade].places);
+  }
+  /// Chooses the visited points.
+  Report choose(const Motion& motion, Forces force) {
+    take_placed();
+    if (listed_) return take_fields(motion, force);
+    if (!pair_.interaction->ends() && layers_.size() == 1) return take_fields(motion, force);
+    take_distances(pair_, wanted_.grade, motion, layers_[wanted_.grade]);
+    if (pair_.interaction->ends()) {
+      list_.begin(pair_.finest(), motion, pair_.shift(motion));
+      choose_within_reach(pair_, list_, layers_.front());
+      if (pair_.on_patches())  // all points were placed
+        pair_.finest().update_weights(layers_.front().visited, motion, layers_.front().places);
+      return take_fields(motion, force);
+    }
+    choose_grades(pair_, layers_);
+    if (!pair_.on_patches()) return take_fields(motion, force);
+    gathered_.clear();
+    for (std::size_t g = 0; g < layers_.size(); ++g)
+      gathered_.push_back(
+          pair_.points[g].place(layers_[g].visited, pair_.work, what(), motion, layers_[g].places));
+    return go_on<&RigidContact::take_grades>(*this, pair_.work, gathered_, motion, force);
+  }
+  Report take_grades(const Motion& motion, Forces force) {
+    for (std::size_t g = 0; g < layers_.size(); ++g)
+      pair_.points[g].take_placed(layers_[g].visited, pair_.work, what(), layers_[g].places);
+    return take_fields(motion, force);
+  }
+  /// Computes the field at a share of the visited points.
+  Report take_fields(const Motion& motion, Forces force) {
+    if (!pair_.on_patches()) move_visited(pair_, motion, layers_);
+    gathered_.clear();
+    for (std::size_t g = 0; g < layers_.size(); ++g)
+      gathered_.push_back(
+          take_forces(pair_, g, motion, pair_.evaluated(layers_[g].visited), layers_[g]));
+    if (!pair_.on_patches()) return add_forces(motion, force);
+    return go_on<&RigidContact::add_forces>(*this, pair_.work, gathered_, motion, force);
+  }
+  /// Adds the forces to the particles.
+  Report add_forces(const Motion& motion, Forces force) {
+    for (PartnerLayer<D>& layer : layers_) take_sent(pair_.evaluated(layer.visited), layer);
+    if (effects_.any()) add_effects(pair_, effects_, motion, layers_, effect_sums_);
     for (std::size_t g = 0; g < layers_.size(); ++g) {
       const PartnerLayer<D>& layer = layers_[g];
       if (pair_.without(layer.visited)) continue;
@@ -166,24 +240,50 @@ class RigidContact final : public ForceTerm, public ContactVisits {
                                 force);
     }
     find_near(pair_, layers_);
-    const VisitedPoints visited = visited_points(pair_, motion, layers_);
-    count(visited.count);
-    return report(motion, visited.nearest);
+    sum_resultants(pair_, layers_, force_sums_);
+    if (OfPart* const mine = of_parts_.mine()) {
+      *mine = {nearest_point(pair_, layers_), 0, {}};
+      for (const PartnerLayer<D>& layer : layers_)
+        mine->visited += static_cast<Offset>(layer.visited.size()) * Lanes::width;
+      if (force.demand)
+        mine->boxes = {pair_.finest(), pair_.finest().own_particles(pair_.work), motion};
+    }
+    return sum_up(motion, force);
   }
-  /// For an interaction of finite range: number of the neighbour list, and whether any point is in
-  /// range. If none is, the distances of all points are needed.
-  struct VisitedParts {
-    std::int64_t list;
-    bool touches;
-    bool operator==(const VisitedParts&) const = default;
-  };
-  VisitedParts visited_parts() const {
-    return {list_.times(), pair_.interaction->ends() && touches_};
+  /// Gathers what the report needs.
+  Report sum_up(const Motion& motion, Forces force) {
+    gathered_.assign(1, of_parts_.gathered());
+    for (std::size_t g = 0; g < layers_.size(); ++g) {
+      if (effects_.any()) gathered_.push_back(effect_sums_[g].gathered());
+      gathered_.push_back(force_sums_[g].gathered());
+    }
+    return force.gather(gathered_, motion,
+                        [this](const Motion& m, const Forces& all) { return report(m, all); });
   }
-  Report report(const Motion& motion, const NearestPoint& nearest);
+  Report report(const Motion& motion, Forces force);
+  void find_nearest();
+  Report limit_far(const Motion& motion, Forces force);
+  Report take_far(const Motion& motion, Forces force);
+  Report share_distances(const Motion& motion, Forces force);
+  Report limit_near(const Motion& motion, Forces force);
+  Report limit_by_speed(const Motion& motion);
+  Approach fastest(const Motion& motion) const;
+  Vec<D> velocity(const Motion& motion) const {
+    return pair_.partner.motion.moves() ? pair_.velocity(motion) : Vec<D>(Vec<D>::Zero());
+  }
+  Report add_friction(const Motion& motion, Forces force) {
+    if (pair_.on_patches())
+      for (std::size_t g = 0; g < layers_.size(); ++g)
+        pair_.points[g].take_placed(layers_[g].near, pair_.work, Placed::velocities,
+                                    layers_[g].places);
+    take_friction(pair_, effects_, motion, layers_);
+    for (std::size_t g = 0; g < layers_.size(); ++g)
+      if (!pair_.without(layers_[g].near))
+        pair_.points[g].add_force(layers_[g].places, layers_[g].near, layers_[g].T, {}, force);
+    return {};
+  }
   Failure describe_overlap(const NearestPoint& nearest, Real time) const;
-  Real closing_speed_of(std::size_t grade, Real within, const Vec<D>& velocity,
-                        const Motion& motion);
+  Real closing_speed_of(std::size_t grade, Real within, const Motion& motion);
 
   std::string name_;
   std::string overlap_;  // advice for surfaces that pass through each other
@@ -193,47 +293,128 @@ class RigidContact final : public ForceTerm, public ContactVisits {
   Real steady_after_;
   // Results and work space of the last force.
   PartnerLayers<D> layers_;
+  LayerTallies<WallSums> effect_sums_;
+  LayerTallies<Resultant> force_sums_;
   WallSums sums_;
   Resultant resultant_;
-  bool touches_ = false;  // true if some point is within the range
   PartnerWork work_;
   ReachList<D> list_;
-  std::optional<VisitedParts> told_;  // visited parts at tell_reads()
-  std::vector<Index> close_;          // clusters that determine the closing speed
+  std::vector<Index> close_;  // clusters that determine the closing speed
+  /// Results of a process.
+  struct OfPart {
+    NearestPoint nearest;
+    Offset visited = 0;
+    CoefficientBoxes<D> boxes;
+  };
+  PartTally<Real> moves_, speeds_;
+  PartTally<OfPart> of_parts_;
+  NearestPoint nearest_;  // of all points
+  std::vector<Gathered> gathered_;
+  bool listed_ = false;  // the list holds
+  Places wanted_;        // of the last place()
 };
 
-/// Report of the last force: work of the partner, failures, and the limit of the step.
+/// Work of the partner, heat and failures of the last force; then the limit of the step.
 template <int D>
-Report RigidContact<D>::report(const Motion& motion, const NearestPoint& nearest) {
+Report RigidContact<D>::report(const Motion& motion, Forces force) {
+  sums_ = {};
+  if (effects_.any())
+    for (const ChunkTally<WallSums>& of_grade : effect_sums_)
+      sums_ = sums_ + of_grade.sum(WallSums());
   Report report;
-  report.outside = resultant_ = resultant(pair_, layers_);
-  Vec<D> velocity = Vec<D>::Zero();
+  report.outside = resultant_ = resultant(force_sums_);
   if (pair_.partner.motion.moves()) {
-    velocity = pair_.velocity(motion);
     const Eigen::Vector3d shift = spatial<D>(pair_.shift(motion));
     work_.begin(shift);
     report.external_work = work_.since_step(shift, resultant_.force);
   }
   report.external_work += effects_.work(sums_);
   report.heat = sums_.heat;
+  find_nearest();
+  Offset visited = 0;
+  for (const OfPart& of_part : of_parts_)
+    visited = pair_.division.is_to_each() ? of_part.visited : visited + of_part.visited;
+  count(visited);
   const Interaction& interaction = *pair_.interaction;
-  const Real gap = nearest.distance;
-  const Approach any = approach<D>(pair_.finest(), gap, velocity, motion);
-  touches_ = gap < interaction.range();
-  if (!touches_) {
-    report.demand = approach_demand(any, interaction.range());
+  if (nearest_.distance < interaction.least_gap())
+    report.failure = describe_overlap(nearest_, motion.time);
+  if (!force.demand) return report;
+  if (!(nearest_.distance < interaction.range()) && interaction.ends()) {
+    // The distances of points out of reach are from the last build of the list.
+    report += limit_far(motion, force);
+  } else {
+    report += limit_near(motion, force);
+  }
+  return report;
+}
+
+template <int D>
+void RigidContact<D>::find_nearest() {
+  nearest_ = {};
+  for (const OfPart& of_part : of_parts_) nearest_ = nearer(nearest_, of_part.nearest);
+}
+
+/// Finds the distances of all points, which are all out of range.
+template <int D>
+Report RigidContact<D>::limit_far(const Motion& motion, Forces force) {
+  if (!pair_.work.takes_part()) return share_distances(motion, force);
+  return place_points<&RigidContact::take_far>({0, true, Placed::positions}, motion, force);
+}
+
+template <int D>
+Report RigidContact<D>::take_far(const Motion& motion, Forces force) {
+  take_placed();
+  take_distances(pair_, 0, motion, layers_.front());
+  if (OfPart* const mine = of_parts_.mine()) mine->nearest = nearest_point(pair_, layers_);
+  return share_distances(motion, force);
+}
+
+template <int D>
+Report RigidContact<D>::share_distances(const Motion& motion, Forces force) {
+  return force.gather({of_parts_.gathered()}, motion, [this](const Motion& m, const Forces& all) {
+    find_nearest();
+    return limit_near(m, all);
+  });
+}
+
+/// The limit of the step; points within the range have to be known.
+template <int D>
+Report RigidContact<D>::limit_near(const Motion& motion, Forces force) {
+  const Interaction& interaction = *pair_.interaction;
+  const Real gap = nearest_.distance;
+  if (!(gap < interaction.range())) {
+    Report report;
+    report.demand = approach_demand(fastest(motion), interaction.range());
     return report;
   }
-  if (gap < interaction.least_gap()) report.failure = describe_overlap(nearest, motion.time);
   const Real within = std::min(close_by(gap), interaction.range());
-  Real speed = 0;
-  for (std::size_t g = 0; g < layers_.size(); ++g)
-    speed = std::max(speed, closing_speed_of(g, within, velocity, motion));
-  speed = pair_.largest(speed);
+  if (Real* const mine = speeds_.mine()) {
+    *mine = 0;
+    for (std::size_t g = 0; g < layers_.size(); ++g)
+      *mine = std::max(*mine, closing_speed_of(g, within, motion));
+  }
+  return force.gather({speeds_.gathered()}, motion,
+                      [this](const Motion& m, const Forces&) { return limit_by_speed(m); });
+}
+
+template <int D>
+Report RigidContact<D>::limit_by_speed(const Motion& motion) {
+  const Interaction& interaction = *pair_.interaction;
+  const Real gap = nearest_.distance;
   const Real strength = effects_.varies_at(gap) ? sums_.adhesion : 1;
-  report.demand = contact_demand({interaction, strength / pair_.finest().inertia(), 0, D}, gap,
-                                 {speed, within, any.speed});
+  Report report;
+  report.demand =
+      contact_demand({interaction, strength / pair_.finest().inertia(), 0, D}, gap,
+                     {*std::max_element(speeds_.begin(), speeds_.end()),
+                      std::min(close_by(gap), interaction.range()), fastest(motion).speed});
   return report;
+}
+
+template <int D>
+Approach RigidContact<D>::fastest(const Motion& motion) const {
+  CoefficientBoxes<D> all;
+  for (const OfPart& of_part : of_parts_) all.join(of_part.boxes);
+  return approach<D>(pair_.finest(), all, nearest_.distance, velocity(motion));
 }
 
 template <int D>
@@ -249,15 +430,12 @@ Failure RigidContact<D>::describe_overlap(const NearestPoint& nearest, Real time
 /// Speed at which the points of a grade approach the partner. Only points within a distance below
 /// the range count.
 template <int D>
-Real RigidContact<D>::closing_speed_of(std::size_t grade, Real within, const Vec<D>& velocity,
-                                       const Motion& motion) {
+Real RigidContact<D>::closing_speed_of(std::size_t grade, Real within, const Motion& motion) {
   const PartnerLayer<D>& layer = layers_[grade];
   close_.clear();
   for (const Index c : layer.near)
     if (layer.nearest_of(c) < within) close_.push_back(c);
-  const ItemRange part = pair_.parts().own_items(static_cast<Index>(close_.size()));
-  const std::span<const Index> mine(close_.data() + part.begin, close_.data() + part.end);
-  return closing_speed<D>(pair_.points[grade], mine, nullptr, {}, velocity, motion);
+  return closing_speed<D>(pair_.points[grade], close_, pair_.work, velocity(motion), motion);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "meniscus/physics/partner_registry.hpp"
 #include "physics/contact/adhesion_work.hpp"
 #include "physics/contact/contact_terms.hpp"
-#include "physics/contact/pair/contact_ranks.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -94,9 +93,6 @@ class WallEffects {
   void commit(Real time, const WallSums& sums) { work_.commit(time, sums.supply); }
   void archive(const Archive& a) {
     if (keeps_work()) work_.archive(a, D);
-  }
-  void complete_history(const ContactRanks& ranks) {
-    if (keeps_work()) ranks.complete(work_);
   }
 
  private:

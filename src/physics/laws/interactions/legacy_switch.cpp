@@ -58,7 +58,7 @@ class LegacySwitch final : public ForceTerm {
         for (int i = 0; i < D; ++i)
           at(load_, simplex[k]).set(i, at(load_, simplex[k])[i] + pull.force[k][i]);
     }
-    boundary_.scatter(load_, body_.part(std::span<NodalVector>(force)));
+    boundary_.scatter(load_, body_.part(force));
     return report;
   }
 

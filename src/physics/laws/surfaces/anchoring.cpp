@@ -41,7 +41,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
         strength_(strength),
         polar_(polar),
         surface_(body, points, true),
-        chunk_sums_(surface_.points.chunk_sums(body.size(), body.division)),
+        chunk_sums_(surface_.points.chunk_sums(body)),
         held_(static_cast<std::size_t>(surface_.groups())) {}
 
   std::string name() const override { return "anchoring to the surface of '" + body_.name + "'"; }
@@ -54,9 +54,7 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
 
   Report add_force(const Motion& motion, Forces force) override {
     const NodalVector *u = motion.u.data() + body_.first, *x = director(motion);
-    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int, Index begin,
-                                                                          Index end,
-                                                                          NodalVector* f) {
+    chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index g = begin; g < end; ++g) {
         const SurfaceState<Lanes> s = surface_.state(g, surface_.gradients(g, u));
         const Vectors y = slope(s.m, s.stretch, values(g, x));
@@ -73,32 +71,31 @@ class Anchoring final : public ForceTerm, public FieldEnergy, public AnchoredTer
         at(held_, g) = {s.m, s.stretch};
       }
     });
-    if (!force.fields.empty())
-      add_held_force(x, body_.part(std::span<NodalVector>(at(force.fields, field_).f)));
+    if (!force.fields.empty()) add_held_force(x, body_.part(force.of_field(field_)));
     return {};
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
     const NodalVector *u = motion.u.data() + body_.first, *x = director(motion);
-    return body_.division.sum(surface_.groups(), 0.0, [&](Index g) {
+    return body_.sum_over_rows(surface_.groups(), 0.0, [&](Index g) {
       const SurfaceState<Lanes> s = surface_.state(g, surface_.gradients(g, u));
       return energy(g, {s.m, s.stretch}, x);
     });
   }
 
   void hold_places(const NodalVector* u) override {
-    parallel_for(body_.division.own_rows(surface_.groups()), [&](Index g) {
+    parallel_for(chunk_sums_.own_rows(surface_.groups()), [&](Index g) {
       const SurfaceState<Lanes> s = surface_.state(g, surface_.gradients(g, u));
       at(held_, g) = {s.m, s.stretch};
     });
   }
   Real held_energy(const NodalVector* x) const override {
-    return body_.division.sum(surface_.groups(), 0.0,
-                              [&](Index g) { return energy(g, at(held_, g), x); });
+    return body_.sum_over_rows(surface_.groups(), 0.0,
+                               [&](Index g) { return energy(g, at(held_, g), x); });
   }
   /// Adds the force of the director at fixed positions, from dw/dh = W (Js h - m) (polar) or W (Js
   /// h - (h.n) m) (apolar).
-  void add_held_force(const NodalVector* x, std::span<NodalVector> f) override {
+  void add_held_force(const NodalVector* x, const ForceVector& f) override {
     const PointRows<D>& rows = surface_.points.rows;
     chunk_sums_.accumulate(f, [&](int, Index begin, Index end, NodalVector* sum) {
       for (Index g = begin; g < end; ++g) {

@@ -5,7 +5,6 @@
 // sum da Dgamma/Dt is booked.
 #include "input/expression.hpp"
 #include "meniscus/physics/surface_registry.hpp"
-#include "parallel/divided.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -43,7 +42,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
         of_place_(of_place),
         changes_(of_place || gamma.depends_on_time()),
         surface_(body, points, of_place),
-        chunk_sums_(surface_.points.chunk_sums(body.size(), body.division)) {
+        chunk_sums_(surface_.points.chunk_sums(body)) {
     now_.resize(surface_.reference.size());
     if (changes_) {
       last_ = now_;
@@ -60,29 +59,27 @@ class VaryingTension final : public ForceTerm, public VariedTension {
   Report add_force(const Motion& motion, Forces force) override {
     if (changes_) evaluate(motion, now_.gamma);
     const NodalVector* u = motion.u.data() + body_.first;
-    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)),
-                           [&](int, Index begin, Index end, NodalVector* f) {
-                             for (Index g = begin; g < end; ++g) {
-                               const auto s = surface_.state(g, surface_.gradients(g, u));
-                               const Lanes da = surface_.points.weight(g) * s.stretch;
-                               now_.set_area(g, da);
-                               surface_.points.scatter(g, -now_.tension(g) * da * dual_tangents(s),
-                                                       f);
-                             }
-                           });
-    Report report;
-    if (!changes_) return report;
-    body_.division.complete_rows(surface_.groups(), now_.area.data(), sizeof(Lanes));
-    report.external_work = supplied();
-    return report;
+    chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
+      for (Index g = begin; g < end; ++g) {
+        const auto s = surface_.state(g, surface_.gradients(g, u));
+        const Lanes da = surface_.points.weight(g) * s.stretch;
+        now_.set_area(g, da);
+        surface_.points.scatter(g, -now_.tension(g) * da * dual_tangents(s), f);
+      }
+    });
+    if (!changes_) return {};
+    return force.gather({chunk_sums_.gathered(surface_.groups(), now_.area.data(), Lanes::width)},
+                        motion, [this](const Motion&, const Forces&) {
+                          Report report;
+                          report.external_work = supplied();
+                          return report;
+                        });
   }
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     if (of_place_) return ForceTerm::add_tangent(motion, change, force);
     if (changes_) evaluate(motion, now_.gamma);
     const NodalVector *u = motion.u.data() + body_.first, *du = change.u.data() + body_.first;
-    chunk_sums_.accumulate(body_.part(std::span<NodalVector>(force)), [&](int, Index begin,
-                                                                          Index end,
-                                                                          NodalVector* f) {
+    chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
       for (Index g = begin; g < end; ++g) {
         const auto s = surface_.state(g, dual(surface_.gradients(g, u), surface_.gradients(g, du)));
         const Dual<Lanes> w(-surface_.points.weight(g) * now_.tension(g));
