@@ -98,7 +98,7 @@ class Portions {
   Index first(int rank) const;
   ItemRange of(int rank) const { return {first(rank), first(rank + 1)}; }
   ItemRange own() const { return of(ranks().rank()); }
-  /// True if ranks need items of others.
+  /// True if ranks receive items of other ranks.
   bool are_sent() const { return !ranks().alone() && !division_.is_to_each(); }
   /// Number of items that others need from a rank: none if each rank has all items.
   std::size_t sent_by(int rank) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packs the shares of a rank, exchanges them, and unpacks those of the other ranks.
+// Packs the shares of a rank, exchanges all shares, and unpacks the shares of the other ranks.
 #include "parallel/gathered.hpp"
 
 #include <cstring>

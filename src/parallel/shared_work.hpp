@@ -32,7 +32,7 @@ class SharedWork {
   /// The part of this rank in rows that are divided by `of_body`, and in n items.
   Division rows(const Division& of_body) const { return few_ ? Division::to_each() : of_body; }
   Portions items(Index n) const { return (few_ ? Division::to_each() : evenly).items(n); }
-  /// A value that the reporting ranks know.
+  /// A value that is computed on the reporting ranks.
   template <class T>
   Gathered reported(T* value) const {
     return {value, (few_ ? first_ : Division::to_each()).items(1)};

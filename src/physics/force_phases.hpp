@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The phases of a force: terms compute what they can from the motion of their rows, then the
-// numbers that they need of all rows are gathered, then they go on; at the end, sums of chunks are
-// exchanged and added to the forces.
+// The phases of a force: each process computes its rows; numbers that terms need of all rows are
+// gathered; terms continue with these numbers. At the end, sums of chunks are exchanged and added
+// to the forces.
 #pragma once
 #include "meniscus/physics/force_term.hpp"
 

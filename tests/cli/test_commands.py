@@ -32,7 +32,7 @@ class Code(ProgramTest):
         code = subprocess.run(["objdump", "-d", "--no-show-raw-insn", program.PROGRAM],
                               capture_output=True, text=True, check=True, errors="replace").stdout
         loops = [f for f in code.split("\n\n")
-                 if re.match(r"\w+ <\S*InternalForce\S*CellRule\S*add_force", f) and "prefetcht1" in f]
+                 if re.match(r"\w+ <\S*InternalForce\S*CellRule\S*add_rows", f) and "prefetcht1" in f]
         self.assertGreater(len(loops), 10)
 
 

@@ -48,7 +48,7 @@ std::vector<Case> variants(int D) {
       std::string("body = \"drop\"\nwhere = \"y > 0.8\"\nstiffness = 3\nramp = [0, 0.2]\n") +
           (D == 3 ? "displacement = [0.1, \"0.2*x\", 0.05]\n"
                   : "displacement = [0.1, \"0.2*x\"]\n"),
-      all);
+      {true, false});
   const std::string pair =
       "bodies = [\"drop\", \"other\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\nskin = 10\n";
   add("contact", "energy", pair, all);

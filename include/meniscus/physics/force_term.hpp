@@ -58,7 +58,7 @@ struct Forces : ForceVector {
   std::vector<StoredEnergy>* energies = nullptr;
   /// If false, Report::demand is not needed.
   bool demand = true;
-  /// The phases of all terms of a system. Null: those of one term run one after the other.
+  /// The phases of all terms of a system. If null, the phases of one term follow each other.
   ForcePhases* phases = nullptr;
 
   /// The forces on a field.

@@ -20,7 +20,7 @@ template <int D>
 Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active,
                    const ContactPoints<D>& other, std::span<const Index> other_active,
                    const Motion& motion);
-/// The same for a partner that moves with `velocity`, for the points that this process knows.
+/// The closing speed to a partner that moves with `velocity`, of points known to this process.
 template <int D>
 Real closing_speed(const ContactPoints<D>& points, std::span<const Index> active,
                    const SharedWork& work, const Vec<D>& velocity, const Motion& motion);
@@ -31,7 +31,7 @@ struct CoefficientBoxes {
   Box<D> places, velocities;
 
   CoefficientBoxes() = default;
-  /// Of these particles of the body.
+  /// Boxes around the coefficients of these particles of the body.
   CoefficientBoxes(const ContactPoints<D>& points, std::span<const Index> particles,
                    const Motion& motion);
   void join(const CoefficientBoxes& other);

@@ -65,7 +65,7 @@ class PairVisits {
   std::array<Gathered, 2> moves(const Motion& motion);
   /// True if the list has all pairs within reach, and this process reads the motion of its points.
   bool covers();
-  /// Moves the coarsest points: those of the list, or all if it does not cover the motion.
+  /// Moves the coarsest points in the list, or all of them if it does not cover the motion.
   std::array<Gathered, 2> place(const Motion& motion);
   /// Makes a new list if necessary, and chooses the grades of facets.
   void choose(const Motion& motion);
@@ -111,7 +111,7 @@ class PairVisits {
   void make_list(const Motion& motion, ContactList<D>& list, VisitedPair<D>& at_motion) const;
   void move_others(const Motion& motion, VisitedPair<D>& at_motion) const;
   void begin_list(const Motion& motion);
-  /// What place() computes.
+  /// The values that place() computes.
   typename Points::Placed placed() const {
     return grades() == 1 ? Points::Placed::weights : Points::Placed::positions;
   }

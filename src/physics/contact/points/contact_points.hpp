@@ -128,7 +128,7 @@ class ContactPoints {
   /// The numbers of all clusters.
   std::span<const Index> all() const { return made_->all; }
 
-  /// What place() computes besides positions.
+  /// The values that place() computes besides positions.
   enum class Placed { positions, weights, velocities };
   /// Computes the positions of the clusters in the list (ascending), and more, each process for its
   /// rows. The result is to be gathered; take_placed() with the same arguments then makes it
