@@ -338,6 +338,11 @@ class SameBits(RanksTest):
                 self.assertLess(followed, of_all)
                 self.directory = self.directory.parent
 
+    def test_partners_beside_shared_points(self):
+        """Two contacts of a body use the same points; a rank may have points near one of them only. Their sums
+        are added in the same order as in one process."""
+        self.assert_same_bits((2,), INPUTS / "pull_off.toml", "--until", "1")
+
     def test_small_bodies(self):
         """Small bodies lie on one rank each, if no rank then has much more than the others."""
         for name, scene in WHOLE.items():

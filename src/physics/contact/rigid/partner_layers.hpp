@@ -60,10 +60,6 @@ struct BodyAndPartner {
     return points[grade].all().subspan(static_cast<std::size_t>(range.begin),
                                        static_cast<std::size_t>(range.end - range.begin));
   }
-  /// True if no process has any of such clusters, given that this one has none.
-  bool without(const std::vector<Index>& list) const {
-    return list.empty() && !division.is_shared();
-  }
   /// The clusters of a list whose field this process evaluates: a share if each has the results.
   Portions evaluated(std::span<const Index> list) const {
     return (division.is_to_each() ? evenly : Division::to_each())

@@ -65,8 +65,7 @@ template <int D>
 void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
                             const Motion& motion, const Motion& change, const Forces& force) {
   for (std::size_t g = 0; g < layers.size(); ++g)
-    if (!pair.without(layers[g].visited))
-      add_tangent_of_partner(pair.points[g], pair, layers[g], motion, change, force);
+    add_tangent_of_partner(pair.points[g], pair, layers[g], motion, change, force);
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                                    \

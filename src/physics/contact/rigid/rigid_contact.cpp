@@ -235,7 +235,8 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     if (effects_.any()) add_effects(pair_, effects_, motion, layers_, effect_sums_);
     for (std::size_t g = 0; g < layers_.size(); ++g) {
       const PartnerLayer<D>& layer = layers_[g];
-      if (pair_.without(layer.visited)) continue;
+      // Also without visited points: contacts that share points add their sums in the same order on
+      // any number of processes, of which one may have visited points and another may not.
       pair_.points[g].add_force(layer.places, layer.visited, layer.T, layer.moment(pair_.form),
                                 force);
     }
@@ -278,8 +279,7 @@ class RigidContact final : public ForceTerm, public ContactVisits {
                                     layers_[g].places);
     take_friction(pair_, effects_, motion, layers_);
     for (std::size_t g = 0; g < layers_.size(); ++g)
-      if (!pair_.without(layers_[g].near))
-        pair_.points[g].add_force(layers_[g].places, layers_[g].near, layers_[g].T, {}, force);
+      pair_.points[g].add_force(layers_[g].places, layers_[g].near, layers_[g].T, {}, force);
     return {};
   }
   Failure describe_overlap(const NearestPoint& nearest, Real time) const;
