@@ -30,8 +30,6 @@ class Division {
   /// calling rank.
   int only_rank() const { return place_ == each ? ranks().rank() : place_; }
   bool is_to_each() const { return place_ == each; }
-  /// True if several ranks have rows.
-  bool is_shared() const { return place_ == even && !ranks().alone(); }
   /// True if this rank can have rows or items.
   bool has_some() const { return place_ == even || only_rank() == ranks().rank(); }
   /// The items of this rank.

@@ -34,8 +34,6 @@ class ForcePhases {
   /// Throws on all what a phase has thrown on one; the last phase of a term, which works with
   /// gathered numbers alone, throws on all or on none.
   void finish();
-  /// Adds the sums of chunks that are left after finish().
-  void add_sums() { sums_.complete(); }
 
   // For Forces.
   void later(std::span<const Gathered> arrays, Forces::Then then);
