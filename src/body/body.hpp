@@ -73,8 +73,8 @@ struct Body {
   ChunkSums chunk_sums(std::span<const Offset> start, std::span<const Index> particle) const {
     return {start, particle, size(), division};
   }
-  /// Sum of f(row) over n rows, which are divided like those of this body: added in the order of
-  /// chunks, each by the process that has it. All processes call this.
+  /// Sum of f(row) over n rows. The rows are divided between processes like the rows of this body,
+  /// and sums are added in the order of chunks. All processes call this.
   template <class T, class F>
   T sum_over_rows(Index n, T zero, F&& f) const {
     return division.sum(n, zero, f);
@@ -97,8 +97,8 @@ struct Body {
         },
         1);
   }
-  /// Gathers values, [particle of the body], of which each process has those of its rows. All
-  /// processes call this.
+  /// Gathers values, [particle of the body]. Each process provides the values at its own particles.
+  /// All processes call this.
   void gather(std::span<NodalVector> values) const {
     division.complete_rows(size(), values.data(), sizeof values[0]);
   }

@@ -77,7 +77,7 @@ class ChunkSums {
     leave(force);
   }
 
-  /// Values of n rows, some for each row, of which each rank has computed those of its rows.
+  /// An array with `values_per_row` values for each of n rows. Each rank has computed its rows.
   template <class T>
   Gathered gathered(Index n, T* values, std::size_t values_per_row = 1) const {
     return {values, division_.rows(n), values_per_row};

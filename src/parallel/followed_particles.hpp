@@ -41,8 +41,8 @@ class FollowedParticles {
   /// The halo between enter() and leave(); otherwise null, and all particles are followed.
   const Halo* entered() const { return halo_ && halo_->is_entered() ? halo_.get() : nullptr; }
 
-  /// Sends sums over rows, [particle], from the process that adds them up to those that follow the
-  /// particle. All processes call this.
+  /// Sends sums over rows, [particle], from the process that adds them up to all processes that
+  /// follow the particle. All processes call this.
   void spread(std::span<NodalVector> sums) const { (entered() ? *halo_ : *everyone_).spread(sums); }
   /// Needed before spread(), on several processes.
   void set_owners(const ParticleOwners& owners);

@@ -32,7 +32,7 @@ class GatherTogether {
   std::vector<std::byte> bytes_;
 };
 
-/// Results of the chunks of a set of rows, [chunk]. Each rank computes those of its own chunks.
+/// Results of the chunks of a set of rows, [chunk]. Each rank computes the results of own chunks.
 template <class T>
 class ChunkTally {
  public:

@@ -45,7 +45,7 @@ class Halo {
   /// Sends the sums over rows, [particle], from the rank that adds them up to the ranks that follow
   /// the particle. All ranks have to call this.
   void spread(std::span<NodalVector> sums) const;
-  /// Sets `all` to the values of all particles. `followed` has those of the followed particles. All
+  /// Sets `all` to the values of all particles, given the values of the followed particles. All
   /// ranks have to call this.
   void gather(std::span<const NodalVector> followed, NodalVectors& all) const;
 

@@ -54,7 +54,7 @@ class Ranks {
 
   /// Returns the largest of the values that the ranks pass.
   virtual std::int64_t largest(std::int64_t mine) { return mine; }
-  /// The same for numbers that are not negative; larger than all if one is not a number.
+  /// Returns the largest of numbers, none of which is negative or NaN.
   Real largest_size(Real mine) {
     return std::bit_cast<Real>(largest(std::bit_cast<std::int64_t>(mine)));
   }

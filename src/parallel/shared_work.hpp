@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which ranks do the work between two bodies (scaling note 2.4).
+// The division of the work between two bodies among ranks (scaling note 2.4).
 #pragma once
 #include "parallel/gathered.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of contact points that a process has: what it reads, and the places that it computes for
-// all processes.
+// Contact points on several processes: the particles that a process reads, and the places that each
+// process computes for all.
 #include "physics/contact/points/contact_points.hpp"
 #include "physics/contact/points/patch_points.hpp"
 

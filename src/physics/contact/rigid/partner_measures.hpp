@@ -21,8 +21,8 @@ Real energy_of(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers);
 /// rotation of the body turns x and V.
 template <int D>
 Resultant resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers);
-/// The same in two parts: sums of the chunks of this process, and the result when they are
-/// gathered.
+/// The resultant in two parts: sums of the chunks of this process, and the resultant of the
+/// gathered sums.
 template <int D>
 void sum_resultants(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
                     LayerTallies<Resultant>& sums);

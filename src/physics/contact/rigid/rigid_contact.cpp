@@ -153,8 +153,8 @@ class RigidContact final : public ForceTerm, public ContactVisits {
  private:
   using Placed = typename ContactPoints<D>::Placed;
 
-  /// Moves the points that are known to be needed: for a finite range those of the list, or all if
-  /// the list is not valid any more; otherwise the coarsest.
+  /// Moves the first points that are needed. For a finite range these are the points of the list,
+  /// or all points if the list is not valid any more; otherwise they are the coarsest points.
   Report place(const Motion& motion, Forces force) {
     const bool ends = pair_.interaction->ends();
     listed_ =
