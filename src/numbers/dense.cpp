@@ -44,6 +44,22 @@ Vec<3> symmetric_eigenvalues(const Mat<3>& S) {
 }
 
 template <>
+SymmetricAxes<3> symmetric_axes(const Mat<3>& S) {
+  const Eigen::SelfAdjointEigenSolver<Mat<3>> eigen(S);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+template <>
+SymmetricAxes<2> symmetric_axes(const Mat<2>& S) {
+  const Real angle = 0.5 * std::atan2(2 * S(1, 0), S(0, 0) - S(1, 1));
+  const Vec<2> greatest(std::cos(angle), std::sin(angle));
+  SymmetricAxes<2> result{symmetric_eigenvalues<2>(S), Mat<2>()};
+  result.axes.col(0) = Vec<2>(-greatest[1], greatest[0]);
+  result.axes.col(1) = greatest;
+  return result;
+}
+
+template <>
 Mat<3> square_root(const Mat<3>& S) {
   return Eigen::SelfAdjointEigenSolver<Mat<3>>(S).operatorSqrt();
 }

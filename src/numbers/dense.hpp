@@ -31,6 +31,15 @@ Mat<D> inverse(const Mat<D>& A);
 template <int D>
 Vec<D> symmetric_eigenvalues(const Mat<D>& S);
 
+/// Eigenvalues of a symmetric matrix in ascending order, and orthonormal eigenvectors as columns.
+template <int D>
+struct SymmetricAxes {
+  Vec<D> values;
+  Mat<D> axes;
+};
+template <int D>
+SymmetricAxes<D> symmetric_axes(const Mat<D>& S);
+
 /// The x with the greatest x.Ax / x.Mx and x.Mx = 1, in the first n = 2 or 3 rows of symmetric
 /// matrices; M is positive definite. All other entries of x are zero.
 Vec<3> greatest_quotient(const Mat<3>& A, const Mat<3>& M, int n);

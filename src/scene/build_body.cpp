@@ -111,31 +111,27 @@ void report_masses(const std::string& name, const MassReport& mass, Assembly<D>&
                     name, mass.added));
 }
 
-/// Warns that coarse, nearly incompressible solids are too stiff (locking): every nodal cell keeps
-/// its volume, which leaves too few ways to deform. The numbers hold for two cells across a beam
-/// and three across a closed wall.
+/// Nearly incompressible solids are too stiff (locking) if each stress point keeps its volume,
+/// which leaves too few ways to deform: at a ratio of 25 by 5 % where a beam has two cells across.
+/// Throws InputError for a rule without a remedy, and warns where the remedy is left out.
 template <int D>
-void warn_of_locking(const Body<D>& body, const typename Material<D>::Built& built,
-                     const BodySettings& settings, Assembly<D>& assembly) {
-  constexpr Real locks_from = 10;
-  if (built.bulk_over_shear < locks_from) return;
-  const std::string hollow =
-      is_hollow(body.geometry)
-          ? ", the volume of a cavity up to 6 % too small where a thick active wall has four "
-            "layers (use eight), and its pressure up to 70 % too high where it is sealed"
-          : "";
-  const std::string remedy =
-      built.cell_average ? "compare with a run of more cells across the thinnest part"
-      : settings.integration == "q_scni"
-          ? "set volumetric = \"cell_average\" and compare with a run of more cells across the "
-            "thinnest part"
-          : "use integration = \"q_scni\" with volumetric = \"cell_average\" and compare with a "
-            "run of more cells across the thinnest part";
-  assembly.warn(fmt::format(
-      "body '{}': bulk / shear modulus is {:.3g}: from {:g} on coarse solids are too stiff "
-      "(locking), by up to {} % where a beam has two cells across, by multiples where a closed "
-      "wall has three{}; {}",
-      body.name, built.bulk_over_shear, locks_from, built.cell_average ? 5 : 25, hollow, remedy));
+void look_for_locking(const Body<D>& body, const typename Material<D>::Built& built,
+                      const BodySettings& settings, Assembly<D>& assembly) {
+  constexpr Real locks_by_5_percent = 25, warns_from = 10;
+  if (settings.integration != "q_scni" && built.bulk_over_shear > locks_by_5_percent)
+    throw InputError(fmt::format(
+        "{}: is '{}' for body '{}', whose bulk / shear modulus is {:.3g}; above {:g} coarse bodies "
+        "are more than 5 % too stiff with it (locking); allowed is 'q_scni'",
+        settings.integration_place, settings.integration, body.name, built.bulk_over_shear,
+        locks_by_5_percent));
+  if (built.bulk_over_shear >= warns_from &&
+      (settings.volumetric == "full" || settings.integration != "q_scni"))
+    assembly.warn(fmt::format(
+        "body '{}': bulk / shear modulus is {:.3g}: from {:g} on coarse solids are too stiff "
+        "(locking) with one volume change per stress point, by up to 25 % where a beam has two "
+        "cells across, by multiples where a closed wall has three; leave out {}",
+        body.name, built.bulk_over_shear, warns_from,
+        settings.integration != "q_scni" ? "integration" : "volumetric"));
 }
 
 template <int D>
@@ -164,7 +160,7 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
   report_masses(name, built.mass, assembly);
   if (built.warning) assembly.warn(fmt::format("body '{}': {}", name, *built.warning));
   if (built.note) assembly.note(fmt::format("body '{}': {}", name, *built.note));
-  warn_of_locking(body, built, settings, assembly);
+  look_for_locking(body, built, settings, assembly);
   if (settings.integration == "nodal")
     assembly.warn(
         fmt::format("body '{}': integration = \"nodal\" has modes without energy and is unstable; "

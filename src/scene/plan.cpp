@@ -201,6 +201,7 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
   std::set<std::string> names;
   for (const Block& block : blocks) {
     BodySettings settings = read<BodySettings>(block);
+    settings.integration_place = block.place("integration");
     if (!settings.name.empty() && !names.insert(settings.name).second)
       block.problem("name", fmt::format("the name '{}' is used twice", settings.name));
     require_plain_name(block, settings.name);

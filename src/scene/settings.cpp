@@ -114,10 +114,10 @@ Rows<BodySettings> BodySettings::rows() {
                   "Gauss points per direction and cell, for integration = \"gauss\"", 3),
       choice_row(
           "volumetric", &S::volumetric, {"automatic", "full", "cell_average"},
-          "volume change at every stress point, or its mean over each nodal cell "
-          "(integration = \"q_scni\"), which does not lock where solids are nearly "
-          "incompressible; automatic: cell_average where bulk / shear modulus >= 1000, and in "
-          "fluids with balanced surface tension",
+          "full: the law sees the volume change at every stress point; cell_average: that of "
+          "nodal cells (integration = \"q_scni\"), in solids with a bulk modulus above 3 shear "
+          "moduli extended from inner cells to the boundary, so that they do not lock; automatic: "
+          "cell_average for solids and for fluids with balanced surface tension, else full",
           "automatic"),
       choice_row("window", &S::window, kernel_functions(), "kernel function of the shape functions",
                  "cubic_spline"),

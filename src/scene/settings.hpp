@@ -41,6 +41,7 @@ struct OutputSettings {
 /// The keys and inner tables of [[body]], except the keys of its shape.
 struct BodySettings {
   std::string name, integration, volumetric, window, support_by;
+  std::string integration_place;  ///< place of `integration` in the scene, for messages
   int gauss_points = 3;
   std::optional<Real> support_factor;  ///< x length of support_by; a plan has one
   int support_rank = 0;                ///< 0: 20 in 3D, 8 in 2D

@@ -53,7 +53,6 @@ void run(StudyRun& study) {
   std::vector<Method> methods{{"q_scni", ""},
                               {"gauss 2", "integration = \"gauss\"\ngauss_points = 2"}};
   if (!study.brief()) {
-    methods.push_back({"q_scni, cell_average", "volumetric = \"cell_average\""});
     methods.push_back({"gauss 3", "integration = \"gauss\"\ngauss_points = 3"});
     methods.push_back({"gauss 5", "integration = \"gauss\"\ngauss_points = 5"});
     methods.push_back({"nodal", "integration = \"nodal\""});

@@ -12,6 +12,11 @@ namespace {
 
 using namespace study;
 
+/// Cells share volume changes in stiff solids only.
+Moduli moduli_of(const Rule& rule) {
+  return {1, rule.integration.volumetric == "cell_average" ? 100.0 : 1.0};
+}
+
 template <int D>
 Measurement measure(const Rule& rule, int n, Real jitter) {
   Measurement m;
@@ -20,7 +25,8 @@ Measurement measure(const Rule& rule, int n, Real jitter) {
   m.h = 1.0 / n;
   Real iterations = 0;
   for (const bool quadratic : {false, true}) {
-    const auto c = elastic_case<D>(unit_box<D>(n, jitter), polynomial_field<D>(quadratic), {});
+    const auto c =
+        elastic_case<D>(unit_box<D>(n, jitter), polynomial_field<D>(quadratic), moduli_of(rule));
     const Stopwatch set_up;
     LinearBody<D> linear(*c.body, rule.integration, c.moduli);
     m.set_up += set_up.seconds();
@@ -39,7 +45,7 @@ Measurement measure(const Rule& rule, int n, Real jitter) {
   return m;
 }
 
-/// Required accuracy: q_scni passes both tests, its selective form passes the linear one.
+/// Required accuracy: q_scni passes both tests; where cells share volume changes, the linear one.
 void require(StudyRun& study, const Measurement& m, const Rule& rule) {
   if (rule.integration.rule != "q_scni") return;
   const auto passes = [&](const std::string& field) {

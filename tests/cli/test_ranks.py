@@ -36,6 +36,7 @@ VARYING = SHORT_BLOCK.replace("mu = 1e5", 'mu = "1e5*(1 + x)"')
 # in fours and one by one, of particles, and those of a viscosity
 ROWS = {
     "cells": SHORT_BLOCK,
+    "cells that share volume changes": SHORT_BLOCK.replace("lambda = 1e5", "lambda = 1e6"),
     "Gauss points": SHORT_BLOCK.replace("[body.material]",
                                         'integration = "gauss"\ngauss_points = 2\n[body.material]'),
     "points of laws of their own": VARYING.replace(
@@ -58,6 +59,7 @@ LONG_BLOCK = SHORT_BLOCK.replace("size = [1, 1, 1]", "size = [4, 1, 1]").replace
 # [name] bodies of which a rank needs a part
 LONG = {
     "a solid": LONG_BLOCK,
+    "a stiff solid": LONG_BLOCK.replace("lambda = 1e5", "lambda = 1e6"),
     "a viscous solid": LONG_BLOCK.replace("[body.material]", "[body.material]\nviscosity = 10"),
     "Gauss points": LONG_BLOCK.replace("[body.material]",
                                        'integration = "gauss"\ngauss_points = 1\n[body.material]'),

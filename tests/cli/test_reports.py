@@ -524,14 +524,16 @@ class Reports(ProgramTest):
             self.assertNotIn("has far to spread", self.call("check", self.scene(drop.replace(*change))).stdout)
 
     def test_solids_that_lock(self):
-        """One warning per body with K/mu of 10 or more, which names the remedy."""
-        for ratio, words in ((9.9, ()), (10.1, ("(locking), by up to 25 %", 'set volumetric = "cell_average"')),
-                             (2000, ("(locking), by up to 5 %", "more cells across"))):
-            text = BLOCK.replace("lambda = 1e5", f"lambda = {1e5 * (ratio - 2 / 3)}")
-            warnings = re.findall("^warning: body 'block': bulk / shear modulus .*", self.call("check", self.scene(text)).stdout, re.M)
-            self.assertEqual(len(warnings), 1 if words else 0)
-            for word in words:
-                self.assertIn(word, warnings[0])
+        """No warning by default; one from K/mu of 10 on where a key takes the remedy away."""
+        def warnings(ratio, keys=""):
+            text = BLOCK.replace("lambda = 1e5", f"lambda = {1e5 * (ratio - 2 / 3)}").replace("[body.material]", keys + "[body.material]")
+            return re.findall("^warning: body 'block': bulk / shear modulus .*", self.call("check", self.scene(text)).stdout, re.M)
+        self.assertEqual(warnings(2000), [])
+        for key, text in (("volumetric", 'volumetric = "full"\n'), ("integration", 'integration = "gauss"\n')):
+            self.assertEqual(warnings(9.9, text), [])
+            self.assertEqual(len(warnings(10.1, text)), 1)
+            self.assertIn(f"by up to 25 % where a beam has two cells across, by multiples where a closed wall has three; leave out {key}",
+                          warnings(10.1, text)[0])
 
     def test_units_in_si(self):
         text = self.call("check", self.scene('units.system = "nm-ps-ag"\n' + DROP)).stdout

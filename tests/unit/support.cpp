@@ -67,6 +67,15 @@ const std::map<std::string, std::string>& law_texts() {
   return texts;
 }
 
+std::string stiff_text(const std::string& law) {
+  std::string text = law_texts().at(law);
+  if (laws().at(law).viscous) return text;
+  for (const std::string number : {"lambda = ", "bulk_modulus = "})
+    if (const std::size_t place = text.find(number); place != std::string::npos)
+      text.insert(place + number.size(), "1");  // 1.5 becomes 11.5
+  return text;
+}
+
 template <int D>
 std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
                                           const std::string& text, const Integration& integration) {
@@ -81,7 +90,7 @@ std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
 
 const std::vector<Integration>& integrations() {
   static const std::vector<Integration> all{
-      {"q_scni", 0}, {"q_scni", 0, "cell_average"}, {"gauss", 2}, {"nodal", 0}};
+      {"q_scni", 0, "full"}, {"q_scni", 0, "cell_average"}, {"gauss", 2}, {"nodal", 0}};
   return all;
 }
 

@@ -39,6 +39,10 @@ std::unique_ptr<Body<D>> body_of(Geometry<D> geometry, Support<D> support = {},
 /// Parameters of order one for every registered law, as in a scene.
 const std::map<std::string, std::string>& law_texts();
 
+/// law_texts() with ten more units of the volumetric modulus of solids, so that nodal cells share
+/// volume changes.
+std::string stiff_text(const std::string& law);
+
 /// Sets the masses of `body` and returns its internal force. `text`: the parameters of the law; a
 /// direction is added if the law needs one and `text` has none.
 template <int D>
@@ -48,7 +52,9 @@ std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
 template <int D>
 std::unique_ptr<ForceTerm> internal_force(Body<D>& body, const std::string& law,
                                           const Integration& integration = {}) {
-  return internal_force<D>(body, law, law_texts().at(law), integration);
+  return internal_force<D>(
+      body, law, integration.volumetric == "cell_average" ? stiff_text(law) : law_texts().at(law),
+      integration);
 }
 
 const std::vector<Integration>& integrations();

@@ -107,6 +107,12 @@ TEST(Allocations, NoneInAStep) {
     EXPECT_EQ(allocations_of<3>(drop(3, "", tension + form)), 0) << form;
     EXPECT_EQ(allocations_of<2>(drop(2, "", tension + form)), 0) << form;
   }
+  EXPECT_EQ(allocations_of<3>("dimension = 3\ntime.end = 1\n[[body]]\nname = \"b\"\nshape = "
+                              "\"box\"\nsize = [1, 1, 1]\ncells = [4, 4, 4]\ninitial_velocity "
+                              "= [\"0.1*x\", 0, 0]\nmaterial = { type = \"neo_hookean\", density "
+                              "= 1, mu = 1, lambda = 100 }\n"),
+            0)
+      << "volume changes that cells share";
   for (const std::string rule : {"gauss", "nodal"})
     EXPECT_EQ(allocations_of<3>(drop(3, "integration = \"" + rule + "\"\n", "")), 0) << rule;
   EXPECT_EQ(allocations_of<2>(drop(2, "",

@@ -8,6 +8,7 @@
 #include "numbers/tensor.hpp"
 #include "parallel/chunk_sums.hpp"
 
+#include <cstdint>
 #include <span>
 
 namespace meniscus {
@@ -32,6 +33,11 @@ void add_squares(const std::array<Tensor<Lanes>, D>& S, const std::array<Lanes, 
   }
 }
 
+/// The part of the coefficients of the next row that a pass prefetches. gather() and scatter() of
+/// one row follow each other: gather() reads from memory, scatter() from cache, and each prefetches
+/// a part, so that memory access and arithmetic overlap. A pass alone prefetches the whole.
+enum class Prefetch : std::uint8_t { first, second, whole };
+
 /// Nodal cells with linear moments, "q_scni" (RKPM note 5.3). In cell L the gradient of a field is
 /// sum_A f_A (a_A + B_A xi). It is evaluated at D + 1 points xi_q of equal weight that reproduce
 /// volume, centroid and covariance of the cell. A group is a cell. Rows of other ranks are empty.
@@ -53,13 +59,13 @@ struct CellRule {
   }
 
   /// H_iK = f_i,K at the quadrature points of a cell.
-  [[gnu::always_inline]] void gather(Index cell, const NodalVector* field, Tensor<Lanes>& H) const {
+  [[gnu::always_inline]] void gather(Index cell, const NodalVector* field, Tensor<Lanes>& H,
+                                     Prefetch ahead = Prefetch::first) const {
     Lanes moment[D][D];
     for (auto& row : moment)
       for (auto& m : row) m = Lanes::zero();
     for_entries(
-        cell,
-        Half::first, [&](Index A, const std::array<Lanes, D>& g) __attribute__((always_inline)) {
+        cell, ahead, [&](Index A, const std::array<Lanes, D>& g) __attribute__((always_inline)) {
           const Real* f = detail::components(field[A]);
           for (int i = 0; i < D; ++i)
             for (int K = 0; K < D; ++K) moment[i][K] += f[i] * at(g, K);
@@ -76,8 +82,8 @@ struct CellRule {
 
   /// force_A,i += sum_q P_iK(q) (a_AK + B_AKM xi_qM). Lanes of products with the coefficients are
   /// added up at the end.
-  [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P,
-                                      NodalVector* force) const {
+  [[gnu::always_inline]] void scatter(Index cell, const Tensor<Lanes>& P, NodalVector* force,
+                                      Prefetch ahead = Prefetch::second) const {
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
     Lanes moment[D][D];  // (sum P_iK, sum P_iK xi_0, ...) over the points
     for (int i = 0; i < D; ++i)
@@ -85,8 +91,7 @@ struct CellRule {
         moment[i][K] = sums(P(i, K), P(i, K) * xi[0], P(i, K) * xi[1],
                             D == 3 ? P(i, K) * xi[D - 1] : Lanes::zero());
     for_entries(
-        cell,
-        Half::second, [&](Index A, const std::array<Lanes, D>& g) __attribute__((always_inline)) {
+        cell, ahead, [&](Index A, const std::array<Lanes, D>& g) __attribute__((always_inline)) {
           Lanes f[D];
           for (int i = 0; i < D; ++i) {
             f[i] = moment[i][0] * at(g, 0);
@@ -100,7 +105,7 @@ struct CellRule {
   /// the diagonal of the operator gather(), P_iK = S_i,KL H_iL, scatter().
   void add_diagonal(Index cell, const std::array<Tensor<Lanes>, D>& S, NodalVector* sum) const {
     const Lanes* xi = point.data() + static_cast<std::size_t>(cell) * D;
-    for_entries(cell, Half::first, [&](Index A, const std::array<Lanes, D>& coefficients) {
+    for_entries(cell, Prefetch::first, [&](Index A, const std::array<Lanes, D>& coefficients) {
       std::array<Lanes, D> g;
       for (int K = 0; K < D; ++K) {
         const Real* moment = detail::components(at(coefficients, K));
@@ -122,23 +127,22 @@ struct CellRule {
   }
 
  private:
-  // The time loop is bound by memory: gather() reads the coefficients of a cell from memory,
-  // scatter() reads them from cache. Each of the two prefetches one half of the coefficients of the
-  // next cell, so that memory access and arithmetic overlap.
-  enum class Half : std::uint8_t { first, second };
-  static constexpr std::ptrdiff_t bytes_ahead = 64;  // per entry
+  static constexpr std::ptrdiff_t line = 64;  // bytes of a part of the coefficients of an entry
 
   /// Calls work(particle, coefficients[K]) for the entries of a row.
   template <class F>
-  [[gnu::always_inline]] void for_entries(Index cell, Half half, F&& work) const {
+  [[gnu::always_inline]] void for_entries(Index cell, Prefetch part, F&& work) const {
     const Offset first = at(start, cell), next = at(start, cell + 1);
     const Index* A = particle.data() + first;
     const Index* const end = particle.data() + next;
     const Lanes* g = coefficient.data() + first * D;
     const char* ahead = reinterpret_cast<const char*>(coefficient.data() + next * D) +
-                        (half == Half::second ? (end - A) * bytes_ahead : 0);
-    for (; A != end; ++A, g += D, ahead += bytes_ahead) {
+                        (part == Prefetch::second ? (end - A) * line : 0);
+    const std::ptrdiff_t bytes =
+        part == Prefetch::whole ? D * static_cast<std::ptrdiff_t>(sizeof(Lanes)) : line;
+    for (; A != end; ++A, g += D, ahead += bytes) {
       prefetch(ahead);
+      if (part == Prefetch::whole) prefetch(ahead + line);
       std::array<Lanes, D> here;
       for (int K = 0; K < D; ++K) at(here, K) = in_register(g[K]);
       work(*A, here);

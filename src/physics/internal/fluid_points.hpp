@@ -2,7 +2,7 @@
 // A fluid at the quadrature points of a group. Its pressure can work on the volume that the surface
 // encloses (static-drop note 3), and on one volume change per nodal cell.
 #pragma once
-#include "physics/internal/cell_average.hpp"
+#include "physics/internal/averaged_cell.hpp"
 #include "physics/internal/law.hpp"
 
 #include <cmath>
@@ -31,8 +31,8 @@ concept FluidLaw = Law<L> && requires(const L law, const Lanes theta) {
 /// As U'' is a power of J, the bracket is J_e^m U(1 + r) and dW/dJ = J_e^(m-1) U'(1 + r) with r =
 /// (J - J_e)/J_e, which does not cancel. At the start J_e = 1 and W = U(J).
 ///
-/// If `averaged`, J is the mean over the D + 1 points of a nodal cell, as CellAverage does for laws
-/// without a deviator. The viscous stress is computed at each point.
+/// If `averaged`, J is the mean over the D + 1 points of a nodal cell. The viscous stress is
+/// computed at each point.
 ///
 /// J_e has the scalar type E, Real or Dual<Real>; functions of H use Lanes or Dual<Lanes>.
 template <int D, FluidLaw L, class E = Real>

@@ -7,7 +7,7 @@
 #include "meniscus/error.hpp"
 #include "physics/director/nematic_numbers.hpp"
 #include "physics/director/reference_director.hpp"
-#include "physics/internal/cell_average.hpp"
+#include "physics/internal/averaged_force.hpp"
 #include "physics/internal/fluid_points.hpp"
 #include "physics/internal/internal_force.hpp"
 #include "physics/internal/referred_fluid.hpp"
@@ -24,11 +24,11 @@ namespace meniscus {
 struct Integration {
   std::string rule = "q_scni";  ///< "q_scni", "gauss" or "nodal"
   int gauss_points = 3;         ///< per direction and cell, for "gauss"
-  /// "full", "cell_average" (with "q_scni" only) or "automatic". Automatic is cell_average with
-  /// "q_scni" if the bulk modulus is at least 1000 shear moduli, else full.
+  /// "full", "cell_average" (with "q_scni" only) or "automatic". Automatic is cell_average for
+  /// solids with "q_scni", and for fluids with "q_scni" that are `enclosed`; else full.
   std::string volumetric = "automatic";
   /// True if the pressure of a fluid works on the volume that its surface encloses, to balance a
-  /// `balanced` surface tension. "automatic" is then cell_average with "q_scni".
+  /// `balanced` surface tension.
   bool enclosed = false;
 };
 
@@ -40,7 +40,7 @@ class Material {
   struct Built {
     std::unique_ptr<ForceTerm> force;
     MassReport mass;
-    bool cell_average;                   ///< one volume change per nodal cell
+    bool cell_average;                   ///< a fluid with one volume change per nodal cell
     std::optional<std::string> note;     ///< for the log
     std::optional<std::string> warning;  ///< for the log: doubtful choices
     std::vector<Real> viscosity;  ///< shear viscosity of a fluid, per particle; empty: a solid
@@ -168,12 +168,26 @@ class MaterialOf final : public Material<D> {
     return laws;
   }
 
-  static bool averages(const Integration& integration, const std::vector<L>& laws) {
-    if (integration.rule != "q_scni") return false;
+  /// True if a fluid has one volume change per nodal cell.
+  static bool averages(const Integration& integration) {
+    if (!FluidLaw<L> || integration.rule != "q_scni") return false;
     if (integration.volumetric != "automatic") return integration.volumetric == "cell_average";
-    return integration.enclosed || std::any_of(laws.begin(), laws.end(), [](const L& law) {
-             return bulk_over_shear(law) >= 1e3;
-           });
+    return integration.enclosed;
+  }
+  /// The share of the volume change of a point that its law sees, [law]. In a nearly incompressible
+  /// solid it has the stiffness of one shear modulus. Up to a bulk modulus of three shear moduli,
+  /// where nothing locks, and for laws that do not give a ratio, it is the whole change (locking
+  /// note 2).
+  static std::vector<Real> own_shares(const std::vector<L>& laws, const Integration& integration) {
+    std::vector<Real> own;
+    for (const L& law : laws) {
+      constexpr Real whole_to = 3;
+      const Real ratio = bulk_over_shear(law).value_or(0);
+      const bool whole = integration.volumetric == "full" || !(ratio > whole_to);
+      const Real q = whole_to / ratio;
+      own.push_back(whole ? 1 : std::sqrt((1 + (whole_to - 1) * q * q) / ratio));
+    }
+    return own;
   }
 
   static Real largest_bulk_over_shear(const std::vector<L>& laws) {
@@ -213,10 +227,9 @@ class MaterialOf final : public Material<D> {
     std::optional<std::string> warning;
     if constexpr (DirectedLaw<L> && std::is_same_v<Rule, CellRule<D>>)
       if (!director_->uniform()) warning = doubt_of_turns(body, laws);
-    const bool averaged = averages(integration, laws);
-    return {force(body, std::move(rule), laws, averaged, integration.enclosed),
+    return {force(body, std::move(rule), laws, integration),
             mass,
-            averaged,
+            averages(integration),
             std::move(note),
             std::move(warning),
             std::move(viscosity),
@@ -236,12 +249,12 @@ class MaterialOf final : public Material<D> {
   /// wraps L.
   template <class Rule>
   static std::unique_ptr<ForceTerm> force(const Body<D>& body, Rule rule,
-                                          const std::vector<L>& laws, bool averaged,
-                                          bool enclosed) {
+                                          const std::vector<L>& laws,
+                                          const Integration& integration) {
     if constexpr (FluidLaw<L>) {
       std::vector<FluidPoints<D, L>> points;
-      for (const L& law : laws) points.emplace_back(law, averaged);
-      auto surface = enclosed ? std::make_unique<SurfacePatches<D>>(body) : nullptr;
+      for (const L& law : laws) points.emplace_back(law, averages(integration));
+      auto surface = integration.enclosed ? std::make_unique<SurfacePatches<D>>(body) : nullptr;
       if (body.reference && !body.reference->undeformed()) {
         if constexpr (std::is_same_v<Rule, CellRule<D>>)
           return std::make_unique<InternalForce<D, ReferredFluid<D, L>, Rule>>(
@@ -254,10 +267,14 @@ class MaterialOf final : public Material<D> {
       if (body.reference && !body.reference->undeformed())
         throw InputError(fmt::format(
             "body '{}': a solid cannot be remapped, its stress depends on more than J", body.name));
-      if constexpr (std::is_same_v<Rule, CellRule<D>>)
-        if (averaged)
-          return force_of(body, std::move(rule),
-                          std::vector<CellAverage<D, L>>(laws.begin(), laws.end()), nullptr);
+      if constexpr (std::is_same_v<Rule, CellRule<D>>) {
+        std::vector<Real> own = own_shares(laws, integration);
+        if (std::any_of(own.begin(), own.end(), [](Real share) { return share < 1; })) {
+          return std::make_unique<AveragedForce<D, L>>(
+              body, std::move(rule), laws,
+              std::make_unique<AveragedVolumes<D>>(body, std::move(own)));
+        }
+      }
       return force_of(body, std::move(rule), laws, nullptr);
     }
   }

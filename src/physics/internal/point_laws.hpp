@@ -29,9 +29,9 @@ struct DualDeformation {
   Dual<Real> enclosed;
 };
 
-/// The change of the stress and, for an EnclosedLaw, dW/dJ_e with its change.
+/// The stress and, for an EnclosedLaw, dW/dJ_e with their changes.
 struct StressChange {
-  Tensor<Lanes> P;
+  Tensor<Dual<Lanes>> P;
   Dual<Lanes> pull_on_enclosed;
 };
 
@@ -103,7 +103,7 @@ class PointLawsOf final : public PointLaws {
                                          const DualDeformation& x) const override {
     const auto& law = at(group, time);
     StressChange change{};
-    Tensor<Dual<Lanes>> P;
+    Tensor<Dual<Lanes>>& P = change.P;
     if constexpr (EnclosedLaw<L>) {
       const auto about = law.about(x.enclosed);
       P = about.stress(x.H);
@@ -112,7 +112,6 @@ class PointLawsOf final : public PointLaws {
       P = law.stress(x.H);
     }
     if constexpr (L::viscous) P = P + law.viscous_stress(x.H, x.F_rate);
-    change.P = derivative(P);
     return change;
   }
   [[gnu::cold]] std::array<Tensor<Lanes>, 3> viscosity(

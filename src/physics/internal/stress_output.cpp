@@ -93,7 +93,7 @@ std::vector<FieldSource> stress_fields(const VisitStressPoints& visit, Index par
   return {
       averaged(visit, particles, others, "J", dimension::none,
                "volume / that in the reference of the scene, mean over the particle's cell",
-               [=](const StressPoint& p) { return scalar(p.volume_ratio * jacobian(p)); }),
+               [=](const StressPoint& p) { return scalar(p.volume_ratio * p.J); }),
       averaged(visit, particles, others, "F", dimension::none,
                "deformation gradient, mean over the particle's cell, row-major",
                [](const StressPoint& point) { return row_major(deformation_gradient(point.H)); }),

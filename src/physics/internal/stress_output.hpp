@@ -13,6 +13,7 @@ struct StressPoint {
   Real weight;        ///< reference volume (2D: area)
   Tensor<Real> H;     ///< F - I
   Tensor<Real> P;     ///< elastic first Piola stress
+  Real J;             ///< det F, or that which cells share
   Real volume_ratio;  ///< J_0 of the reference (body/reference.hpp)
 };
 

@@ -40,7 +40,7 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
       if (viscous) x.F_rate = gradients(g, v, dv);
       const StressChange stress = laws_->tangent(g, motion.time, x);
       const Lanes w = rule_.weight(g);
-      rule_.scatter(g, -w * stress.P, f);
+      rule_.scatter(g, -w * derivative(stress.P), f);
       sum_of_pulls += w * stress.pull_on_enclosed;
     }
     if (surface_) pull_changes_[chunk] = sum(sum_of_pulls);
@@ -72,9 +72,56 @@ void StressPointForce<D, Rule>::add_viscous_diagonal(Forces diagonal) {
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::energy(const PointLaws& laws, const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
+  const Shared shared = shared_changes(motion);
   return body_.sum_over_rows(rule_.groups(), 0.0, [&](Index g) {
-    return sum(rule_.weight(g) * laws.energy_density(g, motion.time, gradients(g, u)));
+    const Tensor<Lanes> H = seen(g, gradients(g, u), shared);
+    return sum(rule_.weight(g) * laws.energy_density(g, motion.time, H));
   });
+}
+
+template <int D, class Rule>
+auto StressPointForce<D, Rule>::shared_changes(const Motion& motion) const -> Shared {
+  if (!volumes_) return {};
+  const NodalVector* u = motion.u.data() + body_.first;
+  return {
+      volumes_->projected([&](Index g) { return cell_mean<D>(volume_change(gradients(g, u)))[0]; }),
+      {}};
+}
+
+template <int D, class Rule>
+auto StressPointForce<D, Rule>::shared_by_cells(const Motion& motion) const -> Shared {
+  Shared shared = shared_changes(motion);
+  if (!volumes_) return shared;
+  const NodalVector* u = motion.u.data() + body_.first;
+  shared.pulls = volumes_->projected([&](Index g) {
+    const AveragedCell<Lanes> cell = averaged_cell(g, gradients(g, u), shared);
+    const Lanes p = cell.mean_stress(laws_->stress(g, motion.time, cell.seen));
+    return (1 - volumes_->own(g)) * cell_mean<D>(p)[0] / cell.shared_J[0];
+  });
+  return shared;
+}
+
+template <int D, class Rule>
+AveragedCell<Lanes> StressPointForce<D, Rule>::averaged_cell(Index group, const Tensor<Lanes>& H,
+                                                             const Shared& shared) const {
+  const Lanes change = volume_change(H);
+  const Index k = volumes_->number(group);
+  return {H, change, k >= 0 ? Lanes(at(shared.changes, k)) : cell_mean<D>(change),
+          volumes_->own(group)};
+}
+
+template <int D, class Rule>
+Tensor<Lanes> StressPointForce<D, Rule>::stress(Index group, Real time, const Tensor<Lanes>& H,
+                                                const Shared& shared) const {
+  if (!volumes_) return laws_->stress(group, time, H);
+  const AveragedCell<Lanes> cell = averaged_cell(group, H, shared);
+  const Real own = volumes_->own(group);
+  const Tensor<Lanes> P = laws_->stress(group, time, cell.seen);
+  const Lanes p = cell.mean_stress(P);
+  const Index k = volumes_->number(group);
+  return cell.stress(
+      H, P, p, own,
+      k >= 0 ? Lanes(at(shared.pulls, k)) : (1 - own) * cell_mean<D>(p) / cell.shared_J);
 }
 
 template <int D, class Rule>
@@ -87,8 +134,9 @@ std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motio
 template <int D, class Rule>
 Real StressPointForce<D, Rule>::uncancelled_force(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
+  const Shared shared = shared_changes(motion);
   const Real force = body_.sum_over_rows(rule_.groups(), 0.0, [&](Index g) {
-    return sum(rule_.weight(g) * laws_->stress_scale(g, gradients(g, u)));
+    return sum(rule_.weight(g) * laws_->stress_scale(g, seen(g, gradients(g, u), shared)));
   });
   return force / spacing_;
 }
@@ -124,8 +172,9 @@ template <int D, class Rule>
 std::optional<std::string> StressPointForce<D, Rule>::warning(const Motion& motion) const {
   if (!laws_->warns()) return {};
   const NodalVector* u = motion.u.data() + body_.first;
+  const Shared shared = shared_changes(motion);
   for (Index g = own_.begin; g < own_.end; ++g) {
-    const Tensor<Lanes> H = gradients(g, u);
+    const Tensor<Lanes> H = seen(g, gradients(g, u), shared);
     const Lanes w = rule_.weight(g);
     for (int lane = 0; lane < rule_.points_per_group(); ++lane)
       if (w[lane] > 0)
@@ -140,15 +189,19 @@ template <int D, class Rule>
 void StressPointForce<D, Rule>::visit(const Motion& motion,
                                       const std::function<void(const StressPoint&)>& f) const {
   const NodalVector* u = motion.u.data() + body_.first;
+  const Shared shared = shared_by_cells(motion);
   body_.for_rows_in_order(
       rule_.groups(), [&](Index g) { return gradients(g, u); },
       [&](Index g, const Tensor<Lanes>& H) {
-        const Tensor<Lanes> P = laws_->stress(g, motion.time, H);
+        const Tensor<Lanes> P = stress(g, motion.time, H, shared);
+        const Lanes J = volumes_ && volumes_->own(g) < 1 ? averaged_cell(g, H, shared).shared_J
+                                                         : 1.0 + volume_change(H);
         const Lanes w = rule_.weight(g);
         for (int lane = 0; lane < rule_.points_per_group(); ++lane)
           if (w[lane] > 0) {
             const Index owner = rule_.owner(g, lane);
-            f({owner, w[lane], lane_of(H, lane), lane_of(P, lane), body_.volume_ratio(owner)});
+            f({owner, w[lane], lane_of(H, lane), lane_of(P, lane), J[lane],
+               body_.volume_ratio(owner)});
           }
       });
 }

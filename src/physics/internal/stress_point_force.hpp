@@ -6,6 +6,7 @@
 #include "body/grid/stress_rules.hpp"
 #include "body/surface/surface_patches.hpp"
 #include "meniscus/physics/force_term.hpp"
+#include "physics/internal/averaged_volumes.hpp"
 #include "physics/internal/point_laws.hpp"
 #include "physics/internal/stress_output.hpp"
 
@@ -36,15 +37,16 @@ class StressPointForce : public ForceTerm {
   std::string name() const final { return "internal force of '" + body_.name + "'"; }
   std::string_view energy_kind() const final { return "strain"; }
   Real steady_after() const final { return laws_->steady_after(); }
-  void add_tangent(const Motion& motion, const Motion& change, Forces force) final;
+  void add_tangent(const Motion& motion, const Motion& change, Forces force) override;
   std::optional<Real> stored_energy(const Motion& motion) const final;
   Real uncancelled_force(const Motion& motion) const final;
   std::optional<std::string> warning(const Motion& motion) const final;
   std::vector<FieldSource> fields() const final;
   std::vector<MeasureSource> measures() const final;
-  std::size_t bytes() const final {
+  std::size_t bytes() const override {
     return rule_.bytes() + chunk_sums_.bytes() + laws_->bytes() +
-           (surface_ ? surface_->bytes() : 0) + kept_.size() * sizeof(Tensor<Lanes>);
+           (surface_ ? surface_->bytes() : 0) + (volumes_ ? volumes_->bytes() : 0) +
+           kept_.size() * sizeof(Tensor<Lanes>);
   }
   void add_viscous_diagonal(Forces diagonal) final;
   bool reads(StepReads& reads) final {
@@ -52,12 +54,13 @@ class StressPointForce : public ForceTerm {
     if (surface_) surface_->list_reads(reads, body_.first);
     return true;
   }
-  std::optional<Failure> failure_of(Index group, const Motion& motion) const final;
+  std::optional<Failure> failure_of(Index group, const Motion& motion) const override;
   Offset pairs() const final { return chunk_sums_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
  protected:
   StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<PointLaws> laws,
-                   std::unique_ptr<SurfacePatches<D>> surface)
+                   std::unique_ptr<SurfacePatches<D>> surface,
+                   std::unique_ptr<AveragedVolumes<D>> volumes = nullptr)
       : body_(body),
         rule_(std::move(rule)),
         chunk_sums_(rule_.chunk_sums(body)),
@@ -65,6 +68,7 @@ class StressPointForce : public ForceTerm {
         own_(chunk_sums_.own_rows(rule_.groups())),
         laws_(std::move(laws)),
         surface_(std::move(surface)),
+        volumes_(std::move(volumes)),
         spacing_(mean_spacing(body.geometry.grid)) {
     if (!surface_) return;
     pulls_ = chunk_sums_.tally<Real>();
@@ -84,6 +88,7 @@ class StressPointForce : public ForceTerm {
   /// The pulls of chunks on the enclosed volume.
   ChunkTally<Real>& pulls() { return pulls_; }
   bool has_surface() const { return surface_ != nullptr; }
+  const AveragedVolumes<D>* averaged() const { return volumes_.get(); }
   /// Moves the points of the surface that belong to this process to the displacements `u` of the
   /// body; the result is to be gathered.
   Gathered place_surface(const NodalVector* u) {
@@ -112,15 +117,42 @@ class StressPointForce : public ForceTerm {
   /// there is none. `u` has the displacement coefficients of the body.
   Index first_folded(Index begin, Index end, const NodalVector* u) const;
 
- private:
-  using Size = typename SurfacePatches<D>::Size;
-
-  Real energy(const PointLaws& laws, const Motion& motion) const;
   /// H at the stress points of a group.
   [[gnu::noinline]] Tensor<Lanes> gradients(Index group, const NodalVector* u) const;
   Tensor<Dual<Lanes>> gradients(Index group, const NodalVector* u, const NodalVector* du) const {
     return dual(gradients(group, u), gradients(group, du));
   }
+  /// The stress of the law of a solid and its change.
+  Tensor<Dual<Lanes>> tangent(Index group, Real time, const Tensor<Dual<Lanes>>& H) const {
+    return laws_->tangent(group, time, {H, Tensor<Dual<Lanes>>::zero(), Dual<Real>(0.0)}).P;
+  }
+  /// Calls f(chunk, begin, end) for the chunks of groups of this process, on all threads.
+  template <class F>
+  void for_own_chunks(F&& f) const {
+    chunk_sums_.for_own_chunks(f);
+  }
+
+ private:
+  using Size = typename SurfacePatches<D>::Size;
+
+  /// Volume changes, and pulls on them, of coupled cells (AveragedVolumes); empty if there are
+  /// none.
+  struct Shared {
+    std::vector<Real> changes, pulls;
+  };
+
+  Real energy(const PointLaws& laws, const Motion& motion) const;
+  /// The volume changes at a motion. All processes call this.
+  Shared shared_changes(const Motion& motion) const;
+  /// The same with pulls.
+  Shared shared_by_cells(const Motion& motion) const;
+  AveragedCell<Lanes> averaged_cell(Index group, const Tensor<Lanes>& H,
+                                    const Shared& shared) const;
+  /// The deformation that the law of a group sees, at H.
+  Tensor<Lanes> seen(Index group, const Tensor<Lanes>& H, const Shared& shared) const {
+    return volumes_ ? averaged_cell(group, H, shared).seen : H;
+  }
+  Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H, const Shared& shared) const;
   void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
   VisitStressPoints visitor() const;
 
@@ -130,7 +162,8 @@ class StressPointForce : public ForceTerm {
   ChunkReports of_chunks_;
   ItemRange own_;  // groups whose rows this process has
   std::unique_ptr<PointLaws> laws_;
-  std::unique_ptr<SurfacePatches<D>> surface_;  // null: no law depends on the enclosed volume
+  std::unique_ptr<SurfacePatches<D>> surface_;   // null: no law depends on the enclosed volume
+  std::unique_ptr<AveragedVolumes<D>> volumes_;  // null: laws see the volume changes of points
   Real spacing_;
   ChunkTally<Real> pulls_;  // empty without a surface
   ChunkTally<Dual<Real>> pull_changes_;
