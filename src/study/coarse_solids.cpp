@@ -63,8 +63,8 @@ std::string neo_hookean(Real ratio) {
 }
 
 /// A cantilever of length 10, height 1 (and width 1) with a small load at its end. `converged` is
-/// its deflection over that of Timoshenko's beam with the shear factor 5/6: with 8, 12 and 16 cells
-/// across (3D: 3, 4 and 5), extrapolated.
+/// its deflection over the deflection of Timoshenko's beam with the shear factor 5/6, extrapolated
+/// from 8, 12 and 16 cells across (3D: 3, 4 and 5).
 Case cantilever(int D, int across, Real ratio, Real converged, const std::string& more) {
   const Real nu = poisson_of(ratio), E = 2 * (1 + nu), load = 1e-5;
   const Real of_width = D == 2 ? E / (1 - nu * nu) : E;

@@ -186,8 +186,8 @@ TEST(AveragedVolumes, ChangeNothingWhereJIsConstant) {
 }
 
 /// For small displacements, the energy is the sum of w [mu dev e : dev e + K/2 theta^2], with the
-/// 3D deviator also in plane strain, where the volume change theta is the share b = sqrt((1 + 2 (3
-/// mu/K)^2) mu/K) of that of the point, and the share 1 - b of the projected mean of the cell.
+/// 3D deviator also in plane strain. theta is b tr e +
+/// (1 - b) m: m is the projected mean of tr e over the cell, and b = sqrt((1 + 2 (3 mu/K)^2) mu/K).
 template <int D>
 void expect_linear_energy() {
   const auto body = test::body_of<D>(jittered<D>());

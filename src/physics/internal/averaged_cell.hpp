@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A nodal cell whose law sees other volume changes than those of the quadrature points.
+// A nodal cell whose quadrature points share a volume change.
 #pragma once
 #include "numbers/dual.hpp"
 #include "numbers/elementary.hpp"

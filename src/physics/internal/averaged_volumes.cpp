@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cells share volume changes with their neighbours.
+// Cells that share volume changes with their neighbours.
 #include "physics/internal/averaged_volumes.hpp"
 
 #include <algorithm>

@@ -176,8 +176,8 @@ class MaterialOf final : public Material<D> {
   }
   /// The share of the volume change of a point that its law sees, [law]. In a nearly incompressible
   /// solid it has the stiffness of one shear modulus. Up to a bulk modulus of three shear moduli,
-  /// where nothing locks, and for laws that do not give a ratio, it is the whole change (locking
-  /// note 2).
+  /// where nothing locks, and for laws without bulk_over_shear(), it is the whole change
+  /// (locking note 2).
   static std::vector<Real> own_shares(const std::vector<L>& laws, const Integration& integration) {
     std::vector<Real> own;
     for (const L& law : laws) {

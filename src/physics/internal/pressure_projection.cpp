@@ -87,7 +87,7 @@ class PressureExtension {
     return (at(body_.particles.X(), A) - at(body_.particles.X(), B)).norm();
   }
 
-  /// The pressure at `cell` on a plane through that of an inner cell. Its slope is fitted to the
+  /// The pressure at `cell`, extended linearly from an inner cell. Its slope is fitted to the
   /// inner neighbours with weights 1/d^2, and free in directions without such neighbours.
   ExtensionRow extended_from(Index lead, Index cell) const {
     std::vector<Index> neighbors;
@@ -291,8 +291,8 @@ std::array<T, D + 1> PressureProjection<D>::take_linear_part(std::span<T> values
   return factors.x;
 }
 
-/// Pi with the inverse of M by Chebyshev's semi-iteration (Saad 2003, algorithm 12.1), for what is
-/// not linear in X.
+/// Pi with the inverse of M by Chebyshev's semi-iteration (Saad 2003, algorithm 12.1). Keeps the
+/// part of the values that is linear in X.
 template <int D>
 template <class T>
 void PressureProjection<D>::apply(std::span<T> values) const {

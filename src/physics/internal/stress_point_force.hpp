@@ -144,7 +144,7 @@ class StressPointForce : public ForceTerm {
   Real energy(const PointLaws& laws, const Motion& motion) const;
   /// The volume changes at a motion. All processes call this.
   Shared shared_changes(const Motion& motion) const;
-  /// The same with pulls.
+  /// The volume changes and pulls at a motion. All processes call this.
   Shared shared_by_cells(const Motion& motion) const;
   AveragedCell<Lanes> averaged_cell(Index group, const Tensor<Lanes>& H,
                                     const Shared& shared) const;
