@@ -46,7 +46,7 @@ class AveragedStressForce : public StressPointForce<D, CellRule<D>> {
   /// Volume changes and pulls of the coupled cells of all processes.
   std::vector<Real>& changes() { return changes_; }
   std::vector<Real>& pulls() { return pulls_; }
-  /// The first cell in the range where J <= 0 or NaN at a point or for the law.
+  /// The first cell in the range where J of a point or the shared J is not positive.
   Index first_failed(Index begin, Index end, const NodalVector* u) const;
   /// Projects the volume changes. Returns false if some are infinite or NaN.
   bool project_changes();
@@ -59,7 +59,6 @@ class AveragedStressForce : public StressPointForce<D, CellRule<D>> {
   using PerCell = std::vector<T, CacheLineAllocator<T>>;
 
   Report add_tangent_of_coupled(const Motion& motion, Forces force);
-  AveragedCell<Dual<Lanes>> dual_cell(Index cell, const Tensor<Dual<Lanes>>& H) const;
 
   std::span<const Index> coupled_;
   ItemRange own_;  // numbers of the coupled cells of this process

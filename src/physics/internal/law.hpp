@@ -89,7 +89,8 @@ std::optional<std::string> check(const L& law) {
     return {};
 }
 
-/// Bulk modulus / shear modulus at the reference state. Empty for laws without a member
+/// Bulk modulus / shear modulus at the reference state. Nodal cells of solids with a large ratio
+/// share volume changes, so that they do not lock (locking note 2). Empty for laws without a member
 /// bulk_over_shear(), such as fluids.
 template <Law L>
 std::optional<Real> bulk_over_shear(const L& law) {

@@ -269,11 +269,10 @@ class MaterialOf final : public Material<D> {
             "body '{}': a solid cannot be remapped, its stress depends on more than J", body.name));
       if constexpr (std::is_same_v<Rule, CellRule<D>>) {
         std::vector<Real> own = own_shares(laws, integration);
-        if (std::any_of(own.begin(), own.end(), [](Real share) { return share < 1; })) {
+        if (std::any_of(own.begin(), own.end(), [](Real share) { return share < 1; }))
           return std::make_unique<AveragedForce<D, L>>(
               body, std::move(rule), laws,
               std::make_unique<AveragedVolumes<D>>(body, std::move(own)));
-        }
       }
       return force_of(body, std::move(rule), laws, nullptr);
     }
