@@ -60,11 +60,12 @@ std::string rounded_steps(const ExpectedEffort& effort) {
 
 /// Prints the expected cost of `newton` and of `relax`, which one is faster, and by which factor.
 void say_effort(const ExpectedEffort& effort, bool flows) {
-  say("newton: {:.0f} {} of about {:.0f} tangents at {:.2g} s, expected {:.2g} s; relax: {} steps "
+  say("newton: {:.0f} {} of about {:.0f} {} at {:.2g} s, expected {:.2g} s; relax: {} steps "
       "at {:.2g} s, expected {:.2g} s\n",
       effort.load_steps, flows ? "steps of implicit Euler" : "load steps", effort.tangents_per_step,
-      effort.seconds_per_tangent, effort.newton_seconds(), rounded_steps(effort),
-      effort.seconds_per_step, effort.relaxation_seconds());
+      effort.by_factors ? "factors of the tangent" : "tangents", effort.seconds_per_tangent,
+      effort.newton_seconds(), rounded_steps(effort), effort.seconds_per_step,
+      effort.relaxation_seconds());
   const Real ratio = effort.relaxation_seconds() / effort.newton_seconds();
   say("{} is expected to be {:.1f} times as fast, within a factor of {:g}\n",
       ratio > 1 ? "newton" : "relax", std::max(ratio, 1 / ratio), 1.5 * effort.uncertainty);

@@ -7,11 +7,13 @@
 #include "scene/build_body.hpp"
 #include "scene/resolved_places.hpp"
 #include "scene/watch_surfaces.hpp"
+#include "solve/newton/tangent_factors.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace meniscus {
@@ -53,7 +55,8 @@ std::shared_ptr<const Reference<D>> reference_of(const BodyPlan<D>& body,
   return found == references.end() ? nullptr : found->second;
 }
 
-/// Divides the rows of the bodies between the ranks.
+/// Divides the rows of the bodies between the ranks. Newton's method factorises the tangent of
+/// small bodies on one rank, which has all rows.
 template <int D>
 std::vector<Division> divide_bodies(const Plan<D>& plan, const References<D>& references) {
   std::vector<Index> particles;
@@ -62,6 +65,9 @@ std::vector<Division> divide_bodies(const Plan<D>& plan, const References<D>& re
     const Geometry<D>& geometry = reference ? reference->geometry : body.geometry;
     particles.push_back(static_cast<Index>(geometry.grid.X.size()));
   }
+  if (plan.time.solver == "newton" &&
+      TangentFactors<D>::fits(std::accumulate(particles.begin(), particles.end(), Offset{0})))
+    return std::vector<Division>(particles.size(), Division(TangentFactors<D>::rank));
   return divide(particles);
 }
 

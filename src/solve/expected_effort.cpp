@@ -2,6 +2,7 @@
 // Estimates the cost of an equilibrium from counts.
 #include "solve/expected_effort.hpp"
 
+#include "solve/newton/tangent_factors.hpp"
 #include "solve/step/rest.hpp"
 #include "solve/step/way_to_rest.hpp"
 
@@ -50,6 +51,19 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
     P->apply(f, z);
   });
   effort.load_steps = load_steps;
+  if (!euler && TangentFactors<D>::suit(system) &&
+      !TangentFactors<D>::others_resist(system, motion)) {
+    // Counts of the notes: five iterations and the first guess, with 12 tangents each.
+    constexpr Real iterations = 6, tangents = 12;
+    std::optional<TangentFactors<D>> K;
+    effort.set_up_seconds = seconds_of(1, [&] { K.emplace(system); });
+    effort.by_factors = true;
+    effort.tangents_per_step = iterations;
+    effort.seconds_per_tangent = tangents * effort.seconds_per_tangent + seconds_of(1, [&] {
+                                   K->assemble(state.time, state.u, {});
+                                   K->factor(K->small_shift());
+                                 });
+  }
   if (euler) {
     constexpr Real steps_to_rest = 10, clocks_to_rest = 5;
     effort.tangents_per_step = D == 3 ? 350 : 250;
@@ -59,7 +73,7 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
     return effort;
   }
   // Counts of four or five iterations of Newton's method.
-  effort.tangents_per_step = D == 3 ? 150 : 50;
+  if (!effort.by_factors) effort.tangents_per_step = D == 3 ? 150 : 50;
   const auto time = WayToRest<D>(system, *P, state, std::max(steady_after, state.time))
                         .time(tolerances, dt, fewest_steps);
   if (!time) return std::nullopt;

@@ -11,6 +11,7 @@ namespace meniscus {
 /// Estimated numbers of steps, and seconds on this machine.
 struct ExpectedEffort {
   Real load_steps = 0, tangents_per_step = 0;  ///< of Newton's method
+  bool by_factors = false;  ///< these are not tangents, but iterations with factors of the tangent
   Real seconds_per_tangent = 0,
        set_up_seconds = 0;  ///< seconds_per_tangent includes the preconditioner
   Real relaxation_steps = 0, seconds_per_step = 0;

@@ -18,6 +18,7 @@ class FreeMotions {
   FreeMotions(System<D>& system, const Motion& motion, Real scale);
 
   bool any() const { return !modes_.empty(); }
+  Index count() const { return static_cast<Index>(modes_.size()); }
   /// Removes them from forces or displacements.
   void remove_from(NodalVectors& w) const;
 

@@ -210,6 +210,13 @@ void System<D>::add_tangent(const Motion& motion, const Motion& change, Forces f
 }
 
 template <int D>
+void System<D>::add_by(const Motion& motion, Forces force,
+                       const std::function<void(const Forces&)>& add) {
+  in_phases(motion, force, add);
+  spread(force);
+}
+
+template <int D>
 void System<D>::add_viscous(const Motion& motion, Forces force) {
   for_terms(motion, force, viscous,
             [&](ForceTerm& term, const Forces& all) { term.add_viscous(motion, all); });

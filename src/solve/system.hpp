@@ -10,6 +10,7 @@
 #include "solve/state.hpp"
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -95,6 +96,8 @@ struct System {
   static bool every(const ForceTerm&) { return true; }
   static bool viscous(const ForceTerm& term) { return term.viscous(); }
   void add_tangent(const Motion& motion, const Motion& change, Forces force, Wanted wanted = every);
+  /// force += what add(force) adds, of rows of this process.
+  void add_by(const Motion& motion, Forces force, const std::function<void(const Forces&)>& add);
   /// Add what ForceTerm::add_viscous() and add_viscous_diagonal() of all viscous terms add.
   void add_viscous(const Motion& motion, Forces force);
   void add_viscous_diagonal(std::span<NodalVector> diagonal);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace meniscus::coarse_solids_study {
 namespace {
@@ -88,6 +89,45 @@ Case cantilever(int D, int across, Real ratio, Real converged, const std::string
       {least, 1.02}};
 }
 
+/// A cantilever of length 10 and height 1 bent by 46 % of its length, at Poisson's ratio 0.499:
+/// deflection, from the elastica (inextensible, no shear) with P L^2/(E I) = 1.8024.
+Case bend(int across, const std::string& more) {
+  return {
+      "2D large bend, K/mu = 500",
+      2,
+      fmt::format("dimension = 2\ntime = {{ solver = \"newton\", end = 4, step = 1 }}\n[[body]]\n"
+                  "name = \"beam\"\nshape = \"rectangle\"\nsize = [10, 1]\ncells = [{}, {}]\n{}"
+                  "material = {{ type = \"neo_hookean\", density = 1, youngs_modulus = 1000, "
+                  "poissons_ratio = 0.499 }}\n[[held]]\nbody = \"beam\"\nface = \"x_min\"\n"
+                  "[[traction]]\nname = \"end\"\nbody = \"beam\"\nface = \"x_max\"\nforce = "
+                  "[0, \"2*min(1, t/4)\"]\n",
+                  10 * across, across, more),
+      "end.displacement_y",
+      4.63647,
+      {0.985, 1.01}};
+}
+
+/// Cook's membrane, a tapered panel that is sheared at its end by a seventh of its length. `tip` is
+/// the displacement of its upper corner, extrapolated from 32 and 64 cells in each direction.
+Case cook(int across, Real lambda_over_mu, Real tip, const std::string& more) {
+  const int cells = 4 * across;
+  const Real least = across == 2 ? 0.993 : across == 3 ? 0.996 : 0.998;
+  return {
+      fmt::format("Cook's membrane, lambda/mu = {:g}", lambda_over_mu),
+      2,
+      fmt::format("dimension = 2\ntime = {{ solver = \"newton\", end = 4, step = 1 }}\n[[body]]\n"
+                  "name = \"panel\"\nshape = \"rectangle\"\ncorner = [0, 0]\nsize = [48, 1]\n"
+                  "cells = [{0}, {0}]\nmap = [\"x\", \"44/48*x + y*(44 - 28/48*x)\"]\n{1}material "
+                  "= {{ type = \"neo_hookean\", density = 1, mu = 80.194, lambda = {2} }}\n"
+                  "[[held]]\nbody = \"panel\"\nface = \"x_min\"\n[[traction]]\nbody = \"panel\"\n"
+                  "face = \"x_max\"\nforce = [0, \"6.25*min(1, t/4)\"]\n[[probe]]\nname = \"tip\"\n"
+                  "body = \"panel\"\nat = [48, 60]\n",
+                  cells, more, 80.194 * lambda_over_mu),
+      "tip.displacement_y",
+      tip,
+      {least, 1.002}};
+}
+
 /// A plane ring with a small pressure inside (Lame): outer displacement, exact by formula.
 Case ring(int layers, Real ratio, const std::string& more) {
   constexpr Real a = 0.5, b = 1, p = 1e-4;
@@ -149,6 +189,10 @@ struct Converged {
 constexpr Converged converged[] = {
     {1, 0.9996, 0.9988}, {50, 0.9853, 0.9795}, {5000, 0.9843, 0.9785}, {1e5, 0.9843, 0.9785}};
 
+/// Tips of Cook's membrane, by lambda/mu.
+constexpr std::pair<Real, Real> cook_tips[] = {
+    {1.5, 8.6924}, {50, 7.0285}, {500, 6.9408}, {5000, 6.9318}, {5e4, 6.9309}};
+
 void measure(StudyRun& study, const Case& c, const std::string& form, int level) {
   const std::string method = c.name + ", " + form;
   const Measurement result =
@@ -175,6 +219,11 @@ void run(StudyRun& study) {
       if (form == "default, jittered") continue;  // layers of walls stay in order
       for (const Real ratio : {5.0, 5000.0})
         measure(study, ring(across + 1, ratio, keys), form, across);
+      // Newton's method takes many iterations for bodies that lock.
+      for (const auto& [ratio, tip] : cook_tips)
+        if (form == "default" ? !study.brief() || ratio == 5000 : ratio < 100 && !study.brief())
+          measure(study, cook(across, ratio, tip, keys), form, across);
+      if (form == "default") measure(study, bend(across, keys), form, across);
       if (study.brief() || across > 3) continue;
       measure(study, balloon(across + 1, keys), form, across);
       measure(study, twist(across, keys), form, across);

@@ -41,13 +41,20 @@ class AveragedVolumes {
   }
   /// Computes value(cell) for all coupled cells, gathers and projects. All processes call this.
   template <class F>
-  std::vector<Real> projected(F&& value) const {
-    std::vector<Real> values(coupled().size());
+  auto projected(F&& value) const {
+    std::vector<decltype(value(Index()))> values(coupled().size());
     const Gathered all = gathered(values);
     parallel_for(all.shares.own(), [&](Index k) { at(values, k) = value(at(coupled(), k)); });
     GatherTogether()({&all, 1});
     project(values);
     return values;
+  }
+  /// The projection is Phi M^-1 Phi^T W, with this number of unknown pressures; calls f(unknown,
+  /// value) for the entries of the row of Phi of a coupled cell.
+  Index unknowns() const { return projection_.unknowns(); }
+  template <class F>
+  void for_extension(Index number, F&& f) const {
+    projection_.for_extension(number, f);
   }
   std::size_t bytes() const { return own_.size() * sizeof(Real) + projection_.bytes(); }
 

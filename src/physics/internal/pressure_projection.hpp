@@ -30,6 +30,13 @@ class PressureProjection {
   std::span<const Index> cells() const { return cells_; }
   /// Position of a cell in cells(), or -1 if it does not take part.
   Index number(Index cell) const { return at(number_, cell); }
+  /// Number of columns of Phi; calls f(column, value) for the entries of a row.
+  Index unknowns() const { return static_cast<Index>(extension_.cols()); }
+  template <class F>
+  void for_extension(Index number, F&& f) const {
+    for (typename Rows::InnerIterator entry(extension_, number); entry; ++entry)
+      f(static_cast<Index>(entry.col()), entry.value());
+  }
   /// Replaces the values of cells(). T is Real or Dual<Real>. The result has the same bits for any
   /// number of threads.
   template <class T>

@@ -9,6 +9,7 @@
 #include "physics/internal/averaged_volumes.hpp"
 #include "physics/internal/point_laws.hpp"
 #include "physics/internal/stress_output.hpp"
+#include "physics/mixed_force.hpp"
 
 namespace meniscus {
 
@@ -32,7 +33,7 @@ class KeptDeformations {
 
 /// The common part of internal forces. `Rule` is CellRule<D> or PointRule<D>.
 template <int D, class Rule>
-class StressPointForce : public ForceTerm {
+class StressPointForce : public ForceTerm, public MixedForce {
  public:
   std::string name() const final { return "internal force of '" + body_.name + "'"; }
   std::string_view energy_kind() const final { return "strain"; }
@@ -56,6 +57,17 @@ class StressPointForce : public ForceTerm {
   }
   std::optional<Failure> failure_of(Index group, const Motion& motion) const override;
   Offset pairs() const final { return chunk_sums_.pairs() + (surface_ ? surface_->pairs() : 0); }
+
+  bool has_stiffness() const final { return !surface_; }
+  std::vector<Dual<Lanes>> pressures(const Motion& motion, const Motion& change) const final;
+  void add_pressure_tangent(const Motion& motion, const Motion& change, std::span<const Lanes> off,
+                            Forces force) final;
+  void subtract_pressure_force(const Motion& motion, const Motion& change,
+                               std::span<const Lanes> off, Forces force) final;
+  Real squared_gradients(const Motion& motion) const final;
+  void announce(StiffnessMatrix& K) final;
+  void add_stiffness(const Motion& motion, std::span<const Lanes> off,
+                     StiffnessMatrix& K) const final;
 
  protected:
   StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<PointLaws> laws,
@@ -153,6 +165,12 @@ class StressPointForce : public ForceTerm {
     return volumes_ ? averaged_cell(group, H, shared).seen : H;
   }
   Tensor<Lanes> stress(Index group, Real time, const Tensor<Lanes>& H, const Shared& shared) const;
+  /// Share of the volume change of a point that its law sees; zero if laws see nothing else.
+  Real share_of_points(Index group) const { return volumes_ ? volumes_->own(group) : 0; }
+  Dual<Real> stiffness_of_pressure(Index cell, Real time, const Tensor<Lanes>& H,
+                                   const Shared& shared) const;
+  Tensor<Dual<Lanes>> stress_change(Index group, Real time, const Tensor<Dual<Lanes>>& H,
+                                    const Shared& shared) const;
   void visit(const Motion& motion, const std::function<void(const StressPoint&)>& f) const;
   VisitStressPoints visitor() const;
 
@@ -169,6 +187,7 @@ class StressPointForce : public ForceTerm {
   ChunkTally<Dual<Real>> pull_changes_;
   bool keeps_ = false;
   std::vector<Tensor<Lanes>, CacheLineAllocator<Tensor<Lanes>>> kept_;  // [own group]
+  Index first_element_ = 0, first_pressure_ = 0;                        // of the stiffness matrix
 };
 
 extern template class StressPointForce<2, CellRule<2>>;

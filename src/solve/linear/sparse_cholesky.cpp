@@ -11,6 +11,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -139,6 +140,7 @@ struct SparseCholesky::Factors {
   };
 
   Elimination plan;
+  Columns pattern;          // empty unless the values can change
   std::vector<OfFront> of;  // [front]
   Eigen::VectorXd scale;
   std::vector<Offset> taken_by;            // [front] its first place in `taken`
@@ -242,6 +244,42 @@ SparseCholesky::SparseCholesky(Index n, std::span<const MatrixEntry> entries,
   factors_->plan = plan_elimination(A.start, A.row, order);
   factors_->compute(A);
   factors_->find_sources();
+}
+
+SparseCholesky::SparseCholesky(std::span<const Index> start, std::span<const Index> row,
+                               std::vector<Index> order)
+    : factors_(std::make_unique<Factors>()) {
+  Columns& A = factors_->pattern;
+  A.start.assign(start.begin(), start.end());
+  A.row.assign(row.begin(), row.end());
+  A.value.resize(A.row.size());
+  factors_->plan = plan_elimination(A.start, A.row, order);
+  factors_->find_sources();
+}
+
+void SparseCholesky::factor(std::span<const Real> value) {
+  Columns& A = factors_->pattern;
+  const auto n = static_cast<Index>(A.start.size()) - 1;
+  Eigen::VectorXd& scale = factors_->scale;
+  scale = Eigen::VectorXd::Ones(n);
+  for_chunks(n, [&](Index, Index begin, Index end) {
+    for (Index j = begin; j < end; ++j)
+      for (Index e = at(A.start, j); e < at(A.start, j + 1); ++e)
+        if (at(A.row, e) == j) scale[j] = 1 / std::sqrt(std::abs(at(value, e)));
+  });
+  for_chunks(n, [&](Index, Index begin, Index end) {
+    for (Index j = begin; j < end; ++j)
+      for (Index e = at(A.start, j); e < at(A.start, j + 1); ++e)
+        at(A.value, e) = at(value, e) * scale[j] * scale[at(A.row, e)];
+  });
+  factors_->compute(A);
+}
+
+Index SparseCholesky::negative_eigenvalues() const {
+  Index count = 0;
+  for (const auto& front : factors_->of)
+    for (const Real pivot : front.pivots) count += !(pivot > 0);  // also counts NaN
+  return count;
 }
 
 SparseCholesky::~SparseCholesky() = default;

@@ -14,14 +14,25 @@ struct MatrixEntry {
   Real value;
 };
 
-/// Factors L D L^T of a symmetric positive matrix. The bits do not depend on the number of threads.
+/// Factors L D L^T of a symmetric matrix, without pivoting: the matrix should be positive, or
+/// quasidefinite (positive and negative definite blocks on the diagonal). The bits do not depend on
+/// the number of threads.
 class SparseCholesky {
  public:
   /// Factorises the n x n matrix with the sums of `entries`; both triangles must be given. The
   /// diagonal is first scaled to one. Rows are eliminated in `order` (order[new] = old);
   /// independent rows may be exchanged. If `order` is empty, minimum degree is used.
   SparseCholesky(Index n, std::span<const MatrixEntry> entries, std::vector<Index> order = {});
+  /// Plans the factors of a matrix with these entries, column by column, both triangles, with
+  /// ascending rows. Nothing may be called before factor().
+  SparseCholesky(std::span<const Index> start, std::span<const Index> row,
+                 std::vector<Index> order);
   ~SparseCholesky();
+
+  /// Factorises the planned matrix with these values, which must have no zero on the diagonal.
+  void factor(std::span<const Real> value);
+  /// Number of negative eigenvalues (Sylvester's law of inertia).
+  Index negative_eigenvalues() const;
 
   /// The smallest pivot of the scaled matrix, and its row. A pivot near round-off means that the
   /// row depends on others; solve() is then meaningless.

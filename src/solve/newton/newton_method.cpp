@@ -3,7 +3,6 @@
 #include "solve/newton/newton_method.hpp"
 
 #include "numbers/dense.hpp"
-#include "numbers/random.hpp"
 #include "parallel/nodal_algebra.hpp"
 #include "solve/least_spacing.hpp"
 
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <utility>
 
 namespace meniscus {
@@ -25,7 +23,11 @@ constexpr int most_directions = 60, most_tangents = 400;
 
 template <int D>
 NewtonMethod<D>::NewtonMethod(System<D>& system, ImplicitEuler<D>* step, Real tolerance)
-    : system_(system), step_(step), tolerance_(tolerance), spacing_(least_spacing(system.bodies)) {
+    : system_(system),
+      step_(step),
+      tolerance_(tolerance),
+      spacing_(least_spacing(system.bodies)),
+      small_(!step && TangentFactors<D>::suit(system)) {
   still_.assign(static_cast<std::size_t>(system.size()), Lanes::zero());
   if (system.constraints) lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
   r_ = trial_r_ = s_ = g_ = z_ = p_ = q_ = scaled_ = still_;
@@ -33,11 +35,16 @@ NewtonMethod<D>::NewtonMethod(System<D>& system, ImplicitEuler<D>* step, Real to
 
 template <int D>
 void NewtonMethod<D>::prepare() {
-  if (!preconditioner_)
-    preconditioner_.emplace(system_, step_);
-  else if (step_)
-    preconditioner_->renew(system_, step_);
+  if (preconditioner_ && step_) preconditioner_->renew(system_, step_);
+  if (!small_) elements();
   if (step_) energy_scale_ = 0;
+}
+
+/// Made when it is needed first.
+template <int D>
+const HeldPreconditioner<D>& NewtonMethod<D>::elements() {
+  if (!preconditioner_) preconditioner_.emplace(system_, step_);
+  return *preconditioner_;
 }
 
 /// Describes a net force along a translation that nothing resists, for one body or all bodies.
@@ -61,7 +68,7 @@ std::string NewtonMethod<D>::pulled(Real time, const NodalVectors& u) {
                                     [&](Index A) { return std::abs(sum(at(p_, A) * at(r_, A))); });
     if (pull <= 0.1 * sizes) return false;
     apply(time, u);
-    return largest(q_) <= round_off * preconditioner_->elements().stiffness_scale();
+    return largest(q_) <= round_off * elements().elements().stiffness_scale();
   };
   for (int i = 0; i < D; ++i) {
     if (in_direction(nullptr, i)) return "nothing holds the bodies in the direction of the forces";
@@ -77,7 +84,7 @@ bool NewtonMethod<D>::begin_at(const Start& start, Point& point) {
   for (const NodalVectors* u : {start.expected, &start.u})
     if (u) {
       point.u = *u;
-      preconditioner_->meet(start.time, point.u);
+      elements().meet(start.time, point.u);
       if (evaluate(start.time, point, r_)) return true;
     }
   return false;
@@ -108,6 +115,12 @@ Real NewtonMethod<D>::apply(Real time, const NodalVectors& u) {
     }
   });
   system_.add_tangent({time, u, still_}, {time, scaled_, still_}, q_);
+  if (!off_.empty())
+    system_.add_by({time, u, still_}, q_, [&](const Forces& all) {
+      for (std::size_t k = 0; k < off_.size(); ++k)
+        factors_->forces()[k]->add_pressure_tangent({time, u, still_}, {time, scaled_, still_},
+                                                    off_[k], all);
+    });
   if (step_) step_->add_change(scaled_, q_);
   sweep(system_.size(), [&](Index begin, Index end) {
     for (Index A = begin; A < end; ++A) at(q_, A) = (-1 / scale) * at(q_, A);
@@ -122,11 +135,10 @@ Real NewtonMethod<D>::apply(Real time, const NodalVectors& u) {
 /// negative curvature. The coefficients of the iterations form a tridiagonal matrix, whose
 /// eigenvalues approximate eigenvalues of P^-1 A (Lanczos).
 template <int D>
-template <class Done>
 bool NewtonMethod<D>::conjugate_gradients(Real time, const NodalVectors& u, Lanczos& seen,
-                                          const Done& done) {
+                                          const Precondition& respond, const Done& done) {
   const auto precondition = [&] {
-    preconditioner_->apply(g_, z_);
+    respond(g_, z_);
     free_.remove_from(z_);
     return dot(g_, z_);
   };
@@ -172,7 +184,7 @@ typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const 
   g_ = r_;
   Direction found;
   Lanczos seen;
-  found.bent = conjugate_gradients(time, u, seen, [&](Real first, Real left) {
+  found.bent = conjugate_gradients(time, u, seen, by_elements(), [&](Real first, Real left) {
     return left <= std::max(share * first, polished * tolerance_ * energy_scale_);
   });
   if (found.bent && seen.diagonal.size() == 1) s_ = z_;
@@ -185,45 +197,6 @@ typename NewtonMethod<D>::Direction NewtonMethod<D>::direction(Real time, const 
   stability_ = std::min(stability_, 1e3);  // bound in case no eigenvalue was found
   found.decrement = 0.5 * dot(s_, r_);
   return found;
-}
-
-/// True if the equilibrium is stable. Forces of a symmetric scene have no component along modes
-/// that break the symmetry, so iterations that start with them never find such modes. Therefore
-/// these iterations start with random forces, whose numbers are the same on any machine, with any
-/// number of threads and processes. They end when the least eigenvalue hardly falls relative to its
-/// size; the nearer it is to zero, the more accurate it becomes.
-template <int D>
-bool NewtonMethod<D>::is_stable_at(Real time, const NodalVectors& u) {
-  constexpr Real neutral = 1e-6, settled = 0.15, all_gone = 1e-12;
-  constexpr std::size_t fewest = 12, apart = 4;  // numbers of iterations
-  std::mt19937_64 bits(61);
-  for (NodalVector& force : g_)
-    for (int i = 0; i < D; ++i) force.set(i, symmetric_uniform(bits));
-  free_.remove_from(g_);
-  Lanczos seen;
-  Real before = unbounded;
-  const bool bent = conjugate_gradients(time, u, seen, [&](Real first, Real left) {
-    if (left <= all_gone * first) return true;
-    const std::size_t k = seen.diagonal.size();
-    if (k % apart != 0) return false;
-    const Real least = seen.least();
-    const bool falls = std::exchange(before, least) - least > settled * least;
-    return k >= fewest && !falls;
-  });
-  stability_ = std::min(seen.diagonal.empty() ? unbounded : seen.least(), 1e3);
-  if (!(stability_ > -1e3)) stability_ = -1e3;  // also for NaN
-  // Round-off can give a free motion a small negative eigenvalue.
-  if (stability_ > -neutral) stability_ = std::max(stability_, 0.0);
-  return !bent || stability_ >= 0;
-}
-
-template <int D>
-Real NewtonMethod<D>::find_stability(Real time, const NodalVectors& u) {
-  prepare();
-  free_ = FreeMotions<D>(system_, {time, u, still_}, spacing_);
-  system_.add_up({time, u, still_}, r_);
-  is_stable_at(time, u);
-  return stability_;
 }
 
 template <int D>
@@ -250,6 +223,22 @@ typename NewtonMethod<D>::Solution NewtonMethod<D>::solve(const Start& start) {
   Solution solution;
   Point point;
   free_ = FreeMotions<D>(system_, {start.time, start.u, still_}, spacing_);
+  if (small_ && !TangentFactors<D>::others_resist(system_, {start.time, start.u, still_})) {
+    if (!factors_) factors_.emplace(system_);
+    iterate_mixed(start, solution, point);
+    off_.clear();
+    const bool at_rest = solution.failure.empty();
+    solution.mixed = at_rest;
+    if (at_rest && !stays(start.time, point, solution)) {
+      solution.mixed = false;
+      iterate(start, solution, point);
+    }
+    if (at_rest || !start.last_resort) {
+      solution.u = std::move(point.u);
+      return solution;
+    }
+    solution = Solution();
+  }
   if (!begin_at(start, point))
     solution.failure = "forces cannot be computed there: " + broken_;
   else if (!step_)
@@ -271,7 +260,7 @@ Real NewtonMethod<D>::shorten_direction() {
 
 template <int D>
 void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& point) {
-  const Real floor = std::max(start.idle, 1e-18 * preconditioner_->elements().energy_scale());
+  const Real floor = std::max(start.idle, 1e-18 * elements().elements().energy_scale());
   stability_ = unbounded;
   Real before = 0;
   bool bent = false;  // negative curvature in the last iteration
@@ -284,7 +273,7 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
       return;
     }
     constexpr Real loosest = 0.1, sharper = 0.9;
-    preconditioner_->apply(r_, z_);
+    elements().apply(r_, z_);
     const Real size = dot(r_, z_);
     // The energy that could still be released is at most r.P^-1 r / 2 over the least eigenvalue.
     if (solution.iterations > 0 && stability_ > 0 && !bent &&
@@ -331,34 +320,9 @@ void NewtonMethod<D>::iterate(const Start& start, Solution& solution, Point& poi
   }
 }
 
-/// Tests whether the equilibrium at `point` is stable. If not, moves `point` along the unstable
-/// mode and returns false, and Newton's method continues from there. Returns true if the
-/// equilibrium is stable, if `point` is a step of implicit Euler, if no lower energy is found along
-/// the mode, or after several unstable equilibria, whose energy is then flat to round-off.
-template <int D>
-bool NewtonMethod<D>::stays(Real time, Point& point, Solution& solution) {
-  constexpr int often = 3;
-  // A step of implicit Euler need not be stable, because it is no equilibrium.
-  if (step_ || is_stable_at(time, point.u) || solution.saddles == often) return true;
-  solution.bent = true;
-  leave_saddle();
-  if (!search(time, point, 0)) return true;
-  ++solution.saddles;
-  return false;
-}
-
-template <int D>
-void NewtonMethod<D>::leave_saddle() {
-  s_ = p_;
-  if (dot(s_, r_) < 0)
-    for (NodalVector& w : s_) w = -1.0 * w;
-  const Real length = spacing_ / largest(s_);
-  for (NodalVector& w : s_) w *= length;
-}
-
 template <int D>
 bool NewtonMethod<D>::Solution::winding() const {
-  constexpr int smooth = 8;
+  const int smooth = mixed ? 15 : 8;
   return bent || iterations > smooth;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include "solve/free_motions.hpp"
 #include "solve/linear/held_preconditioner.hpp"
+#include "solve/newton/tangent_factors.hpp"
 
 #include <functional>
 #include <optional>
@@ -13,12 +14,19 @@ namespace meniscus {
 /// Steps without a solution are divided into pieces, at most to this fraction of the step.
 inline constexpr Real least_piece = 1.0 / 256;
 
-/// Minimises the sum of the potentials of all terms, and of the potential of a step of implicit
-/// Euler if there is one, downhill from a nearby state (quasi-statics note 2). Each iteration of
-/// Newton's method solves its linear equations by conjugate gradients with actions of the tangent
-/// (ForceTerm::add_tangent), only as exactly as is useful. Linear elements are the preconditioner.
-/// Newton's method stops by the energy that the next iteration would release. A state at which the
-/// tangent has negative curvature is unstable; it is left in the direction of this curvature.
+/// Finds states where the sum of the potentials of all terms, and of the potential of a step of
+/// implicit Euler if there is one, is least, from a nearby state.
+///
+/// Small bodies on which no other force than their internal force has a tangent: iterations with
+/// factors of the tangent and expected pressures (quasi-statics note 10), which end by the forces
+/// left. They do not look at the energy, but every equilibrium is tested for negative eigenvalues.
+///
+/// All others, and small bodies when these iterations find no equilibrium: downhill (quasi-statics
+/// note 2). Each iteration solves its linear equations by conjugate gradients with actions of the
+/// tangent (ForceTerm::add_tangent), only as exactly as is useful. Linear elements are the
+/// preconditioner. The iterations end by the energy that the next one would release. A state at
+/// which the tangent has negative curvature is unstable; it is left in the direction of this
+/// curvature.
 template <int D>
 class NewtonMethod {
  public:
@@ -35,6 +43,8 @@ class NewtonMethod {
     const NodalVectors& u;         ///< the previous state
     const NodalVectors* expected;  ///< a better guess, used if its forces can be computed; or null
     Real idle = 0;                 ///< energy that may be left
+    Real before = time;            ///< time of the previous state
+    bool last_resort = true;       ///< no shorter load step will be tried
   };
   struct Solution {
     NodalVectors u;
@@ -42,6 +52,7 @@ class NewtonMethod {
     bool bent = false;    ///< negative curvature was found
     int saddles = 0;      ///< number of unstable equilibria that were found and left
     bool stuck = false;   ///< a force is left, but no step lowers the energy
+    bool mixed = false;   ///< found with factors of the tangent
     std::string failure;  ///< why there is no solution; empty if there is one
     /// True if the solution may be far from the previous state.
     bool winding() const;
@@ -51,14 +62,16 @@ class NewtonMethod {
   Solution solve(const Start& start);
   void stop_when(const std::function<bool()>& asked) { asked_to_stop_ = asked; }
 
-  /// Smallest eigenvalue of the tangent relative to the preconditioner; negative if the state is
-  /// unstable. At an equilibrium, all modes are searched. After a step of implicit Euler, it is the
-  /// smallest value that the last iteration has found.
+  /// With factors of the tangent: the squared lowest frequency over its value in the
+  /// reference. Else the smallest eigenvalue of the tangent relative to the preconditioner.
+  /// Negative if the state is unstable. At an equilibrium, all modes are searched. After a step of
+  /// implicit Euler, it is the smallest value that the last iteration has found.
   Real stability() const { return stability_; }
   /// Sets stability() for an equilibrium `u` found by another method, and returns it. Throws like
   /// prepare().
   Real find_stability(Real time, const NodalVectors& u);
-  /// Energy left by the last solution, relative to the largest energy released.
+  /// Energy left by the last solution, relative to the largest energy released; with factors of the
+  /// tangent, forces left relative to loads and reactions.
   Real left() const { return left_; }
   Real spacing() const { return spacing_; }
   std::int64_t iterations() const { return iterations_; }
@@ -79,6 +92,25 @@ class NewtonMethod {
     Real decrement = 0;  ///< energy that a full step would release
     bool bent = false;   ///< negative curvature was found along p_
   };
+  using OfGroups = typename TangentFactors<D>::OfGroups;
+  /// Pressures and their derivatives. [force][group]
+  using Pressures = std::vector<std::vector<Dual<Lanes>>>;
+  static constexpr const char* too_far = "the next equilibrium is too far";
+
+  Real size_of_loads(Real time, const NodalVectors& u);
+  Pressures pressures(Real time, const NodalVectors& u, const NodalVectors& change);
+  void renew_factors(Real time, const NodalVectors& u, const OfGroups& expected);
+  void factor_at(Real time, const NodalVectors& u);
+  bool solve_tangent(Real time, const NodalVectors& u, const NodalVectors& r, Real share);
+  Real gradients(const NodalVectors& w);
+  OfGroups pressures_after(const Pressures& along, Real a, const OfGroups& expected);
+  bool step_mixed(Real time, Point& point, OfGroups& expected);
+  void polish(Real time, Point& point);
+  void iterate_mixed(const Start& start, Solution& solution, Point& point);
+  Real lowest_frequency();
+  void find_lowest_of_reference();
+  const HeldPreconditioner<D>& elements();
+
   std::string pulled(Real time, const NodalVectors& u);
   bool begin_at(const Start& start, Point& point);
   /// Sets force and point.potential for point.u. Returns false if forces cannot be computed.
@@ -89,8 +121,15 @@ class NewtonMethod {
     std::vector<Real> diagonal, beside;
     Real least() const;  ///< smallest eigenvalue
   };
-  template <class Done>
-  bool conjugate_gradients(Real time, const NodalVectors& u, Lanczos& seen, const Done& done);
+  /// Judges the residual; gets the first one too, both squared in the norm of the preconditioner.
+  using Done = std::function<bool(Real first, Real left)>;
+  /// Sets z = P^-1 r.
+  using Precondition = std::function<void(const NodalVectors& r, NodalVectors& z)>;
+  Precondition by_elements() {
+    return [this](const NodalVectors& r, NodalVectors& z) { elements().apply(r, z); };
+  }
+  bool conjugate_gradients(Real time, const NodalVectors& u, Lanczos& seen,
+                           const Precondition& respond, const Done& done);
   /// Sets stability_. If it returns false, p_ is a direction of negative curvature.
   bool is_stable_at(Real time, const NodalVectors& u);
   bool stays(Real time, Point& point, Solution& solution);
@@ -107,7 +146,18 @@ class NewtonMethod {
   System<D>& system_;
   ImplicitEuler<D>* step_;
   Real tolerance_, spacing_;
+  bool small_;  // TangentFactors::suit()
   std::optional<HeldPreconditioner<D>> preconditioner_;
+  std::optional<TangentFactors<D>> factors_;
+  Index negative_ = 0;  // eigenvalues of the last tangent
+  /// The state whose tangent is factored; without u if it is the tangent of no state.
+  struct {
+    Real time = 0;
+    Index free = 0;
+    NodalVectors u;
+  } factored_;
+  Real lowest_ = 0;  // lowest_frequency() of the reference; 0: unknown
+  OfGroups off_;     // pressures of the tangent less those of the state; empty: zero
   FreeMotions<D> free_;
   NodalVectors still_, r_, trial_r_, s_, g_, z_, p_, q_, scaled_;
   std::vector<Real> lambda_;  // [row of the constraints]

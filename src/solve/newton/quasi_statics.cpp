@@ -54,7 +54,7 @@ void QuasiStatics<D>::step(State& state, Real dt) {
     settle(state);
     for (Real piece = dt; state.time < end;) {
       const Real time = reaches(state.time, piece, end) ? end : state.time + piece;
-      const auto solution = solve(state, time);
+      const auto solution = solve(state, time, piece <= piece_of_jump * dt * (1 + 1e-9));
       const bool failed = !solution.failure.empty();
       if (failed && piece <= least_piece * dt)
         throw SolveError(fmt::format("no equilibrium is found at t = {:.6g}: {}{}", time,
@@ -94,12 +94,13 @@ void QuasiStatics<D>::step(State& state, Real dt) {
 /// Finds the equilibrium, starting from the last displacement, continued with the rate of the last
 /// step if that is known.
 template <int D>
-typename NewtonMethod<D>::Solution QuasiStatics<D>::solve(const State& state, Real time) {
+typename NewtonMethod<D>::Solution QuasiStatics<D>::solve(const State& state, Real time,
+                                                          bool last_resort) {
   const auto& last = work_.last();
-  if (!(last.dt > 0)) return method_.solve({time, state.u, nullptr});
+  if (!(last.dt > 0)) return method_.solve({time, state.u, nullptr, 0, state.time, last_resort});
   NodalVectors expected = state.u;
   add(expected, (time - state.time) / last.dt, last.du);
-  return method_.solve({time, state.u, &expected});
+  return method_.solve({time, state.u, &expected, 0, state.time, last_resort});
 }
 
 /// True if the solution is far from the prediction of the last step, or was found by a winding
@@ -121,7 +122,7 @@ void QuasiStatics<D>::settle(State& state) {
   stop_motion(system_, state);
   method_.prepare();
   if (at_equilibrium_) return;
-  const auto solution = solve(state, state.time);
+  const auto solution = solve(state, state.time, true);
   if (!solution.failure.empty())
     throw SolveError(fmt::format("no equilibrium is found at the beginning: {}{}", solution.failure,
                                  unbalanced(system_, state, state.time)));

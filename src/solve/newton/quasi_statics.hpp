@@ -46,7 +46,7 @@ class QuasiStatics final : public Stepper<D> {
   std::int64_t jumps() const { return jumps_; }
 
  private:
-  typename NewtonMethod<D>::Solution solve(const State& state, Real time);
+  typename NewtonMethod<D>::Solution solve(const State& state, Real time, bool last_resort);
   bool is_far(const State& state, Real time,
               const typename NewtonMethod<D>::Solution& solution) const;
   void note_saddle(Real time);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tangent of forces as a sparse matrix, assembled from dense matrices of elements.
+#pragma once
+#include "parallel/parallel.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace meniscus {
+
+/// A symmetric sparse matrix, the sum of dense matrices of elements. Its unknowns belong to nodes:
+/// the D displacement coefficients of each particle, and further unknowns of terms, such as
+/// pressures, one for each node. An element is a set of nodes that all meet, such as the particles
+/// of a nodal cell.
+class StiffnessMatrix {
+ public:
+  /// The dense matrix of an element. Its rows are the first components of all particles, then the
+  /// second ones and so on, then the other nodes. Blocks of two components are read if they are not
+  /// below the diagonal.
+  class Element {
+   public:
+    Eigen::Map<Eigen::MatrixXd> resize(Eigen::Index size) {
+      size_ = size;
+      if (const auto needed = static_cast<std::size_t>(size * size); values_.size() < needed)
+        values_.resize(needed);
+      return {values_.data(), size, size};
+    }
+    const Real* column(Eigen::Index number) const { return values_.data() + number * size_; }
+
+   private:
+    std::vector<Real> values_;
+    Eigen::Index size_ = 0;
+  };
+
+  StiffnessMatrix(Index particles, int dimension);
+
+  /// Adds nodes of one unknown each; returns the number of the first one. Before close().
+  Index add_nodes(Index count);
+  /// Announces an element with these nodes, in ascending order; returns its number. Before close().
+  Index announce(std::span<const Index> nodes);
+  /// Finds the pattern of all elements.
+  void close();
+
+  /// Sets all values to zero.
+  void clear() { std::fill(value_.begin(), value_.end(), 0.0); }
+  /// Adds the matrices that make(k, matrix) sets for the elements first + k, 0 <= k < count. The
+  /// calls run in parallel; the sums have the same bits for any number of threads.
+  template <class Make>
+  void add(Index first, Index count, Make&& make) {
+    constexpr Index batch = 32;
+    room_.resize(batch);
+    for (Index begin = 0; begin < count; begin += batch) {
+      const Index end = std::min(begin + batch, count);
+      parallel_for(
+          end - begin, [&](Index k) { make(begin + k, at(room_, k)); }, 1);
+      scatter(first + begin, end - begin);
+    }
+  }
+  /// Ends the addition of elements.
+  void complete();
+  /// Adds a number to the diagonal entries of a node.
+  void add_to_diagonal(Index node, Real amount);
+  /// The mean of the absolute diagonal entries of particles.
+  Real mean_diagonal() const;
+
+  Index unknowns() const { return static_cast<Index>(column_start_.size()) - 1; }
+  Index particles() const { return particles_; }
+  /// Columns: the entries of column j are start()[j], ..., start()[j + 1] - 1, with ascending rows.
+  std::span<const Index> start() const { return column_start_; }
+  std::span<const Index> row() const { return row_; }
+  std::span<const Real> value() const { return value_; }
+  /// An order of elimination for which factors stay small: minimum degree of nodes. [place] unknown
+  std::vector<Index> order() const;
+
+ private:
+  Index nodes() const { return static_cast<Index>(first_of_.size()) - 1; }
+  int size_of(Index node) const { return node < particles_ ? dimension_ : 1; }
+  std::span<const Index> nodes_of(Index element) const {
+    const Offset begin = at(element_start_, element), end = at(element_start_, element + 1);
+    return std::span(element_node_)
+        .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+  }
+  void scatter(Index first, Index count);
+  void scatter(Index element, const Element& matrix, Index begin, Index end);
+
+  Index particles_;
+  int dimension_;
+  std::vector<Index> first_of_;           // [node] its first unknown
+  std::vector<Offset> element_start_{0};  // [element]
+  std::vector<Index> element_node_;
+  std::vector<Offset> neighbor_start_;  // [node]
+  std::vector<Index> neighbor_;         // nodes that it meets, ascending, with itself
+  std::vector<Index> place_;            // [neighbor] its first row within a column of the node
+  std::vector<Index> column_start_{0}, row_;
+  std::vector<Index> diagonal_;  // [unknown] its diagonal entry
+  std::vector<Index> source_;    // [entry] itself, or the entry on the other side of the diagonal
+  std::vector<Real> value_;
+  std::vector<Element> room_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Newton's method with expected pressures and factors of the tangent.
+#include "parallel/nodal_algebra.hpp"
+#include "solve/newton/newton_method.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace meniscus {
+namespace {
+
+/// Sum of the sizes of vectors.
+Real sum_of_sizes(const NodalVectors& w) {
+  return parallel_sum<Cost::little>(static_cast<Index>(w.size()), 0.0,
+                                    [&](Index A) { return std::sqrt(sum(at(w, A) * at(w, A))); });
+}
+
+}  // namespace
+
+/// The size of the forces that are in balance: of loads, of reactions, or, without any, a small
+/// part of the stresses.
+template <int D>
+Real NewtonMethod<D>::size_of_loads(Real time, const NodalVectors& u) {
+  constexpr Real of_stresses = 1e-3;
+  const Motion motion{time, u, still_};
+  Real size = 0;
+  for (auto& term : system_.terms) {
+    if (dynamic_cast<const MixedForce*>(term.get())) {
+      size = std::max(size, of_stresses * term->uncancelled_force(motion));
+    } else {
+      z_ = still_;
+      system_.add_force(*term, motion, z_);
+      size = std::max(size, sum_of_sizes(z_));
+    }
+  }
+  if (system_.constraints) {
+    z_ = still_;
+    system_.constraints->add_transposed(lambda_, 1, z_);
+    size = std::max(size, sum_of_sizes(z_));
+  }
+  return size;
+}
+
+/// The pressures at `u` and their derivatives along `change`.
+template <int D>
+typename NewtonMethod<D>::Pressures NewtonMethod<D>::pressures(Real time, const NodalVectors& u,
+                                                               const NodalVectors& change) {
+  Pressures all;
+  for (const MixedForce* force : factors_->forces())
+    all.push_back(force->pressures({time, u, still_}, {time, change, still_}));
+  return all;
+}
+
+/// Assembles the tangent at `u` with the expected pressures, or with those of the state if
+/// `expected` is empty or gives negative eigenvalues, and factorises it. Rotations without a
+/// stiffness may have either sign while forces are not in balance.
+template <int D>
+void NewtonMethod<D>::renew_factors(Real time, const NodalVectors& u, const OfGroups& expected) {
+  factored_.u.clear();
+  const auto renew = [&] {
+    factors_->assemble(time, u, off_);
+    const Index negative = factors_->factor(free_.any() ? factors_->small_shift() : 0);
+    negative_ = std::max(negative - free_.count(), 0);
+  };
+  off_.clear();
+  if (!expected.empty()) {
+    const Pressures here = pressures(time, u, still_);
+    off_ = expected;
+    for (std::size_t k = 0; k < off_.size(); ++k)
+      for (std::size_t g = 0; g < off_[k].size(); ++g) off_[k][g] = off_[k][g] - here[k][g].v;
+    renew();
+    if (negative_ == 0) return;
+    off_.clear();
+  }
+  renew();
+}
+
+/// Factorises the tangent of a state, unless this was done last.
+template <int D>
+void NewtonMethod<D>::factor_at(Real time, const NodalVectors& u) {
+  if (factored_.time == time && factored_.free == free_.count() && factored_.u.size() == u.size()) {
+    NodalVectors change = u;
+    add(change, -1, factored_.u);
+    if (largest(change) == 0) return;
+  }
+  renew_factors(time, u, {});
+  factored_ = {time, free_.count(), u};
+}
+
+/// Solves K z = r with the tangent of all forces to a part of the first residual. Returns false if
+/// the tangent is not positive.
+template <int D>
+bool NewtonMethod<D>::solve_tangent(Real time, const NodalVectors& u, const NodalVectors& r,
+                                    Real share) {
+  g_ = r;
+  Lanczos seen;
+  return !conjugate_gradients(
+      time, u, seen, [&](const NodalVectors& f, NodalVectors& z) { factors_->apply(f, z); },
+      [&](Real first, Real left) { return left <= share * share * first; });
+}
+
+/// Root of the integral of |grad w|^2.
+template <int D>
+Real NewtonMethod<D>::gradients(const NodalVectors& w) {
+  Real sum = 0;
+  for (const MixedForce* force : factors_->forces())
+    sum += force->squared_gradients({0, w, still_});
+  return std::sqrt(sum);
+}
+
+/// The pressures to which a part `a` of a step leads, from `expected` before.
+template <int D>
+typename NewtonMethod<D>::OfGroups NewtonMethod<D>::pressures_after(const Pressures& along, Real a,
+                                                                    const OfGroups& expected) {
+  OfGroups next(along.size());
+  for (std::size_t k = 0; k < along.size(); ++k)
+    for (std::size_t g = 0; g < along[k].size(); ++g) {
+      const Dual<Lanes>& p = along[k][g];
+      const Lanes before = off_.empty() ? p.v : expected[k][g];
+      next[k].push_back(before + a * (p.v + p.d - before));
+    }
+  return next;
+}
+
+/// Makes the step s_, or a part of it, if the judge agrees: with the tangent of the step, the
+/// forces after it ask for a shorter step, when the pressures are those that the step has led to
+/// expect. Returns false if no part is accepted.
+template <int D>
+bool NewtonMethod<D>::step_mixed(Real time, Point& point, OfGroups& expected) {
+  constexpr int halvings = 6;
+  constexpr Real rough = 1e-2, nearly_at_rest = 1e-6;
+  const NodalVectors step = s_;
+  const Real length = gradients(step), forces = sum_of_sizes(r_);
+  const Pressures along = pressures(time, point.u, step);
+  Real a = 1;
+  for (int k = 0; k < halvings; ++k, a /= 2) {
+    Point trial;
+    trial.u = point.u;
+    add(trial.u, a, step);
+    if (!evaluate(time, trial, trial_r_)) continue;
+    OfGroups next = pressures_after(along, a, expected);
+    const Pressures there = pressures(time, trial.u, still_);
+    NodalVectors judged = trial_r_, way = step;
+    for (NodalVector& w : way) w *= a;
+    OfGroups off = next;
+    for (std::size_t f = 0; f < off.size(); ++f)
+      for (std::size_t g = 0; g < off[f].size(); ++g) off[f][g] = there[f][g].v - off[f][g];
+    system_.add_by({time, point.u, still_}, judged, [&](const Forces& all) {
+      for (std::size_t f = 0; f < off.size(); ++f)
+        factors_->forces()[f]->subtract_pressure_force({time, point.u, still_}, {time, way, still_},
+                                                       off[f], all);
+    });
+    solve_tangent(time, point.u, judged, rough);
+    const bool shorter = gradients(s_) <= (1 - a / 4) * length;
+    // Near rest, round-off can outweigh the rest of the step.
+    if (!shorter && !(left_ < nearly_at_rest && sum_of_sizes(trial_r_) < 0.5 * forces)) continue;
+    expected = std::move(next);
+    point = std::move(trial);
+    r_.swap(trial_r_);
+    return true;
+  }
+  return false;
+}
+
+/// Newton's method with the pressures that the last step has led to expect in place of those of the
+/// state (quasi-statics note 10). The volume changes after a straight step are wrong in second
+/// order, and pressures by the bulk modulus times that; tangents with such pressures have negative
+/// eigenvalues that belong to no instability. The iteration ends when the forces left are small
+/// beside loads and reactions.
+template <int D>
+void NewtonMethod<D>::iterate_mixed(const Start& start, Solution& solution, Point& point) {
+  constexpr int most = 25;
+  constexpr Real exact = 1e-4, acceptable = 1e-6;
+  find_lowest_of_reference();
+  point.u = start.u;
+  factor_at(start.before, point.u);
+  factors_->meet(start.time, point.u);
+  solution.failure = too_far;  // until the iteration ends
+  if (!evaluate(start.time, point, r_)) return;
+  OfGroups expected;
+  NodalVectors moved = point.u;
+  add(moved, -1, start.u);
+  if (largest(moved) > 0)
+    expected = pressures_after(pressures(start.time, start.u, moved), 1, expected);
+  for (; solution.iterations < most; ++solution.iterations) {
+    if (asked_to_stop_()) throw Interrupted();
+    const Real forces = sum_of_sizes(r_);
+    left_ = forces > 0 ? forces / size_of_loads(start.time, point.u) : 0;
+    if (left_ <= tolerance_) break;
+    renew_factors(start.time, point.u, expected);
+    ++iterations_;
+    if (!solve_tangent(start.time, point.u, r_, exact)) return;
+    if (step_mixed(start.time, point, expected)) continue;
+    if (left_ > acceptable) return;
+    break;
+  }
+  if (solution.iterations == most) return;
+  solution.failure.clear();
+  polish(start.time, point);
+}
+
+/// Another step with the present factors, which costs little.
+template <int D>
+void NewtonMethod<D>::polish(Real time, Point& point) {
+  constexpr Real exact = 1e-4;
+  Point trial;
+  if (!solve_tangent(time, point.u, r_, exact)) return;
+  trial.u = point.u;
+  add(trial.u, 1, s_);
+  if (!evaluate(time, trial, trial_r_)) return;
+  const Real before = sum_of_sizes(r_), after = sum_of_sizes(trial_r_);
+  if (!(after < before)) return;
+  left_ *= after / before;
+  point = std::move(trial);
+  r_.swap(trial_r_);
+}
+
+template void NewtonMethod<2>::iterate_mixed(const Start&, Solution&, Point&);
+template void NewtonMethod<3>::iterate_mixed(const Start&, Solution&, Point&);
+template void NewtonMethod<2>::factor_at(Real, const NodalVectors&);
+template void NewtonMethod<3>::factor_at(Real, const NodalVectors&);
+
+}  // namespace meniscus

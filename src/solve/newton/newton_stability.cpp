@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stability of equilibria, and the way from an unstable one.
+#include "numbers/random.hpp"
+#include "parallel/nodal_algebra.hpp"
+#include "solve/newton/newton_method.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace meniscus {
+
+/// The least eigenvalue of K x = lambda M x for the present factors of K, where M are the masses:
+/// the square of the lowest frequency. The iteration of Lanczos for the greatest eigenvalue of K^-1
+/// M, in the product of M.
+template <int D>
+Real NewtonMethod<D>::lowest_frequency() {
+  constexpr int fewest = 6, most = 40;
+  constexpr Real settled = 0.01;
+  const auto times_mass = [&](const NodalVectors& w, NodalVectors& Mw) {
+    for (Index A = 0; A < system_.size(); ++A) at(Mw, A) = at(system_.mass, A) * at(w, A);
+  };
+  const auto respond = [&](const NodalVectors& force, NodalVectors& w) {
+    factors_->apply(force, w);
+    free_.remove_from(w);
+  };
+  NodalVectors v = still_, before = still_, Mv = still_, w = still_;
+  std::mt19937_64 bits(61);
+  for (NodalVector& force : w)
+    for (int i = 0; i < D; ++i) force.set(i, symmetric_uniform(bits));
+  respond(w, v);
+  Lanczos seen;
+  Real beside = 0, greatest = 0;
+  for (int k = 0; k < most; ++k) {
+    times_mass(v, Mv);
+    const Real length = std::sqrt(dot(v, Mv));
+    if (!(length > 0)) break;
+    if (k > 0) seen.beside.push_back(beside = length);
+    for (NodalVector& x : v) x *= 1 / length;
+    for (NodalVector& x : Mv) x *= 1 / length;
+    respond(Mv, w);
+    const Real diagonal = dot(w, Mv);
+    seen.diagonal.push_back(-diagonal);
+    const Real now = -seen.least();
+    if (k + 1 >= fewest && now - greatest < settled * now) break;
+    greatest = now;
+    add(w, -diagonal, v);
+    add(w, -beside, before);
+    std::swap(before, v);
+    std::swap(v, w);
+  }
+  const Real found = seen.diagonal.empty() ? 0 : -seen.least();
+  return found > 0 ? 1 / found : unbounded;
+}
+
+template <int D>
+void NewtonMethod<D>::find_lowest_of_reference() {
+  if (lowest_ > 0) return;
+  const FreeMotions<D> here =
+      std::exchange(free_, FreeMotions<D>(system_, {0, still_, still_}, spacing_));
+  renew_factors(0, still_, {});
+  lowest_ = lowest_frequency();
+  free_ = here;
+}
+
+/// True if the equilibrium is stable. Forces of a symmetric scene have no component along modes
+/// that break the symmetry, so iterations that start with them never find such modes. Therefore
+/// these iterations start with random forces, whose numbers are the same on any machine, with any
+/// number of threads and processes. They end when the least eigenvalue hardly falls relative to its
+/// size; the nearer it is to zero, the more accurate it becomes.
+template <int D>
+bool NewtonMethod<D>::is_stable_at(Real time, const NodalVectors& u) {
+  constexpr Real neutral = 1e-6, settled = 0.15, all_gone = 1e-12;
+  constexpr std::size_t fewest = 12, apart = 4;  // numbers of iterations
+  std::mt19937_64 bits(61);
+  for (NodalVector& force : g_)
+    for (int i = 0; i < D; ++i) force.set(i, symmetric_uniform(bits));
+  free_.remove_from(g_);
+  Lanczos seen;
+  Real before = unbounded;
+  const bool bent = conjugate_gradients(time, u, seen, by_elements(), [&](Real first, Real left) {
+    if (left <= all_gone * first) return true;
+    const std::size_t k = seen.diagonal.size();
+    if (k % apart != 0) return false;
+    const Real least = seen.least();
+    const bool falls = std::exchange(before, least) - least > settled * least;
+    return k >= fewest && !falls;
+  });
+  stability_ = std::min(seen.diagonal.empty() ? unbounded : seen.least(), 1e3);
+  if (!(stability_ > -1e3)) stability_ = -1e3;  // also for NaN
+  // Round-off can give a free motion a small negative eigenvalue.
+  if (stability_ > -neutral) stability_ = std::max(stability_, 0.0);
+  return !bent || stability_ >= 0;
+}
+
+template <int D>
+Real NewtonMethod<D>::find_stability(Real time, const NodalVectors& u) {
+  prepare();
+  free_ = FreeMotions<D>(system_, {time, u, still_}, spacing_);
+  system_.add_up({time, u, still_}, r_);
+  is_stable_at(time, u);
+  return stability_;
+}
+
+/// Tests whether the equilibrium at `point` is stable. If not, moves `point` along the unstable
+/// mode and returns false, and Newton's method continues from there. Returns true if the
+/// equilibrium is stable, if `point` is a step of implicit Euler, if no lower energy is found along
+/// the mode, or after several unstable equilibria, whose energy is then flat to round-off.
+template <int D>
+bool NewtonMethod<D>::stays(Real time, Point& point, Solution& solution) {
+  constexpr int often = 3;
+  if (solution.mixed) factor_at(time, point.u);
+  if (solution.mixed && negative_ == 0) {
+    stability_ = std::min(lowest_frequency() / lowest_, 1e3);
+    return true;
+  }
+  // A step of implicit Euler need not be stable, because it is no equilibrium.
+  if (step_ || is_stable_at(time, point.u) || solution.saddles == often) return true;
+  solution.bent = true;
+  leave_saddle();
+  if (!search(time, point, 0)) return true;
+  ++solution.saddles;
+  return false;
+}
+
+template <int D>
+void NewtonMethod<D>::leave_saddle() {
+  s_ = p_;
+  if (dot(s_, r_) < 0)
+    for (NodalVector& w : s_) w = -1.0 * w;
+  const Real length = spacing_ / largest(s_);
+  for (NodalVector& w : s_) w *= length;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                             \
+  template void NewtonMethod<D>::find_lowest_of_reference();                \
+  template Real NewtonMethod<D>::find_stability(Real, const NodalVectors&); \
+  template bool NewtonMethod<D>::stays(Real, Point&, Solution&);            \
+  template void NewtonMethod<D>::leave_saddle();
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus
