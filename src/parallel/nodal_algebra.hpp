@@ -38,6 +38,12 @@ inline void copy(const NodalVectors& from, NodalVectors& to) {
   });
 }
 
+/// Sum of the lengths of all vectors.
+inline Real sum_of_sizes(const NodalVectors& w) {
+  return parallel_sum<Cost::little>(static_cast<Index>(w.size()), 0.0,
+                                    [&](Index A) { return std::sqrt(sum(at(w, A) * at(w, A))); });
+}
+
 /// The largest length of a vector.
 inline Real largest(const NodalVectors& w) {
   Real square = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Newton's method needs of the force of stresses beside its tangent: the tangent as a matrix,
-// and the pressures (quasi-statics note 10).
+// An interface of internal forces for Newton's method: the tangent as a matrix, and the pressures
+// (quasi-statics note 10).
 #pragma once
 #include "meniscus/physics/force_term.hpp"
 #include "numbers/dual.hpp"
@@ -9,9 +9,9 @@
 namespace meniscus {
 
 /// An optional interface of a force term. Stress points are in groups of up to four, one lane each,
-/// with the pressure p = P : F / (3 J) (positive in tension). "Off" is what the pressures of a
-/// tangent differ from those of the state. All processes call these functions, except announce()
-/// and the elements of add_stiffness(), for which the process must have all groups.
+/// with the pressure p = P : F / (3 J) (positive in tension). The numbers `off` are the pressures
+/// of a tangent less the pressures of the state. All processes call these functions, except
+/// announce() and the elements of add_stiffness(), for which the process must have all groups.
 class MixedForce {
  public:
   virtual ~MixedForce() = default;

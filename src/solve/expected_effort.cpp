@@ -53,8 +53,8 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
   effort.load_steps = load_steps;
   if (!euler && TangentFactors<D>::suit(system) &&
       !TangentFactors<D>::others_resist(system, motion)) {
-    // Counts of the notes: five iterations and the first guess, with 12 tangents each.
-    constexpr Real iterations = 6, tangents = 12;
+    // Five iterations and the first guess (quasi-statics note 10).
+    constexpr Real iterations = 6, tangents = D == 3 ? 15 : 5;
     std::optional<TangentFactors<D>> K;
     effort.set_up_seconds = seconds_of(1, [&] { K.emplace(system); });
     effort.by_factors = true;

@@ -115,7 +115,7 @@ void expect_inverse(Real lambda) {
   TangentFactors<D> K(body.one.system);
   const FreeMotions<D> free(body.one.system, body.at(body.u), 1);
   K.assemble(0, body.u, {});
-  // Of rotations at most, whose sign is that of forces that are not in balance.
+  // Only rotations can have negative eigenvalues, since forces are not in balance.
   EXPECT_LE(K.factor(K.small_shift()), D * (D - 1) / 2);
   NodalVectors w = test::random_field<D>(body.one.system.size(), 1, 9), z = w;
   free.remove_from(w);
@@ -205,8 +205,7 @@ std::string cook(int cells, Real ratio) {
       cells, 80.194 * ratio);
 }
 
-/// Iterations do not grow with the bulk modulus, and solutions converge to that of an
-/// incompressible body.
+/// Iterations do not grow with the bulk modulus, and solutions converge to an incompressible body.
 TEST(MixedNewton, TakesFewIterationsForAnyBulkModulus) {
   std::vector<Real> tips;
   for (const Real ratio : {1.5, 50.0, 5e3, 5e4}) {

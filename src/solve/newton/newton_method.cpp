@@ -244,8 +244,20 @@ typename NewtonMethod<D>::Solution NewtonMethod<D>::solve(const Start& start) {
   else if (!step_)
     solution.failure = pulled(start.time, point.u);
   if (solution.failure.empty()) iterate(start, solution, point);
+  if (solution.failure.empty() && !step_) solution.failure = forces_left(start.time, point.u);
   solution.u = std::move(point.u);
   return solution;
+}
+
+/// Describes forces that are left at a state where no energy is. Empty if they are small.
+template <int D>
+std::string NewtonMethod<D>::forces_left(Real time, const NodalVectors& u) {
+  constexpr Real bearable = 0.01;
+  const Real forces = sum_of_sizes(r_), loads = size_of_loads(time, u);
+  if (!(forces > bearable * loads)) return "";
+  return fmt::format(
+      "no step lowers the energy, but forces of {:.2g} of loads and reactions are left",
+      forces / loads);
 }
 
 /// Limits the direction to a few spacings; returns the factor by which it was too long, or 1.

@@ -111,6 +111,7 @@ class NewtonMethod {
   void find_lowest_of_reference();
   const HeldPreconditioner<D>& elements();
 
+  std::string forces_left(Real time, const NodalVectors& u);
   std::string pulled(Real time, const NodalVectors& u);
   bool begin_at(const Start& start, Point& point);
   /// Sets force and point.potential for point.u. Returns false if forces cannot be computed.

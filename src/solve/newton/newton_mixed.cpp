@@ -10,16 +10,6 @@
 #include <utility>
 
 namespace meniscus {
-namespace {
-
-/// Sum of the sizes of vectors.
-Real sum_of_sizes(const NodalVectors& w) {
-  return parallel_sum<Cost::little>(static_cast<Index>(w.size()), 0.0,
-                                    [&](Index A) { return std::sqrt(sum(at(w, A) * at(w, A))); });
-}
-
-}  // namespace
-
 /// The size of the forces that are in balance: of loads, of reactions, or, without any, a small
 /// part of the stresses.
 template <int D>
@@ -54,8 +44,8 @@ typename NewtonMethod<D>::Pressures NewtonMethod<D>::pressures(Real time, const 
   return all;
 }
 
-/// Assembles the tangent at `u` with the expected pressures, or with those of the state if
-/// `expected` is empty or gives negative eigenvalues, and factorises it. Rotations without a
+/// Assembles the tangent at `u` with the expected pressures, and factorises it. The pressures are
+/// the true ones if `expected` is empty, or if it gives negative eigenvalues. Rotations without a
 /// stiffness may have either sign while forces are not in balance.
 template <int D>
 void NewtonMethod<D>::renew_factors(Real time, const NodalVectors& u, const OfGroups& expected) {
@@ -125,9 +115,9 @@ typename NewtonMethod<D>::OfGroups NewtonMethod<D>::pressures_after(const Pressu
   return next;
 }
 
-/// Makes the step s_, or a part of it, if the judge agrees: with the tangent of the step, the
-/// forces after it ask for a shorter step, when the pressures are those that the step has led to
-/// expect. Returns false if no part is accepted.
+/// Makes the step s_, or a part of it. The judge computes the next step with the tangent of this
+/// one, from the forces after it, in which the expected pressures replace the true ones. It accepts
+/// a step if the next one is shorter. Returns false if it accepts no part.
 template <int D>
 bool NewtonMethod<D>::step_mixed(Real time, Point& point, OfGroups& expected) {
   constexpr int halvings = 6;
@@ -165,9 +155,9 @@ bool NewtonMethod<D>::step_mixed(Real time, Point& point, OfGroups& expected) {
   return false;
 }
 
-/// Newton's method with the pressures that the last step has led to expect in place of those of the
-/// state (quasi-statics note 10). The volume changes after a straight step are wrong in second
-/// order, and pressures by the bulk modulus times that; tangents with such pressures have negative
+/// Newton's method with expected pressures, to which the last step has led, in place of the true
+/// ones (quasi-statics note 10). The volume changes after a straight step are wrong in second
+/// order, and pressures by the bulk modulus times that. Tangents with such pressures have negative
 /// eigenvalues that belong to no instability. The iteration ends when the forces left are small
 /// beside loads and reactions.
 template <int D>
@@ -218,6 +208,8 @@ void NewtonMethod<D>::polish(Real time, Point& point) {
   r_.swap(trial_r_);
 }
 
+template Real NewtonMethod<2>::size_of_loads(Real, const NodalVectors&);
+template Real NewtonMethod<3>::size_of_loads(Real, const NodalVectors&);
 template void NewtonMethod<2>::iterate_mixed(const Start&, Solution&, Point&);
 template void NewtonMethod<3>::iterate_mixed(const Start&, Solution&, Point&);
 template void NewtonMethod<2>::factor_at(Real, const NodalVectors&);

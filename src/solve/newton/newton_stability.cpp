@@ -59,7 +59,7 @@ void NewtonMethod<D>::find_lowest_of_reference() {
   if (lowest_ > 0) return;
   const FreeMotions<D> here =
       std::exchange(free_, FreeMotions<D>(system_, {0, still_, still_}, spacing_));
-  renew_factors(0, still_, {});
+  factor_at(0, still_);
   lowest_ = lowest_frequency();
   free_ = here;
 }
@@ -104,9 +104,9 @@ Real NewtonMethod<D>::find_stability(Real time, const NodalVectors& u) {
 }
 
 /// Tests whether the equilibrium at `point` is stable. If not, moves `point` along the unstable
-/// mode and returns false, and Newton's method continues from there. Returns true if the
-/// equilibrium is stable, if `point` is a step of implicit Euler, if no lower energy is found along
-/// the mode, or after several unstable equilibria, whose energy is then flat to round-off.
+/// mode and returns false, and Newton's method continues from there. Returns true for a stable
+/// equilibrium and for a step of implicit Euler. Also returns true if no lower energy is found
+/// along the mode, or after several unstable equilibria, whose energy is then flat to round-off.
 template <int D>
 bool NewtonMethod<D>::stays(Real time, Point& point, Solution& solution) {
   constexpr int often = 3;
