@@ -43,7 +43,8 @@ std::vector<NodalVectors> rigid_motions(const std::vector<const Body<D>*>& bodie
 }  // namespace
 
 /// Finds the free motions. At a slightly disturbed state without symmetry, forces have no component
-/// along a free motion, and nearly always have one along a motion that is not free.
+/// along a free motion, and nearly always have one along a motion that is not free. Forces of
+/// different terms may balance each other along a translation, since constant forces do.
 template <int D>
 FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale) {
   constexpr Real disturbance = 1e-3, round_off = 1e-9;
@@ -60,18 +61,20 @@ FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale)
   }
   std::vector<Real> held(system.constraints ? static_cast<std::size_t>(system.constraints->rows())
                                             : 0);
-  const auto free = [&](const NodalVectors& mode) {
+  const auto free = [&](const NodalVectors& mode, bool translation) {
     if (system.constraints) system.constraints->apply(mode, held);
     for (const Real x : held)
       if (std::abs(x) > round_off * scale) return false;
+    Lanes all = Lanes::zero();
     for (const NodalVectors& f : forces) {
       const Lanes power = parallel_sum(system.size(), Lanes::zero(), [&](Index A) {
         const Lanes part = at(f, A) * at(mode, A);
         return Lanes(sum(part), sum(max(part, -1.0 * part)), 0, 0);
       });
-      if (std::abs(power[0]) > round_off * power[1]) return false;
+      if (!translation && std::abs(power[0]) > round_off * power[1]) return false;
+      all += power;
     }
-    return true;
+    return std::abs(all[0]) <= round_off * all[1];
   };
   const NodalVectors here(motion.u.begin(), motion.u.end());
   const auto keep_free = [&](const std::vector<const Body<D>*>& bodies) {
@@ -79,8 +82,8 @@ FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale)
     std::vector<NodalVectors> modes = rigid_motions<D>(bodies, here);
     bool all = true;
     for (std::size_t k = 0; k < modes.size(); ++k) {
-      if (free(nearby[k]))
-        add(std::move(modes[k]));
+      if (free(nearby[k], k < D))
+        rotations_ += add(std::move(modes[k])) && k >= D;
       else
         all = false;
     }
@@ -92,16 +95,16 @@ FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale)
   if (bound.size() > 1) keep_free(bound);
 }
 
-/// Adds a mode, unless it is a combination of the present modes.
 template <int D>
-void FreeMotions<D>::add(NodalVectors mode) {
+bool FreeMotions<D>::add(NodalVectors mode) {
   constexpr Real independent = 1e-6;
   const Real before = std::sqrt(dot(mode, mode));
   for (int pass = 0; pass < 2; ++pass) remove_from(mode);
   const Real size = std::sqrt(dot(mode, mode));
-  if (!(size > independent * before)) return;
+  if (!(size > independent * before)) return false;
   for (NodalVector& w : mode) w = w / size;
   modes_.push_back(std::move(mode));
+  return true;
 }
 
 template <int D>

@@ -6,8 +6,9 @@
 namespace meniscus {
 
 /// Rigid motions of bodies, or of groups of touching bodies, along which no term exerts a force in
-/// nearby states and no place is held. The tangent and its preconditioner are singular for these
-/// motions. They are coefficients, to first order about a motion.
+/// nearby states (translations: forces balance each other) and no place is held. The tangent and
+/// its preconditioner are singular for these motions. They are coefficients, to first order about a
+/// motion.
 template <int D>
 class FreeMotions {
  public:
@@ -18,14 +19,20 @@ class FreeMotions {
   FreeMotions(System<D>& system, const Motion& motion, Real scale);
 
   bool any() const { return !modes_.empty(); }
-  Index count() const { return static_cast<Index>(modes_.size()); }
+  Index rotations() const { return rotations_; }
+  /// True if there are as many of both kinds.
+  bool are_like(const FreeMotions& other) const {
+    return modes_.size() == other.modes_.size() && rotations_ == other.rotations_;
+  }
   /// Removes them from forces or displacements.
   void remove_from(NodalVectors& w) const;
 
  private:
-  void add(NodalVectors mode);
+  /// Adds a mode, unless it is a combination of the present modes. Returns true if it was added.
+  bool add(NodalVectors mode);
 
   std::vector<NodalVectors> modes_;  // orthonormal
+  Index rotations_ = 0;
 };
 
 }  // namespace meniscus

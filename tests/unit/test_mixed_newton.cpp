@@ -236,5 +236,23 @@ TEST(MixedNewton, TwistsARod) {
   EXPECT_NEAR(run.measure("grip.force_z") / force, 1, 0.05);
 }
 
+/// A bar that nothing holds, pulled at both ends by forces in balance: plane strain of a
+/// neo-Hookean body, mu (a - 1/a^3) = 1, nearly incompressible.
+TEST(MixedNewton, PullsAFreeBar) {
+  const auto face = [](const std::string& name, const std::string& force) {
+    return "[[traction]]\nname = \"" + name + "\"\nbody = \"bar\"\nface = \"" + name +
+           "\"\nforce = [\"" + force + "\", 0]\n";
+  };
+  const Solved<2> run(
+      "dimension = 2\n[time]\nsolver = \"newton\"\nend = 2\nstep = 1\n[[body]]\nname = \"bar\"\n"
+      "shape = \"rectangle\"\nsize = [4, 1]\ncells = [8, 3]\nmaterial = { type = \"neo_hookean\", "
+      "density = 1, mu = 1, lambda = 5000 }\n" +
+      face("x_max", "t/2") + face("x_min", "-t/2"));
+  EXPECT_LE(run.newton().iterations(), 2 * 6);
+  EXPECT_GT(run.newton().stability(), 0.1);
+  const Real stretch = run.measure("bar.extent_x") / 4;
+  EXPECT_NEAR(stretch - std::pow(stretch, -3), 1, 1e-3);
+}
+
 }  // namespace
 }  // namespace meniscus::test_mixed_newton

@@ -266,6 +266,10 @@ void StressPointForce<D, Rule>::add_stiffness(const Motion& motion, std::span<co
 }
 
 #define MENISCUS_INSTANTIATE(D, RULE)                                                              \
+  template Tensor<Dual<Lanes>> StressPointForce<D, RULE<D>>::stress_change(                        \
+      Index, Real, const Tensor<Dual<Lanes>>&, const Shared&) const;                               \
+  template Dual<Real> StressPointForce<D, RULE<D>>::stiffness_of_pressure(                         \
+      Index, Real, const Tensor<Lanes>&, const Shared&) const;                                     \
   template std::vector<Dual<Lanes>> StressPointForce<D, RULE<D>>::pressures(const Motion&,         \
                                                                             const Motion&) const;  \
   template void StressPointForce<D, RULE<D>>::add_pressure_tangent(                                \

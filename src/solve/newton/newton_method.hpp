@@ -154,7 +154,7 @@ class NewtonMethod {
   /// The state whose tangent is factored; without u if it is the tangent of no state.
   struct {
     Real time = 0;
-    Index free = 0;
+    FreeMotions<D> free;
     NodalVectors u;
   } factored_;
   Real lowest_ = 0;  // lowest_frequency() of the reference; 0: unknown

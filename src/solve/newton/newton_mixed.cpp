@@ -45,39 +45,39 @@ typename NewtonMethod<D>::Pressures NewtonMethod<D>::pressures(Real time, const 
 }
 
 /// Assembles the tangent at `u` with the expected pressures, and factorises it. The pressures are
-/// the true ones if `expected` is empty, or if it gives negative eigenvalues. Rotations without a
-/// stiffness may have either sign while forces are not in balance.
+/// the true ones if `expected` is empty, or if they give fewer negative eigenvalues.
 template <int D>
 void NewtonMethod<D>::renew_factors(Real time, const NodalVectors& u, const OfGroups& expected) {
   factored_.u.clear();
-  const auto renew = [&] {
+  const auto renew = [&](const OfGroups& off) {
+    off_ = off;
     factors_->assemble(time, u, off_);
+    // Free rotations may have either sign while forces are not in balance.
     const Index negative = factors_->factor(free_.any() ? factors_->small_shift() : 0);
-    negative_ = std::max(negative - free_.count(), 0);
+    return negative_ = std::max(negative - free_.rotations(), 0);
   };
-  off_.clear();
-  if (!expected.empty()) {
-    const Pressures here = pressures(time, u, still_);
-    off_ = expected;
-    for (std::size_t k = 0; k < off_.size(); ++k)
-      for (std::size_t g = 0; g < off_[k].size(); ++g) off_[k][g] = off_[k][g] - here[k][g].v;
-    renew();
-    if (negative_ == 0) return;
-    off_.clear();
+  if (expected.empty()) {
+    renew({});
+    return;
   }
-  renew();
+  OfGroups off = expected;
+  const Pressures here = pressures(time, u, still_);
+  for (std::size_t k = 0; k < off.size(); ++k)
+    for (std::size_t g = 0; g < off[k].size(); ++g) off[k][g] = off[k][g] - here[k][g].v;
+  const Index negative = renew(off);
+  if (negative > 0 && renew({}) >= negative) renew(off);
 }
 
 /// Factorises the tangent of a state, unless this was done last.
 template <int D>
 void NewtonMethod<D>::factor_at(Real time, const NodalVectors& u) {
-  if (factored_.time == time && factored_.free == free_.count() && factored_.u.size() == u.size()) {
+  if (factored_.time == time && factored_.free.are_like(free_) && factored_.u.size() == u.size()) {
     NodalVectors change = u;
     add(change, -1, factored_.u);
     if (largest(change) == 0) return;
   }
   renew_factors(time, u, {});
-  factored_ = {time, free_.count(), u};
+  factored_ = {time, free_, u};
 }
 
 /// Solves K z = r with the tangent of all forces to a part of the first residual. Returns false if

@@ -21,7 +21,8 @@ Real NewtonMethod<D>::lowest_frequency() {
   const auto times_mass = [&](const NodalVectors& w, NodalVectors& Mw) {
     for (Index A = 0; A < system_.size(); ++A) at(Mw, A) = at(system_.mass, A) * at(w, A);
   };
-  const auto respond = [&](const NodalVectors& force, NodalVectors& w) {
+  const auto respond = [&](NodalVectors force, NodalVectors& w) {
+    free_.remove_from(force);
     factors_->apply(force, w);
     free_.remove_from(w);
   };
