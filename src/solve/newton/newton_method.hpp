@@ -97,6 +97,7 @@ class NewtonMethod {
   using Pressures = std::vector<std::vector<Dual<Lanes>>>;
   static constexpr const char* too_far = "the next equilibrium is too far";
 
+  Real least_loads();
   Real size_of_loads(Real time, const NodalVectors& u);
   Pressures pressures(Real time, const NodalVectors& u, const NodalVectors& change);
   void renew_factors(Real time, const NodalVectors& u, const OfGroups& expected);
@@ -163,6 +164,7 @@ class NewtonMethod {
   NodalVectors still_, r_, trial_r_, s_, g_, z_, p_, q_, scaled_;
   std::vector<Real> lambda_;  // [row of the constraints]
   Real energy_scale_ = 0;     // largest energy that an iteration has released
+  Real least_loads_ = 0;      // 0: unknown
   Real left_ = 1;             // last decrement / energy_scale_
   Real stability_ = 0;
   std::int64_t iterations_ = 0, tangents_ = 0;

@@ -10,13 +10,28 @@
 #include <utility>
 
 namespace meniscus {
+/// Forces of displacements of a small part of a spacing. Round-off leaves a part of 1e-12 of them.
+template <int D>
+Real NewtonMethod<D>::least_loads() {
+  constexpr Real part = 1e-4;
+  if (least_loads_ == 0)
+    for (const Body<D>& body : system_.bodies) {
+      const ElasticModuli moduli = elastic_moduli(system_, body);
+      Real volume = 0;
+      for (Index A = 0; A < body.size(); ++A) volume += body.cells.volume(A);
+      least_loads_ +=
+          part * (moduli.lame + moduli.shear) * spacing_ * (D == 3 ? std::cbrt(volume) : 1);
+    }
+  return least_loads_;
+}
+
 /// The size of the forces that are in balance: of loads, of reactions, or, without any, a small
 /// part of the stresses.
 template <int D>
 Real NewtonMethod<D>::size_of_loads(Real time, const NodalVectors& u) {
   constexpr Real of_stresses = 1e-3;
   const Motion motion{time, u, still_};
-  Real size = 0;
+  Real size = least_loads();
   for (auto& term : system_.terms) {
     if (dynamic_cast<const MixedForce*>(term.get())) {
       size = std::max(size, of_stresses * term->uncancelled_force(motion));
@@ -208,6 +223,8 @@ void NewtonMethod<D>::polish(Real time, Point& point) {
   r_.swap(trial_r_);
 }
 
+template Real NewtonMethod<2>::least_loads();
+template Real NewtonMethod<3>::least_loads();
 template Real NewtonMethod<2>::size_of_loads(Real, const NodalVectors&);
 template Real NewtonMethod<3>::size_of_loads(Real, const NodalVectors&);
 template void NewtonMethod<2>::iterate_mixed(const Start&, Solution&, Point&);
