@@ -166,8 +166,8 @@ void StressPointForce<D, Rule>::announce(StiffnessMatrix& K) {
 /// The stiffness of a coupled cell, per volume, to the volume change that it shares, beyond its
 /// stiffness to the volume changes of its points. At small strains, the volume changes of a field
 /// and what Pi leaves of them are orthogonal, so that the energy of both is a sum: own^2 K and (1 -
-/// own^2) K (locking note 2). Here K is that of the present state: the change of w P for an even
-/// dilation.
+/// own^2) K (locking note 2). Here K is the change of w P for an even dilation of the present
+/// state.
 template <int D, class Rule>
 Dual<Real> StressPointForce<D, Rule>::stiffness_of_pressure(Index cell, Real time,
                                                             const Tensor<Lanes>& H,
