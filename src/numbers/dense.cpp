@@ -136,6 +136,15 @@ Real least_eigenvalue(const std::vector<Real>& diagonal, const std::vector<Real>
   return low;
 }
 
+Eigen::VectorXd least_eigenvector(const std::vector<Real>& diagonal,
+                                  const std::vector<Real>& beside) {
+  const auto n = static_cast<Eigen::Index>(diagonal.size());
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(Eigen::VectorXd::Map(diagonal.data(), n),
+                                Eigen::VectorXd::Map(beside.data(), n - 1));
+  return solver.eigenvectors().col(0);
+}
+
 Mat<3> best_rotation(const Mat<3>& moment) {
   const Eigen::JacobiSVD<Mat<3>> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat<3> sign = Mat<3>::Identity();

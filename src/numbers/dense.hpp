@@ -59,6 +59,9 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& S, const Eigen::VectorXd&
 /// The smallest eigenvalue of a symmetric tridiagonal matrix with n entries on the diagonal and the
 /// n - 1 entries `beside` on either side of it.
 Real least_eigenvalue(const std::vector<Real>& diagonal, const std::vector<Real>& beside);
+/// Its eigenvector, of length 1.
+Eigen::VectorXd least_eigenvector(const std::vector<Real>& diagonal,
+                                  const std::vector<Real>& beside);
 
 /// The rotation Q that brings the vectors Q A closest to the vectors B, with moment = sum w B A^T
 /// (Kabsch 1976, by singular values).

@@ -25,23 +25,34 @@ Index StiffnessMatrix::announce(std::span<const Index> nodes) {
   return static_cast<Index>(element_start_.size()) - 2;
 }
 
+void StiffnessMatrix::announce_column(Index node, std::vector<Index> particles) {
+  columns_.emplace_back(node, std::move(particles));
+}
+
 void StiffnessMatrix::close() {
   const auto elements = static_cast<Index>(element_start_.size()) - 1;
   std::vector<std::vector<Index>> elements_of(static_cast<std::size_t>(nodes())),
       neighbors(static_cast<std::size_t>(nodes()));
   for (Index e = 0; e < elements; ++e)
     for (const Index node : nodes_of(e)) at(elements_of, node).push_back(e);
+  for (const auto& [node, particles] : columns_)
+    for (const Index A : particles) {
+      at(neighbors, A).push_back(node);
+      at(neighbors, node).push_back(A);
+    }
   for_chunks(nodes(), [&](Index, Index begin, Index end) {
     std::vector<Index> seen(static_cast<std::size_t>(nodes()), -1);
     for (Index node = begin; node < end; ++node) {
-      std::vector<Index>& all = at(neighbors, node);
+      std::vector<Index> all;
       const auto take = [&](Index other) {
         if (std::exchange(at(seen, other), node) != node) all.push_back(other);
       };
       take(node);
       for (const Index e : at(elements_of, node))
         for (const Index other : nodes_of(e)) take(other);
+      for (const Index other : at(neighbors, node)) take(other);
       std::sort(all.begin(), all.end());
+      at(neighbors, node).swap(all);
     }
   });
   neighbor_start_.assign(1, 0);
@@ -78,14 +89,15 @@ void StiffnessMatrix::close() {
     }
 }
 
-void StiffnessMatrix::scatter(Index first, Index count) {
+void StiffnessMatrix::scatter(std::span<const Index> elements) {
   constexpr Index parts = 16;  // of the columns
   parallel_for(
       parts,
       [&](Index part) {
         const auto begin = static_cast<Index>(Offset{nodes()} * part / parts),
                    end = static_cast<Index>(Offset{nodes()} * (part + 1) / parts);
-        for (Index k = 0; k < count; ++k) scatter(first + k, at(room_, k), begin, end);
+        for (std::size_t k = 0; k < elements.size(); ++k)
+          scatter(elements[k], room_[k], begin, end);
       },
       1);
 }
@@ -125,8 +137,17 @@ void StiffnessMatrix::scatter(Index element, const Element& matrix, Index begin,
   }
 }
 
-/// Fills in the entries that elements do not give.
+void StiffnessMatrix::add_column(Index node, std::span<const NodalVector> vector) {
+  const Index column = at(first_of_, node);
+  for (Index e = at(column_start_, column); e < at(column_start_, column + 1); ++e)
+    if (const Index row = at(row_, e); row < particles_ * dimension_)
+      at(value_, e) += at(vector, row / dimension_)[row % dimension_];
+}
+
+/// Fills in the entries that elements and columns do not give.
 void StiffnessMatrix::complete() {
+  for (Index j = particles_ * dimension_; j < unknowns(); ++j)
+    if (Real& own = at(value_, at(diagonal_, j)); own == 0) own = -1;
   sweep(static_cast<Index>(value_.size()), [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e)
       if (at(source_, e) != e) at(value_, e) = at(value_, at(source_, e));

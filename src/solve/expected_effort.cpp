@@ -60,7 +60,7 @@ std::optional<ExpectedEffort> expected_effort(System<D>& system, const State& st
     effort.by_factors = true;
     effort.tangents_per_step = iterations;
     effort.seconds_per_tangent = tangents * effort.seconds_per_tangent + seconds_of(1, [&] {
-                                   K->assemble(state.time, state.u, {});
+                                   K->assemble(state.time, state.u, {}, {});
                                    K->factor(K->small_shift());
                                  });
   }

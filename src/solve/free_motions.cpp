@@ -46,7 +46,8 @@ std::vector<NodalVectors> rigid_motions(const std::vector<const Body<D>*>& bodie
 /// along a free motion, and nearly always have one along a motion that is not free. Forces of
 /// different terms may balance each other along a translation, since constant forces do.
 template <int D>
-FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale) {
+FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale,
+                            typename System<D>::Wanted wanted) {
   constexpr Real disturbance = 1e-3, round_off = 1e-9;
   NodalVectors u(motion.u.begin(), motion.u.end());
   const NodalVectors still(u.size(), Lanes::zero());
@@ -56,6 +57,7 @@ FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale)
                                 std::sin(static_cast<Real>(A) * (12.9898 + i * 7.31) + i));
   std::vector<NodalVectors> forces;
   for (auto& term : system.terms) {
+    if (!wanted(*term)) continue;
     forces.push_back(still);
     system.add_force(*term, {motion.time, u, still, motion.fields}, forces.back());
   }
@@ -83,7 +85,7 @@ FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale)
     bool all = true;
     for (std::size_t k = 0; k < modes.size(); ++k) {
       if (free(nearby[k], k < D))
-        rotations_ += add(std::move(modes[k])) && k >= D;
+        add(std::move(modes[k]));
       else
         all = false;
     }
@@ -96,15 +98,14 @@ FreeMotions<D>::FreeMotions(System<D>& system, const Motion& motion, Real scale)
 }
 
 template <int D>
-bool FreeMotions<D>::add(NodalVectors mode) {
+void FreeMotions<D>::add(NodalVectors mode) {
   constexpr Real independent = 1e-6;
   const Real before = std::sqrt(dot(mode, mode));
   for (int pass = 0; pass < 2; ++pass) remove_from(mode);
   const Real size = std::sqrt(dot(mode, mode));
-  if (!(size > independent * before)) return false;
+  if (!(size > independent * before)) return;
   for (NodalVector& w : mode) w = w / size;
   modes_.push_back(std::move(mode));
-  return true;
 }
 
 template <int D>

@@ -14,25 +14,22 @@ class FreeMotions {
  public:
   /// No motions.
   FreeMotions() = default;
-  /// Finds the free motions at `motion`, whose velocity is ignored. `scale` is the size of small
-  /// trial displacements.
-  FreeMotions(System<D>& system, const Motion& motion, Real scale);
+  /// Finds the free motions at `motion`, whose velocity is ignored, for the terms for which
+  /// wanted(term). `scale` is the size of small trial displacements.
+  FreeMotions(System<D>& system, const Motion& motion, Real scale,
+              typename System<D>::Wanted wanted = System<D>::every);
 
   bool any() const { return !modes_.empty(); }
-  Index rotations() const { return rotations_; }
-  /// True if there are as many of both kinds.
-  bool are_like(const FreeMotions& other) const {
-    return modes_.size() == other.modes_.size() && rotations_ == other.rotations_;
-  }
+  /// Orthonormal.
+  const std::vector<NodalVectors>& modes() const { return modes_; }
   /// Removes them from forces or displacements.
   void remove_from(NodalVectors& w) const;
 
  private:
-  /// Adds a mode, unless it is a combination of the present modes. Returns true if it was added.
-  bool add(NodalVectors mode);
+  /// Adds a mode, unless it is a combination of the present modes.
+  void add(NodalVectors mode);
 
-  std::vector<NodalVectors> modes_;  // orthonormal
-  Index rotations_ = 0;
+  std::vector<NodalVectors> modes_;
 };
 
 }  // namespace meniscus

@@ -6,9 +6,8 @@
 #include "numbers/dense.hpp"
 #include "one_body.hpp"
 #include "parallel/nodal_algebra.hpp"
-#include "run/simulation.hpp"
-#include "solve/newton/quasi_statics.hpp"
 #include "solve/step/central_difference.hpp"
+#include "solved.hpp"
 
 #include <gtest/gtest.h>
 
@@ -201,33 +200,6 @@ TEST(QuasiStatics, FindsTheStateThatALoadHolds) {
   }
 }
 
-/// A scene that has been run to its end.
-template <int D>
-struct Found {
-  Scene<D> scene;
-  Simulation<D> simulation;
-  std::vector<std::string> notes;
-
-  explicit Found(const std::string& text) : scene(test::scene_of<D>(text)), simulation(scene) {
-    simulation.begin();
-    while (!simulation.finished()) {
-      simulation.advance();
-      const Ledger ledger = simulation.audit_now();
-      for (const std::string& note : simulation.take_notes()) notes.push_back(note);
-      (void)ledger;
-    }
-  }
-  Ledger ledger() const { return take_ledger(scene.system, simulation.state()); }
-  const QuasiStatics<D>& newton() const {
-    return dynamic_cast<const QuasiStatics<D>&>(simulation.stepper());
-  }
-  Real measure(const std::string& name) const {
-    for (const MeasureSource& m : scene.measures)
-      if (m.name == name) return m.compute(simulation.state().motion());
-    throw std::logic_error(name);
-  }
-};
-
 std::string sheet(const std::string& time, const std::string& more) {
   return "dimension = 2\n[time]\nsolver = \"newton\"\n" + time +
          "[[body]]\nname = \"it\"\nshape = \"rectangle\"\nsize = [2, 1]\ncells = [6, 3]\n"
@@ -242,7 +214,7 @@ const std::string pull = "[[body_force]]\nbody = \"it\"\nacceleration = [\"0.3*x
 TEST(QuasiStatics, BooksTheWorkOfLoads) {
   std::vector<Real> errors;
   for (const std::string step : {"0.0625", "0.03125"}) {
-    Found<2> run(sheet("end = 1\nstep = " + step + "\n", pull));
+    test::Solved<2> run(sheet("end = 1\nstep = " + step + "\n", pull));
     const Ledger ledger = run.ledger();
     EXPECT_EQ(ledger.kinetic, 0);
     EXPECT_EQ(ledger.dissipated, 0);
@@ -257,10 +229,10 @@ TEST(QuasiStatics, BooksTheWorkOfLoads) {
 TEST(QuasiStatics, FindsWhatRelaxationFinds) {
   const std::string steady =
       "[[body_force]]\nbody = \"it\"\nacceleration = [\"0.3*x\", \"-0.1*y\"]\n";
-  Found<2> newton(sheet("end = 1\n", steady));
+  test::Solved<2> newton(sheet("end = 1\n", steady));
   std::string text = sheet("end = 1000\nforce_tolerance = 1e-8\nshape_tolerance = 1e-8\n", steady);
   text.replace(text.find("newton"), 6, "relax");
-  Found<2> relaxed(text);
+  test::Solved<2> relaxed(text);
   for (const std::string extent : {"it.extent_x", "it.extent_y"})
     EXPECT_NEAR(newton.measure(extent), relaxed.measure(extent), 1e-7) << extent;
   EXPECT_NEAR(newton.ledger().stored.at("strain") / relaxed.ledger().stored.at("strain"), 1, 1e-6);
@@ -286,15 +258,15 @@ std::string under_a_lid(const std::string& way) {
 /// equals the energy that both jumps release. If the lid does not come that near, there is no jump,
 /// and the way back equals the way there.
 TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
-  Found<2> jumps(under_a_lid("0.42"));
-  EXPECT_EQ(jumps.newton().jumps(), 2);
+  test::Solved<2> jumps(under_a_lid("0.42"));
+  EXPECT_EQ(jumps.quasi_statics().jumps(), 2);
   ASSERT_EQ(jumps.notes.size(), 2u);
   EXPECT_NE(jumps.notes.front().find("jump between t = 1.4"), std::string::npos)
       << jumps.notes.front();
   EXPECT_NE(jumps.notes.back().find("jump between t = 2.8"), std::string::npos)
       << jumps.notes.back();
-  Found<2> none(under_a_lid("0.3"));
-  EXPECT_EQ(none.newton().jumps(), 0);
+  test::Solved<2> none(under_a_lid("0.3"));
+  EXPECT_EQ(none.quasi_statics().jumps(), 0);
   const Ledger with = jumps.ledger(), without = none.ledger();
   // Both runs release the same energy at the start. The energy of the jumps was supplied by the
   // lid.
@@ -303,7 +275,7 @@ TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
   EXPECT_NEAR(with.external_work, released, 5e-4);
   EXPECT_NEAR(with.balance(), without.balance(), 5e-4);
   EXPECT_NEAR(without.external_work, 0, 1e-4);
-  EXPECT_GT(jumps.newton().method().stability(), 0);
+  EXPECT_GT(jumps.quasi_statics().method().stability(), 0);
 }
 
 /// A bar between held ends is stretched. The stress is the stress of uniform plane strain to the
@@ -311,7 +283,7 @@ TEST(QuasiStatics, BooksJumpsAndTheirHysteresis) {
 /// energy.
 TEST(QuasiStatics, StretchesAHeldBarUniformly) {
   const auto bar = [](const std::string& step) {
-    return Found<2>(
+    return test::Solved<2>(
         "dimension = 2\n[time]\nsolver = \"newton\"\nend = 1\nstep = " + step +
         "\n[[body]]\nname = \"bar\"\nshape = \"rectangle\"\nsize = [2, 1]\ncells = [6, 3]\n"
         "jitter = 0.2\n[body.material]\ntype = \"neo_hookean\"\ndensity = 1\nmu = 0.75\nlambda = "
@@ -320,7 +292,7 @@ TEST(QuasiStatics, StretchesAHeldBarUniformly) {
         "[[held]]\nname = \"right\"\nbody = \"bar\"\nface = \"x_max\"\ncomponents = [\"x\"]\n"
         "displacement = [\"0.4*t\", 0]\n");
   };
-  const Found<2> run = bar("0.0625");
+  const test::Solved<2> run = bar("0.0625");
   const Real stretch = run.measure("bar.extent_x") / 2, across = run.measure("bar.extent_y");
   EXPECT_NEAR(stretch, 1.2, 1e-8);
   // mu (b - 1/b) + lambda (J - 1) a = 0 across, with J = a b.
@@ -361,9 +333,9 @@ Real buckling_way() {
 /// follows from (pi a)^2/(4 L) = shortening beyond buckling.
 TEST(QuasiStatics, AStraightStrutBuckles) {
   const Real deflection = 2 * std::sqrt(10 * (0.14 - buckling_way())) / std::acos(-1.0);
-  Found<2> run(straight_strut("solver = \"newton\"\nend = 1\nstep = 0.125\n",
-                              "displacement = [\"-0.14*t\", 0]\n"));
-  EXPECT_GT(run.newton().method().stability(), 0);
+  test::Solved<2> run(straight_strut("solver = \"newton\"\nend = 1\nstep = 0.125\n",
+                                     "displacement = [\"-0.14*t\", 0]\n"));
+  EXPECT_GT(run.quasi_statics().method().stability(), 0);
   EXPECT_NEAR(run.measure("right.force_x") / -buckling_load(), 1, 0.03);
   EXPECT_NEAR((run.measure("strut.extent_y") - 0.5) / deflection, 1, 0.03);
   ASSERT_FALSE(run.notes.empty());
@@ -371,7 +343,7 @@ TEST(QuasiStatics, AStraightStrutBuckles) {
             std::string::npos)
       << run.notes.front();
   EXPECT_EQ(run.simulation.stepper().stability(run.simulation.state()),
-            run.newton().method().stability());
+            run.quasi_statics().method().stability());
 }
 
 /// Below the buckling load P_b the straight strut is stable. Its smallest stiffness, relative to
@@ -380,10 +352,10 @@ TEST(QuasiStatics, AStraightStrutBuckles) {
 TEST(QuasiStatics, KnowsHowFarAStrutIsFromBuckling) {
   for (const Real share : {0.7, 0.9, 1.7}) {
     const std::string way = "displacement = [" + std::to_string(-buckling_way() * share) + ", 0]\n";
-    std::list<Found<2>> runs;
+    std::list<test::Solved<2>> runs;
     runs.emplace_back(straight_strut("solver = \"relax\"\nend = 4000\n", way + "ramp = [0, 10]\n"));
     if (share < 1) runs.emplace_back(straight_strut("solver = \"newton\"\nend = 1\n", way));
-    for (Found<2>& run : runs) {
+    for (test::Solved<2>& run : runs) {
       EXPECT_TRUE(run.simulation.stepper().arrived());
       const Real least = run.simulation.stepper().stability(run.simulation.state()).value();
       if (share < 1)
@@ -424,7 +396,8 @@ TEST(QuasiStatics, RefusesByNameWhatHasNoLeastEnergy) {
 
 TEST(QuasiStatics, NamesTheForceThatNothingBalances) {
   try {
-    Found<2> run(sheet("end = 1\n", "[[body_force]]\nbody = \"it\"\nacceleration = [0.1, 0]\n"));
+    test::Solved<2> run(
+        sheet("end = 1\n", "[[body_force]]\nbody = \"it\"\nacceleration = [0.1, 0]\n"));
     FAIL();
   } catch (const SolveError& error) {
     EXPECT_NE(std::string(error.what()).find("net force (0.2, 0) on body 'it'"), std::string::npos)

@@ -10,6 +10,7 @@
 #include "parallel/ranks.hpp"
 #include "parallel/thread_ranks.hpp"
 #include "scene/key_reference.hpp"
+#include "stiffness_support.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
@@ -164,6 +165,36 @@ void expect_tangents() {
                 1e-5 * test::norm(change) + 1e-13 * test::norm(ahead));
     }
   });
+}
+
+/// Tangents as matrices, of forces other than those of stresses. Returns how many there are.
+template <int D>
+int expect_stiffness() {
+  int assembled = 0;
+  for_all<D>([&](const Case& c, Scene<D>& scene) {
+    const Index n = scene.system.size();
+    const NodalVectors u = test::random_field<D>(n, 0.01, 5), w = test::random_field<D>(n, 0.1, 7),
+                       still = test::zeros(u);
+    for (const auto& term : own_terms(c, scene)) {
+      auto* force = dynamic_cast<AssembledForce*>(term.get());
+      if (!force || !force->has_stiffness() || term->energy_kind() == "strain") continue;
+      SCOPED_TRACE(term->name());
+      NodalVectors tangent = still;
+      term->add_tangent({0.05, u, still}, {0, w, still}, tangent);
+      const NodalVectors matrix = test::assembled_tangent<D>(*force, {0.05, u, still}, w);
+      // The matrix leaves out errors of the quadrature of cavities. Fields of partners have
+      // differences for derivatives.
+      const Real exact = term->name().starts_with("cavity") ? 5e-3 : 1e-6;
+      EXPECT_LT(test::norm(test::sum_of(matrix, -1, tangent)), exact * test::norm(tangent));
+      assembled += test::norm(tangent) > 0;
+    }
+  });
+  return assembled;
+}
+
+TEST(Registered, AssembledTangentsAreTangents) {
+  EXPECT_GE(expect_stiffness<2>(), 3);
+  EXPECT_GE(expect_stiffness<3>(), 3);
 }
 
 TEST(Registered, TangentsAreTheChangeOfForces) {

@@ -5,6 +5,7 @@
 #include "physics/loads/body_force.hpp"
 #include "physics/loads/cavity.hpp"
 #include "physics/surface/surface_tension.hpp"
+#include "stiffness_support.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
@@ -66,6 +67,14 @@ void expect_tangent(ForceTerm& term, Index size) {
   const NodalVectors both = tangent_of(term, at, sum_of(change, -0.5, other));
   const NodalVectors sum = test::sum_of(tangent, -0.5, tangent_of(term, at, other));
   EXPECT_LT(test::norm(test::sum_of(both, -1, sum)), 1e-12 * test::norm(sum));
+  auto* assembled = dynamic_cast<AssembledForce*>(&term);
+  if (assembled && assembled->has_stiffness() && term.energy_kind() != "strain") {
+    const NodalVectors still = test::zeros(at.u);
+    const NodalVectors of_u = tangent_of(term, {at.u, still}, {change.u, still});
+    EXPECT_LT(test::norm(test::sum_of(
+                  test::assembled_tangent<D>(*assembled, {0.3, at.u, still}, change.u), -1, of_u)),
+              (term.name().starts_with("cavity") ? 5e-3 : 1e-6) * test::norm(of_u));
+  }
   // The tangent of an energy is symmetric for displacements; viscous forces have no energy.
   if (!term.stored_energy(at.motion())) return;
   const Fields still{at.u, test::zeros(at.u)};

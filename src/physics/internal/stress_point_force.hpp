@@ -6,10 +6,10 @@
 #include "body/grid/stress_rules.hpp"
 #include "body/surface/surface_patches.hpp"
 #include "meniscus/physics/force_term.hpp"
+#include "physics/assembled_force.hpp"
 #include "physics/internal/averaged_volumes.hpp"
 #include "physics/internal/point_laws.hpp"
 #include "physics/internal/stress_output.hpp"
-#include "physics/mixed_force.hpp"
 
 namespace meniscus {
 
@@ -33,7 +33,7 @@ class KeptDeformations {
 
 /// The common part of internal forces. `Rule` is CellRule<D> or PointRule<D>.
 template <int D, class Rule>
-class StressPointForce : public ForceTerm, public MixedForce {
+class StressPointForce : public ForceTerm, public AssembledForce {
  public:
   std::string name() const final { return "internal force of '" + body_.name + "'"; }
   std::string_view energy_kind() const final { return "strain"; }
@@ -59,15 +59,14 @@ class StressPointForce : public ForceTerm, public MixedForce {
   Offset pairs() const final { return chunk_sums_.pairs() + (surface_ ? surface_->pairs() : 0); }
 
   bool has_stiffness() const final { return !surface_; }
-  std::vector<Dual<Lanes>> pressures(const Motion& motion, const Motion& change) const final;
+  std::vector<Dual<Lanes>> pressures(const Motion& motion, const Motion& change) final;
   void add_pressure_tangent(const Motion& motion, const Motion& change, std::span<const Lanes> off,
                             Forces force) final;
   void subtract_pressure_force(const Motion& motion, const Motion& change,
                                std::span<const Lanes> off, Forces force) final;
-  Real squared_gradients(const Motion& motion) const final;
+  Real squared_gradients(const Motion& motion) final;
   void announce(StiffnessMatrix& K) final;
-  void add_stiffness(const Motion& motion, std::span<const Lanes> off,
-                     StiffnessMatrix& K) const final;
+  void add_stiffness(const Motion& motion, std::span<const Lanes> off, StiffnessMatrix& K) final;
 
  protected:
   StressPointForce(const Body<D>& body, Rule rule, std::unique_ptr<PointLaws> laws,

@@ -65,7 +65,7 @@ Tensor<Dual<Lanes>> StressPointForce<D, Rule>::stress_change(Index group, Real t
 
 template <int D, class Rule>
 std::vector<Dual<Lanes>> StressPointForce<D, Rule>::pressures(const Motion& motion,
-                                                              const Motion& change) const {
+                                                              const Motion& change) {
   const NodalVector *u = motion.u.data() + body_.first, *du = change.u.data() + body_.first;
   std::vector<Dual<Lanes>> p(static_cast<std::size_t>(rule_.groups()));
   const Gathered all{p.data(), body_.division.rows(rule_.groups())};
@@ -140,7 +140,7 @@ void StressPointForce<D, Rule>::subtract_pressure_force(const Motion& motion, co
 }
 
 template <int D, class Rule>
-Real StressPointForce<D, Rule>::squared_gradients(const Motion& motion) const {
+Real StressPointForce<D, Rule>::squared_gradients(const Motion& motion) {
   const NodalVector* u = motion.u.data() + body_.first;
   return body_.sum_over_rows(rule_.groups(), 0.0, [&](Index g) {
     const Tensor<Lanes> H = gradients(g, u);
@@ -200,7 +200,7 @@ Dual<Real> StressPointForce<D, Rule>::stiffness_of_pressure(Index cell, Real tim
 /// Phi is exact here, while the force has a polynomial for the inverse of Phi^T W Phi.
 template <int D, class Rule>
 void StressPointForce<D, Rule>::add_stiffness(const Motion& motion, std::span<const Lanes> off,
-                                              StiffnessMatrix& K) const {
+                                              StiffnessMatrix& K) {
   constexpr Real least_share = 1e-3;
   const NodalVector* u = motion.u.data() + body_.first;
   const Shared shared = shared_by_cells(motion);
@@ -271,15 +271,15 @@ void StressPointForce<D, Rule>::add_stiffness(const Motion& motion, std::span<co
   template Dual<Real> StressPointForce<D, RULE<D>>::stiffness_of_pressure(                         \
       Index, Real, const Tensor<Lanes>&, const Shared&) const;                                     \
   template std::vector<Dual<Lanes>> StressPointForce<D, RULE<D>>::pressures(const Motion&,         \
-                                                                            const Motion&) const;  \
+                                                                            const Motion&);        \
   template void StressPointForce<D, RULE<D>>::add_pressure_tangent(                                \
       const Motion&, const Motion&, std::span<const Lanes>, Forces);                               \
   template void StressPointForce<D, RULE<D>>::subtract_pressure_force(                             \
       const Motion&, const Motion&, std::span<const Lanes>, Forces);                               \
-  template Real StressPointForce<D, RULE<D>>::squared_gradients(const Motion&) const;              \
+  template Real StressPointForce<D, RULE<D>>::squared_gradients(const Motion&);                    \
   template void StressPointForce<D, RULE<D>>::announce(StiffnessMatrix&);                          \
   template void StressPointForce<D, RULE<D>>::add_stiffness(const Motion&, std::span<const Lanes>, \
-                                                            StiffnessMatrix&) const;
+                                                            StiffnessMatrix&);
 MENISCUS_INSTANTIATE(2, CellRule)
 MENISCUS_INSTANTIATE(3, CellRule)
 MENISCUS_INSTANTIATE(2, PointRule)

@@ -2,6 +2,7 @@
 // Cavity: the force of a filling on the surface around it.
 #include "physics/loads/cavity.hpp"
 
+#include "physics/assembled_force.hpp"
 #include "physics/loads/cavity_gap.hpp"
 
 #include <fmt/core.h>
@@ -13,7 +14,7 @@ namespace meniscus {
 namespace {
 
 template <int D>
-class Cavity final : public ForceTerm {
+class Cavity final : public ForceTerm, public AssembledForce {
  public:
   Cavity(const Body<D>& body, SurfacePart part, const CavityFilling& filling, int points)
       : surface_(body, part, points), filling_(filling) {
@@ -41,18 +42,51 @@ class Cavity final : public ForceTerm {
 
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     if (vented()) return;
-    const Body<D>& body = surface_.body();
-    // The volume is a cubic polynomial of the positions, so central differences of its gradient are
-    // exact.
-    const NodalVectors here = volume_gradient(motion, 0, change),
-                       ahead = volume_gradient(motion, 1, change),
-                       behind = volume_gradient(motion, -1, change);
-    const Real dV = parallel_sum(
-        body.size(), 0.0, [&](Index A) { return sum(at(here, A) * at(change.u, body.first + A)); });
+    const NodalVectors gradient = volume_gradient(motion, 0, change);
     const Real p = pressure(motion.time, volume(motion));
-    const Real dp = filling_.pressure ? 0 : -filling_.penalty / reference_volume_ * dV;
-    for (Index A = 0; A < body.size(); ++A)
-      at(force, body.first + A) += dp * at(here, A) + p / 2 * (at(ahead, A) - at(behind, A));
+    add_gradient_change(motion, change, p, force);
+    const Real dp = pressure_change(gradient, change);
+    for (Index A = 0; A < surface_.body().size(); ++A)
+      at(force, surface_.body().first + A) += dp * at(gradient, A);
+  }
+
+  bool has_stiffness() const override { return !vented(); }
+  void announce(StiffnessMatrix& K) override {
+    surface_.announce(K);
+    if (!has_content()) return;
+    pressure_node_ = K.add_nodes(1);
+    K.announce_column(pressure_node_, surface_.particles());
+  }
+  /// The pressure of a content is an unknown of its own: [-p d2V, dV; dV, -V0/penalty].
+  void add_stiffness(const Motion& motion, std::span<const Lanes> off,
+                     StiffnessMatrix& K) override {
+    const auto placed = surface_.placed(motion);
+    const Real p = pressure(motion.time, placed.size.volume) + (off.empty() ? 0 : off[0][0]);
+    surface_.add_volume_stiffness(placed, -p, K);
+    if (!has_content()) return;
+    const NodalVectors gradient = volume_gradient(motion, 0, motion);
+    if (!K.is_here()) return;
+    NodalVectors column(motion.u.size(), Lanes::zero());
+    std::copy(gradient.begin(), gradient.end(), column.begin() + surface_.body().first);
+    K.add_column(pressure_node_, column);
+    K.add_to_diagonal(pressure_node_, -reference_volume_ / filling_.penalty);
+  }
+  std::vector<Dual<Lanes>> pressures(const Motion& motion, const Motion& change) override {
+    if (!has_content()) return {};
+    return {{Lanes(pressure(motion.time, volume(motion)), 0, 0, 0),
+             Lanes(pressure_change(volume_gradient(motion, 0, change), change), 0, 0, 0)}};
+  }
+  void add_pressure_tangent(const Motion& motion, const Motion& change, std::span<const Lanes> off,
+                            Forces force) override {
+    if (has_content()) add_gradient_change(motion, change, off[0][0], force);
+  }
+  void subtract_pressure_force(const Motion& motion, const Motion& change,
+                               std::span<const Lanes> off, Forces force) override {
+    if (!has_content()) return;
+    const NodalVectors here = volume_gradient(motion, 0, change),
+                       there = volume_gradient(motion, 1, change);
+    for (Index A = 0; A < surface_.body().size(); ++A)
+      at(force, surface_.body().first + A) -= off[0][0] * (at(there, A) - at(here, A));
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
@@ -94,6 +128,23 @@ class Cavity final : public ForceTerm {
  private:
   bool vented() const { return !filling_.pressure && !filling_.volume_target; }
   Real volume(const Motion& motion) const { return surface_.size(motion).volume; }
+  bool has_content() const { return filling_.volume_target.has_value(); }
+  /// force += factor times the change of dV/dd. The volume is a cubic polynomial of the positions,
+  /// so central differences of its gradient are exact.
+  void add_gradient_change(const Motion& motion, const Motion& change, Real factor, Forces force) {
+    const NodalVectors ahead = volume_gradient(motion, 1, change),
+                       behind = volume_gradient(motion, -1, change);
+    for (Index A = 0; A < surface_.body().size(); ++A)
+      at(force, surface_.body().first + A) += factor / 2 * (at(ahead, A) - at(behind, A));
+  }
+  /// The derivative of the pressure, at constant time.
+  Real pressure_change(const NodalVectors& gradient, const Motion& change) const {
+    const Body<D>& body = surface_.body();
+    const Real dV = parallel_sum(body.size(), 0.0, [&](Index A) {
+      return sum(at(gradient, A) * at(change.u, body.first + A));
+    });
+    return has_content() ? -filling_.penalty / reference_volume_ * dV : 0;
+  }
   /// Gradient dV/dd_A for the particles of the body, at the displacements u + s du.
   NodalVectors volume_gradient(const Motion& motion, Real s, const Motion& change) {
     NodalVectors u(motion.u.begin(), motion.u.end());
@@ -132,10 +183,11 @@ class Cavity final : public ForceTerm {
                     gap.width)};
   }
 
-  ClosedSurface<D> surface_;
+  mutable ClosedSurface<D> surface_;       // sums of chunks
   typename ClosedSurface<D>::Placed now_;  // surface at the motion of the last force
   CavityFilling filling_;
   Real reference_volume_ = 0;
+  Index pressure_node_ = -1;
   std::optional<CavityGap<D>> gap_;
 };
 

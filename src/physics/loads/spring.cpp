@@ -4,6 +4,8 @@
 
 #include "kernel/row_sums.hpp"
 #include "numbers/dense.hpp"
+#include "physics/assembled_force.hpp"
+#include "physics/point_elements.hpp"
 
 #include <algorithm>
 
@@ -11,7 +13,7 @@ namespace meniscus {
 namespace {
 
 template <int D>
-class Spring final : public ForceTerm {
+class Spring final : public ForceTerm, public AssembledForce {
  public:
   Spring(const Body<D>& body, std::string label, Springs<D> springs)
       : body_(body), label_(std::move(label)), springs_(std::move(springs)) {
@@ -53,6 +55,19 @@ class Spring final : public ForceTerm {
                   at(springs_.damping, k) * mean(change.v, k),
               force);
   }
+  void announce(StiffnessMatrix& K) override {
+    std::vector<std::vector<Index>> each;
+    for (Index k = 0; k < size(); ++k) each.push_back({k});
+    elements_.announce(springs_.mean, std::move(each), body_.first, K);
+  }
+  void add_stiffness(const Motion&, std::span<const Lanes>, StiffnessMatrix& K) override {
+    if (!K.is_here()) return;
+    elements_.add(springs_.mean, K, [&](Index k, Eigen::MatrixXd& stiffness) {
+      for (int i = 0; i < D; ++i)
+        stiffness(i, i) = at(springs_.stiffness, k) * springs_.components[i];
+    });
+  }
+
   bool viscous() const override { return viscous_; }
   void add_viscous(const Motion& motion, Forces force) override {
     for (Index k = 0; k < size(); ++k)
@@ -122,6 +137,7 @@ class Spring final : public ForceTerm {
   Springs<D> springs_;
   NodalVectors target_, X_;
   Lanes components_ = Lanes::zero();
+  MeanElements<D> elements_;
   bool viscous_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include "body/body.hpp"
 #include "body/surface/surface_points.hpp"
 #include "meniscus/physics/force_term.hpp"
+#include "physics/point_elements.hpp"
 
 namespace meniscus {
 
@@ -52,6 +53,14 @@ class ClosedSurface {
   /// force_A += factor dV/dd_A over the particles A of the body.
   void add_volume_gradient(const Placed& placed, Real factor, const ForceVector& force);
 
+  /// Elements for the second derivatives of V; those of the means of positions and area vectors are
+  /// left out. They are errors of the quadrature, since sum w_q m_q is zero on a closed surface.
+  void announce(StiffnessMatrix& K) { elements_.announce(rule_, body_.first, K); }
+  /// The particles on which the volume depends.
+  std::vector<Index> particles() const;
+  /// K += factor d2V/dd2.
+  void add_volume_stiffness(const Placed& placed, Real factor, StiffnessMatrix& K) const;
+
   const Body<D>& body() const { return body_; }
   const SurfacePoints<D>& reference() const { return reference_; }
   /// The particle with the largest shape function at a point, numbered in the body.
@@ -76,6 +85,7 @@ class ClosedSurface {
   PointRule<D> rule_;
   ChunkSums chunk_sums_;
   AlignedVector<Lanes> X_, N_;  // [group][k], X from origin_
+  PointElements<D> elements_;
 };
 
 }  // namespace meniscus

@@ -227,17 +227,11 @@ typename NewtonMethod<D>::Solution NewtonMethod<D>::solve(const Start& start) {
     if (!factors_) factors_.emplace(system_);
     iterate_mixed(start, solution, point);
     off_.clear();
-    const bool at_rest = solution.failure.empty();
-    solution.mixed = at_rest;
-    if (at_rest && !stays(start.time, point, solution)) {
-      solution.mixed = false;
-      iterate(start, solution, point);
-    }
-    if (at_rest || !start.last_resort) {
-      solution.u = std::move(point.u);
-      return solution;
-    }
-    solution = Solution();
+    if (!solution.failure.empty())
+      if (const std::string cause = pulled(start.time, point.u); !cause.empty())
+        solution.failure = cause;
+    solution.u = std::move(point.u);
+    return solution;
   }
   if (!begin_at(start, point))
     solution.failure = "forces cannot be computed there: " + broken_;

@@ -44,7 +44,6 @@ class NewtonMethod {
     const NodalVectors* expected;  ///< a better guess, used if its forces can be computed; or null
     Real idle = 0;                 ///< energy that may be left
     Real before = time;            ///< time of the previous state
-    bool last_resort = true;       ///< no shorter load step will be tried
   };
   struct Solution {
     NodalVectors u;
@@ -53,6 +52,7 @@ class NewtonMethod {
     int saddles = 0;      ///< number of unstable equilibria that were found and left
     bool stuck = false;   ///< a force is left, but no step lowers the energy
     bool mixed = false;   ///< found with factors of the tangent
+    bool flat = false;    ///< forces are left along a valley in which the energy hardly changes
     std::string failure;  ///< why there is no solution; empty if there is one
     /// True if the solution may be far from the previous state.
     bool winding() const;
@@ -99,14 +99,18 @@ class NewtonMethod {
 
   Real least_loads();
   Real size_of_loads(Real time, const NodalVectors& u);
+  Real energy_of_bodies(Real time, const NodalVectors& u);
   Pressures pressures(Real time, const NodalVectors& u, const NodalVectors& change);
-  void renew_factors(Real time, const NodalVectors& u, const OfGroups& expected);
+  void renew_factors(Real time, const NodalVectors& u, const OfGroups& expected, Real shift);
   void factor_at(Real time, const NodalVectors& u);
   bool solve_tangent(Real time, const NodalVectors& u, const NodalVectors& r, Real share);
   Real gradients(const NodalVectors& w);
   OfGroups pressures_after(const Pressures& along, Real a, const OfGroups& expected);
   bool step_mixed(Real time, Point& point, OfGroups& expected);
-  void polish(Real time, Point& point);
+  bool step_downhill(Real time, Point& point, Real& shift);
+  void polish(Real time, Solution& solution, Point& point);
+  void approach(Real time, Solution& solution, Point& point, OfGroups expected);
+  bool begin_mixed(const Start& start, Point& point, OfGroups& expected);
   void iterate_mixed(const Start& start, Solution& solution, Point& point);
   Real lowest_frequency();
   void find_lowest_of_reference();

@@ -33,7 +33,7 @@ Real NewtonMethod<D>::size_of_loads(Real time, const NodalVectors& u) {
   const Motion motion{time, u, still_};
   Real size = least_loads();
   for (auto& term : system_.terms) {
-    if (dynamic_cast<const MixedForce*>(term.get())) {
+    if (TangentFactors<D>::is_internal(*term)) {
       size = std::max(size, of_stresses * term->uncancelled_force(motion));
     } else {
       z_ = still_;
@@ -49,12 +49,21 @@ Real NewtonMethod<D>::size_of_loads(Real time, const NodalVectors& u) {
   return size;
 }
 
+template <int D>
+Real NewtonMethod<D>::energy_of_bodies(Real time, const NodalVectors& u) {
+  Real sum = 0;
+  for (const auto& term : system_.terms)
+    if (TangentFactors<D>::is_internal(*term))
+      sum += term->stored_energy({time, u, still_}).value_or(0);
+  return sum;
+}
+
 /// The pressures at `u` and their derivatives along `change`.
 template <int D>
 typename NewtonMethod<D>::Pressures NewtonMethod<D>::pressures(Real time, const NodalVectors& u,
                                                                const NodalVectors& change) {
   Pressures all;
-  for (const MixedForce* force : factors_->forces())
+  for (AssembledForce* force : factors_->forces())
     all.push_back(force->pressures({time, u, still_}, {time, change, still_}));
   return all;
 }
@@ -62,14 +71,13 @@ typename NewtonMethod<D>::Pressures NewtonMethod<D>::pressures(Real time, const 
 /// Assembles the tangent at `u` with the expected pressures, and factorises it. The pressures are
 /// the true ones if `expected` is empty, or if they give fewer negative eigenvalues.
 template <int D>
-void NewtonMethod<D>::renew_factors(Real time, const NodalVectors& u, const OfGroups& expected) {
+void NewtonMethod<D>::renew_factors(Real time, const NodalVectors& u, const OfGroups& expected,
+                                    Real shift) {
   factored_.u.clear();
   const auto renew = [&](const OfGroups& off) {
     off_ = off;
-    factors_->assemble(time, u, off_);
-    // Free rotations may have either sign while forces are not in balance.
-    const Index negative = factors_->factor(free_.any() ? factors_->small_shift() : 0);
-    return negative_ = std::max(negative - free_.rotations(), 0);
+    factors_->assemble(time, u, off_, free_);
+    return negative_ = factors_->factor(shift);
   };
   if (expected.empty()) {
     renew({});
@@ -86,33 +94,36 @@ void NewtonMethod<D>::renew_factors(Real time, const NodalVectors& u, const OfGr
 /// Factorises the tangent of a state, unless this was done last.
 template <int D>
 void NewtonMethod<D>::factor_at(Real time, const NodalVectors& u) {
-  if (factored_.time == time && factored_.free.are_like(free_) && factored_.u.size() == u.size()) {
+  if (factored_.time == time && factored_.free.modes().size() == free_.modes().size() &&
+      factored_.u.size() == u.size()) {
     NodalVectors change = u;
     add(change, -1, factored_.u);
     if (largest(change) == 0) return;
   }
-  renew_factors(time, u, {});
+  renew_factors(time, u, {}, factors_->least_shift());
   factored_ = {time, free_, u};
 }
 
-/// Solves K z = r with the tangent of all forces to a part of the first residual. Returns false if
-/// the tangent is not positive.
+/// Solves K z = r with the tangent of all forces to a part of the first residual, or less exactly
+/// where it is nearly singular. Returns false if the tangent is not positive.
 template <int D>
 bool NewtonMethod<D>::solve_tangent(Real time, const NodalVectors& u, const NodalVectors& r,
                                     Real share) {
+  constexpr std::size_t most = 40;
   g_ = r;
   Lanczos seen;
   return !conjugate_gradients(
       time, u, seen, [&](const NodalVectors& f, NodalVectors& z) { factors_->apply(f, z); },
-      [&](Real first, Real left) { return left <= share * share * first; });
+      [&](Real first, Real left) {
+        return left <= share * share * first || seen.diagonal.size() == most;
+      });
 }
 
 /// Root of the integral of |grad w|^2.
 template <int D>
 Real NewtonMethod<D>::gradients(const NodalVectors& w) {
   Real sum = 0;
-  for (const MixedForce* force : factors_->forces())
-    sum += force->squared_gradients({0, w, still_});
+  for (AssembledForce* force : factors_->forces()) sum += force->squared_gradients({0, w, still_});
   return std::sqrt(sum);
 }
 
@@ -170,6 +181,63 @@ bool NewtonMethod<D>::step_mixed(Real time, Point& point, OfGroups& expected) {
   return false;
 }
 
+/// Makes a step downhill from a state whose tangent has negative eigenvalues. The tangent gets a
+/// shift that makes it positive, at most twice as large as needed; the search begins with the last
+/// shift. Returns false if no part of the step lowers the energy.
+template <int D>
+bool NewtonMethod<D>::step_downhill(Real time, Point& point, Real& shift) {
+  constexpr int most = 50;
+  constexpr Real beginning = 10;
+  if (!off_.empty()) renew_factors(time, point.u, {}, factors_->small_shift());
+  const Real least = beginning * factors_->small_shift();
+  if (shift == 0) shift = least;
+  bool positive = factors_->factor(shift) == 0;
+  while (positive && shift > least) {
+    positive = factors_->factor(shift / 2) == 0;
+    if (positive) shift /= 2;
+  }
+  for (int k = 0; k < most && !positive; ++k) {
+    positive = factors_->factor(shift) == 0;
+    if (!positive) shift *= 2;
+  }
+  factors_->apply(r_, s_);
+  free_.remove_from(s_);
+  const Real decrement = 0.5 * dot(s_, r_);
+  return decrement > 0 && search(time, point, decrement / shorten_direction());
+}
+
+/// Places a point at the previous state, with held places where they are now. If forces cannot be
+/// computed there, the point moves with the change of the forces in time, to first order. Sets the
+/// pressures to expect. Returns false if forces cannot be computed there either.
+template <int D>
+bool NewtonMethod<D>::begin_mixed(const Start& start, Point& point, OfGroups& expected) {
+  constexpr Real part = 1e-4;
+  point.u = start.u;
+  factor_at(start.before, point.u);
+  factors_->meet(start.time, point.u);
+  const auto moved = [&] {
+    NodalVectors way = point.u;
+    add(way, -1, start.u);
+    return way;
+  };
+  if (evaluate(start.time, point, r_)) {
+    expected = pressures_after(pressures(start.before, start.u, moved()), 1, {});
+    return true;
+  }
+  const Real dt = start.time - start.before;
+  Point before{start.u, 0}, after = before;
+  if (!(dt > 0) || !evaluate(start.before, before, r_) ||
+      !evaluate(start.before + part * dt, after, trial_r_))
+    return false;
+  add(trial_r_, -1, r_);
+  for (NodalVector& f : trial_r_) f *= 1 / part;
+  factors_->apply(trial_r_, s_);
+  free_.remove_from(s_);
+  add(point.u, 1, s_);
+  expected = pressures_after(pressures(start.time, start.u, moved()), 1, {});
+  return evaluate(start.time, point, r_);
+}
+
 /// Newton's method with expected pressures, to which the last step has led, in place of the true
 /// ones (quasi-statics note 10). The volume changes after a straight step are wrong in second
 /// order, and pressures by the bulk modulus times that. Tangents with such pressures have negative
@@ -177,40 +245,55 @@ bool NewtonMethod<D>::step_mixed(Real time, Point& point, OfGroups& expected) {
 /// beside loads and reactions.
 template <int D>
 void NewtonMethod<D>::iterate_mixed(const Start& start, Solution& solution, Point& point) {
-  constexpr int most = 25;
-  constexpr Real exact = 1e-4, acceptable = 1e-6;
+  solution.mixed = true;
   find_lowest_of_reference();
-  point.u = start.u;
-  factor_at(start.before, point.u);
-  factors_->meet(start.time, point.u);
-  solution.failure = too_far;  // until the iteration ends
-  if (!evaluate(start.time, point, r_)) return;
   OfGroups expected;
-  NodalVectors moved = point.u;
-  add(moved, -1, start.u);
-  if (largest(moved) > 0)
-    expected = pressures_after(pressures(start.time, start.u, moved), 1, expected);
-  for (; solution.iterations < most; ++solution.iterations) {
-    if (asked_to_stop_()) throw Interrupted();
-    const Real forces = sum_of_sizes(r_);
-    left_ = forces > 0 ? forces / size_of_loads(start.time, point.u) : 0;
-    if (left_ <= tolerance_) break;
-    renew_factors(start.time, point.u, expected);
-    ++iterations_;
-    if (!solve_tangent(start.time, point.u, r_, exact)) return;
-    if (step_mixed(start.time, point, expected)) continue;
-    if (left_ > acceptable) return;
-    break;
+  if (!begin_mixed(start, point, expected)) {
+    solution.failure = too_far;
+    return;
   }
-  if (solution.iterations == most) return;
-  solution.failure.clear();
-  polish(start.time, point);
+  for (;;) {
+    approach(start.time, solution, point, std::move(expected));
+    if (!solution.failure.empty() || stays(start.time, point, solution)) return;
+    expected.clear();
+  }
 }
 
-/// Another step with the present factors, which costs little.
+/// Iterates from a point to an equilibrium. `expected` may be empty.
 template <int D>
-void NewtonMethod<D>::polish(Real time, Point& point) {
+void NewtonMethod<D>::approach(Real time, Solution& solution, Point& point, OfGroups expected) {
+  constexpr int most = 50, most_downhill = 50, many = 15;
+  constexpr Real exact = 1e-4, acceptable = 1e-6, bearable = 1e-3;
+  Real shift = 0;
+  solution.failure = too_far;  // until the iteration ends
+  for (int steps = 0, downhill = 0; steps < most && downhill < most_downhill;) {
+    if (asked_to_stop_()) throw Interrupted();
+    const Real forces = sum_of_sizes(r_);
+    left_ = forces > 0 ? forces / size_of_loads(time, point.u) : 0;
+    if (left_ <= tolerance_) return polish(time, solution, point);
+    renew_factors(time, point.u, expected, factors_->small_shift());
+    ++iterations_;
+    ++solution.iterations;
+    if (negative_ == 0 && solve_tangent(time, point.u, r_, exact)) {
+      // Along a valley of the energy, forces are small but steps are long.
+      solution.flat = ++steps > many && left_ <= bearable &&
+                      dot(s_, r_) <= tolerance_ * std::abs(energy_of_bodies(time, point.u));
+      if (solution.flat) return polish(time, solution, point);
+      if (step_mixed(time, point, expected)) continue;
+      if (left_ <= acceptable) return polish(time, solution, point);
+    }
+    solution.bent = true;
+    ++downhill;
+    if (!step_downhill(time, point, shift)) return;
+    expected.clear();
+  }
+}
+
+/// Ends the iteration. Another step with the present factors costs little.
+template <int D>
+void NewtonMethod<D>::polish(Real time, Solution& solution, Point& point) {
   constexpr Real exact = 1e-4;
+  solution.failure.clear();
   Point trial;
   if (!solve_tangent(time, point.u, r_, exact)) return;
   trial.u = point.u;

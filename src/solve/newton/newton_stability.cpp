@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stability of equilibria, and the way from an unstable one.
+#include "numbers/dense.hpp"
 #include "numbers/random.hpp"
 #include "parallel/nodal_algebra.hpp"
 #include "solve/newton/newton_method.hpp"
@@ -12,12 +13,14 @@
 namespace meniscus {
 
 /// The least eigenvalue of K x = lambda M x for the present factors of K, where M are the masses:
-/// the square of the lowest frequency. The iteration of Lanczos for the greatest eigenvalue of K^-1
-/// M, in the product of M.
+/// the square of the lowest frequency. If the factors have negative eigenvalues, the greatest
+/// negative one, whose mode x goes to p_; then 0 if it is not found. The iteration of Lanczos for
+/// K^-1 M, in the product of M.
 template <int D>
 Real NewtonMethod<D>::lowest_frequency() {
   constexpr int fewest = 6, most = 40;
   constexpr Real settled = 0.01;
+  const Real sign = negative_ > 0 ? 1 : -1;
   const auto times_mass = [&](const NodalVectors& w, NodalVectors& Mw) {
     for (Index A = 0; A < system_.size(); ++A) at(Mw, A) = at(system_.mass, A) * at(w, A);
   };
@@ -26,12 +29,13 @@ Real NewtonMethod<D>::lowest_frequency() {
     factors_->apply(force, w);
     free_.remove_from(w);
   };
-  NodalVectors v = still_, before = still_, Mv = still_, w = still_;
+  NodalVectors v = still_, Mv = still_, w = still_;
   std::mt19937_64 bits(61);
   for (NodalVector& force : w)
     for (int i = 0; i < D; ++i) force.set(i, symmetric_uniform(bits));
   respond(w, v);
-  Lanczos seen;
+  Lanczos seen;  // of K^-1 M times the sign
+  std::vector<NodalVectors> all;
   Real beside = 0, greatest = 0;
   for (int k = 0; k < most; ++k) {
     times_mass(v, Mv);
@@ -42,25 +46,38 @@ Real NewtonMethod<D>::lowest_frequency() {
     for (NodalVector& x : Mv) x *= 1 / length;
     respond(Mv, w);
     const Real diagonal = dot(w, Mv);
-    seen.diagonal.push_back(-diagonal);
+    seen.diagonal.push_back(sign * diagonal);
     const Real now = -seen.least();
-    if (k + 1 >= fewest && now - greatest < settled * now) break;
+    if (k + 1 >= fewest && now > 0 && now - greatest < settled * now) {
+      all.push_back(v);
+      break;
+    }
     greatest = now;
     add(w, -diagonal, v);
-    add(w, -beside, before);
-    std::swap(before, v);
+    if (!all.empty()) add(w, -beside, all.back());
+    all.push_back(v);
     std::swap(v, w);
   }
   const Real found = seen.diagonal.empty() ? 0 : -seen.least();
-  return found > 0 ? 1 / found : unbounded;
+  if (!(found > 0)) return negative_ > 0 ? 0 : unbounded;
+  if (negative_ == 0) return 1 / found;
+  const Eigen::VectorXd part = least_eigenvector(seen.diagonal, seen.beside);
+  p_ = still_;
+  for (std::size_t k = 0; k < all.size(); ++k) add(p_, part[static_cast<Eigen::Index>(k)], all[k]);
+  return -1 / found;
 }
 
+/// Bodies alone, without loads and contacts, but held.
 template <int D>
 void NewtonMethod<D>::find_lowest_of_reference() {
   if (lowest_ > 0) return;
-  const FreeMotions<D> here =
-      std::exchange(free_, FreeMotions<D>(system_, {0, still_, still_}, spacing_));
-  factor_at(0, still_);
+  const FreeMotions<D> here = std::exchange(
+      free_,
+      FreeMotions<D>(system_, {0, still_, still_}, spacing_, TangentFactors<D>::is_internal));
+  factored_.u.clear();
+  factors_->assemble_reference(free_);
+  factors_->factor(factors_->least_shift());
+  negative_ = 0;
   lowest_ = lowest_frequency();
   free_ = here;
 }
@@ -111,13 +128,16 @@ Real NewtonMethod<D>::find_stability(Real time, const NodalVectors& u) {
 template <int D>
 bool NewtonMethod<D>::stays(Real time, Point& point, Solution& solution) {
   constexpr int often = 3;
-  if (solution.mixed) factor_at(time, point.u);
-  if (solution.mixed && negative_ == 0) {
+  bool stable;
+  if (solution.mixed) {
+    factor_at(time, point.u);
     stability_ = std::min(lowest_frequency() / lowest_, 1e3);
-    return true;
+    stable = !(stability_ < 0);
+  } else {
+    // A step of implicit Euler need not be stable, because it is no equilibrium.
+    stable = step_ || is_stable_at(time, point.u);
   }
-  // A step of implicit Euler need not be stable, because it is no equilibrium.
-  if (step_ || is_stable_at(time, point.u) || solution.saddles == often) return true;
+  if (stable || solution.saddles == often) return true;
   solution.bent = true;
   leave_saddle();
   if (!search(time, point, 0)) return true;

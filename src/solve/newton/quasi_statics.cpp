@@ -54,7 +54,7 @@ void QuasiStatics<D>::step(State& state, Real dt) {
     settle(state);
     for (Real piece = dt; state.time < end;) {
       const Real time = reaches(state.time, piece, end) ? end : state.time + piece;
-      const auto solution = solve(state, time, piece <= piece_of_jump * dt * (1 + 1e-9));
+      const auto solution = solve(state, time);
       const bool failed = !solution.failure.empty();
       if (failed && piece <= least_piece * dt)
         throw SolveError(fmt::format("no equilibrium is found at t = {:.6g}: {}{}", time,
@@ -65,17 +65,21 @@ void QuasiStatics<D>::step(State& state, Real dt) {
       }
       State next = state;
       const auto exchange = work_.move(next, time, solution.u);
-      const bool jump =
-          exchange.released() > noticeable * exchange.size() && is_far(state, time, solution);
-      if ((jump || solution.hard()) && piece > piece_of_jump * dt * (1 + 1e-9)) {
+      const bool far = is_far(state, time, solution);
+      const Real apart = far ? exchange.released() / exchange.size() : 0;
+      // Work along a way that is not known is known no better than this.
+      const bool unclear = std::abs(apart) > noticeable || (solution.hard() && !solution.mixed);
+      if (unclear && piece > piece_of_jump * dt * (1 + 1e-9)) {
         piece /= 2;
         continue;
       }
+      const bool jump = apart > noticeable;
       if (jump)
         book_jump(next, state.time, exchange.released());
       else
         work_.book_bend(state, next);
       if (solution.saddles > 0) note_saddle(time);
+      if (solution.flat) note_flat(time);
       work_.go_on(jump);
       state = std::move(next);
       system_.commit(state.motion());
@@ -94,13 +98,12 @@ void QuasiStatics<D>::step(State& state, Real dt) {
 /// Finds the equilibrium, starting from the last displacement, continued with the rate of the last
 /// step if that is known.
 template <int D>
-typename NewtonMethod<D>::Solution QuasiStatics<D>::solve(const State& state, Real time,
-                                                          bool last_resort) {
+typename NewtonMethod<D>::Solution QuasiStatics<D>::solve(const State& state, Real time) {
   const auto& last = work_.last();
-  if (!(last.dt > 0)) return method_.solve({time, state.u, nullptr, 0, state.time, last_resort});
+  if (!(last.dt > 0)) return method_.solve({time, state.u, nullptr, 0, state.time});
   NodalVectors expected = state.u;
   add(expected, (time - state.time) / last.dt, last.du);
-  return method_.solve({time, state.u, &expected, 0, state.time, last_resort});
+  return method_.solve({time, state.u, &expected, 0, state.time});
 }
 
 /// True if the solution is far from the prediction of the last step, or was found by a winding
@@ -122,7 +125,7 @@ void QuasiStatics<D>::settle(State& state) {
   stop_motion(system_, state);
   method_.prepare();
   if (at_equilibrium_) return;
-  const auto solution = solve(state, state.time, true);
+  const auto solution = solve(state, state.time);
   if (!solution.failure.empty())
     throw SolveError(fmt::format("no equilibrium is found at the beginning: {}{}", solution.failure,
                                  unbalanced(system_, state, state.time)));
@@ -148,6 +151,15 @@ void QuasiStatics<D>::note_saddle(Real time) {
       fmt::format("t = {:.6g}: an equilibrium was found that is not stable; it was left for one of "
                   "less energy, beside which there may be others that are as near",
                   time));
+}
+
+template <int D>
+void QuasiStatics<D>::note_flat(Real time) {
+  notes_.push_back(
+      fmt::format("t = {:.6g}: forces of {:.2g} of loads and reactions are left, along a motion "
+                  "that hardly changes the energy; hold the bodies against it, or disturb their "
+                  "symmetry",
+                  time, method_.left()));
 }
 
 template <int D>

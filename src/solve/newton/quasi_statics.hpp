@@ -46,10 +46,11 @@ class QuasiStatics final : public Stepper<D> {
   std::int64_t jumps() const { return jumps_; }
 
  private:
-  typename NewtonMethod<D>::Solution solve(const State& state, Real time, bool last_resort);
+  typename NewtonMethod<D>::Solution solve(const State& state, Real time);
   bool is_far(const State& state, Real time,
               const typename NewtonMethod<D>::Solution& solution) const;
   void note_saddle(Real time);
+  void note_flat(Real time);
   void book_jump(State& state, Real since, Real released);
 
   System<D>& system_;

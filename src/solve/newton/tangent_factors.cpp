@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace meniscus {
@@ -35,14 +36,20 @@ std::vector<HeldPlace> held_places(const Constraints& constraints) {
   return places;
 }
 
+/// Stiffness of the springs of held places, in diagonal entries of K.
+constexpr Real stiff = 1e6;
+
+bool assembled(const ForceTerm& term) {
+  const auto* force = dynamic_cast<const AssembledForce*>(&term);
+  return force && force->has_stiffness();
+}
+
 }  // namespace
 
 template <int D>
 bool TangentFactors<D>::suit(const System<D>& system) {
   std::size_t found = 0;
-  for (const auto& term : system.terms)
-    if (const auto* force = dynamic_cast<const MixedForce*>(term.get()))
-      found += force->has_stiffness();
+  for (const auto& term : system.terms) found += is_internal(*term) && assembled(*term);
   return found == system.bodies.size() && fits(system.size());
 }
 
@@ -54,17 +61,20 @@ bool TangentFactors<D>::others_resist(System<D>& system, const Motion& motion) {
     for (int i = 0; i < D; ++i)
       at(change, A).set(i, small * std::sin(static_cast<Real>(A) * (12.9898 + i * 7.31) + i));
   system.add_tangent(motion, {motion.time, change, motion.v}, force,
-                     [](const ForceTerm& term) { return !dynamic_cast<const MixedForce*>(&term); });
+                     [](const ForceTerm& term) { return !assembled(term); });
   return largest(force) > 0;
 }
 
 template <int D>
 TangentFactors<D>::TangentFactors(System<D>& system) : system_(system), K_(system.size(), D) {
-  for (auto& term : system.terms)
-    if (auto* force = dynamic_cast<MixedForce*>(term.get())) forces_.push_back(force);
+  for (auto& term : system.terms) {
+    if (!assembled(*term)) continue;
+    forces_.push_back(dynamic_cast<AssembledForce*>(term.get()));
+    if (is_internal(*term)) internal_.push_back(forces_.back());
+  }
   if (system.constraints) lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
   if (!is_here()) return;
-  for (MixedForce* force : forces_) force->announce(K_);
+  for (AssembledForce* force : forces_) force->announce(K_);
   if (system.constraints) {
     std::vector<Index> nodes;
     for (const HeldPlace& place : held_places(*system.constraints)) {
@@ -74,31 +84,64 @@ TangentFactors<D>::TangentFactors(System<D>& system) : system_(system), K_(syste
       if (held_element_ < 0) held_element_ = element;
     }
   }
+  announce_free_motions();
   K_.close();
-  pressures_ = K_.unknowns() - system.size() * D;
+  further_ = K_.unknowns() - system.size() * D;
   for (const Body<D>& body : system.bodies)
     for (Index A = 0; A < body.size(); ++A) volume_.push_back(body.cells.volume(A));
   factors_ = std::make_unique<SparseCholesky>(K_.start(), K_.row(), K_.order());
   b_.resize(static_cast<std::size_t>(K_.unknowns()));
 }
 
+/// Nodes for all rigid motions that the constraints leave. Only some of them are free at a state.
 template <int D>
-void TangentFactors<D>::assemble(Real time, const NodalVectors& u, const OfGroups& off) {
+void TangentFactors<D>::announce_free_motions() {
+  const NodalVectors still(static_cast<std::size_t>(system_.size()), Lanes::zero());
+  const FreeMotions<D> all(system_, {0, still, still}, least_spacing(system_.bodies),
+                           [](const ForceTerm&) { return false; });
+  std::vector<Index> particles(still.size());
+  std::iota(particles.begin(), particles.end(), 0);
+  first_free_ = K_.add_nodes(static_cast<Index>(all.modes().size()));
+  for (std::size_t k = 0; k < all.modes().size(); ++k)
+    K_.announce_column(first_free_ + static_cast<Index>(k), particles);
+}
+
+template <int D>
+void TangentFactors<D>::assemble(Real time, const NodalVectors& u, const OfGroups& off,
+                                 const FreeMotions<D>& free) {
   const NodalVectors still(u.size(), Lanes::zero());
   K_.clear();
   for (std::size_t k = 0; k < forces_.size(); ++k)
     forces_[k]->add_stiffness({time, u, still}, off.empty() ? std::span<const Lanes>() : off[k],
                               K_);
+  end(free);
+}
+
+template <int D>
+void TangentFactors<D>::assemble_reference(const FreeMotions<D>& free) {
+  const NodalVectors still(static_cast<std::size_t>(system_.size()), Lanes::zero());
+  K_.clear();
+  for (AssembledForce* force : internal_) force->add_stiffness({0, still, still}, {}, K_);
+  end(free);
+}
+
+template <int D>
+void TangentFactors<D>::end(const FreeMotions<D>& free) {
   if (!is_here()) return;
-  if (small_shift_ == 0) {
+  if (scale_ == 0) {
     // The first state sets the scales.
-    constexpr Real small = 1e-7, stiff = 1e6;
+    constexpr Real small = 1e-8;
     Real volume = 0;
     for (const Real v : volume_) volume += v;
-    small_shift_ = small * K_.mean_diagonal() * static_cast<Real>(volume_.size()) / volume;
-    gamma_ = stiff * K_.mean_diagonal();
+    scale_ = K_.mean_diagonal();
+    small_shift_ = small * scale_ * static_cast<Real>(volume_.size()) / volume;
   }
   add_held_places();
+  for (std::size_t k = 0; k < free.modes().size(); ++k) {
+    const Index node = first_free_ + static_cast<Index>(k);
+    K_.add_column(node, free.modes()[k]);
+    K_.add_to_diagonal(node, -1 / scale_);
+  }
   K_.complete();
 }
 
@@ -111,7 +154,7 @@ void TangentFactors<D>::add_held_places() {
            const HeldPlace& place = at(places, k);
            Mat<D> springs = Mat<D>::Zero();
            for (const Eigen::Vector3d& n : place.directions)
-             springs += gamma_ * n.head<D>() * n.head<D>().transpose();
+             springs += stiff * scale_ * n.head<D>() * n.head<D>().transpose();
            const auto m = static_cast<Eigen::Index>(place.entries.size());
            Eigen::VectorXd weights(m);
            for (Eigen::Index a = 0; a < m; ++a) weights[a] = at(place.entries, a).second;
@@ -129,7 +172,7 @@ Index TangentFactors<D>::factor(Real shift) {
     for (Index A = 0; A < system_.size(); ++A) K_.add_to_diagonal(A, shift * at(volume_, A));
     factors_->factor(K_.value());
     for (Index A = 0; A < system_.size(); ++A) K_.add_to_diagonal(A, -shift * at(volume_, A));
-    negative = factors_->negative_eigenvalues() - pressures_;
+    negative = factors_->negative_eigenvalues() - further_;
   }
   ranks().hand_out(rank, &negative, sizeof negative);
   return negative;
@@ -176,7 +219,7 @@ void TangentFactors<D>::meet(Real time, NodalVectors& u) {
       return;
     }
     clear(force);
-    constraints.add_transposed(lambda_, gamma_, force);
+    constraints.add_transposed(lambda_, stiff * scale_, force);
     solve(force, change);
     add(u, 1, change);
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Factors of the tangent of elastic bodies at a state.
 #pragma once
-#include "physics/mixed_force.hpp"
+#include "physics/assembled_force.hpp"
+#include "solve/free_motions.hpp"
 #include "solve/linear/sparse_factors.hpp"
 #include "solve/system.hpp"
 
@@ -10,14 +11,14 @@
 
 namespace meniscus {
 
-/// Solves K z = r with the tangent K of the internal forces at a state, on the displacements that
-/// the constraints C u = g(t) leave free. Held places are stiff springs gamma C^T C in K, and z and
-/// r are projected: C z = 0 to round-off, and forces C^T lambda have no effect. Other forces are
-/// left out. Shared pressures of nodal cells are further unknowns.
+/// Solves K z = r with the tangent K of the forces at a state, on the displacements that the
+/// constraints C u = g(t) leave free. Held places are stiff springs gamma C^T C in K, and z and r
+/// are projected: C z = 0 to round-off, and forces C^T lambda have no effect. Forces without an
+/// assembled tangent are left out. Pressures can be further unknowns.
 template <int D>
 class TangentFactors {
  public:
-  /// For each internal force, numbers of its groups of stress points.
+  /// For each force, numbers of its groups of pressures.
   using OfGroups = std::vector<std::vector<Lanes>>;
 
   /// The rank that must have all rows. It assembles, factorises and solves for all.
@@ -26,14 +27,19 @@ class TangentFactors {
   static bool fits(Offset particles) { return particles <= (D == 2 ? 20000 : 1500); }
   /// True if all internal forces have an assembled tangent, and the bodies are small.
   static bool suit(const System<D>& system);
-  /// True if other forces have a tangent at a motion, which is missing in K.
+  /// True for the internal force of a body.
+  static bool is_internal(const ForceTerm& term) { return term.energy_kind() == "strain"; }
+  /// True if forces have a tangent at a motion that is missing in K.
   static bool others_resist(System<D>& system, const Motion& motion);
 
   /// Finds the pattern. Requires suit().
   explicit TangentFactors(System<D>& system);
 
   /// Assembles the tangent at a state, with the pressures of the state plus `off` (empty: zero).
-  void assemble(Real time, const NodalVectors& u, const OfGroups& off);
+  /// The free motions of the state get a stiffness.
+  void assemble(Real time, const NodalVectors& u, const OfGroups& off, const FreeMotions<D>& free);
+  /// Assembles the tangent of the internal forces alone, in the reference.
+  void assemble_reference(const FreeMotions<D>& free);
   /// Factorises the assembled tangent, with `shift` times the volume of each particle added to its
   /// diagonal. Returns the number of its negative eigenvalues.
   Index factor(Real shift);
@@ -43,22 +49,27 @@ class TangentFactors {
   /// Moves u to its prescribed values at a time, with the smallest change in the norm of K.
   void meet(Real time, NodalVectors& u);
 
-  /// A shift that is small beside the stiffness of strains of the size of a body.
+  /// A shift that is small beside the stiffness of strains of the size of a body. In the reference,
+  /// loads that will hold a body exert no forces yet, so that rotations have no stiffness.
   Real small_shift() const { return small_shift_; }
-  std::span<MixedForce* const> forces() const { return forces_; }
+  /// A shift just above round-off, for counts of negative eigenvalues.
+  Real least_shift() const { return 1e-3 * small_shift_; }
+  std::span<AssembledForce* const> forces() const { return forces_; }
   std::size_t bytes() const { return factors_->bytes(); }
 
  private:
   static bool is_here() { return ranks().rank() == rank; }
+  void end(const FreeMotions<D>& free);
+  void announce_free_motions();
   void add_held_places();
   void solve(const NodalVectors& r, NodalVectors& z);
 
   System<D>& system_;
-  std::vector<MixedForce*> forces_;
+  std::vector<AssembledForce*> forces_, internal_;
   StiffnessMatrix K_;
   std::vector<Real> volume_;  // [particle]
-  Index held_element_ = -1, pressures_ = 0;
-  Real small_shift_ = 0, gamma_ = 0;
+  Index held_element_ = -1, first_free_ = -1, further_ = 0;
+  Real small_shift_ = 0, scale_ = 0;
   std::unique_ptr<SparseCholesky> factors_;
   NodalVectors balanced_;
   std::vector<Real> b_, lambda_;

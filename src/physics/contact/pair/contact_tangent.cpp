@@ -15,7 +15,12 @@ typename ContactPoints<D>::Turned ContactPoints<D>::turned(Index c, const Motion
   Tensor<Lanes> H, dH;
   made_->rule.gather(c, motion.u.data() + body_->first, H);
   made_->rule.gather(c, change.u.data() + body_->first, dH);
-  const Tensor<Dual<Lanes>> moved = dual(H, dH);
+  return turned(c, dual(H, dH));
+}
+
+template <int D>
+typename ContactPoints<D>::Turned ContactPoints<D>::turned(Index c,
+                                                           const Tensor<Dual<Lanes>>& moved) const {
   Tensor<Dual<Lanes>> cof = cofactor_of_deformation(moved);
   const Dual<Lanes> one_over_J = 1.0 / (1.0 + volume_change(moved));
   Turned now;
@@ -42,6 +47,37 @@ Tensor<Lanes> ContactPoints<D>::stress_change(const Turned& now,
   }
   return Tensor<Lanes>::map(
       [&](int i, int K) { return (SV * now.inverse(K, i) - area[i] * pulled[K]).d; });
+}
+
+/// The derivatives of dE/dx and dE/dF with each component of x and F.
+template <int D>
+void ContactPoints<D>::set_moduli(Index c, const Motion& motion, std::span<const Lanes> S,
+                                  const std::array<Curvature, Lanes::width>& of,
+                                  PointModuli<D>& moduli) const {
+  Tensor<Lanes> H;
+  made_->rule.gather(c, motion.u.data() + body_->first, H);
+  std::array<Dual<Lanes>, D> turn;
+  for (int i = 0; i < D; ++i) at(turn, i) = S[offset(c, D) + static_cast<std::size_t>(i)];
+  for (int j = 0; j < D; ++j) {
+    for (int i = 0; i < D; ++i)
+      for (int lane = 0; lane < points_in(c); ++lane)
+        moduli(i, 0, j, 0).set(lane, at(of, lane).of_place(i, j));
+    for (int L = 0; L < D; ++L) {
+      Tensor<Lanes> dH = Tensor<Lanes>::zero();
+      dH(j, L) = Lanes(1.0);
+      const Turned now = turned(c, dual(H, dH));
+      const Tensor<Lanes> change = stress_change(now, turn);
+      for (int i = 0; i < D; ++i) {
+        for (int M = 0; M < D; ++M) moduli(i, M + 1, j, L + 1) = change(i, M);
+        for (int lane = 0; lane < points_in(c); ++lane) {
+          Real pull = 0;
+          for (int k = 0; k < D; ++k) pull += at(of, lane).of_weight(i, k) * at(now.V, k).d[lane];
+          moduli(i, 0, j, L + 1).set(lane, pull);
+          moduli(j, L + 1, i, 0).set(lane, pull);
+        }
+      }
+    }
+  }
 }
 
 template <int D>
@@ -149,6 +185,9 @@ void ContactPoints<D>::add_change_on_patches(const ContactPlaces<D>& places,
 }
 
 #define MENISCUS_INSTANTIATE(D)                                                             \
+  template void ContactPoints<D>::set_moduli(Index, const Motion&, std::span<const Lanes>,  \
+                                             const std::array<Curvature, Lanes::width>&,    \
+                                             PointModuli<D>&) const;                        \
   template ContactChanges<D> ContactPoints<D>::changes(                                     \
       std::span<const Index>, const ContactPlaces<D>&, const Motion&, const Motion&) const; \
   template void ContactPoints<D>::add_force_change(                                         \

@@ -5,6 +5,7 @@
 #include "meniscus/physics/force_term.hpp"
 #include "numbers/dual.hpp"
 #include "parallel/shared_work.hpp"
+#include "physics/point_elements.hpp"
 
 #include <memory>
 
@@ -178,6 +179,26 @@ class ContactPoints {
                         std::span<const Lanes> dT, std::span<const Lanes> S,
                         std::span<const Lanes> dS, const Forces& force);
 
+  /// Elements for assembled tangents; not for patches.
+  void announce(StiffnessMatrix& K) { elements_.announce(made_->rule, body_->first, K); }
+  /// Second derivatives of E with respect to places and weights of a point.
+  struct Curvature {
+    Mat<D> of_place;   ///< d2E/dx dx
+    Mat<D> of_weight;  ///< d2E/dx dV
+  };
+  /// Adds the second derivatives of an energy E(x, V) that is linear in the weights V, with dE/dV =
+  /// S, at the motion that the places belong to. curvature(c, lane): of a point.
+  template <class Of>
+  void add_stiffness(std::span<const Index> clusters, const Motion& motion,
+                     std::span<const Lanes> S, StiffnessMatrix& K, Of&& curvature) const {
+    elements_.add(made_->rule, clusters, K, [&](Index c, PointModuli<D>& moduli) {
+      std::array<Curvature, Lanes::width> of;
+      for (int lane = 0; lane < Lanes::width; ++lane)
+        if (lane < points_in(c)) of[lane] = curvature(c, lane);
+      set_moduli(c, motion, S, of, moduli);
+    });
+  }
+
   /// The particles of the body that move the points, in ascending order.
   std::span<const Index> particles() const { return made_->particles; }
   /// The part of particles() that belongs to this process.
@@ -241,6 +262,9 @@ class ContactPoints {
     std::array<Dual<Lanes>, D> V;
   };
   Turned turned(Index cluster, const Motion& motion, const Motion& change) const;
+  Turned turned(Index cluster, const Tensor<Dual<Lanes>>& H) const;
+  void set_moduli(Index cluster, const Motion& motion, std::span<const Lanes> S,
+                  const std::array<Curvature, Lanes::width>& of, PointModuli<D>& moduli) const;
   Tensor<Lanes> stress_change(const Turned& now, const std::array<Dual<Lanes>, D>& S) const;
 
   const Body<D>* body_;
@@ -248,8 +272,9 @@ class ContactPoints {
   SiteDensity density_ = SiteDensity::referential;
   Real beta_ = 1;  // on patches: weight per area
   std::shared_ptr<SharedContactPoints<D>> made_;
-  bool is_first_ = false;             // these points have made the shared data
-  AlignedVector<Lanes> reference_;    // [cluster][i]: weights in the reference
+  bool is_first_ = false;           // these points have made the shared data
+  AlignedVector<Lanes> reference_;  // [cluster][i]: weights in the reference
+  PointElements<D> elements_;
   std::vector<std::uint8_t> pushed_;  // [cluster] 1 while its force is added
 };
 

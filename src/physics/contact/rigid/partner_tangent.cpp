@@ -5,6 +5,14 @@
 namespace meniscus {
 namespace {
 
+constexpr Real part_of_gap = 3e-4;
+
+/// The fourth-order difference of values at steps 1, -1, 2, -2.
+template <class T>
+T slope(const T& ahead, const T& behind, const T& ahead2, const T& behind2, Real step) {
+  return (8 * (ahead - behind) - (ahead2 - behind2)) / (12 * step);
+}
+
 /// Adds the tangent. Changes of forces are dT = (grad grad S dx) V + grad S dV and dS = grad S dx;
 /// for the pressure form, dT = (grad U dx) V + U dV. Derivatives of the field are fourth-order
 /// differences over a small part of the gap.
@@ -12,7 +20,6 @@ template <int D>
 void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& pair,
                             const PartnerLayer<D>& layer, const Motion& motion,
                             const Motion& change, const Forces& force) {
-  constexpr Real part_of_gap = 3e-4;
   const Vec<D> shift = pair.shift(motion);
   const ContactChanges<D> changes = points.changes(layer.visited, layer.places, motion, change);
   AlignedVector<Lanes> dT(layer.S.size(), Lanes::zero()), dS = dT;
@@ -29,20 +36,14 @@ void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& p
     const Real gap = std::max(at(layer.distances, c)[lane], pair.interaction->least_gap());
     const Real h = length > 0 ? part_of_gap * gap / length : 1;
     const auto field = [&](Real s) { return pair.partner.shape->field(place + s * h * dx); };
-    const auto slope = [h](const auto& ahead, const auto& behind, const auto& ahead2,
-                           const auto& behind2) {
-      return ((8 * (ahead - behind) - (ahead2 - behind2)) / (12 * h)).eval();
-    };
     const RigidField<D> here = field(0), ahead = field(1), behind = field(-1), ahead2 = field(2),
                         behind2 = field(-2);
     Vec<D> pull;
-    if (pair.form == ContactForm::pressure) {
-      const auto U = [](const RigidField<D>& f) { return Eigen::Matrix<Real, 1, 1>(f.U); };
-      pull = slope(U(ahead), U(behind), U(ahead2), U(behind2))[0] * V + here.U * dV;
-    } else {
-      pull =
-          slope(ahead.grad_S, behind.grad_S, ahead2.grad_S, behind2.grad_S) * V + here.grad_S * dV;
-    }
+    if (pair.form == ContactForm::pressure)
+      pull = slope(ahead.U, behind.U, ahead2.U, behind2.U, h) * V + here.U * dV;
+    else
+      pull = slope<Mat<D>>(ahead.grad_S, behind.grad_S, ahead2.grad_S, behind2.grad_S, h) * V +
+             here.grad_S * dV;
     const Vec<D> turn = here.grad_S * dx;
     for (int i = 0; i < D; ++i) {
       at(dT, c * D + i).set(lane, pull[i]);
@@ -68,9 +69,38 @@ void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& lay
     add_tangent_of_partner(pair.points[g], pair, layers[g], motion, change, force);
 }
 
+template <int D>
+void add_stiffness_of_partner(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
+                              const Motion& motion, StiffnessMatrix& K) {
+  const Vec<D> shift = pair.shift(motion);
+  for (std::size_t g = 0; g < layers.size(); ++g) {
+    const PartnerLayer<D>& layer = layers[g];
+    pair.points[g].add_stiffness(layer.visited, motion, layer.S, K, [&](Index c, int lane) {
+      Vec<D> place, V;
+      for (int i = 0; i < D; ++i) {
+        place[i] = layer.places.x_of(c)[i][lane] - shift[i];
+        V[i] = layer.places.weight_of(c)[i][lane];
+      }
+      const Real h =
+          part_of_gap * std::max(at(layer.distances, c)[lane], pair.interaction->least_gap());
+      typename ContactPoints<D>::Curvature of;
+      of.of_weight = pair.partner.shape->field(place).grad_S;
+      for (int j = 0; j < D; ++j) {
+        const auto pull = [&](Real s) -> Vec<D> {
+          return pair.partner.shape->field(place + s * h * Vec<D>::Unit(j)).grad_S * V;
+        };
+        of.of_place.col(j) = slope<Vec<D>>(pull(1), pull(-1), pull(2), pull(-2), h);
+      }
+      return of;
+    });
+  }
+}
+
 #define MENISCUS_INSTANTIATE(D)                                                                    \
   template void add_tangent_of_partner(BodyAndPartner<D>&, const PartnerLayers<D>&, const Motion&, \
-                                       const Motion&, const Forces&);
+                                       const Motion&, const Forces&);                              \
+  template void add_stiffness_of_partner(const BodyAndPartner<D>&, const PartnerLayers<D>&,        \
+                                         const Motion&, StiffnessMatrix&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

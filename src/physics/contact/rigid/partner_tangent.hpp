@@ -10,4 +10,10 @@ template <int D>
 void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
                             const Motion& motion, const Motion& change, const Forces& force);
 
+/// The same as elements, of points by shape functions and the form `energy`, at a motion that the
+/// layers belong to.
+template <int D>
+void add_stiffness_of_partner(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
+                              const Motion& motion, StiffnessMatrix& K);
+
 }  // namespace meniscus

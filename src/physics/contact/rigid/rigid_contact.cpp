@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of a deformable body with a rigid partner, whose field is known in closed form.
 #include "meniscus/error.hpp"
+#include "physics/assembled_force.hpp"
 #include "physics/contact/contact_numbers.hpp"
 #include "physics/contact/contact_terms.hpp"
 #include "physics/contact/pair/contact_demand.hpp"
@@ -32,7 +33,7 @@ Real end_of_motion(const MovingPartner<D>& partner) {
 }
 
 template <int D>
-class RigidContact final : public ForceTerm, public ContactVisits {
+class RigidContact final : public ForceTerm, public ContactVisits, public AssembledForce {
  public:
   RigidContact(const ContactBody<D>& body, MovingPartner<D> partner,
                std::shared_ptr<const Interaction> interaction, const ContactChoice& choice)
@@ -75,6 +76,18 @@ class RigidContact final : public ForceTerm, public ContactVisits {
     choose_visited(pair_, motion, list_, layers_);
     take_layers(pair_, motion, layers_);
     add_tangent_of_partner(pair_, layers_, motion, change, force);
+  }
+
+  bool has_stiffness() const override {
+    return !effects_.any() && !pair_.on_patches() && pair_.form == ContactForm::energy;
+  }
+  void announce(StiffnessMatrix& K) override {
+    for (ContactPoints<D>& points : pair_.points) points.announce(K);
+  }
+  void add_stiffness(const Motion& motion, std::span<const Lanes>, StiffnessMatrix& K) override {
+    choose_visited(pair_, motion, list_, layers_);
+    take_layers(pair_, motion, layers_);
+    if (K.is_here()) add_stiffness_of_partner(pair_, layers_, motion, K);
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
