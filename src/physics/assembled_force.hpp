@@ -11,9 +11,9 @@ namespace meniscus {
 /// An optional interface of a force term, for its part of the assembled tangent. All processes call
 /// these functions.
 ///
-/// The force may depend on pressures for which Newton's method can expect other values than those
-/// of the state: the numbers `off` are the pressures of a tangent less the pressures of the state.
-/// They are in groups of up to four, one lane each.
+/// The force may depend on pressures, and Newton's method can expect other pressures than the state
+/// has: the numbers `off` are the pressures of a tangent less the pressures of the state. They are
+/// in groups of up to four, one lane each.
 class AssembledForce {
  public:
   virtual ~AssembledForce() = default;

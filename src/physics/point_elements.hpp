@@ -10,7 +10,7 @@ namespace meniscus {
 /// points of a group. Both are given as D + 1 numbers per component: x_i, F_i1, ..., F_iD.
 template <int D>
 struct PointModuli {
-  /// Of the force on number a of component i, with number b of component j.
+  /// The derivative of the force on number a of component i, with number b of component j.
   Lanes& operator()(int i, int a, int j, int b) {
     return at(of, ((i * (D + 1) + a) * D + j) * (D + 1) + b);
   }

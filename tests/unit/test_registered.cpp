@@ -167,7 +167,7 @@ void expect_tangents() {
   });
 }
 
-/// Tangents as matrices, of forces other than those of stresses. Returns how many there are.
+/// Assembled tangents of all forces but internal forces. Returns how many there are.
 template <int D>
 int expect_stiffness() {
   int assembled = 0;

@@ -53,8 +53,9 @@ class ClosedSurface {
   /// force_A += factor dV/dd_A over the particles A of the body.
   void add_volume_gradient(const Placed& placed, Real factor, const ForceVector& force);
 
-  /// Elements for the second derivatives of V; those of the means of positions and area vectors are
-  /// left out. They are errors of the quadrature, since sum w_q m_q is zero on a closed surface.
+  /// Elements for the second derivatives of V. Derivatives of the mean position and the mean area
+  /// vector are left out: they are errors of the quadrature, since sum w_q m_q is zero on a closed
+  /// surface.
   void announce(StiffnessMatrix& K) { elements_.announce(rule_, body_.first, K); }
   /// The particles on which the volume depends.
   std::vector<Index> particles() const;

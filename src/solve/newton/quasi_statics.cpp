@@ -67,13 +67,14 @@ void QuasiStatics<D>::step(State& state, Real dt) {
       const auto exchange = work_.move(next, time, solution.u);
       const bool far = is_far(state, time, solution);
       const Real apart = far ? exchange.released() / exchange.size() : 0;
-      // Work along a way that is not known is known no better than this.
-      const bool unclear = std::abs(apart) > noticeable || (solution.hard() && !solution.mixed);
+      const bool jump = apart > noticeable;
+      // With factors, an equilibrium beyond a fork is not doubted unless work is missing.
+      const bool unclear =
+          jump || (solution.mixed ? solution.bent && apart < -noticeable : solution.hard());
       if (unclear && piece > piece_of_jump * dt * (1 + 1e-9)) {
         piece /= 2;
         continue;
       }
-      const bool jump = apart > noticeable;
       if (jump)
         book_jump(next, state.time, exchange.released());
       else

@@ -73,6 +73,12 @@ TangentFactors<D>::TangentFactors(System<D>& system) : system_(system), K_(syste
     if (is_internal(*term)) internal_.push_back(forces_.back());
   }
   if (system.constraints) lambda_.resize(static_cast<std::size_t>(system.constraints->rows()));
+  for (const Body<D>& body : system.bodies)
+    for (Index A = 0; A < body.size(); ++A) volume_.push_back(body.cells.volume(A));
+  // All rigid motions that the constraints leave. Only some of them are free at a state.
+  const NodalVectors still(static_cast<std::size_t>(system.size()), Lanes::zero());
+  const FreeMotions<D> left(system, {0, still, still}, least_spacing(system.bodies),
+                            [](const ForceTerm&) { return false; });
   if (!is_here()) return;
   for (AssembledForce* force : forces_) force->announce(K_);
   if (system.constraints) {
@@ -84,26 +90,15 @@ TangentFactors<D>::TangentFactors(System<D>& system) : system_(system), K_(syste
       if (held_element_ < 0) held_element_ = element;
     }
   }
-  announce_free_motions();
-  K_.close();
-  further_ = K_.unknowns() - system.size() * D;
-  for (const Body<D>& body : system.bodies)
-    for (Index A = 0; A < body.size(); ++A) volume_.push_back(body.cells.volume(A));
-  factors_ = std::make_unique<SparseCholesky>(K_.start(), K_.row(), K_.order());
-  b_.resize(static_cast<std::size_t>(K_.unknowns()));
-}
-
-/// Nodes for all rigid motions that the constraints leave. Only some of them are free at a state.
-template <int D>
-void TangentFactors<D>::announce_free_motions() {
-  const NodalVectors still(static_cast<std::size_t>(system_.size()), Lanes::zero());
-  const FreeMotions<D> all(system_, {0, still, still}, least_spacing(system_.bodies),
-                           [](const ForceTerm&) { return false; });
   std::vector<Index> particles(still.size());
   std::iota(particles.begin(), particles.end(), 0);
-  first_free_ = K_.add_nodes(static_cast<Index>(all.modes().size()));
-  for (std::size_t k = 0; k < all.modes().size(); ++k)
+  first_free_ = K_.add_nodes(static_cast<Index>(left.modes().size()));
+  for (std::size_t k = 0; k < left.modes().size(); ++k)
     K_.announce_column(first_free_ + static_cast<Index>(k), particles);
+  K_.close();
+  further_ = K_.unknowns() - system.size() * D;
+  factors_ = std::make_unique<SparseCholesky>(K_.start(), K_.row(), K_.order());
+  b_.resize(static_cast<std::size_t>(K_.unknowns()));
 }
 
 template <int D>
@@ -127,15 +122,16 @@ void TangentFactors<D>::assemble_reference(const FreeMotions<D>& free) {
 
 template <int D>
 void TangentFactors<D>::end(const FreeMotions<D>& free) {
-  if (!is_here()) return;
   if (scale_ == 0) {
     // The first state sets the scales.
     constexpr Real small = 1e-8;
     Real volume = 0;
     for (const Real v : volume_) volume += v;
-    scale_ = K_.mean_diagonal();
+    if (is_here()) scale_ = K_.mean_diagonal();
+    ranks().hand_out(rank, &scale_, sizeof scale_);
     small_shift_ = small * scale_ * static_cast<Real>(volume_.size()) / volume;
   }
+  if (!is_here()) return;
   add_held_places();
   for (std::size_t k = 0; k < free.modes().size(); ++k) {
     const Index node = first_free_ + static_cast<Index>(k);

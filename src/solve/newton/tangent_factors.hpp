@@ -60,7 +60,6 @@ class TangentFactors {
  private:
   static bool is_here() { return ranks().rank() == rank; }
   void end(const FreeMotions<D>& free);
-  void announce_free_motions();
   void add_held_places();
   void solve(const NodalVectors& r, NodalVectors& z);
 

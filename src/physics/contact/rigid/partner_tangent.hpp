@@ -10,8 +10,8 @@ template <int D>
 void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
                             const Motion& motion, const Motion& change, const Forces& force);
 
-/// The same as elements, of points by shape functions and the form `energy`, at a motion that the
-/// layers belong to.
+/// Adds minus the tangent as elements, for points by shape functions and the form `energy`. The
+/// layers belong to this motion.
 template <int D>
 void add_stiffness_of_partner(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
                               const Motion& motion, StiffnessMatrix& K);
