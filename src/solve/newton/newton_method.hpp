@@ -17,16 +17,16 @@ inline constexpr Real least_piece = 1.0 / 256;
 /// Finds states where the sum of the potentials of all terms, and of the potential of a step of
 /// implicit Euler if there is one, is least, from a nearby state.
 ///
-/// Small bodies on which no other force than their internal force has a tangent: iterations with
-/// factors of the tangent and expected pressures (quasi-statics note 10), which end by the forces
-/// left. They do not look at the energy, but every equilibrium is tested for negative eigenvalues.
+/// Small bodies, if the tangents of all forces are assembled: iterations with factors of the
+/// tangent and expected pressures (quasi-statics note 10), which end by the forces left. They look
+/// at the energy only where the tangent has negative eigenvalues. Every equilibrium is tested for
+/// these, and left if it has any.
 ///
-/// All others, and small bodies when these iterations find no equilibrium: downhill (quasi-statics
-/// note 2). Each iteration solves its linear equations by conjugate gradients with actions of the
-/// tangent (ForceTerm::add_tangent), only as exactly as is useful. Linear elements are the
-/// preconditioner. The iterations end by the energy that the next one would release. A state at
-/// which the tangent has negative curvature is unstable; it is left in the direction of this
-/// curvature.
+/// All others: downhill (quasi-statics note 2). Each iteration solves its linear equations by
+/// conjugate gradients with actions of the tangent (ForceTerm::add_tangent), only as exactly as is
+/// useful. Linear elements are the preconditioner. The iterations end by the energy that the next
+/// one would release. A state at which the tangent has negative curvature is unstable; it is left
+/// in the direction of this curvature.
 template <int D>
 class NewtonMethod {
  public:
@@ -62,10 +62,11 @@ class NewtonMethod {
   Solution solve(const Start& start);
   void stop_when(const std::function<bool()>& asked) { asked_to_stop_ = asked; }
 
-  /// With factors of the tangent: the squared lowest frequency over its value in the
-  /// reference. Else the smallest eigenvalue of the tangent relative to the preconditioner.
-  /// Negative if the state is unstable. At an equilibrium, all modes are searched. After a step of
-  /// implicit Euler, it is the smallest value that the last iteration has found.
+  /// With factors of the tangent: the squared lowest frequency over its value in the reference of
+  /// the bodies without loads and contacts. Else the smallest eigenvalue of the tangent relative to
+  /// the preconditioner. Negative if the state is unstable. At an equilibrium, all modes are
+  /// searched. After a step of implicit Euler, it is the smallest value that the last iteration has
+  /// found.
   Real stability() const { return stability_; }
   /// Sets stability() for an equilibrium `u` found by another method, and returns it. Throws like
   /// prepare().

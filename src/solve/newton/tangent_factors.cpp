@@ -37,7 +37,7 @@ std::vector<HeldPlace> held_places(const Constraints& constraints) {
 }
 
 /// Stiffness of the springs of held places, in diagonal entries of K.
-constexpr Real stiff = 1e6;
+constexpr Real stiffness_of_places = 1e6;
 
 bool assembled(const ForceTerm& term) {
   const auto* force = dynamic_cast<const AssembledForce*>(&term);
@@ -150,7 +150,7 @@ void TangentFactors<D>::add_held_places() {
            const HeldPlace& place = at(places, k);
            Mat<D> springs = Mat<D>::Zero();
            for (const Eigen::Vector3d& n : place.directions)
-             springs += stiff * scale_ * n.head<D>() * n.head<D>().transpose();
+             springs += stiffness_of_places * scale_ * n.head<D>() * n.head<D>().transpose();
            const auto m = static_cast<Eigen::Index>(place.entries.size());
            Eigen::VectorXd weights(m);
            for (Eigen::Index a = 0; a < m; ++a) weights[a] = at(place.entries, a).second;
@@ -215,7 +215,7 @@ void TangentFactors<D>::meet(Real time, NodalVectors& u) {
       return;
     }
     clear(force);
-    constraints.add_transposed(lambda_, stiff * scale_, force);
+    constraints.add_transposed(lambda_, stiffness_of_places * scale_, force);
     solve(force, change);
     add(u, 1, change);
   }
