@@ -78,8 +78,9 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
     add_tangent_of_partner(pair_, layers_, motion, change, force);
   }
 
+  /// In 3D, assembly takes longer than iterations with elements (quasi-statics note 10).
   bool has_stiffness() const override {
-    return !effects_.any() && !pair_.on_patches() && pair_.form == ContactForm::energy;
+    return D == 2 && !effects_.any() && !pair_.on_patches() && pair_.form == ContactForm::energy;
   }
   void announce(StiffnessMatrix& K) override {
     for (ContactPoints<D>& points : pair_.points) points.announce(K);
