@@ -156,9 +156,9 @@ std::vector<typename PressurePatches<D>::RimEdge> PressurePatches<D>::rim_edges(
 }
 
 /// Closes the face by strips from its rim to where the rim would be if its held directions did
-/// not move at all: face cells are held in the mean only. The volume within is then defined for
-/// all motions. Does nothing unless all of the rim is held, or slides in planes normal to an
-/// axis.
+/// not move at all, since only the mean of each face cell is held. The volume within is then
+/// defined for all motions. Does nothing unless all of the rim is held, or slides in planes normal
+/// to an axis.
 template <int D>
 void PressurePatches<D>::close_by_held_rim(const Sides& sides,
                                            const std::map<Index, Index>& node_of,

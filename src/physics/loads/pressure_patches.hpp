@@ -61,8 +61,8 @@ class PressurePatches {
     std::size_t functions;  ///< index in functions_
   };
   /// A point on the rim of the face: its position x, the position y that its held directions allow,
-  /// and the middle of both. `allowed` and `middle` have no rows; their numbers follow those of all
-  /// points.
+  /// and the middle of both. `allowed` and `middle` have no rows; they come after all
+  /// points with rows.
   struct RimPoint {
     Index point, allowed, middle;
     Mat<D> free;  ///< y = X + free (x - X)
