@@ -194,9 +194,8 @@ def result_series(folder, name="run"):
     """run.h5, run.1.h5, ..., as many as there are. Raises OSError if there is none."""
     paths = [folder / f"{name}.h5"]
     if not paths[0].is_file():
-        if (folder / "sweep.csv").exists():
-            runs = sorted(path.parent.name for path in folder.glob("*/run.h5"))
-            raise OSError(f"{folder} is a sweep; name one of its runs: {', '.join(runs) or 'it has none'}")
+        if runs := sorted(path.parent.name for path in folder.glob("*/run.h5")):
+            raise OSError(f"{folder} has several runs; name one of them: {', '.join(runs)}")
         raise OSError(f"there is no {name}.h5 in {folder}; expected is the directory of a run")
     while (path := folder / f"{name}.{len(paths)}.h5").is_file():
         paths.append(path)

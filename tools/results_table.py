@@ -42,10 +42,11 @@ def rows_of_table(text):
 
 
 def asked(scene):
-    """The expectations of a scene by name: the texts (expected, within) as a run prints them; None if
-    they have units."""
+    """The expectations of a scene and of its stages by name: the texts (expected, within) as a run
+    prints them; None if they have units."""
     texts = {}
-    for name, e in tomllib.loads(scene.read_text(encoding="utf-8")).get("expect", {}).items():
+    tables = tomllib.loads(scene.read_text(encoding="utf-8"))
+    for name, e in (item for t in (tables, *tables.get("stage", [])) for item in t.get("expect", {}).items()):
         value, within, relative = e["value"], e.get("within", 0), e.get("within_relative", 0)
         plain = not any(isinstance(x, str) for x in (value, within, relative))
         texts[name] = (f"{value:.7g}", f"{max(within, relative * abs(value)):.3g}") if plain else None

@@ -163,7 +163,7 @@ void say_softer_drops(const Scene<D>& scene, const RunRequest& request, Real sta
         fmt::format("{:g} {} of '{}'", enough, scene.units.symbol(dimension::pressure), name));
   }
   if (moduli.empty()) return;
-  const auto longer = stable_step<D>(SceneInput::from_file(request.scene, settings));
+  const auto longer = stable_step<D>(SceneInput::from_file(request.scene, settings, request.stage));
   if (!longer || *longer < worth_saying * stable) return;
   say("bulk_modulus {} is a hundred times what surface tension and speed press with: where nothing "
       "else presses harder it would do, in {:.1f} times fewer steps\n",

@@ -5,10 +5,13 @@
 #include "app/mesh_report.hpp"
 #include "app/outputs.hpp"
 #include "app/print.hpp"
+#include "app/restart.hpp"
 #include "app/set_up.hpp"
+#include "app/stages.hpp"
 #include "body/surface/face_cells.hpp"
 #include "numbers/box.hpp"
 #include "numbers/dense.hpp"
+#include "run/initial_state.hpp"
 #include "run/simulation.hpp"
 #include "solve/expected_effort.hpp"
 #include "solve/step/pseudo_time.hpp"
@@ -205,9 +208,23 @@ void check_steps(Scene<D>& scene, Simulation<D>& simulation, const SceneInput& i
   if (!scene.time.step) say_softer_drops(scene, request, stable.dt);
 }
 
+/// Builds the scene in its first state. The stage before may not have run yet: then its bodies are
+/// as they begin in the first stage.
+template <int D>
+Scene<D> built_scene(const SceneInput& input, const RunRequest& request) {
+  const Plan<D> plan = read_plan<D>(input);
+  if (!request.stage || request.stage->from.empty() || has_checkpoint(request.stage->from))
+    return build_from(plan, read_initial_state(plan));
+  Scene<D> scene = build(plan);
+  scene.notes.push_back(
+      "the first state is the last of the stage before, which has not run: what is said about it "
+      "is for bodies as they begin");
+  return scene;
+}
+
 template <int D>
 void check_scene(const SceneInput& input, const RunRequest& request) {
-  Scene<D> scene = set_up(input, [&] { return build_scene<D>(input); });
+  Scene<D> scene = set_up(input, [&] { return built_scene<D>(input, request); });
   require_known_outputs(input, scene);
   time_to_stop(request, scene.units);  // throws if it is wrong
   if (!scene.title.empty()) say("{}\n", scene.title);
@@ -237,8 +254,17 @@ void check_scene(const SceneInput& input, const RunRequest& request) {
 
 void check(const RunRequest& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
-  const SceneInput input = SceneInput::from_file(request.scene, request.set);
-  scene_dimension(input) == 2 ? check_scene<2>(input, request) : check_scene<3>(input, request);
+  const auto check_one = [](const SceneInput& input, const RunRequest& one) {
+    scene_dimension(input) == 2 ? check_scene<2>(input, one) : check_scene<3>(input, one);
+  };
+  const SceneInput whole = SceneInput::from_file(request.scene, request.set);
+  const std::vector<std::string> stages = whole.stages();
+  if (stages.empty()) return check_one(whole, request);
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    say("{}stage {} of {}: {}\n", k > 0 ? "\n" : "", k + 1, stages.size(), stages[k]);
+    const RunRequest one = request_of_stage(request, stages, k, output_directory(request));
+    check_one(SceneInput::from_file(one.scene, one.set, one.stage), one);
+  }
 }
 
 }  // namespace meniscus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands of the program.
 #pragma once
+#include "input/input.hpp"
 #include "input/units.hpp"
 #include "numbers/types.hpp"
 
@@ -32,6 +33,8 @@ struct RunRequest {
   std::optional<double> max_walltime;  ///< seconds
   int threads = 0;                     ///< 0: all cores
   bool overwrite = false, quiet = false;
+  std::optional<StageChoice> stage;  ///< the stage to run, of a scene with stages
+  std::string stages;                ///< directory of all its stages
 };
 
 /// Runs a scene to its end; returns an exit code. Throws InputError, SolveError, FileError.

@@ -18,7 +18,7 @@ namespace {
 
 /// True if a key changes the simulated physics.
 bool is_physics(const std::string& key) {
-  for (const std::string_view table : {"title", "time", "output", "expect"})
+  for (const std::string_view table : {"title", "initial", "time", "output", "expect"})
     if (key == table || key.starts_with(std::string(table) + ".")) return false;
   return true;
 }

@@ -9,6 +9,7 @@
 #include "app/restart.hpp"
 #include "app/run_report.hpp"
 #include "app/set_up.hpp"
+#include "app/stages.hpp"
 #include "app/warnings.hpp"
 #include "io/run_log.hpp"
 #include "meniscus/error.hpp"
@@ -92,8 +93,8 @@ int end_failed(const SolveError& error, bool quiet, Recorder<D>& recorder, RunLo
 /// Makes the run and records it in its directory, which is already open.
 template <int D>
 int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance& origin,
-                 const std::optional<Restart>& restart, const Interruption& interruption, Real stop,
-                 const RunDirectory& directory, RunLog& log) {
+                 const std::optional<Restart>& restart, const Interruption& interruption,
+                 double begun, Real stop, const RunDirectory& directory, RunLog& log) {
   const bool in_place = restart && restart->in_place;
   const State& begin = epochs.simulation().state();
   if (in_place) {  // write a checkpoint before later rows are removed
@@ -109,7 +110,7 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
                     Progress::for_stdout(request.quiet),
                     [&log](const std::string& line) { log.info(line); });
   const std::int64_t first_step = begin.step;
-  const double set_up_seconds = interruption.elapsed_seconds();
+  const double before_steps = interruption.elapsed_seconds();
   bool has_begun = restart.has_value();
   std::optional<int> signal;
   try {
@@ -135,7 +136,9 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   recorder.checkpoint();
 
   Simulation<D>& simulation = epochs.simulation();
-  const std::string summary = summarise(simulation, first_step, set_up_seconds, interruption);
+  const std::string summary =
+      summarise(simulation, first_step,
+                {before_steps - begun, interruption.elapsed_seconds() - before_steps});
   report_contacts(simulation.scene().system, log);
   log.info(summary);
   report_ranks(simulation.scene().system, simulation.state().step - first_step, log);
@@ -146,7 +149,8 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
     const int expected = report_expectations(simulation, directory, log);
     return rest ? expected : exit_numerical;
   }
-  say_how_to_continue(simulation, *signal, directory, log);
+  say_how_to_continue(simulation, *signal,
+                      request.stage ? request.stages : directory.path().string(), log);
   return exit_signal + *signal;
 }
 
@@ -177,11 +181,11 @@ std::string mark_of_places(const Plan<D>& plan) {
 }
 
 template <int D>
-int run_scene(const SceneInput& input, const RunRequest& request) {
-  Interruption interruption(request.max_walltime);
+int run_scene(const SceneInput& input, const RunRequest& request, Interruption& interruption) {
+  const double begun = interruption.elapsed_seconds();
   Plan<D> plan = set_up(input, [&] { return read_plan<D>(input); });
   require_alike(mark_of_places(plan), "mesh");
-  const std::string complete = input.complete();
+  const std::string complete = plan.complete;
   constexpr Real of_rounding = 1e-9;  // eight steps of 0.1 s come to 0.7999999999999999 s
   const Real until = time_to_stop(request, plan.units),
              stop = until < plan.time.end ? until * (1 - of_rounding) : plan.time.end;
@@ -204,7 +208,8 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
   for (const std::string& note : epochs->simulation().take_notes()) log.info(note);
   if (!restart) report_residuals(epochs->simulation(), log);
   try {
-    return run_recorded(*epochs, request, origin, restart, interruption, stop, *directory, log);
+    return run_recorded(*epochs, request, origin, restart, interruption, begun, stop, *directory,
+                        log);
   } catch (const FileError& e) {
     log.error(e.what());
     keep_complaint(e.what());
@@ -214,13 +219,25 @@ int run_scene(const SceneInput& input, const RunRequest& request) {
 
 }  // namespace
 
+int run_scene(const SceneInput& input, const RunRequest& request, Interruption& interruption) {
+  return scene_dimension(input) == 2 ? run_scene<2>(input, request, interruption)
+                                     : run_scene<3>(input, request, interruption);
+}
+
 int run(const RunRequest& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
+  Interruption interruption(request.max_walltime);
   std::optional<SceneInput> read;
-  on_each_rank([&] { read.emplace(SceneInput::from_file(request.scene, request.set)); });
-  const SceneInput& input = *read;
-  require_alike(input.text(), fmt::format("scene '{}'", request.scene));
-  return scene_dimension(input) == 2 ? run_scene<2>(input, request) : run_scene<3>(input, request);
+  std::vector<std::string> stages;
+  on_each_rank([&] {
+    read.emplace(SceneInput::from_file(request.scene, request.set));
+    stages = read->stages();
+  });
+  require_alike(read->text(), fmt::format("scene '{}'", request.scene));
+  if (stages.empty()) return run_scene(*read, request, interruption);
+  return run_stages(request, stages, [&](const SceneInput& input, const RunRequest& of_stage) {
+    return run_scene(input, of_stage, interruption);
+  });
 }
 
 }  // namespace meniscus

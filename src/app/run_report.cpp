@@ -111,17 +111,16 @@ void report_residuals(const Simulation<D>& simulation, RunLog& log) {
 }
 
 template <int D>
-std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double set_up_seconds,
-                      const Interruption& interruption) {
-  const double seconds = interruption.elapsed_seconds() - set_up_seconds;
+std::string summarise(Simulation<D>& simulation, std::int64_t first_step,
+                      const RunSeconds& seconds) {
   const std::int64_t steps = simulation.state().step - first_step;
   const Real particle_steps =
       static_cast<Real>(std::max<std::int64_t>(1, steps)) * simulation.scene().system.size();
   const std::string effort = simulation.stepper().effort();
   return fmt::format(
       "{} steps in {:.2f} s ({:.0f} ns per particle-step{}{}), set-up {:.2f} s, state {:016x}",
-      steps, seconds, 1e9 * seconds / particle_steps, effort.empty() ? "" : ", ", effort,
-      set_up_seconds, hash_of_state(simulation.snapshot_of_first_rank()));
+      steps, seconds.steps, 1e9 * seconds.steps / particle_steps, effort.empty() ? "" : ", ",
+      effort, seconds.set_up, hash_of_state(simulation.snapshot_of_first_rank()));
 }
 
 template <int D>
@@ -188,14 +187,13 @@ std::string name_of(int signal) {
 }
 
 template <int D>
-void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunDirectory& directory,
+void say_how_to_continue(const Simulation<D>& simulation, int signal, const std::string& directory,
                          RunLog& log) {
   log.warning(fmt::format(
       "stopped after step {}, t = {:.9g} {}, by {}; to continue, run the same command with "
       "--restart {}",
       simulation.state().step, simulation.state().time,
-      simulation.scene().units.symbol(dimension::time), name_of(signal),
-      directory.path().string()));
+      simulation.scene().units.symbol(dimension::time), name_of(signal), directory));
 }
 
 void repeat_warnings(bool quiet, RunLog& log) {
@@ -217,12 +215,12 @@ void repeat_warnings(bool quiet, RunLog& log) {
   template void introduce(const Scene<D>&, const Provenance&, const std::optional<Restart>&, \
                           const StableStep&, RunLog&);                                       \
   template void report_residuals(const Simulation<D>&, RunLog&);                             \
-  template std::string summarise(Simulation<D>&, std::int64_t, double, const Interruption&); \
+  template std::string summarise(Simulation<D>&, std::int64_t, const RunSeconds&);           \
   template void report_contacts(const System<D>&, RunLog&);                                  \
   template void report_ranks(const System<D>&, std::int64_t, RunLog&);                       \
   template bool report_rest(Simulation<D>&, RunLog&);                                        \
   template int report_expectations(const Simulation<D>&, const RunDirectory&, RunLog&);      \
-  template void say_how_to_continue(const Simulation<D>&, int, const RunDirectory&, RunLog&);
+  template void say_how_to_continue(const Simulation<D>&, int, const std::string&, RunLog&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

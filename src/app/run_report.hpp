@@ -2,7 +2,6 @@
 // Lines of the log about a run: at its beginning and at its end.
 #pragma once
 #include "app/commands.hpp"
-#include "app/interruption.hpp"
 #include "app/restart.hpp"
 #include "io/provenance.hpp"
 #include "io/run_log.hpp"
@@ -19,10 +18,14 @@ void introduce(const Scene<D>& scene, const Provenance& origin,
 /// Logs how far the drops are from equilibrium at the start.
 template <int D>
 void report_residuals(const Simulation<D>& simulation, RunLog& log);
+/// Wall-clock time of a run.
+struct RunSeconds {
+  double set_up, steps;
+};
 /// Steps, time and state hash of a run that has made its steps since `first_step`.
 template <int D>
-std::string summarise(Simulation<D>& simulation, std::int64_t first_step, double set_up_seconds,
-                      const Interruption& interruption);
+std::string summarise(Simulation<D>& simulation, std::int64_t first_step,
+                      const RunSeconds& seconds);
 /// Logs the pairs of contact points visited per force, and for comparison the pairs of points and
 /// particles of all other terms.
 template <int D>
@@ -41,7 +44,7 @@ int report_expectations(const Simulation<D>& simulation, const RunDirectory& dir
 
 std::string name_of(int signal);
 template <int D>
-void say_how_to_continue(const Simulation<D>& simulation, int signal, const RunDirectory& directory,
+void say_how_to_continue(const Simulation<D>& simulation, int signal, const std::string& directory,
                          RunLog& log);
 /// Logs all warnings of the run once more at the end, where they are easy to find.
 void repeat_warnings(bool quiet, RunLog& log);

@@ -5,6 +5,7 @@
 #include "app/child.hpp"
 #include "app/commands.hpp"
 #include "app/print.hpp"
+#include "app/stages.hpp"
 #include "input/text.hpp"
 #include "io/files.hpp"
 #include "meniscus/error.hpp"
@@ -131,6 +132,7 @@ class Sweep {
   explicit Sweep(const SweepRequest& request)
       : request_(request), folder_(request.output), table_(keys_of(request)) {
     for (const std::string& setting : request.set) keys_.push_back(swept_key(setting));
+    stages_ = SceneInput::from_file(request.scene).stages();
     if (folder_.empty())
       folder_ = std::filesystem::path("results") /
                 (std::filesystem::path(request.scene).stem().string() + "-sweep");
@@ -193,14 +195,14 @@ class Sweep {
   }
 
   int run_one(Child& child, const Values& values, const std::filesystem::path& directory) {
-    const bool begun =
-        is_there(directory / "checkpoint-a.h5") || is_there(directory / "checkpoint-b.h5");
+    const bool begun = has_checkpoint(stages_.empty() ? directory : directory / stages_.front());
     std::optional<ChildEnd> end;
     if (begun && !request_.overwrite)
       end = child.call(arguments(values, {"--restart", directory.string()}));
     if (!end || end->exit_code == exit_input || end->exit_code == exit_file)
       end = child.call(arguments(values, {"--output", directory.string(), "--overwrite"}));
-    Columns columns = last_row(directory / "history.csv");
+    Columns columns =
+        last_row((stages_.empty() ? directory : directory / stages_.back()) / "history.csv");
     const Columns expected = expectations(end->output);
     columns.insert(columns.end(), expected.begin(), expected.end());
     table_.put(values, end->exit_code, columns);
@@ -226,6 +228,7 @@ class Sweep {
   const SweepRequest& request_;
   std::filesystem::path folder_;
   std::vector<SweptKey> keys_;
+  std::vector<std::string> stages_;  // of the scene
   SweepTable table_;
 };
 

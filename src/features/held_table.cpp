@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A face that is held or moved: the mean displacement over each of its face cells is prescribed.
+// A face that is held or moved: the mean displacement over each of its face cells is prescribed, or
+// the face moves as one by a force.
 #include "body/surface/face_means.hpp"
 #include "input/optional_rows.hpp"
 #include "input/ramp.hpp"
@@ -7,6 +8,7 @@
 #include "meniscus/scene/assembly.hpp"
 #include "numbers/dense.hpp"
 #include "physics/constraint.hpp"
+#include "physics/loads/traction.hpp"
 #include "scene/face_keys.hpp"
 
 #include <fmt/core.h>
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace meniscus::held_table {
 namespace {
@@ -29,7 +32,7 @@ struct Grip {
 
   bool turns() const { return !angle.constant() || angle({0, 0, 0}) != 0; }
 
-  /// Displacement R X - X by the rotation R about the centre, with Rodrigues' formula.
+  /// Displacement R X - X of a place X by the rotation R about the centre, with Rodrigues' formula.
   Eigen::Vector3d turned(const Eigen::Vector3d& X, Real time) const {
     const Real by = ramp.fraction(time) * angle({0, 0, 0}, time);
     const Eigen::Vector3d arm = X - centre, across = cross(axis, arm);
@@ -38,16 +41,54 @@ struct Grip {
   }
 };
 
+/// Mean displacement at a place of a constraint.
+Eigen::Vector3d displacement_of(const ConstraintRows& rows, Index place,
+                                std::span<const NodalVector> u) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (Offset e = at(rows.start, place); e < at(rows.start, place + 1); ++e) {
+    const Lanes moved = at(rows.weight, e) * at(u, at(rows.particle, e));
+    sum += Eigen::Vector3d(moved[0], moved[1], moved[2]);
+  }
+  return sum;
+}
+
+/// Mean displacement of all places, weighted by their areas.
+Eigen::Vector3d mean_displacement(const ConstraintRows& rows, const std::vector<Real>& area,
+                                  std::span<const NodalVector> u) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Real total = 0;
+  for (Index k = 0; k < rows.places(); ++k) {
+    sum += at(area, k) * displacement_of(rows, k, u);
+    total += at(area, k);
+  }
+  return sum / total;
+}
+
 /// Constraint that prescribes the mean displacement of each face cell.
 template <int D>
 class HeldFace final : public Constraint {
  public:
   HeldFace(std::string called, std::string stands, ConstraintRows its_rows,
-           const FaceCells<D>& cells, Grip<D> grip, Real moment)
+           const FaceCells<D>& cells, Grip<D> grip, bool from_start, Real moment)
       : Constraint(std::move(called), std::move(stands), std::move(its_rows)),
         grip_(std::move(grip)),
         displacement_(cells, grip_.displacement),
+        from_start_(from_start),
+        first_(3 * static_cast<std::size_t>(rows.places()), 0.0),
         moment_(moment) {}
+
+  /// Keeps the first mean displacements, from which others are counted.
+  void begin(std::span<const NodalVector> u) override {
+    if (!from_start_ || begun_) return;
+    begun_ = true;
+    for (Index k = 0; k < rows.places(); ++k)
+      Eigen::Vector3d::Map(first_.data() + std::ptrdiff_t{3} * k) = displacement_of(rows, k, u);
+  }
+  void archive(const Archive& a) override {
+    if (!from_start_) return;
+    a("begun", begun_);
+    a("first", first_, dimension::length);
+  }
 
   void targets(Real time, std::span<Real> g) override {
     const std::vector<Real>& mean = displacement_.at(time);
@@ -55,11 +96,12 @@ class HeldFace final : public Constraint {
     const bool turns = grip_.turns();
     for (std::size_t r = 0; r < rows.rows.size(); ++r) {
       const auto& row = rows.rows[r];
-      Eigen::Vector3d u = Eigen::Vector3d::Zero();
+      Eigen::Vector3d u = Eigen::Vector3d::Map(first_.data() + std::ptrdiff_t{3} * row.place);
+      const Eigen::Vector3d from = at(rows.X, row.place) + u;
       if (!grip_.displacement.empty())
-        for (int i = 0; i < D; ++i) u[i] = fraction * at(mean, row.place * D + i);
+        for (int i = 0; i < D; ++i) u[i] += fraction * at(mean, row.place * D + i);
       // A rotation is affine, so its mean over a cell is its value at the mean position.
-      if (turns) u += grip_.turned(at(rows.X, row.place), time);
+      if (turns) u += grip_.turned(from, time);
       g[r] = row.direction.dot(u);
     }
   }
@@ -73,8 +115,40 @@ class HeldFace final : public Constraint {
  private:
   Grip<D> grip_;
   FaceMeans<D> displacement_;
+  bool from_start_, begun_ = false;
+  std::vector<Real> first_;  // [place][3] zero without `from_start`
   Real moment_;
 };
+
+/// Constraint by which all places of a face have the same displacement along some components.
+class FaceAsOne final : public Constraint {
+ public:
+  using Constraint::Constraint;
+  void targets(Real, std::span<Real> g) override { std::fill(g.begin(), g.end(), 0.0); }
+  Real steady_after() const override { return 0; }
+  Real moment() const override { return unbounded; }
+};
+
+/// The differences of places with successive numbers: as one, they have the same displacement.
+ConstraintRows differences_of(const ConstraintRows& face) {
+  ConstraintRows rows;
+  rows.differences = true;
+  const auto directions = static_cast<std::size_t>(face.size() / face.places());
+  for (Index k = 0; k + 1 < face.places(); ++k) {
+    std::map<Index, Real> weights;
+    for (const auto& [place, sign] : {std::pair(k, 1), std::pair(k + 1, -1)})
+      for (Offset e = at(face.start, place); e < at(face.start, place + 1); ++e)
+        weights[at(face.particle, e)] += sign * at(face.weight, e);
+    for (const auto& [particle, weight] : weights) {
+      rows.particle.push_back(particle);
+      rows.weight.push_back(weight);
+    }
+    rows.start.push_back(static_cast<Offset>(rows.particle.size()));
+    rows.X.push_back(at(face.X, k) - at(face.X, k + 1));
+    for (std::size_t i = 0; i < directions; ++i) rows.rows.push_back({k, face.rows[i].direction});
+  }
+  return rows;
+}
 
 /// Sums of the reactions of a constraint. `about`: the point to which torques refer.
 struct ReactionSums {
@@ -89,10 +163,7 @@ struct ReactionSums {
   Eigen::Vector3d torque(const Motion& motion) const {
     std::vector<Eigen::Vector3d> x = of->rows.X;
     for (Index k = 0; k < of->rows.places(); ++k)
-      for (Offset e = at(of->rows.start, k); e < at(of->rows.start, k + 1); ++e) {
-        const Lanes u = at(of->rows.weight, e) * at(motion.u, at(of->rows.particle, e));
-        at(x, k) += Eigen::Vector3d(u[0], u[1], u[2]);
-      }
+      at(x, k) += displacement_of(of->rows, k, motion.u);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (Index r = 0; r < of->rows.size(); ++r)
       sum += cross(at(x, at(of->rows.rows, r).place) - about, row_force(motion, r));
@@ -118,7 +189,8 @@ struct Held final : Load<D> {
   std::string name;
   FaceKeys face;
   std::vector<std::string> components;
-  std::vector<Expression> displacement;
+  std::string from;
+  std::vector<Expression> displacement, force;
   std::vector<Real> axis, centre;
   std::optional<Expression> angle;
   Ramp ramp;
@@ -135,7 +207,15 @@ struct Held final : Load<D> {
                   std::vector<std::string>{}),
         optional_expressions_row("displacement", &Held::displacement, D, dimension::length,
                                  Variables::place_and_time,
-                                 "from the reference, a formula of reference position and time t "
+                                 "a formula of reference position and time t for each component"),
+        choice_row("from", &Held::from, {"reference", "start"},
+                   "what displacement and angle are counted from: the reference, or the first "
+                   "places of the run, as in a stage or after [initial]",
+                   "reference"),
+        optional_expressions_row("force", &Held::force, D, of_sum(dimension::force, D),
+                                 Variables::time,
+                                 "instead of displacement and angle: the sum of forces on the "
+                                 "face, which moves as one along its components; a formula of t "
                                  "for each component"),
         optional_expression_row("angle", &Held::angle, dimension::none, range::any, "0",
                                 "by which the face is turned about the axis, in radians, before "
@@ -145,7 +225,7 @@ struct Held final : Load<D> {
                   std::vector<Real>{0, 0, 1}),
         reals_row("centre", &Held::centre, D, dimension::length, range::any,
                   "a place of the axis; torques are about it", std::vector<Real>(D, 0)),
-        ramp_row("ramp", &Held::ramp, "displacement and angle from 0")};
+        ramp_row("ramp", &Held::ramp, "displacement, angle and force from 0")};
     rows.insert(rows.end(), own.begin(), own.end());
     return rows;
   }
@@ -168,6 +248,7 @@ struct Held final : Load<D> {
       else if (std::count(components.begin(), components.end(), c) > 1)
         block.problem("components", fmt::format("'{}' is given twice", c));
     if (normal && components.size() > 1) block.problem("components", "normal goes alone");
+    if (!force.empty()) check_force(block, normal);
     if (angle && angle->depends_on_place())
       block.problem("angle", "depends on the place; allowed is a formula of t");
     if (D == 2 && (axis[0] != 0 || axis[1] != 0))
@@ -180,23 +261,51 @@ struct Held final : Load<D> {
   void build(Assembly<D>& assembly) const override {
     const Body<D>& body = assembly.body(face.body);
     const FaceCells<D> cells = face.cells(this->place, body);
+    if (!force.empty()) return pull(assembly, body, cells);
     constexpr Real short_time = 1e-4;
     auto held = std::make_unique<HeldFace<D>>("held face '" + label() + "'", this->place,
-                                              rows_of(cells, body), cells, grip(),
+                                              rows_of(cells, body), cells, grip(), from == "start",
                                               short_time * assembly.end_time());
-    assembly.note(fmt::format("{}: {} nodal cells of body '{}', {:.4g} {}, {} multipliers",
-                              held->name, cells.size(), body.name, cells.total_area(),
-                              assembly.units().symbol(D == 3 ? dimension::area : dimension::length),
-                              held->rows.size()));
-    if (displacement.empty() && !angle)
+    note(assembly, *held, cells, body.name);
+    if (displacement.empty() && !angle && from == "reference")
       for (const auto& row : held->rows.rows)
         assembly.set_held(face.body, at(cells.cell, row.place), row.direction);
-    measure(assembly, *held);
+    measure(assembly, *held, cells);
     assembly.keep_reference(face.body, "its [[held]] knows the faces of its shape only");
     assembly.add(std::move(held));
   }
 
  private:
+  bool has_component(int i) const {
+    return components.empty() ||
+           std::count(components.begin(), components.end(), std::string(1, "xyz"[i])) > 0;
+  }
+  void check_force(const Block& block, bool normal) const {
+    for (const char* key : {"displacement", "angle", "from"})
+      if (block.has(key)) block.problem(key, "goes without force, which moves the face by itself");
+    if (normal) block.problem("components", "normal goes without force; allowed are axes");
+    for (int i = 0; i < D; ++i)
+      if (!has_component(i) && !(at(force, i).constant() && at(force, i)({0, 0, 0}) == 0))
+        block.problem("force", fmt::format("acts along {0}, which is not in components; allowed is "
+                                           "0, or a [[traction]] for {0}",
+                                           "xyz"[i]));
+  }
+  /// Adds the constraint of a face that moves as one, and the force as an even dead traction.
+  void pull(Assembly<D>& assembly, const Body<D>& body, const FaceCells<D>& cells) const {
+    auto held = std::make_unique<FaceAsOne>("held face '" + label() + "'", this->place,
+                                            differences_of(rows_of(cells, body)));
+    note(assembly, *held, cells, body.name);
+    assembly.keep_reference(face.body, "its [[held]] knows the faces of its shape only");
+    if (held->rows.size() > 0) assembly.add(std::move(held));
+    assembly.add(traction(body, label(), cells, force, ramp, 1 / cells.total_area()), label());
+  }
+  static void note(Assembly<D>& assembly, const Constraint& held, const FaceCells<D>& cells,
+                   const std::string& body) {
+    assembly.note(fmt::format("{}: {} nodal cells of body '{}', {:.4g} {}, {} multipliers",
+                              held.name, cells.size(), body, cells.total_area(),
+                              assembly.units().symbol(D == 3 ? dimension::area : dimension::length),
+                              held.rows.size()));
+  }
   Grip<D> grip() const {
     Grip<D> grip{displacement, angle.value_or(Expression(0)),
                  Eigen::Vector3d::Map(axis.data()).normalized(),
@@ -215,23 +324,27 @@ struct Held final : Load<D> {
         continue;
       }
       for (int i = 0; i < D; ++i)
-        if (components.empty() ||
-            std::count(components.begin(), components.end(), std::string(1, "xyz"[i])) > 0)
-          rows.rows.push_back({k, Eigen::Vector3d::Unit(i)});
+        if (has_component(i)) rows.rows.push_back({k, Eigen::Vector3d::Unit(i)});
     }
     return rows;
   }
-  void measure(Assembly<D>& assembly, const Constraint& held) const {
+  void measure(Assembly<D>& assembly, const Constraint& held, const FaceCells<D>& cells) const {
     const ReactionSums sums{&held, spatial<D>(Vec<D>::Map(centre.data()))};
-    const Dimension force = of_sum(dimension::force, D), torque = of_sum(dimension::energy, D);
+    const Dimension of_force = of_sum(dimension::force, D), torque = of_sum(dimension::energy, D);
     for (int i = 0; i < D; ++i)
-      assembly.measure(label(), {fmt::format("force_{}", "xyz"[i]), force,
+      assembly.measure(label(), {fmt::format("force_{}", "xyz"[i]), of_force,
                                  "force by which the face is held, on the body",
                                  [=](const Motion& motion) { return sums.force(motion)[i]; }});
     for (int i = D == 3 ? 0 : 2; i < 3; ++i)
       assembly.measure(label(), {fmt::format("torque_{}", "xyz"[i]), torque,
                                  "torque of these forces about the centre",
                                  [=](const Motion& motion) { return sums.torque(motion)[i]; }});
+    for (int i = 0; i < D; ++i)
+      assembly.measure(
+          label(), {fmt::format("displacement_{}", "xyz"[i]), dimension::length,
+                    "mean over the face", [of = &held, area = cells.area, i](const Motion& motion) {
+                      return mean_displacement(of->rows, area, motion.u)[i];
+                    }});
     assembly.measure(label(), {"work", of_sum(dimension::energy, D), "work of these forces so far",
                                [=](const Motion& motion) { return sums.work(motion); }});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A force per area on a face.
+// A force on a face, or a pressure.
 #include "input/optional_rows.hpp"
 #include "meniscus/scene/assembly.hpp"
 #include "physics/loads/traction.hpp"
@@ -16,7 +16,7 @@ struct Traction final : Load<D> {
       "body = \"drop\"\nwhere = \"y < -0.5\"\npressure = \"0.1*(1 + x)*cos(t)\"\n";
   std::string name;
   FaceKeys face;
-  std::vector<Expression> force;
+  std::vector<Expression> force, total;
   std::optional<Expression> pressure;
   Ramp ramp;
 
@@ -31,11 +31,15 @@ struct Traction final : Load<D> {
                                  Variables::place_and_time,
                                  "per reference area, whatever becomes of the surface; a formula "
                                  "of reference position and time t for each component"),
+        optional_expressions_row("total", &Traction::total, D, of_sum(dimension::force, D),
+                                 Variables::time,
+                                 "the sum of even forces on the face, whatever becomes of it; a "
+                                 "formula of time t for each component"),
         optional_expression_row("pressure", &Traction::pressure, dimension::pressure, range::any,
                                 "none",
                                 "per present area, against the surface and following it; a formula "
-                                "of reference position and time; either this or force"),
-        ramp_row("ramp", &Traction::ramp, "force or pressure from 0")};
+                                "of reference position and time; one of force, total and pressure"),
+        ramp_row("ramp", &Traction::ramp, "force, total or pressure from 0")};
     rows.insert(rows.end(), own.begin(), own.end());
     return rows;
   }
@@ -47,26 +51,28 @@ struct Traction final : Load<D> {
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     require_plain_name(block, name);
     face.check(block, bodies);
-    if (force.empty() != pressure.has_value())
-      block.problem("force", "allowed is either force or pressure, not both or neither");
+    if (!force.empty() + !total.empty() + pressure.has_value() != 1)
+      block.problem("force", "allowed is one of force, total and pressure");
   }
   void prepare(BodyPlans<D>& bodies) const override { face.prepare(bodies); }
   void build(Assembly<D>& assembly) const override {
     const Body<D>& body = assembly.body(face.body);
     FaceCells<D> cells = face.cells(this->place, body);
+    const Real factor = total.empty() ? 1 : 1 / cells.total_area();
     assembly.note(fmt::format(
         "traction '{}': on {:.4g} {} of body '{}'", label(), cells.total_area(),
         assembly.units().symbol(D == 3 ? dimension::area : dimension::length), body.name));
     assembly.keep_reference(face.body, "its [[traction]] knows the faces of its shape only");
     assembly.add(pressure ? face_pressure(body, label(), std::move(cells), *pressure, ramp,
                                           assembly.held(face.body))
-                          : traction(body, label(), std::move(cells), force, ramp),
+                          : traction(body, label(), std::move(cells), total.empty() ? force : total,
+                                     ramp, factor),
                  label());
   }
 };
 
-const bool registered = register_load<Traction>("traction", Stage::surface,
-                                                "a force per area, or a pressure, on a face");
+const bool registered =
+    register_load<Traction>("traction", Stage::surface, "a force, or a pressure, on a face");
 
 }  // namespace
 }  // namespace meniscus::traction_table

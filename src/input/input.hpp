@@ -114,6 +114,12 @@ class Block {
   std::shared_ptr<Node> node_;
 };
 
+/// A stage of a scene: the scene with the tables of its table [[stage]].
+struct StageChoice {
+  std::string name;  ///< of the table
+  std::string from;  ///< run whose last state is the first of the stage; empty for the first stage
+};
+
 /// A parsed scene file with the `--set` overrides applied. Copies share their list of problems.
 class SceneInput {
  public:
@@ -121,11 +127,18 @@ class SceneInput {
   /// s'". A body may be given by its name: "body.drop.material.viscosity=1e-3". A value that is not
   /// TOML is taken as a text. The tables of the path must exist; its last key need not. Throws
   /// FileError if the file cannot be read. Throws InputError for a syntax error, or with all
-  /// overrides that cannot be applied.
+  /// overrides that cannot be applied. With `stage`, which stages() must have, the result is the
+  /// scene of this stage.
   static SceneInput from_file(const std::string& path,
-                              const std::vector<std::string>& overrides = {});
+                              const std::vector<std::string>& overrides = {},
+                              const std::optional<StageChoice>& stage = {});
   static SceneInput from_text(std::string_view toml, std::string name = "scene",
-                              const std::vector<std::string>& overrides = {});
+                              const std::vector<std::string>& overrides = {},
+                              const std::optional<StageChoice>& stage = {});
+
+  /// Names of the stages, in their order; empty if the scene has none. Throws InputError like
+  /// check(), after reading the names and the keys of the tables [[stage]].
+  std::vector<std::string> stages() const;
 
   const Block& root() const { return root_; }
   /// Throws InputError with all problems noted so far, sorted by line and then by `--set`. Does

@@ -28,6 +28,7 @@ struct Document {
   std::string name;
   std::string text;
   std::vector<std::string> settings;  ///< texts of --set
+  std::string stage;                  ///< name of the stage, if this is one
   scene_tree::Value root;
   UnitSystem units;
   bool in_plane = false;  ///< dimension = 2: formulas know no z
@@ -37,6 +38,9 @@ struct Document {
   /// "file:line:column" or "--set 'text'".
   std::string place_text(const scene_tree::Place& place) const;
 };
+
+/// Turns the tree of a scene with stages into the tree of one of them.
+void become_stage(scene_tree::Value& scene, const StageChoice& choice);
 
 /// A table of the scene. If it is absent, all keys have their defaults.
 struct Block::Node {

@@ -78,21 +78,24 @@ std::string Document::place_text(const scene_tree::Place& place) const {
   return fmt::format("{}:{}:{}", name, place.line, place.column);
 }
 
-SceneInput SceneInput::from_file(const std::string& path,
-                                 const std::vector<std::string>& overrides) {
+SceneInput SceneInput::from_file(const std::string& path, const std::vector<std::string>& overrides,
+                                 const std::optional<StageChoice>& stage) {
   const std::string text = file_text(path);
   if (is_blank(text)) throw InputError(fmt::format("{}:1:1: the scene is empty", path));
-  return from_text(text, path, overrides);
+  return from_text(text, path, overrides, stage);
 }
 
 SceneInput SceneInput::from_text(std::string_view toml, std::string name,
-                                 const std::vector<std::string>& overrides) {
+                                 const std::vector<std::string>& overrides,
+                                 const std::optional<StageChoice>& stage) {
   auto document = std::make_shared<Document>();
   document->name = std::move(name);
   document->text = std::string(toml);
   document->settings = overrides;
   document->root = scene_tree::parse(toml, document->name);
   apply_settings(*document);
+  if (stage) become_stage(document->root, *stage);
+  if (stage) document->stage = stage->name;
 
   auto node = std::make_shared<Block::Node>();
   node->document = document;
@@ -135,7 +138,9 @@ void SceneInput::check() const {
   std::vector<std::string> lines;
   std::unordered_set<std::string> known;
   for (const Problem& problem : sorted) {
-    const std::string line = document.place_text(problem.place) + ": " + problem.text;
+    const std::string line =
+        fmt::format("{}: {}{}", document.place_text(problem.place), problem.text,
+                    document.stage.empty() ? "" : fmt::format(" (in stage '{}')", document.stage));
     if (known.insert(line).second && known.size() <= most) lines.push_back(line);
   }
   std::unordered_set<std::string> said;

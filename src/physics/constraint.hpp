@@ -3,6 +3,7 @@
 // faces.
 #pragma once
 #include "numbers/types.hpp"
+#include "state/archive.hpp"
 
 #include <span>
 #include <string>
@@ -14,12 +15,15 @@ namespace meniscus {
 /// Rows of C in C u = g(t). Row r is
 ///   direction_r . sum_A weight_kA u_A = g_r(t),   k = place_r.
 /// Rows for several components share the weights of their place. The weights of a place sum to one,
-/// so lambda_r direction_r is the force of row r on its body.
+/// so lambda_r direction_r is the force of row r on its body. With `differences`, each place is the
+/// difference of two places of the body instead: the weights sum to zero, X is the difference of
+/// the two reference places, and a row gives two opposite forces.
 struct ConstraintRows {
   struct Row {
     Index place;
     Eigen::Vector3d direction;  ///< of unit length
   };
+  bool differences = false;
   std::vector<Row> rows;
   std::vector<Eigen::Vector3d> X;  ///< [place] reference place
   std::vector<Offset> start{0};    ///< entries of a place: [start[k], start[k + 1])
@@ -38,6 +42,11 @@ class Constraint {
   Constraint(std::string called, std::string stands, ConstraintRows its_rows)
       : rows(std::move(its_rows)), name(std::move(called)), place(std::move(stands)) {}
   virtual ~Constraint() = default;
+
+  /// Called with the first displacements of a run. After a remap, archive() has restored what is
+  /// kept of them; after a restart, begin() is not called.
+  virtual void begin(std::span<const NodalVector>) {}
+  virtual void archive(const Archive&) {}
 
   /// Sets g(t), one number per row. Returns the same bits for the same time.
   virtual void targets(Real time, std::span<Real> g) = 0;

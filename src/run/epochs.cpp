@@ -4,6 +4,7 @@
 
 #include "body/grid/ordering.hpp"
 #include "meniscus/error.hpp"
+#include "run/initial_state.hpp"
 
 #include <fmt/core.h>
 
@@ -14,35 +15,6 @@
 
 namespace meniscus {
 namespace {
-
-/// The reference configurations of a saved state. Throws FileError if no bodies can be made of
-/// them.
-template <int D>
-References<D> read_references(const Plan<D>& plan, const Snapshot& state) {
-  References<D> references;
-  const Archive all = Archive::reading(state).in("references");
-  for (const BodyPlan<D>& body : plan.bodies) {
-    const std::string& name = body.settings.name;
-    if (!all.has(name)) continue;
-    Geometry<D> geometry = body.geometry;
-    order_spatially(geometry);
-    Reference<D> reference = Reference<D>::of_scene(std::move(geometry), 0);
-    const auto impossible = [&](const std::string& why) {
-      throw FileError(fmt::format("the saved reference of body '{}' is impossible: {}", name, why));
-    };
-    try {
-      reference.archive(all.in(name));
-    } catch (const InputError& cause) {
-      impossible(cause.what());
-    }
-    const auto& ratio = reference.volume_ratio;
-    if (!(reference.mass > 0)) impossible("a mass that is not positive");
-    if (!std::all_of(ratio.begin(), ratio.end(), [](Real J) { return J > 0; }))
-      impossible("a volume ratio that is not positive");
-    references[name] = std::make_shared<const Reference<D>>(std::move(reference));
-  }
-  return references;
-}
 
 template <int D>
 std::size_t number_of(const System<D>& system, const std::string& body) {
@@ -97,13 +69,14 @@ std::optional<std::string> doubt_of_remap(const Simulation<D>& after, const Ledg
 
 template <int D>
 Epochs<D>::Epochs(Plan<D> plan, const Snapshot* state) : plan_(std::move(plan)) {
-  build_again(state ? read_references(plan_, *state) : References<D>{});
+  begin(state ? build(plan_, read_references(plan_, *state))
+              : build_from(plan_, read_initial_state(plan_)));
   if (state) simulation_->restore(*state);
 }
 
 template <int D>
-void Epochs<D>::build_again(const References<D>& references) {
-  auto scene = std::make_unique<Scene<D>>(build(plan_, references));
+void Epochs<D>::begin(Scene<D> built) {
+  auto scene = std::make_unique<Scene<D>>(std::move(built));
   auto simulation = std::make_unique<Simulation<D>>(*scene);
   simulation_ = std::move(simulation);
   scene_ = std::move(scene);
@@ -114,7 +87,7 @@ void Epochs<D>::restore(const Snapshot& state) {
   const References<D> references = read_references(plan_, state);
   const bool in_first = std::all_of(scene_->system.bodies.begin(), scene_->system.bodies.end(),
                                     [](const Body<D>& body) { return !body.reference; });
-  if (!in_first || !references.empty()) build_again(references);
+  if (!in_first || !references.empty()) begin(build(plan_, references));
   simulation_->restore(state);
 }
 

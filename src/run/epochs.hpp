@@ -18,8 +18,8 @@ namespace meniscus {
 template <int D>
 class Epochs {
  public:
-  /// Begins the first epoch, or the epoch of `state`, which is then to be restored. Throws like
-  /// build(), Simulation and Simulation::restore.
+  /// Begins the first epoch, in the initial state of the scene, or continues from `state`. Throws
+  /// like read_initial_state(), build(), Simulation and Simulation::restore.
   explicit Epochs(Plan<D> plan, const Snapshot* state = nullptr);
 
   Simulation<D>& simulation() { return *simulation_; }
@@ -48,7 +48,7 @@ class Epochs {
   void restore(const Snapshot& state);
 
  private:
-  void build_again(const References<D>& references);
+  void begin(Scene<D> built);
   bool due(const PlannedRemap& planned, Real time_before) const;
   /// The new node positions of body number b.
   Seeds<D> seeds(const PlannedRemap& planned, std::size_t b) const;

@@ -52,8 +52,7 @@ std::vector<std::string> names_of(const Sources& sources) {
 template <int D>
 class RunIn final : public Run::Base {
  public:
-  explicit RunIn(const SceneInput& input)
-      : epochs_(read_plan<D>(input)), complete_(input.complete()) {
+  explicit RunIn(const SceneInput& input) : epochs_(read_plan<D>(input)) {
     epochs_.simulation().begin();
     epochs_.simulation().settle();
   }
@@ -108,7 +107,7 @@ class RunIn final : public Run::Base {
 
   void save(const std::string& directory) override {
     const RunDirectory folder(directory, ExistingRun::keep);
-    CheckpointWriter(folder, provenance("a program with the library", complete_))
+    CheckpointWriter(folder, provenance("a program with the library", scene().complete))
         .write(step(), time(), epochs_.simulation().snapshot());
   }
   void restore(const std::string& directory) override {
@@ -130,7 +129,6 @@ class RunIn final : public Run::Base {
   const State& now() const { return epochs_.simulation().state(); }
 
   Epochs<D> epochs_;
-  std::string complete_;
 };
 
 std::unique_ptr<Run::Base> begin(const SceneInput& input) {

@@ -19,7 +19,6 @@ template <int D>
 class Simulation {
  public:
   /// `scene` must outlive the simulation. Throws InputError if the stepper cannot run this scene.
-  /// scene.
   explicit Simulation(Scene<D>& scene);
 
   /// Computes the forces, the stable step and the audit of the initial state. Throws like
@@ -78,14 +77,12 @@ class Simulation {
   void begin_audit();
   /// Makes the stepper and its step control. Throws InputError if the stepper cannot run this
   /// scene.
-  /// scene.
   void make_stepper(bool implicit_viscosity);
   void share_steps();
   void choose_viscosity();
   void archive_viscosity(const Archive& a);
   void archive_terms(const Archive& a);
   void archive_references(const Archive& a) const;
-  void archive_orders(const Archive& a) const;
   void step_or_halve(Real dt);
   void refuse_impossible_states();
   void refuse(const StateCheck& check) const;

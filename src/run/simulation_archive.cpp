@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run saves and restores.
-#include "body/grid/ordering.hpp"
 #include "meniscus/error.hpp"
+#include "run/initial_state.hpp"
 #include "run/simulation.hpp"
 
 #include <fmt/core.h>
@@ -10,7 +10,7 @@ namespace meniscus {
 
 template <int D>
 void Simulation<D>::archive(const Archive& a) {
-  archive_orders(a.in("orders"));
+  archive_orders(scene_.system, a.in("orders"));
   state_.archive(a, D);
   a("last_step", last_step_, dimension::time);
   require_saved(last_step_ >= 0 && last_step_ <= state_.time * (1 + 1e-9), a, "last_step");
@@ -54,6 +54,9 @@ void Simulation<D>::archive_terms(const Archive& a) {
     ForceTerm& term = *scene_.system.terms[k];
     term.archive(a.in(fmt::format("terms/{} {}", k, term.name())));
   }
+  if (const auto& constraints = scene_.system.constraints)
+    for (const auto& one : constraints->all())
+      one->archive(a.in(fmt::format("constraints/{} {}", one->number, one->name)));
   for (std::size_t k = 0; k < scene_.system.carried.size(); ++k)
     scene_.system.carried[k]->archive(a.in(fmt::format("carried/{}", k)));
 }
@@ -69,25 +72,6 @@ void Simulation<D>::archive_references(const Archive& a) const {
       Reference<D> reference = *body.reference;
       reference.archive(a.in(body.name));
     }
-  }
-}
-
-/// Saves a hash of the order of the particles, and throws FileError if a state was saved with
-/// another order, as other versions may have. Bodies after a remap save their positions instead.
-template <int D>
-void Simulation<D>::archive_orders(const Archive& a) const {
-  constexpr Real of_rounding = 1e-6;  // in spacings, for all particles together
-  for (const Body<D>& body : scene_.system.bodies) {
-    if (body.reference) continue;
-    const Vec<D> mark = mark_of_order<D>(body.geometry.grid.X);
-    Eigen::Vector3d saved = Eigen::Vector3d::Zero();
-    saved.head<D>() = mark;
-    a(body.name, saved, dimension::length);
-    if (!((saved.head<D>() - mark).norm() < of_rounding * mean_spacing(body.geometry.grid)))
-      throw FileError(
-          fmt::format("the saved state of body '{}' has its particles in another order: it was "
-                      "written by another version; continue it with that one, or run it again",
-                      body.name));
   }
 }
 

@@ -240,9 +240,16 @@ std::string schema_of(const Paths& paths, const std::string& path) {
 }  // namespace
 
 void print_key_schema(std::ostream& out) {
+  static const std::set<std::string> of_all_stages{"", "units", "body", "initial", "stage"};
   Paths paths;
-  for (const KeyTable& table : key_tables()) {
-    const KeyHeading heading = heading_of(table);
+  for (KeyTable table : key_tables()) {
+    KeyHeading heading = heading_of(table);
+    paths[heading.path].add(table, heading);
+    if (of_all_stages.count(heading.path.substr(0, heading.path.find('.'))) > 0) continue;
+    heading.path = "stage." + heading.path;
+    if (!heading.is_array)  // a required key may be in the table of the scene
+      for (KeyText& key : table.keys)
+        if (key.fallback == "required") key.fallback = "that of the scene";
     paths[heading.path].add(table, heading);
   }
   out << schema_of(paths, "") << "\n";

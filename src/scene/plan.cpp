@@ -210,6 +210,9 @@ void plan_bodies(const Block& root, BodyPlans<D>& bodies) {
                     fmt::format("'cell_average' averages over nodal cells, which integration = "
                                 "\"{}\" does not have; allowed are automatic, full",
                                 settings.integration));
+    if (root.has("initial") && block.has("initial_displacement"))
+      block.problem("initial_displacement",
+                    "has no meaning beside [initial], which has the first positions");
     require_components(block, "initial_displacement", settings.initial_displacement.size(), D);
     require_components(block, "initial_velocity", settings.initial_velocity.size(), D);
     Geometry<D> geometry = read_geometry<D>(block);
@@ -368,6 +371,17 @@ RunSettings read_settings(const Block& root) {
   run.title = root.text("title", "");
   run.units = root.units();
   Real end = unbounded;  // if the end time is missing or wrong
+  if (root.has("stage"))
+    root.problem("stage",
+                 "the scene has stages, each of which is a scene; meniscus run and meniscus check "
+                 "take them one after the other");
+  if (const auto block = root.table("initial")) {
+    run.initial = read<InitialSettings>(*block);
+    run.initial.from_place = block->place("from");
+    if (block->has("from") && run.initial.from.empty())
+      block->problem("from", "is empty; allowed is the directory of a run");
+    block->done();
+  }
   if (const auto block = root.table("time", true)) {
     run.time = read<TimeSettings>(*block);
     run.time.step_place = block->place("step");
@@ -417,6 +431,7 @@ Plan<D> read_plan(const SceneInput& input) {
     note_unknown_measures(input.root(), plan, names_of(plan));
     input.check();
   }
+  plan.complete = input.complete();
   return plan;
 }
 

@@ -15,9 +15,11 @@ namespace meniscus {
 struct RunSettings {
   std::string title;
   UnitSystem units;
+  InitialSettings initial;
   TimeSettings time;
   OutputSettings output;
   std::vector<std::pair<std::string, ExpectSettings>> expectations;
+  std::string complete;  ///< all keys with their values, as of SceneInput::complete()
 };
 
 /// The input of a scene. It is constant after reading; scenes can be built from it any number of

@@ -108,7 +108,8 @@ template <int D>
 Scene<D> build(const Plan<D>& plan, const References<D>& references) {
   Scene<D> scene;
   static_cast<RunSettings&>(scene) = plan;
-  Assembly<D> assembly(scene, references.empty());
+  const bool at_reference = references.empty() && plan.initial.from.empty();
+  Assembly<D> assembly(scene, at_reference);
   std::vector<std::unique_ptr<NematicBody<D>>> nematics;
   const std::vector<Division> divisions = divide_bodies(plan, references);
   auto& bodies = scene.system.bodies;
@@ -128,7 +129,7 @@ Scene<D> build(const Plan<D>& plan, const References<D>& references) {
   if (auto constraints = assembly.take_constraints(); !constraints.empty())
     scene.system.hold(std::move(constraints), scene.initial);
   for (const PlannedRemap& remap : scene.remaps) require_remappable(scene, remap.body);
-  watch_surfaces(scene, references.empty());
+  watch_surfaces(scene, at_reference);
   return scene;
 }
 

@@ -30,6 +30,14 @@ constexpr Range support_factors{1, 10};
 
 }  // namespace
 
+Rows<InitialSettings> InitialSettings::rows() {
+  return {text_row("from", &InitialSettings::from,
+                   "directory of a run of the same bodies, or one of its checkpoints: its last "
+                   "positions, velocities and directors are the first of this run, at the time 0. "
+                   "An initial_velocity replaces the velocities of its body. After relax or "
+                   "newton, bodies are at rest")};
+}
+
 Rows<TimeSettings> TimeSettings::rows() {
   using S = TimeSettings;
   return {
@@ -252,6 +260,18 @@ std::vector<KeyTable> key_tables() {
          "\"NAME(a, b)\" in quotes is one of arguments, called as NAME(2*x, 1)"}},
        "[functions]\nwave = \"sin(2*pi*x)\"\n\"bump(r, width)\" = \"exp(-(r/width)^2)\"\n"
        "[[body]]\ninitial_velocity = [\"0.1*wave\", \"bump(sqrt(x^2 + y^2), 0.3)\", 0]\n"},
+      {"[initial]", key_texts(InitialSettings::rows()), "[initial]\nfrom = \"results/relaxed\"\n"},
+      {"[[stage]]",
+       {{"name", "text", "", "", "required",
+         "name of the stage and of its directory of results. A stage has tables of its own, such "
+         "as "
+         "[stage.time] or [[stage.traction]], and all tables of the scene; where both have a key, "
+         "that of the stage counts. Not in a stage: title, dimension, units, body, initial. Stages "
+         "are run one after the other, each from the last state of the one before, with a time "
+         "that "
+         "begins at 0"}},
+       "[[stage]]\nname = \"press\"\n[stage.time]\nend = 1\n[[stage.traction]]\nbody = "
+       "\"drop\"\npressure = 10\n[[stage]]\nname = \"release\"\n[stage.time]\nend = 5\n"},
       {"[time]", key_texts(TimeSettings::rows())},
       {"[output]", key_texts(OutputSettings::rows())},
       {"[[body]]", key_texts(BodySettings::rows())},

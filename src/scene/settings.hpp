@@ -7,6 +7,13 @@
 
 namespace meniscus {
 
+/// [initial]
+struct InitialSettings {
+  std::string from;        ///< a run of the same bodies, whose last state is the first; empty: none
+  std::string from_place;  ///< place of `from` in the scene, for messages
+  static Rows<InitialSettings> rows();
+};
+
 /// [time]
 struct TimeSettings {
   Real end = 0;

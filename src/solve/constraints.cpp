@@ -219,6 +219,7 @@ void Constraints::rates(Real time, Real h, bool begins) {
 }
 
 void Constraints::make_consistent(State& state) {
+  for (const auto& one : all_) one->begin(state.u);
   Real h = unbounded;
   for (const auto& one : all_) h = std::min(h, one->moment());
   rates(state.time, h, true);
@@ -259,7 +260,7 @@ void Constraints::book(State& state, const std::vector<Real>& impulse,
     for (Index r = one->first; r < one->first + one->rows.size(); ++r) {
       work += at(impulse, r) * (at(before, r) + at(after, r)) / 2;
       const Eigen::Vector3d of_row = spatial(at(impulse, r) * at(row_, r).direction);
-      all += of_row;
+      if (!one->rows.differences) all += of_row;
       turn += cross(spatial(at(at_place_, at(row_, r).place)), of_row);
     }
     at(state.reactions.work, one->number) += work;

@@ -182,7 +182,7 @@ class Pictures(ProgramTest):
         self.assertIn("usage: meniscus plot", self.call("plot", "--help").stdout)
         self.refused(["plot", "nowhere"], 5, "meniscus plot: ", "nowhere")
         self.call("sweep", "scene.toml", "--set", "time.end=0.001,0.002", "--output", "s")
-        self.refused(["plot", "s"], 5, "s is a sweep; name one of its runs: end=0.001, end=0.002")
+        self.refused(["plot", "s"], 5, "s has several runs; name one of them: end=0.001, end=0.002")
         self.refused(["report", "out", "--nonsense"], 2, "usage: meniscus report", "--nonsense")
 
 

@@ -16,10 +16,11 @@ template <int D>
 class Traction final : public ForceTerm {
  public:
   Traction(const Body<D>& body, std::string label, FaceCells<D> cells,
-           std::vector<Expression> force, const Ramp& ramp)
+           std::vector<Expression> force, const Ramp& ramp, Real factor)
       : body_(body),
         label_(std::move(label)),
         ramp_(ramp),
+        factor_(factor),
         means_(cells, std::move(force)),
         cells_(std::move(cells)),
         force_(cells_.area.size(), Lanes::zero()) {}
@@ -77,7 +78,7 @@ class Traction final : public ForceTerm {
   /// Computes force_ at a time.
   void evaluate(Real time) {
     const std::vector<Real>& mean = means_.at(time);
-    const Real fraction = ramp_.fraction(time);
+    const Real fraction = factor_ * ramp_.fraction(time);
     for (Index k = 0; k < cells_.size(); ++k)
       set_vector<D>(force_, k,
                     Vec<D>(fraction * at(cells_.area, k) *
@@ -96,6 +97,7 @@ class Traction final : public ForceTerm {
   const Body<D>& body_;
   std::string label_;
   Ramp ramp_;
+  Real factor_;
   FaceMeans<D> means_;
   FaceCells<D> cells_;
   NodalVectors force_;  // force of each face cell
@@ -105,13 +107,13 @@ class Traction final : public ForceTerm {
 
 template <int D>
 std::unique_ptr<ForceTerm> traction(const Body<D>& body, std::string label, FaceCells<D> cells,
-                                    std::vector<Expression> force, const Ramp& ramp) {
+                                    std::vector<Expression> force, const Ramp& ramp, Real factor) {
   return std::make_unique<Traction<D>>(body, std::move(label), std::move(cells), std::move(force),
-                                       ramp);
+                                       ramp, factor);
 }
 template std::unique_ptr<ForceTerm> traction(const Body<2>&, std::string, FaceCells<2>,
-                                             std::vector<Expression>, const Ramp&);
+                                             std::vector<Expression>, const Ramp&, Real);
 template std::unique_ptr<ForceTerm> traction(const Body<3>&, std::string, FaceCells<3>,
-                                             std::vector<Expression>, const Ramp&);
+                                             std::vector<Expression>, const Ramp&, Real);
 
 }  // namespace meniscus

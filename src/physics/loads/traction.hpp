@@ -12,11 +12,13 @@
 
 namespace meniscus {
 
-/// A dead traction (held-faces note 3). `force` has D formulas of reference position and time, per
-/// reference area; each face cell uses its mean. `label` is the name in messages.
+/// A dead traction (held-faces note 3). `force` has D formulas of reference position and time;
+/// `factor` times their values is the force per reference area, of which each face cell uses the
+/// mean. `label` is the name in messages.
 template <int D>
 std::unique_ptr<ForceTerm> traction(const Body<D>& body, std::string label, FaceCells<D> cells,
-                                    std::vector<Expression> force, const Ramp& ramp);
+                                    std::vector<Expression> force, const Ramp& ramp,
+                                    Real factor = 1);
 
 /// A pressure on the current surface (held-faces note 3). `pressure` is a formula of reference
 /// position and time, per current area. The forces are f_A = - sum_a N_A(X_a) INT p L_a da on
