@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace meniscus::held_table {
@@ -106,9 +105,7 @@ class HeldFace final : public Constraint {
     }
   }
   Real steady_after() const override {
-    return displacement_.change() || grip_.angle.depends_on_time()
-               ? std::numeric_limits<Real>::infinity()
-               : grip_.ramp.end;
+    return std::max({displacement_.steady_after(), grip_.angle.steady_after(), grip_.ramp.end});
   }
   Real moment() const override { return moment_; }
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <optional>
@@ -29,6 +30,8 @@ struct Expression::Parsed {
   std::string place;
   NamedNumbers constants;
   std::optional<ExpressionJets> jets;  ///< made at the first call of jet()
+  Real end = 0;                        ///< of the scene; 0: not known
+  std::optional<Real> steady_after;    ///< found at its first call
 };
 
 namespace {
@@ -206,6 +209,38 @@ Real Expression::operator()(const Eigen::Vector3d& X, Real t) const {
 
 void Expression::set_place(std::string place) {
   if (parsed_) parsed_->place = std::move(place);
+}
+
+void Expression::set_end(Real end) {
+  if (parsed_) parsed_->end = end;
+}
+
+Real Expression::steady_after() const {
+  constexpr Real never = std::numeric_limits<Real>::infinity();
+  if (!depends_on_time()) return 0;
+  if (depends_on_place() || !(parsed_->end > 0)) return never;
+  if (parsed_->steady_after) return *parsed_->steady_after;
+  constexpr int parts = 10000;
+  // Irregular times: a formula may have a period that fits into regular ones.
+  const auto time = [&](int k) {
+    const Real irregular = k * std::numbers::phi, within = irregular - std::floor(irregular);
+    return (k + within) * parsed_->end / parts;
+  };
+  const Eigen::Vector3d nowhere = Eigen::Vector3d::Zero();
+  const Real last = (*this)(nowhere, parsed_->end);
+  int k = parts - 1;
+  while (k >= 0 && (*this)(nowhere, time(k)) == last) --k;
+  if (k == parts - 1 || k < 0) {
+    parsed_->steady_after = k < 0 ? 0 : never;
+    return *parsed_->steady_after;
+  }
+  Real changes = time(k), constant = time(k + 1);
+  for (int halving = 0; halving < 30; ++halving) {
+    const Real middle = (changes + constant) / 2;
+    ((*this)(nowhere, middle) == last ? constant : changes) = middle;
+  }
+  parsed_->steady_after = constant;
+  return constant;
 }
 
 const std::string& Expression::place() const {

@@ -54,6 +54,13 @@ class Expression {
   /// The place set by set_place(); empty for a constant or if none was set.
   const std::string& place() const;
 
+  /// Sets the end time of the scene, up to which steady_after() looks.
+  void set_end(Real end);
+  /// The time after which the value is constant until the end of the scene: 0 without t; for a
+  /// formula of t alone found from its values, which are seen at intervals of 1e-4 of the end;
+  /// otherwise infinity. Throws like operator().
+  Real steady_after() const;
+
   /// The formula as given. For a constant, the shortest decimal that reads back as the same number.
   const std::string& text() const { return text_; }
   /// True if no variable occurs.

@@ -262,6 +262,7 @@ Expression Block::expression(std::string_view key, Dimension dimension,
       input_values::harmless(range),
       [&](const Value& value) { return number.expression(value, variables); });
   read.set_place(place(key));
+  read.set_end(node_->document->end);
   return read;
 }
 
@@ -273,8 +274,10 @@ std::vector<Expression> Block::expressions(std::string_view key, std::size_t cou
   std::vector<Expression> read = node_->read_list<Expression>(
       key, count, number.allowed_or_formula(variables), number.unit(), fallback, Expression(0),
       [&](const Value& value) { return number.expression(value, variables); });
-  for (std::size_t i = 0; i < read.size(); ++i)
+  for (std::size_t i = 0; i < read.size(); ++i) {
     read[i].set_place(fmt::format("{}[{}]", place(key), i));
+    read[i].set_end(node_->document->end);
+  }
   return read;
 }
 

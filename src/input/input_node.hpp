@@ -32,6 +32,7 @@ struct Document {
   scene_tree::Value root;
   UnitSystem units;
   bool in_plane = false;  ///< dimension = 2: formulas know no z
+  Real end = 0;           ///< time.end; 0 if it is missing or wrong
   Constants constants;
   std::vector<Problem> problems;
 

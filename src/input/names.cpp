@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <utility>
 
@@ -98,6 +99,11 @@ std::string allowed_names(std::string_view given, const std::vector<std::string>
   if (known.empty()) return "none is allowed";
   return fmt::format("allowed {} {}{}", known.size() == 1 ? "is" : "are", joined(known, ", "),
                      hint(given, known));
+}
+
+bool is_plain_name(std::string_view name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+  return !name.empty() && std::all_of(name.begin(), name.end(), plain);
 }
 
 }  // namespace meniscus

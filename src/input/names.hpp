@@ -24,4 +24,7 @@ std::string allowed_names(std::string_view given, const std::vector<std::string>
 /// "gravity". Empty for other words.
 std::string_view own_word(std::string_view foreign);
 
+/// True if a text can name a thing of a scene: letters, digits, _ and - only.
+bool is_plain_name(std::string_view name);
+
 }  // namespace meniscus

@@ -71,6 +71,23 @@ void refer_to_list_above(std::string& line, std::unordered_set<std::string>& sai
   line.replace(first + begin.size(), last - first - begin.size(), "the names listed above");
 }
 
+/// time.end of a scene; 0 if it is missing or wrong.
+Real end_of(const Document& document) {
+  const auto& root = std::get<scene_tree::Table>(document.root.data);
+  const scene_tree::Entry* const time = root.find("time");
+  const auto* const table =
+      time == nullptr ? nullptr : std::get_if<scene_tree::Table>(&time->value.data);
+  const scene_tree::Entry* const end = table == nullptr ? nullptr : table->find("end");
+  if (end == nullptr) return 0;
+  try {
+    return input_values::Number{document.units, dimension::time, range::positive,
+                                document.constants, document.in_plane}
+        .real(end->value);
+  } catch (const InputError&) {  // who reads it notes that
+    return 0;
+  }
+}
+
 }  // namespace
 
 std::string Document::place_text(const scene_tree::Place& place) const {
@@ -120,6 +137,7 @@ SceneInput SceneInput::from_text(std::string_view toml, std::string name,
           input_values::integer(dimension->value, {2, 3}, document->constants) == 2;
     } catch (const InputError&) {  // who reads it notes that
     }
+  document->end = end_of(*document);
   return input;
 }
 

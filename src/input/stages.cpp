@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stages: scenes that differ in some tables and start one where the other ends.
 #include "input/input_node.hpp"
-#include "input/text.hpp"
+#include "input/names.hpp"
 #include "meniscus/error.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 namespace meniscus {
@@ -65,11 +64,6 @@ std::string name_of(const Table& stage) {
   return text == nullptr ? std::string() : *text;
 }
 
-bool is_name(const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
-  return !name.empty() && std::all_of(name.begin(), name.end(), plain);
-}
-
 }  // namespace
 
 void become_stage(Value& scene, const StageChoice& choice) {
@@ -93,7 +87,7 @@ std::vector<std::string> SceneInput::stages() const {
   std::vector<std::string> names;
   for (const Block& stage : root_.tables("stage")) {
     const std::string name = stage.text("name", std::nullopt);
-    if (stage.has("name") && !is_name(name))
+    if (stage.has("name") && !is_plain_name(name))
       stage.problem(
           "name", fmt::format("'{}' cannot be a name; allowed are letters, digits, _ and -", name));
     if (std::find(names.begin(), names.end(), name) != names.end())

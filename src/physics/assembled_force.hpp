@@ -23,8 +23,8 @@ class AssembledForce {
   /// Announces the elements of the tangent. Called on the process that has the matrix.
   virtual void announce(StiffnessMatrix& K) = 0;
   /// Adds minus the tangent of the forces, with the pressures of the motion plus `off` (empty: 0).
-  /// Unknowns other than displacements are to be eliminated; the matrix has one negative eigenvalue
-  /// for each of them. Only one process has the matrix, and all rows (StiffnessMatrix::is_here()).
+  /// Unknowns other than displacements are to be eliminated (StiffnessMatrix::add_nodes()). Only
+  /// one process has the matrix, and all rows (StiffnessMatrix::is_here()).
   virtual void add_stiffness(const Motion& motion, std::span<const Lanes> off,
                              StiffnessMatrix& K) = 0;
 

@@ -43,8 +43,8 @@ class Constraint {
       : rows(std::move(its_rows)), name(std::move(called)), place(std::move(stands)) {}
   virtual ~Constraint() = default;
 
-  /// Called with the first displacements of a run. After a remap, archive() has restored what is
-  /// kept of them; after a restart, begin() is not called.
+  /// Called with the first displacements of a run. After a remap it is called again, when archive()
+  /// has restored the values of the first call; after a restart it is not called.
   virtual void begin(std::span<const NodalVector>) {}
   virtual void archive(const Archive&) {}
 

@@ -13,9 +13,12 @@ StiffnessMatrix::StiffnessMatrix(Index particles, int dimension)
   for (Index A = 0; A <= particles; ++A) first_of_.push_back(A * dimension);
 }
 
-Index StiffnessMatrix::add_nodes(Index count) {
+Index StiffnessMatrix::add_nodes(Index count, bool least) {
   const Index first = nodes();
-  for (Index k = 0; k < count; ++k) first_of_.push_back(first_of_.back() + 1);
+  for (Index k = 0; k < count; ++k) {
+    if (least) least_.push_back(nodes());
+    first_of_.push_back(first_of_.back() + 1);
+  }
   return first;
 }
 
@@ -146,6 +149,8 @@ void StiffnessMatrix::add_column(Index node, std::span<const NodalVector> vector
 
 /// Fills in the entries that elements and columns do not give.
 void StiffnessMatrix::complete() {
+  for (const Index node : least_)
+    if (Real& own = at(value_, at(diagonal_, at(first_of_, node))); own == 0) own = 1;
   for (Index j = particles_ * dimension_; j < unknowns(); ++j)
     if (Real& own = at(value_, at(diagonal_, j)); own == 0) own = -1;
   sweep(static_cast<Index>(value_.size()), [&](Index begin, Index end) {

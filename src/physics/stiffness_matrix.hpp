@@ -37,8 +37,14 @@ class StiffnessMatrix {
 
   StiffnessMatrix(Index particles, int dimension);
 
-  /// Adds nodes of one unknown each; returns the number of the first one. Before close().
-  Index add_nodes(Index count);
+  /// Adds nodes of one unknown each; returns the number of the first one. Before close(). Such an
+  /// unknown is eliminated: it gives one negative eigenvalue, or none if it is at a minimum of the
+  /// energy (`least`).
+  Index add_nodes(Index count, bool least = false);
+  /// Number of negative eigenvalues of a stable state.
+  Index negative_if_stable() const {
+    return unknowns() - particles_ * dimension_ - static_cast<Index>(least_.size());
+  }
   /// Announces an element with these nodes, in ascending order; returns its number. Before close().
   Index announce(std::span<const Index> nodes);
   /// Announces that a further node meets particles, which need not meet each other. Before close().
@@ -67,7 +73,8 @@ class StiffnessMatrix {
   /// Adds a vector to the column and the row of a further node, at the particles that were
   /// announced for it.
   void add_column(Index node, std::span<const NodalVector> vector);
-  /// Ends the addition of elements and columns. Further nodes without a diagonal entry get -1.
+  /// Ends the addition of elements and columns. Further nodes without a diagonal entry get -1, or 1
+  /// at a minimum.
   void complete();
   /// Adds a number to the diagonal entries of a node.
   void add_to_diagonal(Index node, Real amount);
@@ -111,6 +118,7 @@ class StiffnessMatrix {
 
   Index particles_;
   int dimension_;
+  std::vector<Index> least_;              // further nodes at a minimum
   std::vector<Index> first_of_;           // [node] its first unknown
   std::vector<Offset> element_start_{0};  // [element]
   std::vector<Index> element_node_;

@@ -8,10 +8,12 @@
 #include "meniscus/error.hpp"
 #include "meniscus/solve/stepper.hpp"
 #include "parallel/ranks.hpp"
+#include "physics/continued_term.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 
 namespace meniscus {
 namespace {
@@ -35,6 +37,17 @@ bool moves(const std::string& complete) {
   return !all.find(solver) || all.at(solver).residuals.empty();
 }
 
+/// The groups of a saved state in which a term of this name has saved its values.
+std::set<std::string> groups_of_term(const Snapshot& state, const std::string& name) {
+  std::set<std::string> groups;
+  const std::string sought = " " + name + "/";
+  for (const auto& [array, values] : state.arrays())
+    if (const std::size_t found = array.find(sought);
+        array.starts_with("terms/") && found != array.npos)
+      groups.insert(array.substr(0, found + sought.size() - 1));
+  return groups;
+}
+
 /// Reads positions, velocities and other unknowns. Bodies with an initial velocity keep it.
 template <int D>
 void take_over(const Plan<D>& plan, const InitialState& initial, Scene<D>& scene) {
@@ -49,6 +62,10 @@ void take_over(const Plan<D>& plan, const InitialState& initial, Scene<D>& scene
     const Body<D>& body = scene.system.bodies[b];
     std::copy_n(v.begin() + body.first, body.size(), state.v.begin() + body.first);
   }
+  for (const auto& term : scene.system.terms)
+    if (auto* const continued = dynamic_cast<ContinuedTerm*>(term.get()))
+      for (const std::string& group : groups_of_term(initial.state, term->name()))
+        continued->continue_from(a.in(group));
   for (Unknown& field : state.fields) {
     const Archive part = a.in("fields").in(field.spec.name);
     if (!a.in("fields").has(field.spec.name)) continue;

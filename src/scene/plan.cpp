@@ -40,8 +40,7 @@ template const BodyPlan<3>* require_body(const Block&, const BodyPlans<3>&, cons
                                          std::string_view);
 
 void require_plain_name(const Block& block, const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
-  if (block.has("name") && (name.empty() || !std::all_of(name.begin(), name.end(), plain)))
+  if (block.has("name") && !is_plain_name(name))
     block.problem("name",
                   fmt::format("'{}' cannot be a name; allowed are letters, digits, _ and -", name));
 }

@@ -93,6 +93,16 @@ std::vector<Case> variants(int D) {
                   "offset = 0.2\nrange = 0.3\nskin = 10\nup = ") +
           (D == 3 ? "[-1, 0.1, 0]\n" : "[-1, 0.1]\n"),
       {true, false});
+  // A plane that a force and a spring press against the drop.
+  const std::string pressed =
+      std::string("[contact.partner]\ntype = \"half_space\"\n") +
+      (D == 3 ? "point = [0, 0, -1.25]\nnormal = [0, 0.1, 1]\ndirection = [0.1, 0, 1]\n"
+              : "point = [0, -1.25]\nnormal = [0.1, 1]\ndirection = [0, 1]\n") +
+      "force = \"0.2 + 0.1*sin(30*t)\"\nstiffness = 0.5\nbase = \"0.1*t\"\n";
+  add("contact", "pressed partner", "bodies = [\"drop\"]\nadhesion = 0.3\n" + pressed,
+      {true, false});
+  add("contact", "Lennard-Jones, pressed partner",
+      "bodies = [\"drop\"]\nepsilon = 1\nsigma0 = 0.3\nbeta = 1\n" + pressed, {true, false});
   add("contact", "legacy_switch", legacy_contact(D), {});
   add("surface", "tension by place",
       "body = \"drop\"\n[surface.law]\ntype = \"varying_tension\"\nof = \"place\"\n"

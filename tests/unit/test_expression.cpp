@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <thread>
 #include <vector>
@@ -26,6 +27,24 @@ std::string message(const std::string& formula) {
     return error.what();
   }
   return "no error";
+}
+
+TEST(Expression, KnowsWhenItBecomesConstant) {
+  const auto steady_after = [](const std::string& formula, Real end = 200) {
+    Expression e(formula);
+    e.set_end(end);
+    return e.steady_after();
+  };
+  EXPECT_NEAR(steady_after("min(max(t - 30, 0)/100, 1)"), 130, 0.04);
+  EXPECT_NEAR(steady_after("t < 50 ? sin(t) : 2"), 50, 0.04);
+  EXPECT_EQ(steady_after("3*x"), 0);
+  EXPECT_EQ(steady_after("0*t + 3"), 0);
+  EXPECT_EQ(steady_after("2"), 0);
+  constexpr Real never = std::numeric_limits<Real>::infinity();
+  EXPECT_EQ(steady_after("min(t, 250)"), never);
+  EXPECT_EQ(steady_after("sin(100*pi*t)"), never);           // a period that fits 10,000 times
+  EXPECT_EQ(steady_after("x*min(t, 1)"), never);             // it is not known where the bodies are
+  EXPECT_EQ(Expression("min(t, 1)").steady_after(), never);  // no scene
 }
 
 TEST(Expression, Values) {

@@ -222,6 +222,25 @@ gamma = 0.1
   EXPECT_LT(std::max(*most, -*least), 0.15);
 }
 
+/// A plane on a spring has two places: in contact with the disk and before it.
+TEST_F(InitialFrom, APressedPartnerStaysInContact) {
+  const auto wall = [](const std::string& base) {
+    return "[[contact]]\nname = \"wall\"\nbodies = [\"disk\"]\nepsilon = 20\nsigma0 = "
+           "0.1\nbeta = 1\npartner = { type = \"half_space\", point = [0, 1.7], normal = [0, -1], "
+           "direction = [0, -1], stiffness = 0.02, base = \"" +
+           base + "\" }\n";
+  };
+  const auto way = [](const meniscus::Run& run) { return run.measure("wall.way"); };
+  const meniscus::Run fresh = meniscus::Run::from_text(moving_body("", "", wall("0")));
+  EXPECT_LT(way(fresh), 0.1);
+  const meniscus::Run run = saved(moving_body("", "", wall("10*t")));
+  EXPECT_GT(way(run), 0.5);
+  const meniscus::Run next = meniscus::Run::from_text(moving_body("", "", from() + wall("2")));
+  EXPECT_NEAR(way(next), way(run), 1e-12);
+  const meniscus::Run back = meniscus::Run::from_text(moving_body("", "", from() + wall("0")));
+  EXPECT_GT(way(back), 0.5);
+}
+
 TEST_F(InitialFrom, OtherBodiesAreRefusedByName) {
   saved(moving_body());
   std::string finer = moving_body("", "", from());

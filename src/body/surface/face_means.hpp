@@ -21,10 +21,11 @@ class FaceMeans {
     for (std::size_t i = 0; i < formulas_.size(); ++i) evaluate(i, 0);
   }
 
-  /// True if a formula depends on time.
-  bool change() const {
-    return std::any_of(formulas_.begin(), formulas_.end(),
-                       [](const Expression& f) { return f.depends_on_time(); });
+  /// The time after which all formulas are constant.
+  Real steady_after() const {
+    Real last = 0;
+    for (const Expression& f : formulas_) last = std::max(last, f.steady_after());
+    return last;
   }
   /// The means at `time`, [cell][formula].
   const std::vector<Real>& at(Real time) {

@@ -94,8 +94,13 @@ std::unique_ptr<ForceTerm> Contact<D>::term(const Assembly<D>& assembly) const {
 }
 
 template <int D>
-RigidMotion<D> Contact<D>::partner_motion() const {
-  return partner->displacement.empty() ? RigidMotion<D>() : RigidMotion<D>(partner->displacement);
+RigidMotion<D> Contact<D>::new_partner_motion() const {
+  if (!partner) return {};
+  if (!partner->pressed())
+    return partner->displacement.empty() ? RigidMotion<D>() : RigidMotion<D>(partner->displacement);
+  return RigidMotion<D>(std::make_shared<PartnerPress<D>>(typename PartnerPress<D>::Settings{
+      Vec<D>::Map(partner->direction.data()).normalized(), partner->force.value_or(Expression(0)),
+      partner->base.value_or(Expression(0)), partner->stiffness, partner->ramp}));
 }
 
 /// Throws InputError if the surfaces start closer than the least gap, where no step can resolve the

@@ -81,8 +81,8 @@ std::vector<KeyTable> tables_of_parts() {
          interaction.keys(),
          fmt::format("[[contact]]\nbodies = [\"drop\", \"other\"]\ninteraction = \"{}\"\n{}", name,
                      interaction.example)});
+  tables.push_back({"[contact.partner] of any type", key_texts(Partner<3>::rows())});
   // 2D has all partners of 3D, and more.
-  tables.push_back({"[contact.partner] of any type", key_texts(Partner<2>::rows())});
   for (const auto& [name, partner] : partners<2>()) {
     const auto* in_space = partners<3>().find(name);
     tables.push_back({fmt::format("[contact.partner] type = \"{}\"{}: {}", name,
@@ -92,6 +92,29 @@ std::vector<KeyTable> tables_of_parts() {
                                   in_space ? in_space->example : partner.example)});
   }
   return tables;
+}
+
+template <int D>
+void Partner<D>::check(const Block& block) const {
+  if (!pressed()) {
+    for (const char* key : {"force", "stiffness", "base", "ramp"})
+      if (block.has(key))
+        block.problem(key, "is of a partner that moves along a direction; add direction");
+    return;
+  }
+  if (direction.size() != D)
+    block.problem("direction",
+                  fmt::format("has {} numbers; expected is a vector of {}", direction.size(), D));
+  else if (!(Vec<D>::Map(direction.data()).norm() > 0))
+    block.problem("direction", "has no direction; allowed is any vector of a finite length > 0");
+  if (!displacement.empty())
+    block.problem("displacement", "goes without direction; base moves the spring of the partner");
+  if (!force && stiffness == 0)
+    block.problem("direction", "nothing presses the partner; give force, or stiffness and base");
+  if (base && stiffness == 0) block.problem("base", "has no spring; give stiffness, too");
+  for (const auto& [key, formula] : {std::pair("force", &force), std::pair("base", &base)})
+    if (*formula && (*formula)->depends_on_place())
+      block.problem(key, "depends on the place; allowed is a formula of t");
 }
 
 template <int D>
@@ -108,6 +131,8 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
   model->check(block, partner.has_value());
   if (friction > 0 && !partner)
     block.problem("friction", "is for rigid partners; allowed between two bodies is 0");
+  if (partner && partner->pressed() && friction > 0)
+    block.problem("friction", "goes without a direction of the partner");
   if (!up.empty() && partner)
     block.problem("up", "is for two bodies; a [contact.partner] has a direction of its own");
   if (!up.empty() && up.size() != D)
@@ -127,6 +152,7 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
 template <int D>
 void Contact<D>::build(Assembly<D>& assembly) const {
   flat_.reset();
+  partner_motion_ = new_partner_motion();
   require_points_to_meet(assembly);
   std::unique_ptr<ForceTerm> term = this->term(assembly);
   const StateCheck inside = containment(assembly);

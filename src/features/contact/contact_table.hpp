@@ -3,6 +3,7 @@
 #pragma once
 #include "features/contact/contact_advice.hpp"
 #include "input/optional_rows.hpp"
+#include "input/ramp.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
 #include "physics/contact/contact_numbers.hpp"
@@ -32,7 +33,14 @@ template <int D>
 struct Partner {
   std::shared_ptr<const PartnerShape<D>> shape;
   std::vector<Expression> displacement;  // formulas of the time; empty: at rest
+  // These keys are for a partner that is pressed.
+  std::vector<Real> direction;
+  std::optional<Expression> force, base;
+  Real stiffness = 0;
+  Ramp ramp;
 
+  bool pressed() const { return !direction.empty(); }
+  void check(const Block& block) const;
   static Rows<Partner> rows() {
     Row<Partner> type = choice_row<Partner>("type", nullptr, partners<D>().names(),
                                             "kind of the rigid partner; its own keys follow");
@@ -40,9 +48,23 @@ struct Partner {
       const auto kind = block.kind("type", partners<D>().names());
       if (kind) p.shape = partners<D>().at(*kind).read(block);
     };
-    return {type, optional_expressions_row("displacement", &Partner::displacement, D,
-                                           dimension::length, Variables::time,
-                                           "prescribed motion, a formula of t for each component")};
+    return {
+        type,
+        optional_expressions_row("displacement", &Partner::displacement, D, dimension::length,
+                                 Variables::time,
+                                 "prescribed motion, a formula of t for each component"),
+        reals_row("direction", &Partner::direction, 0, dimension::none, range::any,
+                  "along which a partner without mass moves by itself, to where its force on "
+                  "the body is that of the next keys",
+                  std::vector<Real>{}),
+        optional_expression_row("force", &Partner::force, of_sum(dimension::force, D), range::any,
+                                "0", "that pushes it along the direction, a formula of t"),
+        real_row("stiffness", &Partner::stiffness,
+                 D == 3 ? dimension::tension : dimension::pressure, range::non_negative,
+                 "of a spring between it and its base", 0.0),
+        optional_expression_row("base", &Partner::base, dimension::length, range::any, "0",
+                                "displacement of the base along the direction, a formula of t"),
+        ramp_row("ramp", &Partner::ramp, "force from 0")};
   }
 };
 
@@ -61,6 +83,7 @@ struct Contact final : Load<D>, Keys {
     form = block.choice("form", forms(), model->usual_form());
     if (const auto table = block.table("partner")) {
       partner = read<Partner<D>>(*table);
+      partner->check(*table);
       table->done();
     }
     if (name.empty() && !bodies.empty())
@@ -87,7 +110,10 @@ struct Contact final : Load<D>, Keys {
   ContactResolution resolution(const Assembly<D>& assembly) const;
   int points_chosen(const Assembly<D>& assembly) const;
   std::unique_ptr<ForceTerm> term(const Assembly<D>& assembly) const;
-  RigidMotion<D> partner_motion() const;
+  /// The motion of the partner in the last build. All who use it share the way of a pressed
+  /// partner.
+  const RigidMotion<D>& partner_motion() const { return *partner_motion_; }
+  RigidMotion<D> new_partner_motion() const;
   void require_gap(ForceTerm& term, const State& initial) const;
   void require_points_to_meet(const Assembly<D>& assembly) const;
   void report_points(Assembly<D>& assembly) const;
@@ -100,7 +126,9 @@ struct Contact final : Load<D>, Keys {
   std::string overlap(const Assembly<D>& assembly) const;
   BeginningContact<D> beginning(const ForceTerm& term, const Assembly<D>& assembly) const;
 
+  // Results of the last build.
   mutable std::optional<PlaneContact> flat_;
+  mutable std::optional<RigidMotion<D>> partner_motion_;
 };
 
 }  // namespace meniscus::contact_table

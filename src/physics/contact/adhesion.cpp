@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 
 namespace meniscus {
@@ -40,6 +41,7 @@ AdhesionPattern::AdhesionPattern(AdhesionFormulas formulas, Real gamma, Real ran
     : formulas_(std::move(formulas)), gamma_(gamma), step_(1e-3 * range) {
   for_all(formulas_, [&](const Expression& formula) {
     depends_on_time_ |= formula.depends_on_time();
+    steady_after_ = std::max(steady_after_, formula.steady_after());
     for (int i = 0; i < 3; ++i) at(depends_on_, i) |= formula.depends_on_axis(i);
   });
 }

@@ -34,6 +34,8 @@ class AdhesionPattern {
   /// The gradient of W, by central differences of fourth order.
   Eigen::Vector3d gradient(const Eigen::Vector3d& x, Real time) const;
   bool depends_on_time() const { return depends_on_time_; }
+  /// The time after which W is constant.
+  Real steady_after() const { return steady_after_; }
   bool depends_on_place() const { return depends_on_[0] || depends_on_[1] || depends_on_[2]; }
 
  private:
@@ -41,6 +43,7 @@ class AdhesionPattern {
   Real gamma_, step_;
   std::array<bool, 3> depends_on_{};  // x, y, z
   bool depends_on_time_ = false;
+  Real steady_after_ = 0;
 };
 
 }  // namespace meniscus

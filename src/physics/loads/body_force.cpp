@@ -5,7 +5,6 @@
 #include "numbers/dense.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace meniscus {
 namespace {
@@ -20,7 +19,10 @@ class BodyForce final : public ForceTerm {
         acceleration_(std::move(acceleration)),
         load_(mass.size()),
         outside_(body.template tally<Resultant>()) {
-    for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
+    for (const Expression& a : acceleration_) {
+      steady_ = steady_ && !a.depends_on_time();
+      steady_after_ = std::max(steady_after_, a.steady_after());
+    }
   }
 
   std::string name() const override { return "body force on '" + body_.name + "'"; }
@@ -55,7 +57,7 @@ class BodyForce final : public ForceTerm {
       return sum(at(load_, A) * at(motion.u, body_.first + A));
     });
   }
-  Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
+  Real steady_after() const override { return steady_after_; }
   Real load_power(const Motion& motion) override {
     evaluate(motion.time);
     return body_.sum_over_rows(body_.size(), 0.0, [&](Index A) {
@@ -81,7 +83,8 @@ class BodyForce final : public ForceTerm {
   std::vector<Expression> acceleration_;
   NodalVectors load_;
   ChunkTally<Resultant> outside_;
-  bool steady_ = true;
+  bool steady_ = true;  // at all times
+  Real steady_after_ = 0;
   static constexpr Real never = -unbounded;
   Real evaluated_at_ = never;
 };

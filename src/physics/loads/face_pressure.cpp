@@ -7,8 +7,8 @@
 #include "physics/loads/pressure_patches.hpp"
 #include "physics/point_elements.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meniscus {
 namespace {
@@ -90,9 +90,7 @@ class FacePressure final : public ForceTerm, public AssembledForce {
     reads.rows(chunk_sums_, body_.first);
     return true;
   }
-  Real steady_after() const override {
-    return pressure_.depends_on_time() ? std::numeric_limits<Real>::infinity() : ramp_.end;
-  }
+  Real steady_after() const override { return std::max(pressure_.steady_after(), ramp_.end); }
   Real uncancelled_force(const Motion& motion) const override {
     Real sum = 0;
     for (const Lanes& f : forces_at(motion)) sum += std::sqrt(meniscus::sum(f * f));

@@ -7,7 +7,7 @@
 #include "numbers/dense.hpp"
 #include "physics/loads/face_measures.hpp"
 
-#include <limits>
+#include <algorithm>
 
 namespace meniscus {
 namespace {
@@ -47,9 +47,7 @@ class Traction final : public ForceTerm {
     reads.particles(cells_.mean.particle, body_.first);
     return true;
   }
-  Real steady_after() const override {
-    return means_.change() ? std::numeric_limits<Real>::infinity() : ramp_.end;
-  }
+  Real steady_after() const override { return std::max(means_.steady_after(), ramp_.end); }
   Real uncancelled_force(const Motion& motion) const override {
     Traction copy(*this);
     copy.evaluate(motion.time);

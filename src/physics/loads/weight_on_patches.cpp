@@ -5,7 +5,6 @@
 #include "numbers/dense.hpp"
 #include "physics/loads/body_force.hpp"
 
-#include <limits>
 #include <numeric>
 
 namespace meniscus {
@@ -22,7 +21,8 @@ class WeightOnPatches final : public ForceTerm {
         patches_(body) {
     const NodalVectors rest(static_cast<std::size_t>(body.size()), Lanes::zero());
     for (int i = 0; i < D; ++i) centre_[i] = patches_.height(Vec<D>::Unit(i), rest.data());
-    for (const Expression& a : acceleration_) steady_ = steady_ && !a.depends_on_time();
+    for (const Expression& a : acceleration_)
+      steady_after_ = std::max(steady_after_, a.steady_after());
   }
 
   std::string name() const override { return "body force on '" + body_.name + "'"; }
@@ -45,7 +45,7 @@ class WeightOnPatches final : public ForceTerm {
     const Vec<D> weight = weight_at(motion.time);
     return weight.dot(centre_) - patches_.height(weight, own(motion.u));
   }
-  Real steady_after() const override { return steady_ ? 0 : std::numeric_limits<Real>::infinity(); }
+  Real steady_after() const override { return steady_after_; }
   Real load_power(const Motion& motion) override {
     patches_.place(own(motion.u));
     GatherTogether()({{patches_.places()}});
@@ -83,7 +83,7 @@ class WeightOnPatches final : public ForceTerm {
   Real mass_;
   SurfacePatches<D> patches_;
   Vec<D> centre_;  // centroid in the reference
-  bool steady_ = true;
+  Real steady_after_ = 0;
 };
 
 }  // namespace

@@ -96,7 +96,6 @@ TangentFactors<D>::TangentFactors(System<D>& system) : system_(system), K_(syste
   for (std::size_t k = 0; k < left.modes().size(); ++k)
     K_.announce_column(first_free_ + static_cast<Index>(k), particles);
   K_.close();
-  further_ = K_.unknowns() - system.size() * D;
   factors_ = std::make_unique<SparseCholesky>(K_.start(), K_.row(), K_.order());
   b_.resize(static_cast<std::size_t>(K_.unknowns()));
 }
@@ -168,7 +167,7 @@ Index TangentFactors<D>::factor(Real shift) {
     for (Index A = 0; A < system_.size(); ++A) K_.add_to_diagonal(A, shift * at(volume_, A));
     factors_->factor(K_.value());
     for (Index A = 0; A < system_.size(); ++A) K_.add_to_diagonal(A, -shift * at(volume_, A));
-    negative = factors_->negative_eigenvalues() - further_;
+    negative = factors_->negative_eigenvalues() - K_.negative_if_stable();
   }
   ranks().hand_out(rank, &negative, sizeof negative);
   return negative;

@@ -67,7 +67,7 @@ class TangentFactors {
   std::vector<AssembledForce*> forces_, internal_;
   StiffnessMatrix K_;
   std::vector<Real> volume_;  // [particle]
-  Index held_element_ = -1, first_free_ = -1, further_ = 0;
+  Index held_element_ = -1, first_free_ = -1;
   Real small_shift_ = 0, scale_ = 0;
   std::unique_ptr<SparseCholesky> factors_;
   NodalVectors balanced_;

@@ -66,7 +66,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
     return sum_of(motion, &GapForces<D>::energy);
   }
   Real steady_after() const override {
-    return law_.pattern() && law_.pattern()->depends_on_time() ? unbounded : 0;
+    return law_.pattern() ? law_.pattern()->steady_after() : 0;
   }
   /// Accepts the step. The last computed force must belong to this motion.
   void commit(const Motion& motion) override {

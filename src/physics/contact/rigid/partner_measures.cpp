@@ -160,10 +160,18 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
                        PartnerLayers<D> layers = layers_without_effects(pair, motion);
                        return mean_slip(pair, effects, motion, layers)[i];
                      }});
-  if (pair.partner.motion.moves())
+  if (const PartnerPress<D>* press = pair.partner.motion.press()) {
+    all.push_back({"way", dimension::length, "way of the pressed partner along its direction",
+                   [press](const Motion&) { return press->way(); }});
+    all.push_back({"press", dimension::force, "force that presses it: its own and its spring's",
+                   [press](const Motion& motion) {
+                     return press->force(motion.time) + press->spring_force(motion.time);
+                   }});
+  }
+  if (pair.partner.motion.moves() || pair.partner.motion.press())
     for (int i = 0; i < D; ++i)
       all.push_back({std::string("displacement_") + "xyz"[i], dimension::length,
-                     "prescribed displacement of the partner",
+                     "displacement of the partner",
                      [i, &pair](const Motion& motion) { return pair.shift(motion)[i]; }});
   return all;
 }

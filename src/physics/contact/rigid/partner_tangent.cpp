@@ -13,23 +13,32 @@ T slope(const T& ahead, const T& behind, const T& ahead2, const T& behind2, Real
   return (8 * (ahead - behind) - (ahead2 - behind2)) / (12 * step);
 }
 
-/// Adds the tangent. Changes of forces are dT = (grad grad S dx) V + grad S dV and dS = grad S dx;
-/// for the pressure form, dT = (grad U dx) V + U dV. Derivatives of the field are fourth-order
-/// differences over a small part of the gap.
+/// Changes of the points of a grade and of their forces.
 template <int D>
-void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& pair,
-                            const PartnerLayer<D>& layer, const Motion& motion,
-                            const Motion& change, const Forces& force) {
+struct ForceChange {
+  ContactChanges<D> points;
+  AlignedVector<Lanes> T, S;
+};
+
+/// Changes of forces are dT = (grad grad S dx) V + grad S dV and dS = grad S dx; for the pressure
+/// form, dT = (grad U dx) V + U dV. Derivatives of the field are fourth-order differences over a
+/// small part of the gap.
+template <int D>
+ForceChange<D> force_change(const BodyAndPartner<D>& pair, std::size_t grade,
+                            const PartnerLayers<D>& layers, const Motion& motion,
+                            const Motion& change) {
+  const PartnerLayer<D>& layer = layers[grade];
   const Vec<D> shift = pair.shift(motion);
-  const ContactChanges<D> changes = points.changes(layer.visited, layer.places, motion, change);
-  AlignedVector<Lanes> dT(layer.S.size(), Lanes::zero()), dS = dT;
+  ForceChange<D> d{pair.points[grade].changes(layer.visited, layer.places, motion, change), {}, {}};
+  d.T.assign(layer.S.size(), Lanes::zero());
+  d.S = d.T;
   const auto change_of_point = [&](Index c, int lane) {
     Vec<D> place, dx, V, dV;
     for (int i = 0; i < D; ++i) {
       place[i] = layer.places.x_of(c)[i][lane] - shift[i];
-      dx[i] = changes.x_of(c)[i][lane];
+      dx[i] = d.points.x_of(c)[i][lane];
       V[i] = layer.places.weight_of(c)[i][lane];
-      dV[i] = at(changes.weight, c * D + i)[lane];
+      dV[i] = at(d.points.weight, c * D + i)[lane];
     }
     const Real length = dx.norm();
     if (length == 0 && dV.isZero(0)) return;
@@ -46,8 +55,8 @@ void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& p
              here.grad_S * dV;
     const Vec<D> turn = here.grad_S * dx;
     for (int i = 0; i < D; ++i) {
-      at(dT, c * D + i).set(lane, pull[i]);
-      at(dS, c * D + i).set(lane, turn[i]);
+      at(d.T, c * D + i).set(lane, pull[i]);
+      at(d.S, c * D + i).set(lane, turn[i]);
     }
   };
   parallel_for(
@@ -56,8 +65,7 @@ void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& p
         for (int lane = 0; lane < Lanes::width; ++lane) change_of_point(at(layer.visited, k), lane);
       },
       16);
-  points.add_force_change(layer.places, changes, motion, change, layer.visited, dT,
-                          layer.moment(pair.form), dS, force);
+  return d;
 }
 
 }  // namespace
@@ -65,8 +73,28 @@ void add_tangent_of_partner(ContactPoints<D>& points, const BodyAndPartner<D>& p
 template <int D>
 void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
                             const Motion& motion, const Motion& change, const Forces& force) {
+  for (std::size_t g = 0; g < layers.size(); ++g) {
+    const ForceChange<D> d = force_change(pair, g, layers, motion, change);
+    pair.points[g].add_force_change(layers[g].places, d.points, motion, change, layers[g].visited,
+                                    d.T, layers[g].moment(pair.form), d.S, force);
+  }
+}
+
+template <int D>
+Vec<D> change_of_resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
+                           const Motion& motion, const Motion& change) {
+  std::vector<ForceChange<D>> d;
   for (std::size_t g = 0; g < layers.size(); ++g)
-    add_tangent_of_partner(pair.points[g], pair, layers[g], motion, change, force);
+    d.push_back(force_change(pair, g, layers, motion, change));
+  Vec<D> all = Vec<D>::Zero();
+  for (const Vec<D>&of_grade :
+       sums_of_visited(pair, layers, Vec<D>(Vec<D>::Zero()), [&](std::size_t g, Index c) {
+         Vec<D> of_cluster;
+         for (int i = 0; i < D; ++i) of_cluster[i] = sum(at(d[g].T, c * D + i));
+         return of_cluster;
+       }))
+    all -= of_grade;
+  return all;
 }
 
 template <int D>
@@ -99,6 +127,8 @@ void add_stiffness_of_partner(const BodyAndPartner<D>& pair, const PartnerLayers
 #define MENISCUS_INSTANTIATE(D)                                                                    \
   template void add_tangent_of_partner(BodyAndPartner<D>&, const PartnerLayers<D>&, const Motion&, \
                                        const Motion&, const Forces&);                              \
+  template Vec<D> change_of_resultant(const BodyAndPartner<D>&, const PartnerLayers<D>&,           \
+                                      const Motion&, const Motion&);                               \
   template void add_stiffness_of_partner(const BodyAndPartner<D>&, const PartnerLayers<D>&,        \
                                          const Motion&, StiffnessMatrix&);
 MENISCUS_INSTANTIATE(2)

@@ -10,6 +10,12 @@ template <int D>
 void add_tangent_of_partner(BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
                             const Motion& motion, const Motion& change, const Forces& force);
 
+/// The change of the resultant force on the body. All processes call this, at a motion that is
+/// known everywhere.
+template <int D>
+Vec<D> change_of_resultant(const BodyAndPartner<D>& pair, const PartnerLayers<D>& layers,
+                           const Motion& motion, const Motion& change);
+
 /// Adds minus the tangent as elements, for points by shape functions and the form `energy`. The
 /// layers belong to this motion.
 template <int D>

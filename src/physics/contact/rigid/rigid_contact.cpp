@@ -13,27 +13,21 @@
 #include "physics/contact/rigid/partner_tangent.hpp"
 #include "physics/contact/rigid/partner_visits.hpp"
 #include "physics/contact/rigid/partner_work.hpp"
+#include "physics/contact/rigid/pressed_partner.hpp"
+#include "physics/continued_term.hpp"
 
 #include <fmt/core.h>
+
+#include <numeric>
 
 namespace meniscus {
 namespace {
 
-/// Time after which the partner stays at rest, with the resolution of 1e-4 of the run. Infinite if
-/// it never does.
 template <int D>
-Real end_of_motion(const MovingPartner<D>& partner) {
-  if (!partner.motion.moves()) return 0;
-  constexpr int steps_of_run = 10000;
-  const auto place = [&](int k) { return partner.motion.displacement(k * partner.velocity_step); };
-  const Vec<D> last = place(steps_of_run);
-  int k = steps_of_run;
-  while (k > 0 && place(k - 1) == last) --k;
-  return k == steps_of_run ? std::numeric_limits<Real>::infinity() : k * partner.velocity_step;
-}
-
-template <int D>
-class RigidContact final : public ForceTerm, public ContactVisits, public AssembledForce {
+class RigidContact final : public ForceTerm,
+                           public ContactVisits,
+                           public AssembledForce,
+                           public ContinuedTerm {
  public:
   RigidContact(const ContactBody<D>& body, MovingPartner<D> partner,
                std::shared_ptr<const Interaction> interaction, const ContactChoice& choice)
@@ -42,7 +36,7 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
         wets_(choice.wets),
         pair_(body, std::move(partner), std::move(interaction), choice),
         effects_(*pair_.interaction, pair_.partner, choice.friction),
-        steady_after_(end_of_motion(pair_.partner)),
+        steady_after_(pair_.partner.motion.steady_after()),
         layers_(layers_at_rest(pair_)),
         effect_sums_(layer_tallies<WallSums>(pair_)),
         force_sums_(layer_tallies<Resultant>(pair_)),
@@ -51,9 +45,12 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
         speeds_(body.body.division),
         of_parts_(body.body.division) {
     close_.reserve(static_cast<std::size_t>(pair_.finest().clusters()));
+    if (press())
+      pressed_ = std::make_unique<PressedPoints<D>>(
+          PressedPoints<D>{ReachList<D>(pair_.interaction->range()), layers_at_rest(pair_)});
     if (const auto* pattern = effects_.pattern()) {
       require_adhesion(pair_, *pattern);
-      if (pattern->depends_on_time()) steady_after_ = std::numeric_limits<Real>::infinity();
+      steady_after_ = std::max(steady_after_, pattern->steady_after());
     }
   }
 
@@ -62,6 +59,7 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
 
   Report add_force(const Motion& motion, Forces force) override {
     effects_.begin(motion.time);
+    if (const auto failure = settle(motion)) return failed({-1, *failure});
     if (!pair_.work.takes_part()) return sum_up(motion, force);
     if (!pair_.interaction->ends()) return place(motion, force);
     if (Real* const mine = moves_.mine())
@@ -73,9 +71,12 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
   /// Adds the exact tangent. With varying adhesion or friction, a difference of forces replaces it.
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
     if (effects_.any()) return ForceTerm::add_tangent(motion, change, force);
+    settle(motion);
     choose_visited(pair_, motion, list_, layers_);
     take_layers(pair_, motion, layers_);
-    add_tangent_of_partner(pair_, layers_, motion, change, force);
+    if (!press()) return add_tangent_of_partner(pair_, layers_, motion, change, force);
+    const NodalVectors du = relative_change(pair_, layers_, motion, change);
+    add_tangent_of_partner(pair_, layers_, motion, {change.time, du, change.v}, force);
   }
 
   /// In 3D, assembly takes longer than iterations with elements (quasi-statics note 10).
@@ -84,21 +85,38 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
   }
   void announce(StiffnessMatrix& K) override {
     for (ContactPoints<D>& points : pair_.points) points.announce(K);
+    if (!press()) return;
+    const Body<D>& body = pair_.finest().body();
+    std::vector<Index> particles(static_cast<std::size_t>(body.size()));
+    std::iota(particles.begin(), particles.end(), body.first);
+    way_node_ = K.add_nodes(1, true);
+    K.announce_column(way_node_, std::move(particles));
   }
+  /// The way of a pressed partner is an unknown of its own.
   void add_stiffness(const Motion& motion, std::span<const Lanes>, StiffnessMatrix& K) override {
+    settle(motion);
     choose_visited(pair_, motion, list_, layers_);
     take_layers(pair_, motion, layers_);
     if (K.is_here()) add_stiffness_of_partner(pair_, layers_, motion, K);
+    if (press()) add_stiffness_of_way(pair_, layers_, motion, way_node_, K);
   }
 
   std::optional<Real> stored_energy(const Motion& motion) const override {
-    return energy_of(pair_, layers_at(pair_, effects_, motion));
+    settle(motion);
+    return energy_of(pair_, layers_at(pair_, effects_, motion)) +
+           (press() ? press()->energy(motion.time) : 0);
   }
   std::optional<Real> potential(const Motion& motion) override {
     if (pair_.form != ContactForm::energy || effects_.rubs()) return std::nullopt;
     return stored_energy(motion);
   }
   Real work_between(const Motion& before, const Motion& after) const override {
+    if (press()) {
+      settle(before);
+      const auto begin = press()->now(before.time);
+      settle(after);
+      return press()->work(begin, press()->now(after.time));
+    }
     const Vec<D> way = pair_.shift(after) - pair_.shift(before);
     if (way.isZero(0)) return ForceTerm::work_between(before, after);
     const auto force_at = [&](const Motion& motion) {
@@ -111,14 +129,28 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
   /// Accepts the step. The last computed force must belong to this motion.
   void commit(const Motion& motion) override {
     effects_.commit(motion.time, sums_);
+    if (press()) {
+      settle(motion);
+      press()->commit(motion.time);
+    }
     if (pair_.partner.motion.moves())
       work_.commit(spatial<D>(pair_.shift(motion)), resultant_.force);
   }
   void archive(const Archive& a) override {
     effects_.archive(a);
+    if (press()) press()->archive(a);
     if (pair_.partner.motion.moves()) work_.archive(a, D);
   }
+  /// A pressed partner begins at its last place, which may be one of several.
+  void continue_from(const Archive& a) override {
+    std::optional<Real> way;  // empty if the partner was not pressed
+    if (press()) a("way", way, dimension::length);
+    if (!way) return;
+    press()->set_way(*way);
+    press()->commit(0);
+  }
   bool reads(StepReads& reads) override {
+    if (press()) return false;  // its way depends on all particles
     for (std::size_t g = 0; g < pair_.points.size(); ++g)
       pair_.on_patches() ? pair_.points[g].list_own_nodes(reads)
                          : pair_.points[g].list_reads(reads, pair_.moved(g));
@@ -166,6 +198,21 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
 
  private:
   using Placed = typename ContactPoints<D>::Placed;
+
+  PartnerPress<D>* press() const { return pair_.partner.motion.press(); }
+  /// Moves a pressed partner to its place at a motion. Returns the cause if it has none.
+  std::optional<std::string> settle(const Motion& motion) const {
+    if (!press() || settle_partner(pair_, motion, *pressed_)) return std::nullopt;
+    return fmt::format(
+        "nothing stops the rigid partner of contact '{}', which a force of {:.4g} pushes along its "
+        "direction; expected is a body in its way, or a stiffness",
+        name_, press()->force(motion.time));
+  }
+  static Report failed(const Failure& failure) {
+    Report report;
+    report.failure = failure;
+    return report;
+  }
 
   /// Moves the first points that are needed. For a finite range these are the points of the list,
   /// or all points if the list is not valid any more; otherwise they are the coarsest points.
@@ -313,6 +360,9 @@ class RigidContact final : public ForceTerm, public ContactVisits, public Assemb
   Resultant resultant_;
   PartnerWork work_;
   ReachList<D> list_;
+  // A pressed partner has these.
+  std::unique_ptr<PressedPoints<D>> pressed_;
+  Index way_node_ = -1;
   std::vector<Index> close_;  // clusters that determine the closing speed
   /// Results of a process.
   struct OfPart {
@@ -342,6 +392,7 @@ Report RigidContact<D>::report(const Motion& motion, Forces force) {
     work_.begin(shift);
     report.external_work = work_.since_step(shift, resultant_.force);
   }
+  if (press()) report.external_work = press()->work_since_step(motion.time);
   report.external_work += effects_.work(sums_);
   report.heat = sums_.heat;
   find_nearest();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prescribed translation of a rigid partner from formulas of the time.
+// Translation of a rigid partner from formulas of the time, or by its press.
 #include "physics/contact/rigid/rigid_motion.hpp"
 
 #include <algorithm>
@@ -19,7 +19,16 @@ bool RigidMotion<D>::moves() const {
 }
 
 template <int D>
+Real RigidMotion<D>::steady_after() const {
+  if (press_) return press_->steady_after();
+  Real last = 0;
+  for (const Expression& d : displacement_) last = std::max(last, d.steady_after());
+  return last;
+}
+
+template <int D>
 Vec<D> RigidMotion<D>::displacement(Real t) const {
+  if (press_) return press_->displacement();
   Vec<D> d = Vec<D>::Zero();
   if (!displacement_.empty())
     for (int i = 0; i < D; ++i) d[i] = at(displacement_, i)(Eigen::Vector3d::Zero(), t);

@@ -7,7 +7,6 @@
 #include "meniscus/physics/surface_registry.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace meniscus {
 namespace {
@@ -113,7 +112,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
     return stored_energy(motion);
   }
   Real steady_after() const override {
-    return formula_.depends_on_time() ? std::numeric_limits<Real>::infinity() : 0;
+    return formula_.steady_after();
   }
 
   Least least(const Motion& motion) const override {
