@@ -71,18 +71,30 @@ void Progress::show(const State& state, Real dt, const std::optional<Ledger>& le
   if (ledger) ledger_ = ledger;
   const double now = seconds_();
   pace_.add(now, state, dt);
+  write(now, [&] { return line(state, dt); });
+}
+
+void Progress::within(const State& state, Real dt, const std::string& doing) {
+  if (doing.empty()) return;
+  write(seconds_(), [&] {
+    return fmt::format("step {} to t = {:.4g} of {:.4g} {}: {}", state.step + 1, state.time + dt,
+                       end_, text_.time_unit, doing);
+  });
+}
+
+void Progress::write(double now, const std::function<std::string()>& text) {
   if (now >= next_line_) {
     next_line_ = now + seconds_of_line;
-    const std::string text = line(state, dt);
-    log_(text);
+    const std::string written = text();
+    log_(written);
     if (shown_ == Shown::in_lines) {
-      say("{}\n", text);
+      say("{}\n", written);
       std::fflush(stdout);
     }
   }
   if (shown_ == Shown::on_terminal && now >= next_on_terminal_) {
     next_on_terminal_ = now + seconds_on_terminal;
-    print_over_line(line(state, dt));
+    print_over_line(text());
     std::fflush(stdout);
   }
 }

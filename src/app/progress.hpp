@@ -56,6 +56,8 @@ class Progress {
            std::function<void(const std::string&)> log, Seconds seconds = wall_time);
   /// Call this after each step. `ledger`: the newest ledger if this step wrote one.
   void show(const State& state, Real dt, const std::optional<Ledger>& ledger);
+  /// Call this now and then during a long step from `state`. `doing`: how far it has come.
+  void within(const State& state, Real dt, const std::string& doing);
   /// Clears the line on the terminal, so that other text can be written.
   void finish();
 
@@ -65,6 +67,8 @@ class Progress {
 
  private:
   std::string line(const State& state, Real dt) const;
+  /// Writes a text where and if one is due.
+  void write(double now, const std::function<std::string()>& text);
 
   Real end_;
   Text text_;

@@ -114,7 +114,11 @@ int run_recorded(Epochs<D>& epochs, const RunRequest& request, const Provenance&
   bool has_begun = restart.has_value();
   std::optional<int> signal;
   try {
-    epochs.simulation().stop_when([&] { return interruption.requested().has_value(); });
+    epochs.simulation().stop_when([&] {
+      const Simulation<D>& now = epochs.simulation();
+      progress.within(now.state(), now.last_step(), now.stepper().doing());
+      return interruption.requested().has_value();
+    });
     if (!restart) {
       epochs.simulation().settle();
       recorder.record(-1);

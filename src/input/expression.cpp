@@ -227,9 +227,9 @@ Real Expression::steady_after() const {
     return (k + within) * parsed_->end / parts;
   };
   const Eigen::Vector3d nowhere = Eigen::Vector3d::Zero();
-  const Real last = (*this)(nowhere, parsed_->end);
+  const Real last = unchecked(nowhere, parsed_->end);
   int k = parts - 1;
-  while (k >= 0 && (*this)(nowhere, time(k)) == last) --k;
+  while (k >= 0 && unchecked(nowhere, time(k)) == last) --k;
   if (k == parts - 1 || k < 0) {
     parsed_->steady_after = k < 0 ? 0 : never;
     return *parsed_->steady_after;
@@ -237,7 +237,7 @@ Real Expression::steady_after() const {
   Real changes = time(k), constant = time(k + 1);
   for (int halving = 0; halving < 30; ++halving) {
     const Real middle = (changes + constant) / 2;
-    ((*this)(nowhere, middle) == last ? constant : changes) = middle;
+    (unchecked(nowhere, middle) == last ? constant : changes) = middle;
   }
   parsed_->steady_after = constant;
   return constant;

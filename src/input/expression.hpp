@@ -58,7 +58,7 @@ class Expression {
   void set_end(Real end);
   /// The time after which the value is constant until the end of the scene: 0 without t; for a
   /// formula of t alone found from its values, which are seen at intervals of 1e-4 of the end;
-  /// otherwise infinity. Throws like operator().
+  /// otherwise infinity, also if it is not finite at the end.
   Real steady_after() const;
 
   /// The formula as given. For a constant, the shortest decimal that reads back as the same number.

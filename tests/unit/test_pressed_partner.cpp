@@ -11,32 +11,23 @@
 namespace meniscus::test_pressed_partner {
 namespace {
 
-/// A partner and a body that pulls it with (9-3 wells) exp(-z) - exp(-2 z), z = distance - 1 in
-/// lengths.
-struct Trial {
+/// A partner and a body that repels it by 2 exp(-2 z) and attracts it by 2 exp(-z), z = gap - 1.
+struct Trial final : PartnerPress<2>::Neighbour {
   PartnerPress<2> press;
   Real distance = 8;  ///< of the body at the way 0
   int looks = 0;
 
   Trial(Real force, Real stiffness, Real base = 0)
       : press({{1, 0}, Expression(force), Expression(base), stiffness, {}}) {}
-  static Real pull(Real gap) {
-    const Real z = gap - 1;
+  Real gap() override { return distance - press.way(); }
+  Real pull() override {
+    ++looks;
+    const Real z = gap() - 1;
     return 2 * std::exp(-2 * z) - 2 * std::exp(-z);
   }
-  bool settle() {
-    return press.settle(
-        0,
-        [&]() -> PartnerPress<2>::Met {
-          ++looks;
-          const Real gap = distance - press.way();
-          return {pull(gap), gap};
-        },
-        1, 1000);
-  }
-  Real left() const {
-    return pull(distance - press.way()) + press.stiffness() * (press.way() - press.base(0)) -
-           press.force(0);
+  bool settle() { return press.settle(0, *this, 1, 1000); }
+  Real left() {
+    return pull() + press.stiffness() * (press.way() - press.base(0)) - press.force(0);
   }
 };
 

@@ -53,6 +53,18 @@ TEST(Progress, ALineAfterTenSecondsThenEveryMinute) {
   EXPECT_EQ(told.log.size(), 3u);  // several due messages are given once
 }
 
+TEST(Progress, ALongStepSaysHowFarItHasCome) {
+  Told told(100);
+  told.progress.within(told.state, 0.5, "iteration 2");
+  EXPECT_TRUE(told.log.empty());
+  told.now += 11;
+  told.progress.within(told.state, 0.5, "");  // nothing is known
+  EXPECT_TRUE(told.log.empty());
+  told.progress.within(told.state, 0.5, "iteration 3");
+  told.progress.within(told.state, 0.5, "iteration 4");
+  EXPECT_EQ(told.log, std::vector<std::string>{"step 1 to t = 0.5 of 100 ns: iteration 3"});
+}
+
 TEST(Progress, ASteadyRunKnowsWhenItEnds) {
   Told told(100);
   Ledger ledger;

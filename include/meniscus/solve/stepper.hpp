@@ -63,6 +63,9 @@ class Stepper {
   /// Description of an obstacle to reaching the goal; empty if there is none.
   virtual std::string obstacle(const State&) const { return ""; }
 
+  /// How far a long step has come, for the progress of a run; empty if steps are short. Called by
+  /// the function given to stop_when().
+  virtual std::string doing() const { return ""; }
   /// Sentences for the log about the steps since the last call.
   virtual std::vector<std::string> take_notes() { return {}; }
   /// Effort of the steps besides forces, for the end of the log; may be empty.

@@ -35,6 +35,7 @@ class FlowToRest final : public Stepper<D> {
   std::string obstacle(const State& state) const override;
   std::string effort() const override { return method_.effort(); }
   void stop_when(const std::function<bool()>& asked) override { method_.stop_when(asked); }
+  std::string doing() const override { return method_.doing(); }
   void archive(const Archive& a, const State& state) override;
 
  private:

@@ -220,6 +220,8 @@ bool NewtonMethod<D>::search(Real time, Point& point, Real decrement) {
 
 template <int D>
 typename NewtonMethod<D>::Solution NewtonMethod<D>::solve(const Start& start) {
+  iterations_before_ = iterations_;
+  tangents_before_ = tangents_;
   Solution solution;
   Point point;
   free_ = FreeMotions<D>(system_, {start.time, start.u, still_}, spacing_);
@@ -330,6 +332,13 @@ template <int D>
 bool NewtonMethod<D>::Solution::winding() const {
   const int smooth = mixed ? 15 : 8;
   return bent || iterations > smooth;
+}
+
+template <int D>
+std::string NewtonMethod<D>::doing() const {
+  return fmt::format("iteration {} with {} tangents, {:.2g} of the {} left",
+                     iterations_ - iterations_before_ + 1, tangents_ - tangents_before_, left_,
+                     factors_ ? "forces" : "energy");
 }
 
 template <int D>

@@ -77,6 +77,8 @@ class NewtonMethod {
   Real spacing() const { return spacing_; }
   std::int64_t iterations() const { return iterations_; }
   std::int64_t tangents() const { return tangents_; }
+  /// The iterations of the present call of solve(), and what is left.
+  std::string doing() const;
   /// The effort as a text for the end of the log.
   std::string effort() const;
 
@@ -173,6 +175,7 @@ class NewtonMethod {
   Real left_ = 1;             // last decrement / energy_scale_
   Real stability_ = 0;
   std::int64_t iterations_ = 0, tangents_ = 0;
+  std::int64_t iterations_before_ = 0, tangents_before_ = 0;  // before the last solve()
   std::function<bool()> asked_to_stop_ = [] { return false; };
   std::string broken_;  // why forces could not be computed at the last attempt
 };

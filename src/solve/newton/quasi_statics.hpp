@@ -40,6 +40,7 @@ class QuasiStatics final : public Stepper<D> {
   std::vector<std::string> take_notes() override { return std::exchange(notes_, {}); }
   std::string effort() const override { return method_.effort(); }
   void stop_when(const std::function<bool()>& asked) override { method_.stop_when(asked); }
+  std::string doing() const override { return method_.doing(); }
   void archive(const Archive& a, const State& state) override;
 
   const NewtonMethod<D>& method() const { return method_; }

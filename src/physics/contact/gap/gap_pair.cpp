@@ -65,9 +65,7 @@ class GapPair final : public ForceTerm, public ContactVisits {
   std::optional<Real> stored_energy(const Motion& motion) const override {
     return sum_of(motion, &GapForces<D>::energy);
   }
-  Real steady_after() const override {
-    return law_.pattern() ? law_.pattern()->steady_after() : 0;
-  }
+  Real steady_after() const override { return law_.pattern() ? law_.pattern()->steady_after() : 0; }
   /// Accepts the step. The last computed force must belong to this motion.
   void commit(const Motion& motion) override {
     if (law_.pattern()) work_.commit(motion.time, summary_.supply);

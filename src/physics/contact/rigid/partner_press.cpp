@@ -41,16 +41,14 @@ void PartnerPress<D>::archive(const Archive& a) {
 }
 
 template <int D>
-bool PartnerPress<D>::settle(Real time, const std::function<Met()>& meet, Real length,
-                             Real longest) {
+bool PartnerPress<D>::settle(Real time, Neighbour& body, Real length, Real longest) {
   const Real F = force(time), b = base(time), k = stiffness(), start = last_.way;
-  Real gap = 0, bearable = 0;
+  Real bearable = 0;
   const auto at_way = [&](Real s) -> Place {
     way_ = s;
-    const Met met = meet();
-    gap = met.gap;
-    bearable = round_off * (std::abs(met.pull) + std::abs(F) + k * std::abs(s - b));
-    return {s, met.pull + k * (s - b) - F};
+    const Real pull = body.pull();
+    bearable = round_off * (std::abs(pull) + std::abs(F) + k * std::abs(s - b));
+    return {s, pull + k * (s - b) - F};
   };
   const auto done = [&](const Place& place) { return std::abs(place.g) <= bearable; };
 
@@ -70,9 +68,10 @@ bool PartnerPress<D>::settle(Real time, const std::function<Met()>& meet, Real l
   }
 
   // Otherwise downhill until g changes its sign, with steps that do not go through the body.
-  before = first;
-  gap = 0;
+  before = here = first;
   for (Real step = length / 10;; step = std::min(1.3 * step, length / 4)) {
+    way_ = before.s;
+    const Real gap = body.gap();
     here = at_way(before.s + downhill * std::max(step, gap > 10 * length ? gap / 2 : 0));
     if (done(here)) return true;
     if (!(here.g * before.g > 0)) break;

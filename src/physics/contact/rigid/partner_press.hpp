@@ -6,7 +6,6 @@
 #include "state/archive.hpp"
 
 #include <algorithm>
-#include <functional>
 
 namespace meniscus {
 
@@ -68,15 +67,17 @@ class PartnerPress {
   /// D: dimension of the scene, which determines the unit of forces.
   void archive(const Archive& a);
 
-  /// What the partner meets at a way: R.n, and its distance from the body.
-  struct Met {
-    Real pull, gap;
+  /// The body beside the partner at its present way.
+  class Neighbour {
+   public:
+    virtual ~Neighbour() = default;
+    virtual Real pull() = 0;  ///< R.n
+    virtual Real gap() = 0;   ///< distance from the partner
   };
-  /// Finds the way at `time`, beginning at the last accepted one; the next minimum downhill. All
-  /// processes call this, with a function that calculates what is met at the present way. `length`:
-  /// over which forces change, the equilibrium gap. Returns false if nothing stops the partner
-  /// within the way `longest`.
-  bool settle(Real time, const std::function<Met()>& meet, Real length, Real longest);
+  /// Finds the way at `time`, beginning at the last accepted one: the next minimum downhill. All
+  /// processes call this. `length`: over which forces change, such as the least gap. Returns false
+  /// if nothing stops the partner within the way `longest`.
+  bool settle(Real time, Neighbour& body, Real length, Real longest);
 
  private:
   Settings settings_;

@@ -11,18 +11,40 @@
 
 namespace meniscus {
 
+namespace {
+
+/// The body at a motion that is known everywhere.
+template <int D>
+class PressedBody final : public PartnerPress<D>::Neighbour {
+ public:
+  PressedBody(const BodyAndPartner<D>& pair, const Motion& motion, PressedPoints<D>& points)
+      : pair_(pair), motion_(motion), points_(points) {}
+
+  Real pull() override {
+    choose_visited(pair_, motion_, points_.list, points_.layers);
+    take_layers(pair_, motion_, points_.layers);
+    sum_resultants(pair_, points_.layers, points_.sums);
+    for (auto& of_grade : points_.sums) GatherTogether()({{of_grade.gathered()}});
+    const Vec<D>& n = pair_.partner.motion.press()->direction();
+    return resultant(points_.sums).force.dot(spatial<D>(n));
+  }
+  Real gap() override { return gap_at(pair_, motion_); }
+
+ private:
+  const BodyAndPartner<D>& pair_;
+  const Motion& motion_;
+  PressedPoints<D>& points_;
+};
+
+}  // namespace
+
 template <int D>
 bool settle_partner(const BodyAndPartner<D>& pair, const Motion& motion, PressedPoints<D>& points) {
-  PartnerPress<D>& press = *pair.partner.motion.press();
-  const auto meet = [&]() -> typename PartnerPress<D>::Met {
-    choose_visited(pair, motion, points.list, points.layers);
-    take_layers(pair, motion, points.layers);
-    return {resultant(pair, points.layers).force.dot(spatial<D>(press.direction())),
-            gap_at(pair, motion)};
-  };
   constexpr Real many = 100;  // sizes of the body
   const Real size = box_around<D>(pair.finest().body().particles.X()).extent().norm();
-  return press.settle(motion.time, meet, pair.interaction->least_gap(), many * size);
+  PressedBody<D> body(pair, motion, points);
+  return pair.partner.motion.press()->settle(motion.time, body, pair.interaction->least_gap(),
+                                             many * size);
 }
 
 namespace {

@@ -11,6 +11,12 @@ template <int D>
 struct PressedPoints {
   ReachList<D> list;
   PartnerLayers<D> layers;
+  LayerTallies<Resultant> sums;
+
+  explicit PressedPoints(const BodyAndPartner<D>& pair)
+      : list(pair.interaction->range()),
+        layers(layers_at_rest(pair)),
+        sums(layer_tallies<Resultant>(pair)) {}
 };
 
 /// Moves the partner to its place at a motion that is known everywhere. Returns false if nothing

@@ -45,9 +45,7 @@ class RigidContact final : public ForceTerm,
         speeds_(body.body.division),
         of_parts_(body.body.division) {
     close_.reserve(static_cast<std::size_t>(pair_.finest().clusters()));
-    if (press())
-      pressed_ = std::make_unique<PressedPoints<D>>(
-          PressedPoints<D>{ReachList<D>(pair_.interaction->range()), layers_at_rest(pair_)});
+    if (press()) pressed_ = std::make_unique<PressedPoints<D>>(pair_);
     if (const auto* pattern = effects_.pattern()) {
       require_adhesion(pair_, *pattern);
       steady_after_ = std::max(steady_after_, pattern->steady_after());

@@ -111,9 +111,7 @@ class VaryingTension final : public ForceTerm, public VariedTension {
     if (of_place_) return std::nullopt;
     return stored_energy(motion);
   }
-  Real steady_after() const override {
-    return formula_.steady_after();
-  }
+  Real steady_after() const override { return formula_.steady_after(); }
 
   Least least(const Motion& motion) const override {
     Points at_motion = now_;
