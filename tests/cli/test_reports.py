@@ -632,7 +632,7 @@ class Reports(ProgramTest):
                 "[[cavity]]": "body surface pressure volume_target penalty ramp points",
                 "[[profile]]": "body r z label",
                 "[[remap]]": "body at condition nodes",
-                "[contact.partner] of any type": "type displacement",
+                "[contact.partner] of any type": "type displacement direction force stiffness base ramp",
                 '[contact.partner] type = "frame" (2D)': "low high thickness",
                 "[expect.NAME]": "of reduce at from to level value within within_relative"}.items():
             rows = tables[heading].split("\n  example\n")[0]

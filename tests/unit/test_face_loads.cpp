@@ -454,9 +454,9 @@ TEST(FaceLoads, WhatMakesNoLoadIsRefused) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
   };
   const std::string on = "body = \"block\"\nface = \"x_min\"\n";
-  expect("[[traction]]\n" + on, "allowed is either force or pressure");
+  expect("[[traction]]\n" + on, "allowed is one of force, total and pressure");
   expect("[[traction]]\n" + on + "pressure = 1\nforce = [1, 0]\n",
-         "allowed is either force or pressure");
+         "allowed is one of force, total and pressure");
   expect("[[spring]]\n" + on, "stiffness or damping has to be > 0");
   expect("[[spring]]\n" + on + "constant = 1\n", "is of a spring at a place");
   expect("[[spring]]\nbody = \"block\"\nat = [0, 0, 0]\nconstant = 1\n", "allowed are 2");

@@ -77,7 +77,7 @@ class NewtonMethod {
   Real spacing() const { return spacing_; }
   std::int64_t iterations() const { return iterations_; }
   std::int64_t tangents() const { return tangents_; }
-  /// The iterations of the present call of solve(), and what is left.
+  /// Number of iterations in the present call of solve(), and the share of forces or energy left.
   std::string doing() const;
   /// The effort as a text for the end of the log.
   std::string effort() const;

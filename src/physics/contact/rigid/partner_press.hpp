@@ -57,7 +57,7 @@ class PartnerPress {
   /// Work of a changing force and of a moving base between two moments, with the mean of the ways:
   /// the integral of - s dF - k (s - b) db.
   Real work(const Moment& before, const Moment& after) const;
-  /// The same since the last accepted step.
+  /// This work since the last accepted step.
   Real work_since_step(Real time) const { return begun_ ? work(last_, now(time)) : 0; }
   /// Accepts the step that ends at `time` with the present way.
   void commit(Real time) {
