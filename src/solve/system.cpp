@@ -106,6 +106,11 @@ const Body<D>& System<D>::body_of(Index particle) const {
 
 template <int D>
 StepFailure System<D>::located(const Failure& what, const Motion& motion) const {
+  StepFailure failure;
+  failure.cause = what.cause;
+  failure.term = what.term;
+  failure.of_step = what.of_step;
+  if (what.particle < 0) return failure;
   const Body<D>& body = body_of(what.particle);
   const Index A = what.particle - body.first;
   const Vec<D>& X = at(body.particles.X(), A);
@@ -115,10 +120,6 @@ StepFailure System<D>::located(const Failure& what, const Motion& motion) const 
     reference += fmt::format("{}{:.6g}", i ? ", " : "", X[i]);
     current += fmt::format("{}{:.6g}", i ? ", " : "", X[i] + u[i]);
   }
-  StepFailure failure;
-  failure.cause = what.cause;
-  failure.term = what.term;
-  failure.of_step = what.of_step;
   failure.body = body.name;
   failure.particle = what.particle;
   failure.place = fmt::format("({}), now ({})", reference, current);

@@ -169,6 +169,7 @@ TEST(PressedPartner, APartnerThatNothingStopsIsAFailureThatSaysSo) {
     EXPECT_NE(std::string(error.what()).find("nothing stops the rigid partner of contact 'lid'"),
               std::string::npos)
         << error.what();
+    EXPECT_EQ(std::string(error.what()).find("particle"), std::string::npos) << error.what();
   }
 }
 
