@@ -16,8 +16,8 @@ namespace meniscus {
 ///   R.n + k (s - b) = F,
 ///
 /// R being the force of the partner on the body. This is a minimum over s of E(u, s) + U(s, t),
-/// with the energy E of the contact and U = k/2 (s - b)^2 - F s (CGCM note 3.5). Forces on the body
-/// are then those of a partner at rest.
+/// with the energy E of the contact and U = k/2 (s - b)^2 - F s (CGCM note 3.5). A partner at rest
+/// at this place would give the same forces on the body.
 template <int D>
 class PartnerPress {
  public:
