@@ -2,6 +2,7 @@
 // Rigid partners that a force or a spring presses: their place, and runs with them.
 #include "physics/contact/rigid/partner_press.hpp"
 #include "solved.hpp"
+#include "thrown.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -171,6 +172,31 @@ TEST(PressedPartner, APartnerThatNothingStopsIsAFailureThatSaysSo) {
         << error.what();
     EXPECT_EQ(std::string(error.what()).find("particle"), std::string::npos) << error.what();
   }
+}
+
+TEST(PressedPartner, ForcesThatItWouldNotFeelAreRefused) {
+  const auto with = [](const std::string& interaction) {
+    std::string text = pressed_disk("direction = [0, -1], force = 0.4", by_newton);
+    const std::string usual = "epsilon = 10\nsigma0 = 0.2\nbeta = 1\n";
+    return text.replace(text.rfind(usual), usual.size(), interaction);
+  };
+  EXPECT_NO_THROW(test::scene_of<2>(with("adhesion = 0.3\n")));
+  EXPECT_THROW_WITH(test::scene_of<2>(with("adhesion = \"0.3 + 0.1*x\"\n")), InputError,
+                    "adhesion by formulas go without a direction of the partner");
+  EXPECT_THROW_WITH(test::scene_of<2>(with("adhesion = 0.3\nfriction = 1\n")), InputError,
+                    "friction: goes without a direction");
+}
+
+/// Contact points on the patches of a surface tension.
+TEST(PressedPartner, ADropCarriesAPlate) {
+  const std::string tension = "[[surface_tension]]\nbody = \"disk\"\ngamma = 1\n";
+  std::string text = pressed_disk("direction = [0, -1], force = 0.1", "end = 0.3\n");
+  const std::string solid = "type = \"neo_hookean\"\ndensity = 1\nmu = 1\nlambda = 2\n";
+  text.replace(text.find(solid), solid.size(),
+               "type = \"newtonian\"\ndensity = 1\nbulk_modulus = 20\nviscosity = 0.5\n");
+  test::Solved<2> drop(text + tension);
+  EXPECT_NEAR(drop.measure("lid.force_y"), -0.1, 1e-10);
+  EXPECT_LT(std::abs(drop.simulation.audit().balance_error(drop.ledger())), 1e-2);
 }
 
 }  // namespace

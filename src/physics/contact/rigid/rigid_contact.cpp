@@ -45,6 +45,10 @@ class RigidContact final : public ForceTerm,
         speeds_(body.body.division),
         of_parts_(body.body.division) {
     close_.reserve(static_cast<std::size_t>(pair_.finest().clusters()));
+    if (press() && effects_.any())
+      throw InputError("contact '" + name_ +
+                       "': friction and adhesion by formulas go without a direction of the "
+                       "partner; allowed are numbers and no friction");
     if (press()) pressed_ = std::make_unique<PressedPoints<D>>(pair_);
     if (const auto* pattern = effects_.pattern()) {
       require_adhesion(pair_, *pattern);

@@ -230,6 +230,10 @@ class Model final : public ContactModel<D> {
     if (!plan.shape->flat())
       throw InputError(surfaces.place +
                        ": legacy_switch is for planes; allowed partners are half_space");
+    if (plan.motion.press())
+      throw InputError(surfaces.place +
+                       ": legacy_switch has forces of its own, which do not act on a partner; it "
+                       "goes without a direction of the partner");
     if (surfaces.tension_form != TensionForm::triangles)
       throw InputError(fmt::format(
           "{}: legacy_switch changes the tension of flat triangles, and '{}' has none{}; allowed "
