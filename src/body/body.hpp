@@ -8,6 +8,7 @@
 #include "body/shapes/geometry.hpp"
 #include "body/shared_parts.hpp"
 #include "body/sums_over_ranks.hpp"
+#include "body/surface/wetted_wall.hpp"
 #include "kernel/point_rows.hpp"
 #include "kernel/row_sums.hpp"
 #include "parallel/chunk_sums.hpp"
@@ -35,7 +36,8 @@ struct Body {
   /// nodal-cell rule are then computed at the points of the face cells, so that loads balance a
   /// uniform stress to round-off. If false, fewer points are used.
   bool loaded_faces = true;
-  std::vector<Real> mass;           ///< lumped masses of the time step (lump_mass())
+  std::vector<WettedFace<D>> wetted = {};  ///< faces that lie on walls; see SurfacePatches
+  std::vector<Real> mass;                  ///< lumped masses of the time step (lump_mass())
   std::vector<Real> mass_integral;  ///< INT rho N_A dV, on which loads per mass act; any sign
   bool uniform_density = true;      ///< in the reference configuration of the scene
   /// Values of the shape functions at the particles, which give positions x(X_A) = sum_B N_B(X_A)

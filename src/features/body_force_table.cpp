@@ -30,11 +30,14 @@ struct BodyForce final : Load<D> {
     const bool one_for_all = std::none_of(acceleration.begin(), acceleration.end(),
                                           [](const Expression& a) { return a.depends_on_place(); });
     const bool drop = assembly.of(body).is_fluid() && assembly.of(body).has_balanced_tension();
-    if (drop && one_for_all && on.uniform_density)
+    if (drop && one_for_all && on.uniform_density) {
+      assembly.of(body).accelerations.push_back(acceleration);
       assembly.add(weight_on_patches(on, acceleration), body);
-    else
+    } else {
+      assembly.of(body).other_body_forces = true;
       assembly.add(body_force(on, assembly.is_dynamic() ? on.mass : on.mass_integral, acceleration),
                    body);
+    }
   }
 };
 

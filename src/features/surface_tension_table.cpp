@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tension of the whole surface of a body.
+// Tension of the whole surface of a body, or of one of its faces.
 #include "measure/drop_measures.hpp"
 #include "meniscus/scene/assembly.hpp"
 #include "physics/internal/coefficient_damping.hpp"
 #include "physics/surface/surface_tension.hpp"
+#include "scene/face_keys.hpp"
 
 #include <fmt/core.h>
 
@@ -13,7 +14,7 @@ namespace meniscus::surface_tension_table {
 namespace {
 
 struct Keys {
-  std::string body, form;
+  std::string body, face, form;
   Real gamma = 0;
   int points = 3;
   Real coefficient_damping = 0;  // unit: kinematic viscosity / spacing^2
@@ -23,6 +24,10 @@ struct Keys {
 Rows<Keys> Keys::rows() {
   return {
       text_row("body", &Keys::body, "name of the body whose surface is under tension"),
+      text_row(
+          "face", &Keys::face,
+          "name of a face of its shape, as `meniscus check` lists them; empty: the whole surface",
+          ""),
       real_row("gamma", &Keys::gamma, dimension::tension, range::positive, "surface tension"),
       choice_row(
           "form", &Keys::form, {tension_form_names.begin(), tension_form_names.end()},
@@ -43,11 +48,19 @@ Rows<Keys> Keys::rows() {
 template <int D>
 struct SurfaceTension final : Load<D>, Keys {
   static constexpr std::string_view example = "body = \"drop\"\ngamma = 1\n";
-  std::optional<typename Load<D>::Identity> identity() const override { return {{"body", body}}; }
-  std::string claim() const override { return "the surface of '" + body + "'"; }
+  std::optional<typename Load<D>::Identity> identity() const override {
+    return {{face.empty() ? "body" : "face", label()}};
+  }
+  std::string claim() const override {
+    return (face.empty() ? "the surface of '" : "the face '" + face + "' of '") + body + "'";
+  }
+  std::string label() const { return face.empty() ? body : body + "-" + face; }
 
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     const BodyPlan<D>* planned = require_body(block, bodies, body);
+    if (planned && !face.empty()) FaceKeys{body, face, std::nullopt}.check(block, bodies);
+    if (!face.empty() && form != "balanced")
+      block.problem("form", fmt::format("is {}, with a face; allowed is balanced", form));
     if (planned && form == "curvature" && !planned->geometry.surface->smooth())
       block.problem("form", fmt::format("the surface of '{}' has edges, where the curvature is "
                                         "undefined; allowed are balanced, weak, triangles",
@@ -67,7 +80,12 @@ struct SurfaceTension final : Load<D>, Keys {
   void build(Assembly<D>& assembly) const override {
     const Body<D>& on = assembly.body(body);
     const std::vector<Real>& viscosity = assembly.of(body).viscosity;
-    assembly.add(term(on), body);
+    require_one_tension(assembly.of(body));
+    assembly.add(term(on), label());
+    if (!face.empty()) {
+      assembly.of(body).has_face_tension = true;
+      return;
+    }
     for (MeasureSource& source : drop_measures(on, viscosity, gamma))
       assembly.measure(body, std::move(source));
     assembly.of(body).surface_energy = gamma;
@@ -102,6 +120,14 @@ struct SurfaceTension final : Load<D>, Keys {
           text(gamma * most * K / pressure, dimension::tension)));
   }
 
+  /// Tables of faces and of the whole surface would act twice on a face.
+  void require_one_tension(const SceneBody& of_body) const {
+    if (face.empty() ? of_body.has_face_tension : of_body.tension.has_value())
+      throw InputError(fmt::format(
+          "{}: the surface of '{}' has a tension already, of {}; allowed are tables of faces only, "
+          "or one of the whole surface",
+          this->place, body, face.empty() ? "a face" : "the whole surface"));
+  }
   TensionForm kind() const {
     const auto* found = std::find(tension_form_names.begin(), tension_form_names.end(), form);
     return static_cast<TensionForm>(found - tension_form_names.begin());
@@ -109,7 +135,7 @@ struct SurfaceTension final : Load<D>, Keys {
   std::unique_ptr<ForceTerm> term(const Body<D>& on) const {
     switch (kind()) {
       case TensionForm::balanced:
-        return balanced_surface_tension(on, gamma);
+        return balanced_surface_tension(on, gamma, face);
       case TensionForm::weak:
         return weak_surface_tension(on, gamma, points);
       case TensionForm::curvature:
@@ -122,7 +148,7 @@ struct SurfaceTension final : Load<D>, Keys {
 };
 
 const bool registered = register_load<SurfaceTension>("surface_tension", Stage::surface,
-                                                      "tension of the whole surface of a body");
+                                                      "tension of the surface of a body");
 
 }  // namespace
 }  // namespace meniscus::surface_tension_table

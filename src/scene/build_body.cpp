@@ -195,6 +195,7 @@ void place_body(const BodyPlan<D>& planned, const Division& division,
   body.first = first;
   body.reference = std::move(reference);
   body.loaded_faces = planned.loaded_faces;
+  body.wetted = planned.wetted;
 }
 
 template <int D>

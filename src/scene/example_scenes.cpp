@@ -40,6 +40,14 @@ std::string two_drops(int D) {
          example_solid();
 }
 
+std::string sessile_drop(int D, const std::string& lines) {
+  return std::string("[[body]]\nname = \"drop\"\n") +
+         (D == 3 ? "shape = \"half_sphere\"\nradius = 1\ncore = 4\nlayers = 2\n"
+                 : "shape = \"half_disk\"\nradius = 1\ncore = 6\nrings = 3\n") +
+         example_liquid() + lines +
+         "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\ncoefficient_damping = 0\n";
+}
+
 std::string one_shell() {
   return "[[body]]\nname = \"shell\"\nshape = \"disk_shell\"\nradius = 2\n"
          "height = 1.6\nthickness = 0.4\nspacing = 0.6\n" +
@@ -54,6 +62,7 @@ std::string scene_with_load(int D, const std::string& name, const std::string& l
   const auto named = [&](const char* body) { return lines.find(body) != std::string::npos; };
   const std::string bodies = named("\"shell\"")   ? one_shell()
                              : named("\"other\"") ? two_drops(D)
+                             : named("\"flat\"")  ? sessile_drop(D)
                                                   : one_drop(D);
   return example_heading(D) + bodies + "[[" + name + "]]\n" + lines;
 }

@@ -11,6 +11,9 @@ std::string one_drop(int D);
 /// Like one_drop(), with an elastic ball 'other' that moves towards the drop; their surfaces are
 /// 0.2 apart.
 std::string two_drops(int D);
+/// Half a fluid ball (2D: disk) 'drop' on its face 'flat', with surface tension. `lines` are
+/// further keys of the body.
+std::string sessile_drop(int D, const std::string& lines = "");
 /// A hollow elastic 'shell' of outer radius 2 (3D).
 std::string one_shell();
 /// A ball (2D: disk) of radius 1 without a material.

@@ -34,7 +34,11 @@ struct SceneBody {
   Real bulk_modulus;                 ///< the least of the body, in the reference
   CarriedField* director = nullptr;  ///< of a nematic
   std::optional<Real> surface_energy = {};  ///< energy per area of the free surface
-  std::optional<BodyTension> tension = {};
+  std::optional<BodyTension> tension = {};  ///< of the whole surface
+  bool has_face_tension = false;            ///< of faces only
+  /// Accelerations by body forces on the volume inside its patches, components by formulas of time.
+  std::vector<std::vector<Expression>> accelerations = {};
+  bool other_body_forces = false;
   std::string kept_reference = {};  ///< why the body cannot be remapped; empty: it can
 
   bool is_fluid() const { return !viscosity.empty(); }

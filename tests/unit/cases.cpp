@@ -93,6 +93,15 @@ std::vector<Case> variants(int D) {
                   "offset = 0.2\nrange = 0.3\nskin = 10\nup = ") +
           (D == 3 ? "[-1, 0.1, 0]\n" : "[-1, 0.1]\n"),
       {true, false});
+  const std::string bent = D == 3 ? "map = [\"x\", \"y\", \"z + sqrt(4 - x^2 - y^2) - 2\"]\n"
+                                  : "map = [\"x\", \"y + sqrt(4 - x^2) - 2\"]\n";
+  cases.push_back({"load wetted, on a ball",
+                   example_heading(D) + sessile_drop(D, bent + moving(D)) +
+                       "[[wetted]]\nbody = \"drop\"\nface = \"flat\"\ntension = 0.3\n"
+                       "[[body_force]]\nbody = \"drop\"\nacceleration = " +
+                       (D == 3 ? "[0.1, 0, -0.5]\n" : "[0.1, -0.5]\n"),
+                   {},
+                   true});
   // A plane that a force and a spring press against the drop.
   const std::string pressed =
       std::string("[contact.partner]\ntype = \"half_space\"\n") +

@@ -2,10 +2,10 @@
 // The interface of all physical effects. A system is a list of force terms. If an effect is not
 // named in the scene, it is not in the list and costs nothing.
 #pragma once
+#include "numbers/resultant.hpp"
 #include "parallel/gathered.hpp"
 #include "parallel/step_reads.hpp"
 #include "physics/constraint.hpp"
-#include "physics/resultant.hpp"
 #include "physics/unknown.hpp"
 #include "state/archive.hpp"
 

@@ -7,6 +7,7 @@
 // No other code refers to the load by name.
 #pragma once
 #include "body/shapes/geometry.hpp"
+#include "body/surface/wetted_wall.hpp"
 #include "input/key_table.hpp"
 #include "input/registry.hpp"
 #include "scene/settings.hpp"
@@ -34,7 +35,8 @@ struct BodyPlan {
   bool enclosed = false;      ///< Integration::enclosed, for fluids
   bool curvature = false;     ///< a term needs the curvature of its surface (second derivatives)
   bool loaded_faces = false;  ///< Body::loaded_faces
-  SolidSettings solid = {};   ///< for solids
+  std::vector<WettedFace<D>> wetted = {};  ///< Body::wetted
+  SolidSettings solid = {};                ///< for solids
 };
 template <int D>
 using BodyPlans = std::vector<BodyPlan<D>>;

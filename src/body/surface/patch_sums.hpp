@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over the Gauss points of four patches at once.
+// Sums over the Gauss points of four patches at once, and over the points of patches.
 #pragma once
 #include "body/surface/surface_patches.hpp"
+#include "kernel/row_sums.hpp"
 
 #include <algorithm>
 
@@ -80,18 +81,22 @@ T SurfacePatches<D>::group_sum(const Corners<T>& place, T* gradient, F&& integra
 
 template <int D>
 template <class T>
-T SurfacePatches<D>::group_size(Size size, const Corners<T>& place, T* gradient) const {
-  if (size == Size::area)
-    return group_sum(place, gradient,
-                     [](Real weight, const Vector<T>&, const Vector<T>& m, Vector<T>& by_place,
-                        Vector<T>& by_normal) -> T {
-                       const T length = sqrt(dot(m, m));
-                       for (int i = 0; i < D; ++i) {
-                         at(by_place, i) = T(0.0);
-                         at(by_normal, i) = weight * at(m, i) / length;
-                       }
-                       return weight * length;
-                     });
+T SurfacePatches<D>::group_area(const Corners<T>& place, T* gradient) const {
+  return group_sum(place, gradient,
+                   [](Real weight, const Vector<T>&, const Vector<T>& m, Vector<T>& by_place,
+                      Vector<T>& by_normal) -> T {
+                     const T length = sqrt(dot(m, m));
+                     for (int i = 0; i < D; ++i) {
+                       at(by_place, i) = T(0.0);
+                       at(by_normal, i) = weight * at(m, i) / length;
+                     }
+                     return weight * length;
+                   });
+}
+
+template <int D>
+template <class T>
+T SurfacePatches<D>::group_volume(const Corners<T>& place, T* gradient) const {
   return group_sum(place, gradient,
                    [](Real weight, const Vector<T>& p, const Vector<T>& m, Vector<T>& by_place,
                       Vector<T>& by_normal) -> T {
@@ -101,6 +106,30 @@ T SurfacePatches<D>::group_size(Size size, const Corners<T>& place, T* gradient)
                      }
                      return (weight / D) * dot(p, m);
                    });
+}
+
+template <int D>
+template <class T>
+T SurfacePatches<D>::group_size(Size size, Index group, const Corners<T>& place,
+                                T* gradient) const {
+  if (size == Size::volume) return group_volume(place, gradient);
+  T area = group_area(place, gradient);
+  if (area_share_.empty()) return area;
+  const T share(at(area_share_, group));
+  if (gradient)
+    for (int k = 0; k < nodes * D; ++k) gradient[k] = share * gradient[k];
+  return share * area;
+}
+
+template <int D>
+template <class F>
+void SurfacePatches<D>::add_to_particles(const ForceVector& force, F&& at_point) {
+  chunk_sums_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
+    for (Index q = begin; q < end; ++q) {
+      const Lanes g = at_point(q);
+      if (sum(g * g) != 0) scatter_value(rows_, q, g, f);
+    }
+  });
 }
 
 }  // namespace meniscus

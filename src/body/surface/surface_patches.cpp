@@ -29,6 +29,7 @@ SurfacePatches<D>::SurfacePatches(const Body<D>& body)
   rows_ = build_point_rows<D>(body.particles, X_, {.value = true}, body.name);
   chunk_sums_ = body.chunk_sums(rows_.start, rows_.particle);
   list_shares();
+  list_walls(body);
   x_.assign(X_.size(), Lanes::zero());
   for (Index q = 0; q < point_count(); ++q) set_vector<D>(x_, q, at(X_, q));
   area_ = size_of_all(Size::area, x_);
@@ -70,6 +71,7 @@ template <int D>
 NodalVector SurfacePatches<D>::place_of(Index point, const NodalVector* u) const {
   NodalVector place = value_at(rows_, point, u);
   for (int i = 0; i < D; ++i) place.set(i, place[i] + at(X_, point)[i]);
+  move_to_wall(point, place);
   return place;
 }
 
@@ -79,9 +81,10 @@ void SurfacePatches<D>::place(const NodalVector* u, NodalVectors& x) const {
 }
 
 template <int D>
-NodalVectors SurfacePatches<D>::values(const NodalVector* u) const {
+NodalVectors SurfacePatches<D>::changes(const NodalVectors& x, const NodalVector* du) const {
   NodalVectors sums(X_.size());
-  parallel_for(point_count(), [&](Index q) { at(sums, q) = value_at(rows_, q, u); });
+  parallel_for(point_count(),
+               [&](Index q) { at(sums, q) = projected(q, at(x, q), value_at(rows_, q, du)); });
   return sums;
 }
 
@@ -125,7 +128,7 @@ Real SurfacePatches<D>::measure(Size size, const NodalVector* u) const {
 template <int D>
 Real SurfacePatches<D>::size_of_all(Size size, const NodalVectors& x) const {
   return parallel_sum(group_count(), 0.0, [&](Index g) {
-    return sum_of_patches(g, group_size<Lanes>(size, corners(g, x), nullptr));
+    return sum_of_patches(g, group_size<Lanes>(size, g, corners(g, x), nullptr));
   });
 }
 
@@ -134,9 +137,9 @@ Dual<Real> SurfacePatches<D>::measure(Size size, const NodalVector* u,
                                       const NodalVector* du) const {
   NodalVectors x(X_.size());
   place(u, x);
-  const NodalVectors dx = values(du);
+  const NodalVectors dx = changes(x, du);
   return parallel_sum(group_count(), Dual<Real>(0.0), [&](Index g) -> Dual<Real> {
-    const auto sizes = group_size<Dual<Lanes>>(size, corners(g, x, dx), nullptr);
+    const auto sizes = group_size<Dual<Lanes>>(size, g, corners(g, x, dx), nullptr);
     return {sum_of_patches(g, sizes.v), sum_of_patches(g, sizes.d)};
   });
 }
@@ -158,14 +161,16 @@ Real SurfacePatches<D>::follow(Size size) {
   if (!chunk_sums_.division().has_some()) return 0;
   return parallel_sum(group_count(), 0.0, [&](Index g) {
     return sum_of_patches(g,
-                          group_size(size, corners(g, x_),
+                          group_size(size, g, corners(g, x_),
                                      gradient_.data() + static_cast<std::size_t>(g) * nodes * D));
   });
 }
 
 template <int D>
 void SurfacePatches<D>::add_gradient(Real factor, const ForceVector& force) {
-  add_to_particles(factor, gradient_, force);
+  add_to_particles(force, [&](Index q) {
+    return factor * projected(q, at(x_, q), gradient_of_point(q, gradient_));
+  });
 }
 
 template <int D>
@@ -173,15 +178,15 @@ void SurfacePatches<D>::add_gradient_change(Size size, const NodalVector* u, con
                                             const Dual<Real>& factor, const ForceVector& force) {
   NodalVectors x(X_.size());
   place(u, x);
-  const NodalVectors dx = values(du);
-  AlignedVector<Lanes> change(gradient_.size());
+  const NodalVectors dx = changes(x, du);
+  ChangingGradient sum = changing_gradient();
   parallel_for(group_count(), [&](Index g) {
     std::array<Dual<Lanes>, nodes * D> gradient;
-    group_size(size, corners(g, x, dx), gradient.data());
+    group_size(size, g, corners(g, x, dx), gradient.data());
     for (int k = 0; k < nodes * D; ++k)
-      at(change, g * nodes * D + k) = factor.v * at(gradient, k).d + factor.d * at(gradient, k).v;
+      sum.set(g * nodes * D + k, Dual<Lanes>(factor) * at(gradient, k));
   });
-  add_to_particles(1, change, force);
+  add_changes_to_particles(sum, x, du, force);
 }
 
 template <int D>
@@ -199,12 +204,43 @@ NodalVector SurfacePatches<D>::gradient_of_point(Index point,
 template <int D>
 void SurfacePatches<D>::add_to_particles(Real factor, const AlignedVector<Lanes>& gradient,
                                          const ForceVector& force) {
-  chunk_sums_.accumulate(force, [&](int, Index begin, Index end, NodalVector* f) {
-    for (Index q = begin; q < end; ++q) {
-      const Lanes sum = gradient_of_point(q, gradient);
-      if (meniscus::sum(sum * sum) != 0) scatter_value(rows_, q, factor * sum, f);
-    }
+  add_to_particles(force, [&](Index q) { return factor * gradient_of_point(q, gradient); });
+}
+
+template <int D>
+void SurfacePatches<D>::share_area(const std::vector<Real>& of_patch) {
+  area_share_.assign(static_cast<std::size_t>(group_count()), Lanes::zero());
+  for (Index patch = 0; patch < patches_; ++patch)
+    at(area_share_, patch / 4).set(patch % 4, at(of_patch, patch));
+}
+
+template <int D>
+std::vector<Real> SurfacePatches<D>::areas(const NodalVector* u) const {
+  NodalVectors x(X_.size());
+  place(u, x);
+  std::vector<Real> areas(static_cast<std::size_t>(patches_));
+  parallel_for(group_count(), [&](Index g) {
+    const Lanes of_group = group_area<Lanes>(corners(g, x), nullptr);
+    for (int lane = 0; lane < 4 && g * 4 + lane < patches_; ++lane)
+      at(areas, g * 4 + lane) = of_group[lane];
   });
+  return areas;
+}
+
+template <int D>
+std::vector<Vec<D>> SurfacePatches<D>::places_at(const NodalVector* u) const {
+  NodalVectors x(X_.size());
+  place(u, x);
+  std::vector<Vec<D>> places;
+  for (Index q = 0; q < point_count(); ++q) places.push_back(vector_at<D>(x, q));
+  return places;
+}
+
+template <int D>
+NodalVectors SurfacePatches<D>::velocities(const NodalVector* u, const NodalVector* v) const {
+  NodalVectors x(X_.size());
+  place(u, x);
+  return changes(x, v);
 }
 
 template <int D>

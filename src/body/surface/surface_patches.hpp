@@ -4,10 +4,13 @@
 #pragma once
 #include "body/body.hpp"
 #include "body/surface/quadratic_patches.hpp"
+#include "body/surface/wetted_wall.hpp"
 #include "numbers/dual.hpp"
+#include "numbers/resultant.hpp"
 #include "parallel/step_reads.hpp"
 
 #include <array>
+#include <cstdint>
 
 namespace meniscus {
 
@@ -23,6 +26,10 @@ namespace meniscus {
 ///   height  h = z . centroid = sum w (z . x) (x . m) / ((D + 1) V)   along a direction z.
 /// Gradients with respect to the particles follow by the chain rule through dm . b = dt_1 . (t_2 x
 /// b) + dt_2 . (b x t_1). In 2D, area and volume are circumference and area, per unit depth.
+///
+/// The points of the wetted faces of the body lie on their walls: x_a is the nearest point P(y_a)
+/// of the wall to y_a = X_a + sum_A N_A(X_a) u_A, and gradients with respect to particles have the
+/// factor DP^T (sharp line note 1).
 template <int D>
 class SurfacePatches {
  public:
@@ -30,6 +37,8 @@ class SurfacePatches {
 
   /// Throws SolveError if shape functions cannot be built.
   explicit SurfacePatches(const Body<D>& body);
+  /// From now on Size::area is the sum of share x area of each patch.
+  void share_area(const std::vector<Real>& of_patch);
 
   /// The area or volume in the reference configuration.
   Real reference(Size size) const { return size == Size::area ? area_ : volume_; }
@@ -52,6 +61,12 @@ class SurfacePatches {
   void add_gradient_change(Size size, const NodalVector* u, const NodalVector* du,
                            const Dual<Real>& factor, const ForceVector& force);
 
+  /// The area of each patch.
+  std::vector<Real> areas(const NodalVector* u) const;
+  /// The places of all points, and their velocities.
+  std::vector<Vec<D>> places_at(const NodalVector* u) const;
+  NodalVectors velocities(const NodalVector* u, const NodalVector* v) const;
+
   /// Height of the centroid of the enclosed volume along the unit vector `along`.
   Real height(const Vec<D>& along, const NodalVector* u) const;
   /// Like height(), at the places of the points; also stores the gradient, as follow() does.
@@ -66,6 +81,13 @@ class SurfacePatches {
   /// Sums of x cross g over the points of each chunk, with their positions x and the stored
   /// gradient g of the quantity that was followed last; the result is to be gathered.
   ChunkTally<Eigen::Vector3d>& followed_moments();
+
+  /// True if the body has wetted faces.
+  bool on_walls() const { return !walls_.empty(); }
+  /// Force and moment, in each chunk, by which walls hold the points against the force factor x
+  /// (stored gradient of the quantity that was followed last); the result is to be gathered. With
+  /// `face`, only the wall of this face.
+  ChunkTally<Resultant>& wall_forces(Real factor, const std::string& face = "");
 
   /// force_A += factor sum_a N_A(X_a) g_a. Here g_a is the sum of `gradient` over the patches that
   /// contain point a; `gradient` is [group of four patches][a][i] with one lane per patch. Points
@@ -110,10 +132,36 @@ class SurfacePatches {
 
   void number_points(const Geometry<D>& geometry);
   void list_shares();
+  /// Finds the points of the wetted faces.
+  void list_walls(const Body<D>& body);
+  /// The place of a point. Lane 3 is its distance from the wall before it was moved there.
   NodalVector place_of(Index point, const NodalVector* u) const;
   void place(const NodalVector* u, NodalVectors& x) const;
-  /// Displacements of the points.
-  NodalVectors values(const NodalVector* u) const;
+  /// The wall of a point, or null.
+  const WettedWall<D>* wall_of(Index point) const {
+    if (walls_.empty() || at(wall_of_, point) < 0) return nullptr;
+    return &at(walls_, at(wall_of_, point)).wall;
+  }
+  /// Moves a point to its wall; the distance from there becomes lane 3.
+  void move_to_wall(Index point, NodalVector& place) const;
+  /// DP g at a point with this place.
+  NodalVector projected(Index point, const NodalVector& place, const NodalVector& g) const;
+  /// Changes of the places x of the points when coefficients change by du.
+  NodalVectors changes(const NodalVectors& x, const NodalVector* du) const;
+  /// A gradient with respect to the places of points, [group][a][i], and its change.
+  struct ChangingGradient {
+    AlignedVector<Lanes> value;  // empty without walls
+    AlignedVector<Lanes> change;
+
+    void set(Index k, const Dual<Lanes>& g) {
+      at(change, k) = g.d;
+      if (!value.empty()) at(value, k) = g.v;
+    }
+  };
+  ChangingGradient changing_gradient() const;
+  /// force_A += change of sum_a N_A(X_a) DP^T g_a at the places x, when coefficients change by du.
+  void add_changes_to_particles(const ChangingGradient& gradient, const NodalVectors& x,
+                                const NodalVector* du, const ForceVector& force);
   Real size_of_all(Size size, const NodalVectors& x) const;
   /// The nodes of a group, relative to the first of the positions `x`. No size depends on the
   /// origin, but round-off does.
@@ -122,7 +170,11 @@ class SurfacePatches {
   /// Area or volume of each of four patches. Also computes the gradient with respect to their
   /// nodes, [a][i], unless `gradient` is null. T is Lanes or Dual<Lanes>.
   template <class T>
-  T group_size(Size size, const Corners<T>& place, T* gradient) const;
+  T group_size(Size size, Index group, const Corners<T>& place, T* gradient) const;
+  template <class T>
+  T group_area(const Corners<T>& place, T* gradient) const;
+  template <class T>
+  T group_volume(const Corners<T>& place, T* gradient) const;
   /// Sum of a function of position x and area normal m over the Gauss points of four patches, with
   /// its gradient as in group_size(). integrand(weight, x, m, by_x, by_m) returns the contribution
   /// of one point and sets its derivatives with respect to x and m.
@@ -131,8 +183,11 @@ class SurfacePatches {
   /// Integral of the height over the volume, measured from the first point.
   template <class T>
   T group_moment(const Vec<D>& along, const Corners<T>& place, T* gradient) const;
-  /// Gradient with respect to a point, from `gradient` [group][a][i].
+  /// Gradient with respect to the place of a point, from `gradient` [group][a][i].
   NodalVector gradient_of_point(Index point, const AlignedVector<Lanes>& gradient) const;
+  /// force_A += sum_a N_A(X_a) at_point(a).
+  template <class F>
+  void add_to_particles(const ForceVector& force, F&& at_point);
   /// Sum of `size` over the patches of a group. The last group may have lanes without a patch.
   Real sum_of_patches(Index group, const Lanes& size) const;
 
@@ -144,12 +199,21 @@ class SurfacePatches {
   ChunkSums chunk_sums_;
   std::vector<Index> share_begin_;  // [point + 1]
   std::vector<Share> share_;
-  Real area_, volume_;  // in the reference configuration
+  std::vector<WettedFace<D>> walls_;
+  std::vector<std::int8_t> wall_of_;  // [point] number of its wall, or -1; empty without walls
+  AlignedVector<Lanes> area_share_;   // [group]; empty: all shares are one
+  Real area_, volume_;                // in the reference configuration
   // Positions, and gradient [group][a][i] with one lane per patch, of the last follow().
   NodalVectors x_;
   AlignedVector<Lanes> gradient_;
   AlignedVector<Lanes> volume_gradient_;  // work space of follow_height(); empty before its first
   ChunkTally<Eigen::Vector3d> moments_;
+  ChunkTally<Resultant> wall_forces_;  // empty without walls
 };
+
+/// The energy per area of each patch, by the wetted faces of the body, over the tension `gamma` of
+/// the free surface.
+template <int D>
+std::vector<Real> tension_shares(const Body<D>& body, Real gamma);
 
 }  // namespace meniscus

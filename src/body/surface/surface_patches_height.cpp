@@ -42,9 +42,8 @@ Real SurfacePatches<D>::height(const Vec<D>& along, const NodalVector* u) const 
   place(u, x);
   const auto all = parallel_sum(group_count(), VolumeAndMoment<Real>{0, 0}, [&](Index g) {
     const Corners<Lanes> of_group = corners(g, x);
-    return VolumeAndMoment<Real>{
-        sum_of_patches(g, group_size<Lanes>(Size::volume, of_group, nullptr)),
-        sum_of_patches(g, group_moment<Lanes>(along, of_group, nullptr))};
+    return VolumeAndMoment<Real>{sum_of_patches(g, group_volume<Lanes>(of_group, nullptr)),
+                                 sum_of_patches(g, group_moment<Lanes>(along, of_group, nullptr))};
   });
   return along.dot(vector_at<D>(x, 0)) + all.moment / all.volume;
 }
@@ -57,7 +56,7 @@ Real SurfacePatches<D>::follow_height(const Vec<D>& along) {
     const Corners<Lanes> of_group = corners(g, x_);
     const auto begin = static_cast<std::size_t>(g) * nodes * D;
     return VolumeAndMoment<Real>{
-        sum_of_patches(g, group_size(Size::volume, of_group, volume_gradient_.data() + begin)),
+        sum_of_patches(g, group_volume(of_group, volume_gradient_.data() + begin)),
         sum_of_patches(g, group_moment(along, of_group, gradient_.data() + begin))};
   });
   const Real mean = all.moment / all.volume;
@@ -73,35 +72,34 @@ void SurfacePatches<D>::add_height_gradient_change(const Vec<D>& along, const No
                                                    const ForceVector& force) {
   NodalVectors x(X_.size());
   place(u, x);
-  const NodalVectors dx = values(du);
+  const NodalVectors dx = changes(x, du);
   const VolumeAndMoment<Dual<Real>> zero{Dual<Real>(0.0), Dual<Real>(0.0)};
   const auto all = parallel_sum(group_count(), zero, [&](Index g) {
     const auto of_group = corners(g, x, dx);
-    const auto volume = group_size<Dual<Lanes>>(Size::volume, of_group, nullptr),
+    const auto volume = group_volume<Dual<Lanes>>(of_group, nullptr),
                moment = group_moment<Dual<Lanes>>(along, of_group, nullptr);
     return VolumeAndMoment<Dual<Real>>{{sum_of_patches(g, volume.v), sum_of_patches(g, volume.d)},
                                        {sum_of_patches(g, moment.v), sum_of_patches(g, moment.d)}};
   });
   const Dual<Real> mean = all.moment / all.volume, by_moment = factor / all.volume,
                    by_volume = -(by_moment * mean);
-  AlignedVector<Lanes> change(gradient_.size());
+  ChangingGradient sum = changing_gradient();
   parallel_for(group_count(), [&](Index g) {
     const auto of_group = corners(g, x, dx);
     std::array<Dual<Lanes>, nodes * D> volume, moment;
-    group_size(Size::volume, of_group, volume.data());
+    group_volume(of_group, volume.data());
     group_moment(along, of_group, moment.data());
     for (int k = 0; k < nodes * D; ++k)
-      at(change, g * nodes * D + k) = by_moment.v * at(moment, k).d +
-                                      by_moment.d * at(moment, k).v +
-                                      by_volume.v * at(volume, k).d + by_volume.d * at(volume, k).v;
+      sum.set(g * nodes * D + k,
+              Dual<Lanes>(by_moment) * at(moment, k) + Dual<Lanes>(by_volume) * at(volume, k));
   });
-  add_to_particles(1, change, force);
+  add_changes_to_particles(sum, x, du, force);
 }
 
 template <int D>
 Real SurfacePatches<D>::followed_change(const NodalVector* du) const {
   return chunk_sums_.division().sum(point_count(), 0.0, [&](Index q) {
-    return sum(gradient_of_point(q, gradient_) * value_at(rows_, q, du));
+    return sum(projected(q, at(x_, q), gradient_of_point(q, gradient_)) * value_at(rows_, q, du));
   });
 }
 

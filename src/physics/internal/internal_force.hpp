@@ -101,8 +101,11 @@ class InternalForce final : public StressPointForce<D, Rule> {
       if (this->has_surface())
         return force.gather({of_chunks.gathered(), pulls.gathered_where_rows_are()}, motion,
                             [this](const Motion& at_motion, const Forces& all) {
-                              this->pull_on_surface(this->pulls().sum(0.0), all);
-                              return this->sum_of(this->of_chunks(), at_motion, all);
+                              const Real pull = this->pulls().sum(0.0);
+                              this->pull_on_surface(pull, all);
+                              Report report = this->sum_of(this->of_chunks(), at_motion, all);
+                              report += this->hold_on_walls(pull, at_motion, all);
+                              return report;
                             });
     return this->report_of(of_chunks, motion, force);
   }

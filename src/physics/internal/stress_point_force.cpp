@@ -224,7 +224,27 @@ std::vector<FieldSource> StressPointForce<D, Rule>::fields() const {
 
 template <int D, class Rule>
 std::vector<MeasureSource> StressPointForce<D, Rule>::measures() const {
-  return stress_measures(visitor(), D);
+  std::vector<MeasureSource> measures = stress_measures(visitor(), D);
+  if (surface_)
+    measures.push_back({"inner_pressure", dimension::pressure,
+                        "pressure of the fluid on the surface on which its tension acts",
+                        [this](const Motion& motion) { return inner_pressure(motion); }});
+  return measures;
+}
+
+/// - dE/dV with the volume V that the surface encloses.
+template <int D, class Rule>
+Real StressPointForce<D, Rule>::inner_pressure(const Motion& motion) const {
+  const NodalVector* u = motion.u.data() + body_.first;
+  const Real V0 = surface_->reference(Size::volume);
+  const Dual<Real> enclosed(surface_->measure(Size::volume, u) / V0 - 1);
+  const Real slope = body_.sum_over_rows(rule_.groups(), 0.0, [&](Index g) {
+    const Tensor<Dual<Lanes>> H = dual(gradients(g, u), Tensor<Lanes>::zero());
+    const StressChange stress =
+        laws_->tangent(g, motion.time, {H, Tensor<Dual<Lanes>>::zero(), enclosed});
+    return sum(rule_.weight(g) * stress.pull_on_enclosed.v);
+  });
+  return -slope / V0;
 }
 
 template class StressPointForce<2, CellRule<2>>;

@@ -10,6 +10,7 @@
 #include "physics/internal/averaged_volumes.hpp"
 #include "physics/internal/point_laws.hpp"
 #include "physics/internal/stress_output.hpp"
+#include "physics/surface/wall_report.hpp"
 
 namespace meniscus {
 
@@ -117,6 +118,13 @@ class StressPointForce : public ForceTerm, public AssembledForce {
     surface_->add_gradient(-slope / surface_->reference(Size::volume), body_.part(all));
   }
 
+  /// The forces by which the walls of wetted faces hold the surface against this pull. Ends a
+  /// phase. Empty without wetted faces.
+  Report hold_on_walls(Real slope, const Motion& motion, const Forces& all) {
+    if (!surface_->on_walls()) return {};
+    return report_of_walls(*surface_, slope / surface_->reference(Size::volume), motion, all);
+  }
+
   /// From now on add_force() stores H of the groups of this process in kept()[group].
   void keep_deformations() {
     keeps_ = true;
@@ -153,6 +161,7 @@ class StressPointForce : public ForceTerm, public AssembledForce {
   };
 
   Real energy(const PointLaws& laws, const Motion& motion) const;
+  Real inner_pressure(const Motion& motion) const;
   /// The volume changes at a motion. All processes call this.
   Shared shared_changes(const Motion& motion) const;
   /// The volume changes and pulls at a motion. All processes call this.

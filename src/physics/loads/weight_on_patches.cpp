@@ -4,6 +4,7 @@
 #include "body/surface/surface_patches.hpp"
 #include "numbers/dense.hpp"
 #include "physics/loads/body_force.hpp"
+#include "physics/surface/wall_report.hpp"
 
 #include <numeric>
 
@@ -62,10 +63,12 @@ class WeightOnPatches final : public ForceTerm {
     patches_.add_gradient(1, body_.part(force));
     ChunkTally<Eigen::Vector3d>& moments = patches_.followed_moments();
     return force.gather({moments.gathered()}, motion,
-                        [this, &moments](const Motion& at_motion, const Forces&) {
+                        [this, &moments](const Motion& at_motion, const Forces& all) {
                           Report report;
                           report.outside = {spatial<D>(weight_at(at_motion.time)),
                                             moments.sum(Eigen::Vector3d::Zero())};
+                          if (patches_.on_walls())
+                            report += report_of_walls(patches_, -1, at_motion, all);
                           return report;
                         });
   }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 
 namespace meniscus {
 
@@ -21,8 +22,13 @@ inline const char* name_of(TensionForm form) {
 /// (SurfacePatches); c makes gamma c A exact in the reference. It is balanced together with a fluid
 /// whose pressure works on the volume of the same patches (FluidPoints). At rest the body is then a
 /// sphere without spurious currents.
+///
+/// With `face`, A is the area of the patches of this face alone, and c = 1: a correction of one
+/// face would change angles at its edge. If the body has wetted faces, their areas have other
+/// energies (tension_shares()), and c = 1.
 template <int D>
-std::unique_ptr<ForceTerm> balanced_surface_tension(const Body<D>& body, Real gamma);
+std::unique_ptr<ForceTerm> balanced_surface_tension(const Body<D>& body, Real gamma,
+                                                    const std::string& face = "");
 
 /// f_A,i = -gamma sum_q da (I - n n)_ij F^-1_Kj N_A,K: the exact gradient of gamma times the
 /// discrete area sum_q da. Needs first derivatives only. `points`: Gauss points per facet

@@ -14,7 +14,7 @@ class TensionTerm : public ForceTerm {
 
   std::string name() const final { return "surface tension of '" + body_.name + "'"; }
   std::string_view energy_kind() const final { return "surface"; }
-  std::optional<Real> stored_energy(const Motion& motion) const final {
+  std::optional<Real> stored_energy(const Motion& motion) const override {
     return gamma_ * area(motion);
   }
   std::vector<MeasureSource> measures() const override {

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of wetted faces, which lie on walls (sharp line note 1).
+#include "body/surface/patch_sums.hpp"
+#include "numbers/dense.hpp"
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+template <int D>
+std::array<Real, D> components(const NodalVector& v) {
+  std::array<Real, D> c;
+  for (int i = 0; i < D; ++i) at(c, i) = v[i];
+  return c;
+}
+
+template <int D>
+std::array<Dual<Real>, D> components(const NodalVector& v, const NodalVector& dv) {
+  std::array<Dual<Real>, D> c;
+  for (int i = 0; i < D; ++i) at(c, i) = {v[i], dv[i]};
+  return c;
+}
+
+/// The place before it was moved to the wall.
+template <int D>
+NodalVector before(const WettedWall<D>& wall, const NodalVector& place) {
+  const auto foot = wall.foot_above(components<D>(place), place[3]);
+  NodalVector y = Lanes::zero();
+  for (int i = 0; i < D; ++i) y.set(i, place[i] + foot.distance * at(foot.normal, i));
+  return y;
+}
+
+}  // namespace
+
+template <int D>
+void SurfacePatches<D>::list_walls(const Body<D>& body) {
+  if (body.wetted.empty()) return;
+  wall_of_.assign(X_.size(), -1);
+  for (const WettedFace<D>& face : body.wetted) {
+    for (Index patch = 0; patch < patches_; ++patch) {
+      if (body.geometry.surface->face_name(at(body.geometry.grid.facets, patch).patch) != face.face)
+        continue;
+      for (const Index point : at(node_, patch))
+        at(wall_of_, point) = static_cast<std::int8_t>(walls_.size());
+    }
+    walls_.push_back(face);
+  }
+  wall_forces_ = chunk_sums_.template tally<Resultant>();
+}
+
+template <int D>
+void SurfacePatches<D>::move_to_wall(Index point, NodalVector& place) const {
+  const WettedWall<D>* wall = wall_of(point);
+  if (!wall) return;
+  const auto foot = wall->template foot<Real>(components<D>(place));
+  for (int i = 0; i < D; ++i) place.set(i, at(foot.x, i));
+  place.set(3, foot.distance);
+}
+
+template <int D>
+NodalVector SurfacePatches<D>::projected(Index point, const NodalVector& place,
+                                         const NodalVector& g) const {
+  const WettedWall<D>* wall = wall_of(point);
+  if (!wall) return g;
+  const auto along =
+      wall->project(wall->foot_above(components<D>(place), place[3]), components<D>(g));
+  NodalVector p = Lanes::zero();
+  for (int i = 0; i < D; ++i) p.set(i, at(along, i));
+  return p;
+}
+
+template <int D>
+typename SurfacePatches<D>::ChangingGradient SurfacePatches<D>::changing_gradient() const {
+  ChangingGradient gradient;
+  gradient.change.assign(gradient_.size(), Lanes::zero());
+  if (on_walls()) gradient.value = gradient.change;
+  return gradient;
+}
+
+template <int D>
+void SurfacePatches<D>::add_changes_to_particles(const ChangingGradient& gradient,
+                                                 const NodalVectors& x, const NodalVector* du,
+                                                 const ForceVector& force) {
+  add_to_particles(force, [&](Index q) {
+    const NodalVector dg = gradient_of_point(q, gradient.change);
+    const WettedWall<D>* wall = wall_of(q);
+    if (!wall) return dg;
+    const NodalVector g = gradient_of_point(q, gradient.value), y = before(*wall, at(x, q));
+    const auto along =
+        wall->project(wall->template foot<Dual<Real>>(components<D>(y, value_at(rows_, q, du))),
+                      components<D>(g, dg));
+    NodalVector change = Lanes::zero();
+    for (int i = 0; i < D; ++i) change.set(i, at(along, i).d);
+    return change;
+  });
+}
+
+/// The places of points feel the forces f = - factor g, which have the resultant zero or that of a
+/// load. Coefficients get DP^T f instead, at the places y before they were moved to the wall.
+template <int D>
+ChunkTally<Resultant>& SurfacePatches<D>::wall_forces(Real factor, const std::string& face) {
+  chunk_sums_.for_own_chunks([&](int chunk, Index begin, Index end) {
+    Resultant sum;
+    for (Index q = begin; q < end; ++q) {
+      const WettedWall<D>* wall = wall_of(q);
+      if (!wall || (!face.empty() && at(walls_, at(wall_of_, q)).face != face)) continue;
+      const NodalVector f = -factor * gradient_of_point(q, gradient_),
+                        moved = projected(q, at(x_, q), f), y = before(*wall, at(x_, q));
+      NodalVector x = at(x_, q);
+      x.set(3, 0.0);
+      sum += Resultant(spatial(moved - f),
+                       cross(spatial(y), spatial(moved)) - cross(spatial(x), spatial(f)));
+    }
+    wall_forces_[chunk] = sum;
+  });
+  return wall_forces_;
+}
+
+template <int D>
+std::vector<Real> tension_shares(const Body<D>& body, Real gamma) {
+  std::vector<Real> share;
+  for (const Facet<D>& facet : body.geometry.grid.facets) {
+    const std::string face = body.geometry.surface->face_name(facet.patch);
+    share.push_back(1);
+    for (const WettedFace<D>& wetted : body.wetted)
+      if (wetted.face == face) share.back() = wetted.relative + wetted.absolute / gamma;
+  }
+  return share;
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                                    \
+  template void SurfacePatches<D>::list_walls(const Body<D>&);                                     \
+  template void SurfacePatches<D>::move_to_wall(Index, NodalVector&) const;                        \
+  template NodalVector SurfacePatches<D>::projected(Index, const NodalVector&, const NodalVector&) \
+      const;                                                                                       \
+  template typename SurfacePatches<D>::ChangingGradient SurfacePatches<D>::changing_gradient()     \
+      const;                                                                                       \
+  template void SurfacePatches<D>::add_changes_to_particles(                                       \
+      const ChangingGradient&, const NodalVectors&, const NodalVector*, const ForceVector&);       \
+  template ChunkTally<Resultant>& SurfacePatches<D>::wall_forces(Real, const std::string&);        \
+  template std::vector<Real> tension_shares(const Body<D>&, Real);
+MENISCUS_INSTANTIATE(2)
+MENISCUS_INSTANTIATE(3)
+#undef MENISCUS_INSTANTIATE
+
+}  // namespace meniscus

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A face of a drop that lies on a wall, with a sharp contact line.
+#include "body/surface/quadratic_patches.hpp"
+#include "body/surface/surface_points.hpp"
+#include "input/optional_rows.hpp"
+#include "measure/wetted_measures.hpp"
+#include "meniscus/error.hpp"
+#include "meniscus/scene/assembly.hpp"
+#include "physics/surface/line_friction.hpp"
+#include "physics/surface/wall_hold.hpp"
+#include "scene/face_keys.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace meniscus::wetted_table {
+namespace {
+
+template <int D>
+struct Wetted final : Load<D> {
+  static constexpr std::string_view example =
+      "body = \"drop\"\nface = \"flat\"\ncontact_angle = 70\nline_friction = 0.2\n";
+  std::string name, body, face;
+  std::optional<Real> contact_angle, tension;
+  Real line_friction = 0;
+  std::vector<Real> axis;
+
+  static Rows<Wetted> rows() {
+    return {
+        text_row("name", &Wetted::name,
+                 "by which messages and measures call it; empty: the body and the face", ""),
+        text_row("body", &Wetted::body, "name of the drop"),
+        text_row("face", &Wetted::face,
+                 "name of the face that lies on the wall, as `meniscus check` lists them; the wall "
+                 "is the plane, ball or cylinder on which this face lies at the start"),
+        optional_row("contact_angle", &Wetted::contact_angle, dimension::none, range::any, "none",
+                     "Young's contact angle in degrees, between 0 and 180; either this or "
+                     "tension"),
+        optional_row("tension", &Wetted::tension, dimension::tension, range::any, "none",
+                     "tension of the wetted face: that of solid and liquid minus that of solid and "
+                     "vapour"),
+        real_row("line_friction", &Wetted::line_friction, dimension::viscosity, range::non_negative,
+                 "force per length of the contact line and per speed of the line", 0),
+        reals_row("axis", &Wetted::axis, D, dimension::none, range::any,
+                  "direction of the axis if the wall is a cylinder", std::vector<Real>{})};
+  }
+  std::string label() const { return name.empty() ? body + "-" + face : name; }
+  std::optional<typename Load<D>::Identity> identity() const override {
+    return {{"name", label()}};
+  }
+  std::string claim() const override { return "the face '" + face + "' of '" + body + "'"; }
+
+  void check(const Block& block, const BodyPlans<D>& bodies) const override {
+    if (!name.empty()) require_plain_name(block, name);
+    FaceKeys{body, face, std::nullopt}.check(block, bodies);
+    if (contact_angle.has_value() == tension.has_value())
+      block.problem("contact_angle", contact_angle ? "tension is given, too; allowed is one of them"
+                                                   : "missing; give this or tension");
+    if (contact_angle && !(*contact_angle > 0 && *contact_angle < 180))
+      block.problem("contact_angle",
+                    fmt::format("is {:g}; allowed are angles between 0 and 180", *contact_angle));
+    if (!axis.empty() && !(norm_of_axis() > 0))
+      block.problem("axis", "has no direction; allowed is a vector other than zero");
+    for (const BodyPlan<D>& planned : bodies) {
+      if (planned.settings.name != body || !planned.in_order) continue;
+      const std::vector<Vec<D>> X = points_of_face(planned.geometry);
+      if (!X.empty() && !wall_through<D>(X, direction()))
+        block.problem(
+            "face",
+            fmt::format("'{}' lies on no {}; allowed are faces on a {}", face,
+                        axis.empty() ? "plane or ball" : "cylinder with this axis",
+                        D == 3 ? "plane, a ball, or, with axis, a cylinder" : "line or a circle"));
+    }
+  }
+
+  void prepare(BodyPlans<D>& bodies) const override {
+    for (BodyPlan<D>& planned : bodies) {
+      if (planned.settings.name != body || !planned.in_order) continue;
+      const auto wall = wall_through<D>(points_of_face(planned.geometry), direction());
+      if (!wall) continue;
+      planned.wetted.push_back(
+          {face, *wall, contact_angle ? -std::cos(*contact_angle * std::numbers::pi / 180) : 0.0,
+           tension.value_or(0)});
+    }
+  }
+
+  void build(Assembly<D>& assembly) const override {
+    const Body<D>& on = assembly.body(body);
+    if (!assembly.of(body).is_fluid())
+      throw InputError(fmt::format("{}: body '{}' is a solid; a wetted face belongs to a fluid",
+                                   this->place, body));
+    if (!assembly.of(body).has_balanced_tension())
+      throw InputError(fmt::format(
+          "{}: body '{}' has no [[surface_tension]] of its whole surface, of form \"balanced\"; a "
+          "wetted face needs it",
+          this->place, body));
+    const Real gamma = assembly.of(body).tension->gamma;
+    if (tension && !(std::abs(*tension) < gamma))
+      throw InputError(fmt::format(
+          "{}: tension is {:g} times the surface tension of '{}', so that no contact angle exists; "
+          "allowed are absolute values below it",
+          this->place, *tension / gamma, body));
+    const WettedFace<D>& wetted = *std::find_if(
+        on.wetted.begin(), on.wetted.end(), [&](const auto& known) { return known.face == face; });
+    auto hold = std::make_unique<WallHold<D>>(on, wetted, stiffness_of_hold(on, gamma));
+    const WettingDrop<D> drop{
+        gamma, weight_of(assembly), assembly.of(body).other_body_forces,
+        assembly.measure_named(body + ".inner_pressure"),
+        [&term = *hold](const Motion& motion) { return term.force_on_body(motion); }};
+    assembly.add(std::move(hold), label());
+    if (line_friction > 0)
+      assembly.add(meniscus::line_friction(on, wetted, line_friction), label());
+    for (MeasureSource& source : wetted_measures(on, wetted, drop))
+      assembly.measure(label(), std::move(source));
+    assembly.keep_reference(body, "a wetted face stays on its wall only by its first reference");
+  }
+
+ private:
+  Real norm_of_axis() const {
+    return std::sqrt(std::inner_product(axis.begin(), axis.end(), axis.begin(), 0.0));
+  }
+  std::optional<Vec<D>> direction() const {
+    if (axis.empty() || !(norm_of_axis() > 0)) return std::nullopt;
+    return Vec<D>::Map(axis.data()) / norm_of_axis();
+  }
+  std::vector<Vec<D>> points_of_face(const Geometry<D>& geometry) const {
+    std::vector<Vec<D>> X;
+    for (const Facet<D>& facet : geometry.grid.facets)
+      if (geometry.surface->face_name(facet.patch) == face)
+        for (int a = 0; a < PatchFunctions<D>::nodes; ++a)
+          X.push_back(surface_point<D>(geometry, facet, patch_node<D>(a)));
+    return X;
+  }
+  /// Stiff beside the pressure of the drop over its size, and soft beside the fluid.
+  static Real stiffness_of_hold(const Body<D>& on, Real gamma) {
+    constexpr Real relative = 100;
+    Real volume = 0;
+    for (Index A = 0; A < on.size(); ++A) volume += on.cells.volume(A);
+    const Real R = D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
+                          : std::sqrt(volume / std::numbers::pi);
+    return relative * gamma / (R * R);
+  }
+  std::function<Vec<D>(Real)> weight_of(const Assembly<D>& assembly) const {
+    const Body<D>& on = assembly.body(body);
+    const Real mass = std::accumulate(on.mass_integral.begin(), on.mass_integral.end(), 0.0);
+    return [accelerations = assembly.of(body).accelerations, mass](Real time) {
+      Vec<D> sum = Vec<D>::Zero();
+      for (const std::vector<Expression>& acceleration : accelerations)
+        for (int i = 0; i < D; ++i) sum[i] += mass * at(acceleration, i)({0, 0, 0}, time);
+      return sum;
+    };
+  }
+};
+
+const bool registered = register_load<Wetted>(
+    "wetted", Stage::contact, "a face of a drop that lies on a wall, with a sharp contact line");
+
+}  // namespace
+}  // namespace meniscus::wetted_table
