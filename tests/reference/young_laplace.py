@@ -96,7 +96,12 @@ def bridge(below, above, gap=1.0, volume=math.pi):
             "pressure": pressure, "force": force}  # fmt: skip
 
 
-drops = [drop(degrees, bond) for degrees in (15, 30, 60, 90, 120, 150) for bond in (0, 0.3, 1, 3)]
-hanging = [drop(degrees, -0.3) for degrees in (30, 60, 90)]
-bridges = [bridge(60, 60), bridge(90, 60)]
-print(json.dumps({"drops": drops + hanging, "bridges": bridges}, indent=1))
+def main():
+    drops = [drop(degrees, bond) for degrees in (15, 30, 60, 90, 120, 150) for bond in (0, 0.3, 1, 3)]
+    hanging = [drop(degrees, -0.3) for degrees in (30, 60, 90)]
+    bridges = [bridge(60, 60), bridge(90, 60)]
+    print(json.dumps({"drops": drops + hanging, "bridges": bridges}, indent=1))
+
+
+if __name__ == "__main__":
+    main()

@@ -225,6 +225,13 @@ TEST(SharpLine, ProblemsOfScenesAreNamed) {
   other = good;
   other.replace(other.find("gamma = 1"), 9, "gamma = 1\nform = \"weak\"");
   expect(other, "no [[surface_tension]] of its whole surface");
+  const std::string box =
+      "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"rectangle\"\n"
+      "size = [1, 1]\ncells = [6, 6]\n" +
+      example_liquid() + "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n";
+  expect(box + "[[wetted]]\nbody = \"drop\"\nface = \"x_min\"\ncontact_angle = 60\n" +
+             "[[wetted]]\nbody = \"drop\"\nface = \"y_min\"\ncontact_angle = 60\n",
+         "have points in common");
   expect(good + "[[surface_tension]]\nbody = \"drop\"\nface = \"round\"\ngamma = 1\n",
          "has a tension already");
 }

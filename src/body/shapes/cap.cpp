@@ -76,7 +76,7 @@ struct Cap {
     return {real_row("radius", &Cap::radius, dimension::length, range::positive,
                      D == 3 ? "radius of the ball with the volume of the cap"
                             : "radius of the disk with the area of the segment"),
-            real_row("contact_angle", &Cap::contact_angle, dimension::none, {10, 155},
+            real_row("contact_angle", &Cap::contact_angle, dimension::none, {5, 155},
                      "angle in degrees between the flat and the round face, inside"),
             real_row("wall_radius", &Cap::wall_radius, dimension::length, range::any,
                      "radius of a ball (2D: disk) on which the cap is laid; negative: of a cavity "

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points of wetted faces, which lie on walls (sharp line note 1).
 #include "body/surface/patch_sums.hpp"
+#include "meniscus/error.hpp"
 #include "numbers/dense.hpp"
 
-#include <algorithm>
+#include <fmt/core.h>
 
 namespace meniscus {
 namespace {
@@ -41,8 +42,15 @@ void SurfacePatches<D>::list_walls(const Body<D>& body) {
     for (Index patch = 0; patch < patches_; ++patch) {
       if (body.geometry.surface->face_name(at(body.geometry.grid.facets, patch).patch) != face.face)
         continue;
-      for (const Index point : at(node_, patch))
-        at(wall_of_, point) = static_cast<std::int8_t>(walls_.size());
+      for (const Index point : at(node_, patch)) {
+        const auto number = static_cast<std::int8_t>(walls_.size());
+        if (at(wall_of_, point) >= 0 && at(wall_of_, point) != number)
+          throw InputError(fmt::format(
+              "body '{}': the wetted faces '{}' and '{}' have points in common; allowed are faces "
+              "that do not touch each other",
+              body.name, at(walls_, at(wall_of_, point)).face, face.face));
+        at(wall_of_, point) = number;
+      }
     }
     walls_.push_back(face);
   }
