@@ -28,6 +28,7 @@ struct Wetted final : Load<D> {
   std::optional<Real> contact_angle, tension;
   Real line_friction = 0;
   std::vector<Real> axis;
+  std::vector<Expression> displacement;
 
   static Rows<Wetted> rows() {
     return {
@@ -46,7 +47,11 @@ struct Wetted final : Load<D> {
         real_row("line_friction", &Wetted::line_friction, dimension::viscosity, range::non_negative,
                  "force per length of the contact line and per speed of the line", 0),
         reals_row("axis", &Wetted::axis, D, dimension::none, range::any,
-                  "direction of the axis if the wall is a cylinder", std::vector<Real>{})};
+                  "direction of the axis if the wall is a cylinder", std::vector<Real>{}),
+        optional_expressions_row("displacement", &Wetted::displacement, D, dimension::length,
+                                 Variables::time,
+                                 "displacement of the wall, a formula of t for "
+                                 "each component")};
   }
   std::string label() const { return name.empty() ? body + "-" + face : name; }
   std::optional<typename Load<D>::Identity> identity() const override {
@@ -84,7 +89,7 @@ struct Wetted final : Load<D> {
       if (!wall) continue;
       planned.wetted.push_back(
           {face, *wall, contact_angle ? -std::cos(*contact_angle * std::numbers::pi / 180) : 0.0,
-           tension.value_or(0)});
+           tension.value_or(0), displacement});
     }
   }
 

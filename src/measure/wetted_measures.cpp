@@ -37,10 +37,12 @@ class WettedSurface {
       : body_(body), face_(std::move(face)), drop_(std::move(drop)) {}
 
   Real wetted_area(const Motion& motion) { return sum_of_face(patches().areas(own(motion.u))); }
-  Real base_radius(const Motion& motion) { return base(patches().places_at(own(motion.u))); }
+  Real base_radius(const Motion& motion) {
+    return base(patches_at(motion).places_at(own(motion.u)));
+  }
 
   Real height(const Motion& motion) {
-    const std::vector<Vec<D>> x = patches().places_at(own(motion.u));
+    const std::vector<Vec<D>> x = patches_at(motion).places_at(own(motion.u));
     Real highest = 0;
     for (Index p = 0; p < patches().patch_count(); ++p)
       if (!at(is_wetted_, p)) highest = std::max(highest, highest_on(p, x));
@@ -48,32 +50,32 @@ class WettedSurface {
   }
 
   Real volume(const Motion& motion) {
-    return patches().measure(SurfacePatches<D>::Size::volume, own(motion.u));
+    return patches_at(motion).measure(SurfacePatches<D>::Size::volume, own(motion.u));
   }
   /// Above a plane.
   Real centroid_height(const Motion& motion) {
-    const Vec<D> up = -mean_normal(patches().places_at(own(motion.u)));
-    return patches().height(up, own(motion.u)) - up.dot(face_.wall.point());
+    const Vec<D> up = -mean_normal(patches_at(motion).places_at(own(motion.u)));
+    return patches().height(up, own(motion.u)) - up.dot(wall().point());
   }
 
   Real contact_angle(const Motion& motion) {
-    const WettedWall<D>& wall = face_.wall;
-    const std::vector<Vec<D>> x = patches().places_at(own(motion.u));
+    const WettedWall<D>& on = wall();
+    const std::vector<Vec<D>> x = patches_at(motion).places_at(own(motion.u));
     const Real a = base(x), V = volume(motion);
     const Vec<D> weight = drop_.weight(motion.time) / (drop_.tension * V), normal = mean_normal(x);
     if (drop_.other_weight) return without_meaning;
     Real angle;
-    if (wall.is_plane()) {
+    if (on.is_plane()) {
       const Real down = weight.dot(normal);
       if ((weight - down * normal).norm() > 1e-9 * weight.norm()) return without_meaning;
       angle = profile_on<D>(a, V, down).contact_angle;
     } else {
-      if (weight.norm() > 0 || wall.axis().norm() > 0) return without_meaning;
+      if (weight.norm() > 0 || on.axis().norm() > 0) return without_meaning;
       // The plane through the line cuts a cap off the wall, which is part of a drop on a ball, and
       // of the hole in a cavity.
-      const Real turn = std::asin(std::min(a / wall.radius(), 1.0));
+      const Real turn = std::asin(std::min(a / on.radius(), 1.0));
       const Real inside = is_inside(x) ? 1 : -1;
-      const Real unit = cap_volume(turn, wall.radius());
+      const Real unit = cap_volume(turn, on.radius());
       angle = profile_on<D>(a, V - inside * unit, 0).contact_angle + inside * turn;
     }
     return angle * 180 / std::numbers::pi;
@@ -82,7 +84,7 @@ class WettedSurface {
   /// The points of the face feel the gradients of all energies of the patches; the wall takes what
   /// is normal to it.
   Eigen::Vector3d force(const Motion& motion) {
-    SurfacePatches<D>& all = patches();
+    SurfacePatches<D>& all = patches_at(motion);
     all.place(own(motion.u));
     GatherTogether()({{all.places()}});
     all.follow(SurfacePatches<D>::Size::area);
@@ -97,8 +99,9 @@ class WettedSurface {
   }
 
   Real line_speed(const Motion& motion) {
-    const std::vector<Vec<D>> x = patches().places_at(own(motion.u));
+    const std::vector<Vec<D>> x = patches_at(motion).places_at(own(motion.u));
     const NodalVectors v = patches().velocities(own(motion.u), own(motion.v));
+    const Vec<D> of_wall = face_.velocity_at(motion.time);
     Real sum = 0, length = 0;
     for (const LinePart<D>& part : line_) {
       if constexpr (D == 3) {
@@ -113,12 +116,12 @@ class WettedSurface {
           Vec<3> out = place - at(x, part.behind);
           out -= t * (t.dot(out) / t.squaredNorm());
           const Real dl = f.weight * t.norm();
-          sum += dl * w.dot(out.normalized());
+          sum += dl * (w - of_wall).dot(out.normalized());
           length += dl;
         }
       } else {
         const Index q = part.point[0];
-        sum += vector_at<2>(v, q).dot((at(x, q) - at(x, part.behind)).normalized());
+        sum += (vector_at<2>(v, q) - of_wall).dot((at(x, q) - at(x, part.behind)).normalized());
         length += 1;
       }
     }
@@ -128,6 +131,11 @@ class WettedSurface {
  private:
   const NodalVector* own(std::span<const NodalVector> field) const {
     return field.data() + body_.first;
+  }
+  const WettedWall<D>& wall() const { return patches_->wall_of_face(face_.face); }
+  SurfacePatches<D>& patches_at(const Motion& motion) {
+    patches().at_time(motion.time);
+    return *patches_;
   }
   SurfacePatches<D>& patches() {
     if (patches_) return *patches_;
@@ -149,9 +157,9 @@ class WettedSurface {
   }
   /// On the points of the face, against factor x the gradient that was followed last.
   Eigen::Vector3d force_of_wall(Real factor) {
-    ChunkTally<Resultant>& of_chunks = patches_->wall_forces(factor, face_.face);
+    auto& of_chunks = patches_->wall_forces(factor, face_.face);
     GatherTogether()({{of_chunks.gathered()}});
-    return of_chunks.sum(Resultant()).force;
+    return of_chunks.sum({}).total.force;
   }
   Real sum_of_face(const std::vector<Real>& of_patches) const {
     Real sum = 0;
@@ -184,7 +192,7 @@ class WettedSurface {
   Real distance(const Vec<D>& x) const {
     std::array<Real, D> y;
     for (int i = 0; i < D; ++i) at(y, i) = x[i];
-    return face_.wall.template foot<Real>(y).distance;
+    return wall().template foot<Real>(y).distance;
   }
   static Real cap_volume(Real theta, Real R) {
     const Real c = std::cos(theta);

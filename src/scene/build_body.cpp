@@ -12,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -168,12 +169,14 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
                     name));
 }
 
-/// Scales the masses of a body to their sum before its remap. The sum is kept to the last bit if it
-/// does not change.
+/// Scales the masses of a body to their sum before its remap. Masses whose sum differs by round-off
+/// only are not changed.
 template <int D>
 void keep_mass(Body<D>& body) {
+  constexpr Real round_off = 1e-13;
   for (std::vector<Real>* masses : {&body.mass, &body.mass_integral}) {
     const Real factor = body.reference->mass / std::accumulate(masses->begin(), masses->end(), 0.0);
+    if (std::abs(factor - 1) <= round_off) continue;
     for (Real& mass : *masses) mass *= factor;
   }
 }
@@ -196,6 +199,8 @@ void place_body(const BodyPlan<D>& planned, const Division& division,
   body.reference = std::move(reference);
   body.loaded_faces = planned.loaded_faces;
   body.wetted = planned.wetted;
+  constexpr Real small = 1e-6;
+  for (WettedFace<D>& face : body.wetted) face.time_step = small * assembly.end_time();
 }
 
 template <int D>

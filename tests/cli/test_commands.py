@@ -71,7 +71,7 @@ class New(ProgramTest):
         self.call("new", "mine.toml", "--like", "ellipsoid_drop")
         text = (self.directory / "mine.toml").read_text()
         self.assertRegex(text, r'gamma = "72.8 mN/m" +# \w+')
-        self.assertRegex(text, r"(?m)^\[\[surface_tension\]\] +# tension of the whole surface")
+        self.assertRegex(text, r"(?m)^\[\[surface_tension\]\] +# tension of the surface of a body")
         self.call("check", "mine.toml")
 
     def test_meshes_come_along(self):

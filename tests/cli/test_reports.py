@@ -626,7 +626,7 @@ class Reports(ProgramTest):
                             "support_by support_rank support_spacings initial_displacement initial_velocity",
                 "[[body]] of any shape": "shape map rotate rotate_axis move imperfection "
                                           "imperfection_seed jitter jitter_seed",
-                "[[surface_tension]]": "body gamma form points coefficient_damping",
+                "[[surface_tension]]": "body face gamma form points coefficient_damping",
                 "[[body_force]]": "body acceleration",
                 "[[exact]]": "body displacement velocity rate",
                 "[[cavity]]": "body surface pressure volume_target penalty ramp points",

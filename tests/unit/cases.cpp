@@ -102,6 +102,14 @@ std::vector<Case> variants(int D) {
                        (D == 3 ? "[0.1, 0, -0.5]\n" : "[0.1, -0.5]\n"),
                    {},
                    true});
+  cases.push_back(
+      {"load wetted, on a wall that moves",
+       example_heading(D) + sessile_drop(D, moving(D)) +
+           "[[wetted]]\nbody = \"drop\"\nface = \"flat\"\ncontact_angle = 70\n"
+           "line_friction = 0.3\ndisplacement = " +
+           (D == 3 ? "[\"0.1*t\", 0, \"0.05*sin(20*t)\"]\n" : "[\"0.1*t\", \"0.05*sin(20*t)\"]\n"),
+       {},
+       true});
   // A plane that a force and a spring press against the drop.
   const std::string pressed =
       std::string("[contact.partner]\ntype = \"half_space\"\n") +

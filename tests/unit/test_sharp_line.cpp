@@ -197,6 +197,38 @@ TEST(SharpLine, FrictionSetsTheSpeedOfTheLine) {
   EXPECT_GT(speed, 0);
 }
 
+/// A plane bridge between plates that part and come back slowly: the force depends on the distance
+/// alone, and the work of the plates is booked.
+TEST(SharpLine, PlatesThatMoveDoWork) {
+  Scene<2> scene = test::scene_of<2>(
+      "dimension = 2\n[time]\nviscosity = \"implicit\"\nend = 60\n[[body]]\nname = \"drop\"\n"
+      "shape = \"rectangle\"\ncorner = [-1, 0]\nsize = [2, 1]\ncells = [8, 5]\n"
+      "material = { type = \"newtonian\", density = 0.1, bulk_modulus = 30, viscosity = 0.3 }\n"
+      "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n[[wetted]]\nname = \"below\"\n"
+      "body = \"drop\"\nface = \"y_min\"\ncontact_angle = 70\n[[wetted]]\nname = \"above\"\n"
+      "body = \"drop\"\nface = \"y_max\"\ncontact_angle = 70\n"
+      "displacement = [0, \"0.1*sin(pi/40*max(t - 20, 0))\"]\n");
+  Simulation<2> simulation(scene);
+  simulation.begin();
+  Real forth = 0;
+  const auto force = [&](const std::string& of) {
+    return measure_of(scene, of + ".force_y", simulation.state().motion());
+  };
+  while (!simulation.finished()) {
+    simulation.advance();
+    if (forth == 0 && simulation.state().time > 30) forth = force("above");
+    if (simulation.state().time > 50) break;
+  }
+  EXPECT_LT(forth, -0.5);
+  EXPECT_NEAR(force("above") / forth, 1, 0.02);
+  EXPECT_NEAR(force("below"), -force("above"), 1e-3);
+  const State& state = simulation.state();
+  EXPECT_GT(state.books.external_work, 0.01);
+  EXPECT_NEAR(simulation.audit().balance_error(simulation.audit_now()), 0, 2e-3);
+  EXPECT_NEAR(measure_of(scene, "below.base_radius", state.motion()),
+              measure_of(scene, "above.base_radius", state.motion()), 1e-3);
+}
+
 std::string message_of(const std::string& scene) {
   try {
     test::scene_of<2>(scene);
@@ -225,6 +257,7 @@ TEST(SharpLine, ProblemsOfScenesAreNamed) {
   other = good;
   other.replace(other.find("gamma = 1"), 9, "gamma = 1\nform = \"weak\"");
   expect(other, "no [[surface_tension]] of its whole surface");
+  expect(plane_drop(90, 1, "", "contact_angle = 60\ndisplacement = [0, \"x\"]\n"), "displacement");
   const std::string box =
       "dimension = 2\n[time]\nend = 1\n[[body]]\nname = \"drop\"\nshape = \"rectangle\"\n"
       "size = [1, 1]\ncells = [6, 6]\n" +

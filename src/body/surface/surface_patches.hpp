@@ -37,6 +37,9 @@ class SurfacePatches {
 
   /// Throws SolveError if shape functions cannot be built.
   explicit SurfacePatches(const Body<D>& body);
+  /// Moves the walls of wetted faces to their places at a time. All functions of displacements or
+  /// places use these.
+  void at_time(Real time) const;
   /// From now on Size::area is the sum of share x area of each patch.
   void share_area(const std::vector<Real>& of_patch);
 
@@ -84,10 +87,22 @@ class SurfacePatches {
 
   /// True if the body has wetted faces.
   bool on_walls() const { return !walls_.empty(); }
+  /// The wall of a wetted face at the last at_time().
+  const WettedWall<D>& wall_of_face(const std::string& face) const;
+  /// What a wall does to points: force and moment, and power on its own velocity.
+  struct WallForce {
+    Resultant total;
+    Real power = 0;
+    friend WallForce operator+(WallForce a, const WallForce& b) {
+      a.total += b.total;
+      a.power += b.power;
+      return a;
+    }
+  };
   /// Force and moment, in each chunk, by which walls hold the points against the force factor x
   /// (stored gradient of the quantity that was followed last); the result is to be gathered. With
   /// `face`, only the wall of this face.
-  ChunkTally<Resultant>& wall_forces(Real factor, const std::string& face = "");
+  ChunkTally<WallForce>& wall_forces(Real factor, const std::string& face = "");
 
   /// force_A += factor sum_a N_A(X_a) g_a. Here g_a is the sum of `gradient` over the patches that
   /// contain point a; `gradient` is [group of four patches][a][i] with one lane per patch. Points
@@ -199,7 +214,13 @@ class SurfacePatches {
   ChunkSums chunk_sums_;
   std::vector<Index> share_begin_;  // [point + 1]
   std::vector<Share> share_;
-  std::vector<WettedFace<D>> walls_;
+  /// A wetted face, with its wall and the velocity of the wall at the last at_time().
+  struct Wetted {
+    WettedFace<D> face;
+    WettedWall<D> wall;
+    Vec<D> velocity;
+  };
+  mutable std::vector<Wetted> walls_;
   std::vector<std::int8_t> wall_of_;  // [point] number of its wall, or -1; empty without walls
   AlignedVector<Lanes> area_share_;   // [group]; empty: all shares are one
   Real area_, volume_;                // in the reference configuration
@@ -208,7 +229,7 @@ class SurfacePatches {
   AlignedVector<Lanes> gradient_;
   AlignedVector<Lanes> volume_gradient_;  // work space of follow_height(); empty before its first
   ChunkTally<Eigen::Vector3d> moments_;
-  ChunkTally<Resultant> wall_forces_;  // empty without walls
+  ChunkTally<WallForce> wall_forces_;  // empty without walls
 };
 
 /// The energy per area of each patch, by the wetted faces of the body, over the tension `gamma` of

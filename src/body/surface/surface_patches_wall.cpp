@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace meniscus {
 namespace {
 
@@ -48,13 +50,29 @@ void SurfacePatches<D>::list_walls(const Body<D>& body) {
           throw InputError(fmt::format(
               "body '{}': the wetted faces '{}' and '{}' have points in common; allowed are faces "
               "that do not touch each other",
-              body.name, at(walls_, at(wall_of_, point)).face, face.face));
+              body.name, at(walls_, at(wall_of_, point)).face.face, face.face));
         at(wall_of_, point) = number;
       }
     }
-    walls_.push_back(face);
+    walls_.push_back({face, face.wall, Vec<D>::Zero()});
   }
-  wall_forces_ = chunk_sums_.template tally<Resultant>();
+  wall_forces_ = chunk_sums_.template tally<WallForce>();
+}
+
+template <int D>
+void SurfacePatches<D>::at_time(Real time) const {
+  for (Wetted& wetted : walls_) {
+    if (wetted.face.displacement.empty()) continue;
+    wetted.wall = wetted.face.wall_at(time);
+    wetted.velocity = wetted.face.velocity_at(time);
+  }
+}
+
+template <int D>
+const WettedWall<D>& SurfacePatches<D>::wall_of_face(const std::string& face) const {
+  return std::find_if(walls_.begin(), walls_.end(),
+                      [&](const Wetted& wetted) { return wetted.face.face == face; })
+      ->wall;
 }
 
 template <int D>
@@ -107,18 +125,21 @@ void SurfacePatches<D>::add_changes_to_particles(const ChangingGradient& gradien
 /// The places of points feel the forces f = - factor g, which have the resultant zero or that of a
 /// load. Coefficients get DP^T f instead, at the places y before they were moved to the wall.
 template <int D>
-ChunkTally<Resultant>& SurfacePatches<D>::wall_forces(Real factor, const std::string& face) {
+ChunkTally<typename SurfacePatches<D>::WallForce>& SurfacePatches<D>::wall_forces(
+    Real factor, const std::string& face) {
   chunk_sums_.for_own_chunks([&](int chunk, Index begin, Index end) {
-    Resultant sum;
+    WallForce sum;
     for (Index q = begin; q < end; ++q) {
       const WettedWall<D>* wall = wall_of(q);
-      if (!wall || (!face.empty() && at(walls_, at(wall_of_, q)).face != face)) continue;
+      if (!wall || (!face.empty() && at(walls_, at(wall_of_, q)).face.face != face)) continue;
       const NodalVector f = -factor * gradient_of_point(q, gradient_),
                         moved = projected(q, at(x_, q), f), y = before(*wall, at(x_, q));
       NodalVector x = at(x_, q);
       x.set(3, 0.0);
-      sum += Resultant(spatial(moved - f),
-                       cross(spatial(y), spatial(moved)) - cross(spatial(x), spatial(f)));
+      const Vec<D>& velocity = at(walls_, at(wall_of_, q)).velocity;
+      sum.total += Resultant(spatial(moved - f),
+                             cross(spatial(y), spatial(moved)) - cross(spatial(x), spatial(f)));
+      for (int i = 0; i < D; ++i) sum.power += (moved[i] - f[i]) * velocity[i];
     }
     wall_forces_[chunk] = sum;
   });
@@ -146,7 +167,8 @@ std::vector<Real> tension_shares(const Body<D>& body, Real gamma) {
       const;                                                                                       \
   template void SurfacePatches<D>::add_changes_to_particles(                                       \
       const ChangingGradient&, const NodalVectors&, const NodalVector*, const ForceVector&);       \
-  template ChunkTally<Resultant>& SurfacePatches<D>::wall_forces(Real, const std::string&);        \
+  template ChunkTally<typename SurfacePatches<D>::WallForce>& SurfacePatches<D>::wall_forces(      \
+      Real, const std::string&);                                                                   \
   template std::vector<Real> tension_shares(const Body<D>&, Real);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

@@ -2,7 +2,9 @@
 // The wall on which a wetted face of a drop lies. Points of the face stay on the wall.
 #pragma once
 #include "body/surface/reference_surface.hpp"
+#include "input/expression.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -85,6 +87,12 @@ class WettedWall {
     return p;
   }
 
+  WettedWall moved_by(const Vec<D>& displacement) const {
+    WettedWall wall = *this;
+    wall.point_ += displacement;
+    return wall;
+  }
+
   bool is_plane() const { return radius_ == 0; }
   const Vec<D>& point() const { return point_; }  ///< of the plane or its axis, or the centre
   const Vec<D>& axis() const { return axis_; }    ///< zero without an axis
@@ -109,10 +117,36 @@ class WettedWall {
 template <int D>
 struct WettedFace {
   std::string face;
-  WettedWall<D> wall;
+  WettedWall<D> wall;  ///< at rest
   /// The energy per area of the wetted face is relative x tension of the free surface + absolute.
   /// With Young's contact angle theta, relative = - cos theta.
   Real relative = 0, absolute = 0;
+  std::vector<Expression> displacement = {};  ///< of the wall, by time; empty: at rest
+  Real time_step = 0;                         ///< of the differences by which it has a velocity
+
+  Vec<D> displacement_at(Real time) const {
+    Vec<D> d = Vec<D>::Zero();
+    for (std::size_t i = 0; i < displacement.size(); ++i)
+      d[static_cast<int>(i)] = displacement[i]({0, 0, 0}, time);
+    return d;
+  }
+  /// Differences of fourth order.
+  Vec<D> velocity_at(Real time) const {
+    if (displacement.empty()) return Vec<D>::Zero();
+    const Real h = time_step;
+    return (8 * (displacement_at(time + h) - displacement_at(time - h)) -
+            (displacement_at(time + 2 * h) - displacement_at(time - 2 * h))) /
+           (12 * h);
+  }
+  WettedWall<D> wall_at(Real time) const {
+    return displacement.empty() ? wall : wall.moved_by(displacement_at(time));
+  }
+  /// The time after which the wall is at rest.
+  Real steady_after() const {
+    Real after = 0;
+    for (const Expression& d : displacement) after = std::max(after, d.steady_after());
+    return after;
+  }
 };
 
 /// The plane, ball or disk on which these points lie to 1e-6 of their extent. With `axis`, the

@@ -28,7 +28,7 @@ class InternalForce final : public StressPointForce<D, Rule> {
   Report add_force(const Motion& motion, Forces force) override {
     if constexpr (EnclosedLaw<L>) {
       if (this->has_surface())
-        return force.gather({this->place_surface(motion.u.data() + this->body().first)}, motion,
+        return force.gather({this->place_surface(motion)}, motion,
                             [this](const Motion& at_motion, const Forces& all) {
                               return add_rows(this->follow_enclosed(), at_motion, all);
                             });

@@ -30,8 +30,10 @@ void StressPointForce<D, Rule>::add_tangent(const Motion& motion, const Motion& 
                     *v = motion.v.data() + body_.first, *dv = change.v.data() + body_.first;
   const bool viscous = this->viscous();
   Dual<Real> enclosed(0.0);
-  if (surface_)
+  if (surface_) {
+    surface_->at_time(motion.time);
     enclosed = surface_->measure(Size::volume, u, du) / surface_->reference(Size::volume) - 1.0;
+  }
   accumulate(force, [&](int chunk, Index begin, Index end, NodalVector* f) {
     DualDeformation x{Tensor<Dual<Lanes>>::zero(), Tensor<Dual<Lanes>>::zero(), enclosed};
     Dual<Lanes> sum_of_pulls(0.0);
@@ -127,6 +129,7 @@ Tensor<Lanes> StressPointForce<D, Rule>::stress(Index group, Real time, const Te
 template <int D, class Rule>
 std::optional<Real> StressPointForce<D, Rule>::stored_energy(const Motion& motion) const {
   if (!surface_) return energy(*laws_, motion);
+  surface_->at_time(motion.time);
   const Real volume = surface_->measure(Size::volume, motion.u.data() + body_.first);
   return energy(*laws_->about(volume / surface_->reference(Size::volume) - 1), motion);
 }
@@ -237,6 +240,7 @@ template <int D, class Rule>
 Real StressPointForce<D, Rule>::inner_pressure(const Motion& motion) const {
   const NodalVector* u = motion.u.data() + body_.first;
   const Real V0 = surface_->reference(Size::volume);
+  surface_->at_time(motion.time);
   const Dual<Real> enclosed(surface_->measure(Size::volume, u) / V0 - 1);
   const Real slope = body_.sum_over_rows(rule_.groups(), 0.0, [&](Index g) {
     const Tensor<Dual<Lanes>> H = dual(gradients(g, u), Tensor<Lanes>::zero());

@@ -101,10 +101,10 @@ class StressPointForce : public ForceTerm, public AssembledForce {
   ChunkTally<Real>& pulls() { return pulls_; }
   bool has_surface() const { return surface_ != nullptr; }
   const AveragedVolumes<D>* averaged() const { return volumes_.get(); }
-  /// Moves the points of the surface that belong to this process to the displacements `u` of the
-  /// body; the result is to be gathered.
-  Gathered place_surface(const NodalVector* u) {
-    surface_->place(u);
+  /// Moves the points of the surface that belong to this process; the result is to be gathered.
+  Gathered place_surface(const Motion& motion) {
+    surface_->at_time(motion.time);
+    surface_->place(motion.u.data() + body_.first);
     return surface_->places();
   }
   /// J_e - 1 of the placed surface; stores its gradient for pull_on_surface().

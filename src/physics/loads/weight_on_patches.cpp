@@ -29,12 +29,14 @@ class WeightOnPatches final : public ForceTerm {
   std::string name() const override { return "body force on '" + body_.name + "'"; }
 
   Report add_force(const Motion& motion, Forces force) override {
+    patches_.at_time(motion.time);
     patches_.place(own(motion.u));
     return force.gather(
         {patches_.places()}, motion,
         [this](const Motion& at_motion, const Forces& all) { return add_weight(at_motion, all); });
   }
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    patches_.at_time(motion.time);
     patches_.add_height_gradient_change(weight_at(motion.time), own(motion.u), own(change.u), 1,
                                         body_.part(force));
   }
@@ -43,11 +45,13 @@ class WeightOnPatches final : public ForceTerm {
     return true;
   }
   std::optional<Real> potential(const Motion& motion) override {
+    patches_.at_time(motion.time);
     const Vec<D> weight = weight_at(motion.time);
     return weight.dot(centre_) - patches_.height(weight, own(motion.u));
   }
   Real steady_after() const override { return steady_after_; }
   Real load_power(const Motion& motion) override {
+    patches_.at_time(motion.time);
     patches_.place(own(motion.u));
     GatherTogether()({{patches_.places()}});
     patches_.follow_height(weight_at(motion.time));
@@ -68,7 +72,7 @@ class WeightOnPatches final : public ForceTerm {
                           report.outside = {spatial<D>(weight_at(at_motion.time)),
                                             moments.sum(Eigen::Vector3d::Zero())};
                           if (patches_.on_walls())
-                            report += report_of_walls(patches_, -1, at_motion, all);
+                            report += report_of_walls(patches_, -1, at_motion, all, 0);
                           return report;
                         });
   }

@@ -28,6 +28,7 @@ class BalancedSurfaceTension final : public TensionTerm<D> {
   }
 
   Report add_force(const Motion& motion, Forces force) override {
+    patches_.at_time(motion.time);
     patches_.place(this->displacements(motion));
     return force.gather(
         {patches_.places()}, motion, [this](const Motion& at_motion, const Forces& all) {
@@ -38,6 +39,7 @@ class BalancedSurfaceTension final : public TensionTerm<D> {
         });
   }
   void add_tangent(const Motion& motion, const Motion& change, Forces force) override {
+    patches_.at_time(motion.time);
     patches_.add_gradient_change(Size::area, this->displacements(motion),
                                  this->displacements(change), -this->gamma_ * correction_,
                                  this->own_part(force));
@@ -47,6 +49,7 @@ class BalancedSurfaceTension final : public TensionTerm<D> {
     return true;
   }
   std::optional<Real> stored_energy(const Motion& motion) const override {
+    patches_.at_time(motion.time);
     return this->gamma_ * correction_ * patches_.measure(Size::area, this->displacements(motion));
   }
   std::size_t bytes() const override { return patches_.bytes(); }
@@ -67,6 +70,7 @@ class BalancedSurfaceTension final : public TensionTerm<D> {
     return shares;
   }
   Real area(const Motion& motion) const override {
+    patches_.at_time(motion.time);
     if (!whole_) return patches_.measure(Size::area, this->displacements(motion));
     const std::vector<Real> areas = patches_.areas(this->displacements(motion));
     return correction_ * std::accumulate(areas.begin(), areas.end(), 0.0);

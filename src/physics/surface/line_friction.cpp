@@ -33,16 +33,18 @@ class LineFriction final : public ForceTerm {
   }
 
   Report add_force(const Motion& motion, Forces force) override {
-    find_drag(motion.u);
+    find_drag(motion);
+    const Vec<D> wall = face_.velocity_at(motion.time);
     chunk_sums_.accumulate(
         body_.part(force), [&](int chunk, Index begin, Index end, NodalVector* f) {
           Result sum{};
           for (Index r = begin; r < end; ++r) {
             const Drag& drag = at(drag_, r);
-            const Vec<D> pull = drag_on(r, motion.v);
+            const Vec<D> pull = drag_on(r, motion.v, wall);
             scatter_value(rows_, r, lanes(pull), f);
             sum.outside += Resultant(spatial<D>(pull), cross(spatial<D>(drag.y), spatial<D>(pull)));
-            sum.heat -= pull.dot(velocity(r, motion.v));
+            sum.heat -= pull.dot(velocity(r, motion.v) - wall);
+            sum.power += pull.dot(wall);
           }
           results_[chunk] = sum;
         });
@@ -50,6 +52,7 @@ class LineFriction final : public ForceTerm {
       const Result all = results_.sum(Result{});
       Report report;
       report.heat = all.heat;
+      report.external_power = all.power;
       report.outside = all.outside;
       return report;
     });
@@ -65,7 +68,8 @@ class LineFriction final : public ForceTerm {
   bool viscous() const override { return true; }
   void add_viscous(const Motion& motion, Forces force) override {
     chunk_sums_.accumulate(body_.part(force), [&](int, Index begin, Index end, NodalVector* f) {
-      for (Index r = begin; r < end; ++r) scatter_value(rows_, r, lanes(drag_on(r, motion.v)), f);
+      for (Index r = begin; r < end; ++r)
+        scatter_value(rows_, r, lanes(drag_on(r, motion.v, Vec<D>::Zero())), f);
     });
   }
   /// Takes the points of a part for one.
@@ -87,10 +91,11 @@ class LineFriction final : public ForceTerm {
 
  private:
   struct Result {
-    Real heat = 0;
+    Real heat = 0, power = 0;  // power on the velocity of the wall
     Resultant outside = {};
     friend Result operator+(Result a, const Result& b) {
       a.heat += b.heat;
+      a.power += b.power;
       a.outside += b.outside;
       return a;
     }
@@ -113,10 +118,10 @@ class LineFriction final : public ForceTerm {
     for (int i = 0; i < D; ++i) w[i] = value[i];
     return w;
   }
-  Vec<D> drag_on(Index row, std::span<const NodalVector> v) const {
+  Vec<D> drag_on(Index row, std::span<const NodalVector> v, const Vec<D>& wall) const {
     Vec<D> pull = Vec<D>::Zero();
     for (int b = 0; b < nodes; ++b)
-      pull -= at(at(drag_, row).by_point, b) * velocity(first_of_part(row) + b, v);
+      pull -= at(at(drag_, row).by_point, b) * (velocity(first_of_part(row) + b, v) - wall);
     return pull;
   }
   /// The foot of a row's point on the wall, and DP there as a matrix.
@@ -124,30 +129,31 @@ class LineFriction final : public ForceTerm {
     Vec<D> y, x, normal;
     Mat<D> DP;
   };
-  OnWall on_wall(Index row, std::span<const NodalVector> u) const {
+  OnWall on_wall(Index row, std::span<const NodalVector> u, const WettedWall<D>& wall) const {
     OnWall point;
     point.y = at(X_, row) + velocity(row, u);
     std::array<Real, D> y;
     for (int i = 0; i < D; ++i) at(y, i) = point.y[i];
-    const auto foot = face_.wall.template foot<Real>(y);
+    const auto foot = wall.template foot<Real>(y);
     for (int i = 0; i < D; ++i) {
       point.x[i] = at(foot.x, i);
       point.normal[i] = at(foot.normal, i);
       std::array<Real, D> unit{};
       at(unit, i) = 1;
-      const auto column = face_.wall.template project<Real>(foot, unit);
+      const auto column = wall.template project<Real>(foot, unit);
       for (int j = 0; j < D; ++j) point.DP(j, i) = at(column, j);
     }
     return point;
   }
-  void find_drag(std::span<const NodalVector> u) {
+  void find_drag(const Motion& motion) {
+    const WettedWall<D> wall = face_.wall_at(motion.time);
     parallel_for(chunk_sums_.own_rows(rows_.size()),
-                 [&](Index r) { at(drag_, r) = drag_at(r, u); });
+                 [&](Index r) { at(drag_, r) = drag_at(r, motion.u, wall); });
   }
   /// The integral of friction L_a L_b nu nu^T over the part, between DP of both points.
-  Drag drag_at(Index row, std::span<const NodalVector> u) const {
+  Drag drag_at(Index row, std::span<const NodalVector> u, const WettedWall<D>& wall) const {
     std::array<OnWall, nodes> points;
-    for (int b = 0; b < nodes; ++b) at(points, b) = on_wall(first_of_part(row) + b, u);
+    for (int b = 0; b < nodes; ++b) at(points, b) = on_wall(first_of_part(row) + b, u, wall);
     const Index a = row % nodes;
     Drag drag;
     drag.y = at(points, a).y;

@@ -28,6 +28,7 @@ class WallHold final : public ForceTerm {
     return true;
   }
   std::optional<Real> stored_energy(const Motion& motion) const override;
+  Real steady_after() const override { return face_.steady_after(); }
   /// The sum of the forces on the body. All processes call this.
   Eigen::Vector3d force_on_body(const Motion& motion) const;
   std::size_t bytes() const override { return rows_.bytes() + chunk_sums_.bytes(); }
@@ -40,7 +41,7 @@ class WallHold final : public ForceTerm {
   template <class T>
   Vector<T> place(Index q, const NodalVector* u, const NodalVector* du) const;
   template <class T>
-  Vector<T> pull_on(Index q, const Vector<T>& y) const;
+  Vector<T> pull_on(Index q, const Vector<T>& y, const WettedWall<D>& wall) const;
 
   const Body<D>& body_;
   WettedFace<D> face_;
@@ -48,7 +49,16 @@ class WallHold final : public ForceTerm {
   WettedPoints<D> points_;
   PointRows<D> rows_;
   ChunkSums chunk_sums_;
-  ChunkTally<Resultant> outside_;
+  struct OfChunk {
+    Resultant outside;
+    Real power = 0;  // on the velocity of the wall
+    friend OfChunk operator+(OfChunk a, const OfChunk& b) {
+      a.outside += b.outside;
+      a.power += b.power;
+      return a;
+    }
+  };
+  ChunkTally<OfChunk> of_chunks_;
 };
 
 }  // namespace meniscus
