@@ -59,8 +59,8 @@ class WettedSurface {
   }
 
   Real contact_angle(const Motion& motion) {
-    const WettedWall<D>& on = wall();
     const std::vector<Vec<D>> x = patches_at(motion).places_at(own(motion.u));
+    const WettedWall<D>& on = wall();
     const Real a = base(x), V = volume(motion);
     const Vec<D> weight = drop_.weight(motion.time) / (drop_.tension * V), normal = mean_normal(x);
     if (drop_.other_weight) return without_meaning;
@@ -132,6 +132,7 @@ class WettedSurface {
   const NodalVector* own(std::span<const NodalVector> field) const {
     return field.data() + body_.first;
   }
+  /// At the time of the last patches_at().
   const WettedWall<D>& wall() const { return patches_->wall_of_face(face_.face); }
   SurfacePatches<D>& patches_at(const Motion& motion) {
     patches().at_time(motion.time);
