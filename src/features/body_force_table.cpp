@@ -29,7 +29,9 @@ struct BodyForce final : Load<D> {
     const Body<D>& on = assembly.body(body);
     const bool one_for_all = std::none_of(acceleration.begin(), acceleration.end(),
                                           [](const Expression& a) { return a.depends_on_place(); });
-    const bool drop = assembly.of(body).is_fluid() && assembly.of(body).has_balanced_tension();
+    const SceneBody& of_body = assembly.of(body);
+    const bool drop =
+        of_body.is_fluid() && (of_body.has_balanced_tension() || of_body.has_face_tension);
     if (drop && one_for_all && on.uniform_density) {
       assembly.of(body).accelerations.push_back(acceleration);
       assembly.add(weight_on_patches(on, acceleration), body);

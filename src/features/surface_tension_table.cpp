@@ -40,7 +40,9 @@ Rows<Keys> Keys::rows() {
       real_row("coefficient_damping", &Keys::coefficient_damping, dimension::none,
                range::non_negative,
                "damping of what of the velocity coefficients of a fluid does not move places, in "
-               "kinematic viscosity / spacing^2, for balanced; 0: none",
+               "kinematic viscosity / spacing^2, for balanced; 0: none; of several faces the first "
+               "table "
+               "counts",
                0.5),
   };
 }
@@ -83,6 +85,7 @@ struct SurfaceTension final : Load<D>, Keys {
     require_one_tension(assembly.of(body));
     assembly.add(term(on), label());
     if (!face.empty()) {
+      if (!assembly.of(body).has_face_tension) add_damping(assembly);
       assembly.of(body).has_face_tension = true;
       return;
     }
@@ -91,13 +94,19 @@ struct SurfaceTension final : Load<D>, Keys {
     assembly.of(body).surface_energy = gamma;
     assembly.of(body).tension = BodyTension{kind(), gamma, assembly.measure_named(body + ".area"),
                                             assembly.measure_named(body + ".volume")};
-    if (form == "balanced" && this->coefficient_damping > 0 &&
-        std::any_of(viscosity.begin(), viscosity.end(), [](Real mu) { return mu > 0; }))
-      assembly.add(meniscus::coefficient_damping(on, viscosity, this->coefficient_damping), body);
+    if (form == "balanced") add_damping(assembly);
     require_stiffness(assembly);
   }
 
  private:
+  void add_damping(Assembly<D>& assembly) const {
+    const std::vector<Real>& viscosity = assembly.of(body).viscosity;
+    if (this->coefficient_damping > 0 &&
+        std::any_of(viscosity.begin(), viscosity.end(), [](Real mu) { return mu > 0; }))
+      assembly.add(
+          meniscus::coefficient_damping(assembly.body(body), viscosity, this->coefficient_damping),
+          body);
+  }
   /// Throws InputError if the body is too soft. Surface tension alone compresses a body with the
   /// mean pressure (D - 1) gamma area / (D volume) (virial theorem); a body much softer than this
   /// collapses.

@@ -18,13 +18,17 @@ class BalancedSurfaceTension final : public TensionTerm<D> {
 
  public:
   BalancedSurfaceTension(const Body<D>& body, Real gamma, const std::string& face)
-      : TensionTerm<D>(body, gamma), patches_(body), whole_(face.empty()) {
-    if (!whole_)
+      : TensionTerm<D>(body, gamma), patches_(body), face_(face) {
+    if (!face.empty())
       patches_.share_area(shares_of(face));
     else if (patches_.on_walls())
       patches_.share_area(tension_shares(body, gamma));
     else
       correct();
+  }
+
+  std::string name() const override {
+    return TensionTerm<D>::name() + (face_.empty() ? "" : " at '" + face_ + "'");
   }
 
   Report add_force(const Motion& motion, Forces force) override {
@@ -71,13 +75,13 @@ class BalancedSurfaceTension final : public TensionTerm<D> {
   }
   Real area(const Motion& motion) const override {
     patches_.at_time(motion.time);
-    if (!whole_) return patches_.measure(Size::area, this->displacements(motion));
+    if (!face_.empty()) return patches_.measure(Size::area, this->displacements(motion));
     const std::vector<Real> areas = patches_.areas(this->displacements(motion));
     return correction_ * std::accumulate(areas.begin(), areas.end(), 0.0);
   }
 
   SurfacePatches<D> patches_;
-  bool whole_;
+  std::string face_;     // empty: the whole surface
   Real correction_ = 1;  // area of the exact surface over area of the patches, in the reference
 };
 

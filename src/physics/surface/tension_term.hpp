@@ -12,7 +12,7 @@ class TensionTerm : public ForceTerm {
  public:
   TensionTerm(const Body<D>& body, Real gamma) : body_(body), gamma_(gamma) {}
 
-  std::string name() const final { return "surface tension of '" + body_.name + "'"; }
+  std::string name() const override { return "surface tension of '" + body_.name + "'"; }
   std::string_view energy_kind() const final { return "surface"; }
   std::optional<Real> stored_energy(const Motion& motion) const override {
     return gamma_ * area(motion);
