@@ -160,6 +160,8 @@ std::vector<Real> tension_shares(const Body<D>& body, Real gamma) {
 
 #define MENISCUS_INSTANTIATE(D)                                                                    \
   template void SurfacePatches<D>::list_walls(const Body<D>&);                                     \
+  template void SurfacePatches<D>::at_time(Real) const;                                            \
+  template const WettedWall<D>& SurfacePatches<D>::wall_of_face(const std::string&) const;         \
   template void SurfacePatches<D>::move_to_wall(Index, NodalVector&) const;                        \
   template NodalVector SurfacePatches<D>::projected(Index, const NodalVector&, const NodalVector&) \
       const;                                                                                       \
