@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nearly incompressible solids of two to four cells across, where others lock (locking note): the
 // error of scenes against exact solutions, or against cantilevers of many cells.
-#include "run/simulation.hpp"
 #include "study/study.hpp"
+#include "study/support/scene_run.hpp"
 
 #include <fmt/core.h>
 
@@ -25,28 +25,15 @@ struct Case {
 
 template <int D>
 Measurement run_case(const Case& c, const std::string& method, int level) {
-  const Stopwatch set_up;
-  const SceneInput input = SceneInput::from_text(c.text);
-  scene_dimension(input);
-  Scene<D> scene = build_scene<D>(input);
-  Simulation<D> simulation(scene);
-  simulation.begin();
-  Measurement result{.method = method, .level = level};
-  result.particles = scene.system.size();
-  result.h = 1.0 / level;
-  result.bytes = scene.system.bytes();
-  result.set_up = set_up.seconds();
-  const Stopwatch run;
-  simulation.settle();
-  while (!simulation.finished()) simulation.advance();
-  result.time = run.seconds();
-  for (const MeasureSource& m : scene.measures)
-    if (m.name == c.measure) {
-      const Real value = m.compute(simulation.state().motion());
-      result.values = {{"value / exact", value / c.exact}};
-      result.errors = {{"error", std::abs(value / c.exact - 1)}};
-    }
-  return result;
+  return study::measure_scene<D>(
+      c.text, method, level, [&](const Scene<D>& scene, const Motion& motion, Measurement& result) {
+        for (const MeasureSource& m : scene.measures)
+          if (m.name == c.measure) {
+            const Real value = m.compute(motion);
+            result.values = {{"value / exact", value / c.exact}};
+            result.errors = {{"error", std::abs(value / c.exact - 1)}};
+          }
+      });
 }
 
 /// Lame's first modulus over the shear modulus for a ratio of bulk to shear modulus.

@@ -3,8 +3,8 @@
 // and in a cavity, between two plates. Their errors are those against the equilibrium with the same
 // volume.
 #include "measure/young_laplace.hpp"
-#include "run/simulation.hpp"
 #include "study/study.hpp"
+#include "study/support/scene_run.hpp"
 
 #include <fmt/core.h>
 
@@ -30,29 +30,16 @@ struct Case {
 
 template <int D>
 Measurement run_case(const Case& c, int level) {
-  const Stopwatch set_up;
-  const SceneInput input = SceneInput::from_text(c.text);
-  scene_dimension(input);
-  Scene<D> scene = build_scene<D>(input);
-  Simulation<D> simulation(scene);
-  simulation.begin();
-  Measurement result{.method = c.name, .level = level};
-  result.particles = scene.system.size();
-  result.h = 1.0 / level;
-  result.bytes = scene.system.bytes();
-  result.set_up = set_up.seconds();
-  const Stopwatch run;
-  simulation.settle();
-  while (!simulation.finished()) simulation.advance();
-  result.time = run.seconds();
-  Values values;
-  const Motion motion = simulation.state().motion();
-  for (const MeasureSource& m : scene.measures) values[m.name] = m.compute(motion);
-  for (const auto& term : scene.system.terms)
-    if (term->energy_kind() == "surface") values["surface_energy"] += *term->stored_energy(motion);
-  result.errors = c.errors(values);
-  if (values.contains("drop.ca")) result.values.emplace_back("Ca", values["drop.ca"]);
-  return result;
+  return study::measure_scene<D>(
+      c.text, c.name, level, [&](const Scene<D>& scene, const Motion& motion, Measurement& result) {
+        Values values;
+        for (const MeasureSource& m : scene.measures) values[m.name] = m.compute(motion);
+        for (const auto& term : scene.system.terms)
+          if (term->energy_kind() == "surface")
+            values["surface_energy"] += *term->stored_energy(motion);
+        result.errors = c.errors(values);
+        result.values.emplace_back("Ca", values.at("drop.ca"));
+      });
 }
 
 std::string fluid() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spherical cap (2D: circular segment): half of a ball, mapped so that its sphere becomes that of
-// the cap.
+// Spherical cap (2D: circular segment): half of a ball under a smooth map that takes the sphere of
+// the ball to the sphere of the cap.
 #include "body/shapes/cell_count.hpp"
 #include "body/shapes/cubed.hpp"
 #include "meniscus/body/shapes.hpp"

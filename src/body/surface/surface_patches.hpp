@@ -89,7 +89,7 @@ class SurfacePatches {
   bool on_walls() const { return !walls_.empty(); }
   /// The wall of a wetted face at the last at_time().
   const WettedWall<D>& wall_of_face(const std::string& face) const;
-  /// What a wall does to points: force and moment, and power on its own velocity.
+  /// Force and moment of a wall on points, and the power of this force on the velocity of the wall.
   struct WallForce {
     Resultant total;
     Real power = 0;
