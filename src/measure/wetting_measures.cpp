@@ -33,8 +33,11 @@ Real rate_of(const std::function<Real(const Motion&)>& length, const Motion& mot
 template <int D>
 class Cap {
  public:
-  Cap(const Body<D>& body, HeightAbove<D> height_of, Real contact_gap)
-      : body_(body), height_of_(std::move(height_of)), contact_gap_(contact_gap) {}
+  Cap(const Body<D>& body, HeightAbove<D> height_of, Real film_gap, LineAt line)
+      : body_(body),
+        height_of_(std::move(height_of)),
+        film_gap_(film_gap),
+        line_(std::move(line)) {}
 
   Real film(const Motion& motion) { return points(motion).film; }
   Real angle(const Motion& motion) {
@@ -47,7 +50,8 @@ class Cap {
     return s.centre + s.radius;
   }
   Real angle_of_volume(const Motion& motion) {
-    return angle_of_cap<D>(surface().placed(motion).size.volume, height(motion));
+    const Real slab = line_(motion).depth * points(motion).wet;
+    return angle_of_cap<D>(surface().placed(motion).size.volume + slab, height(motion));
   }
 
  private:
@@ -55,9 +59,10 @@ class Cap {
     std::vector<Vec<D>> x;
     std::vector<Real> area, height;
     Real film, top;
+    Real wet;  ///< area of the film
   };
-  /// A sphere with the height of its centre above the film. `bend` is the curvature of the surface
-  /// parallel to the wall through this centre.
+  /// A sphere with the height of its centre above the surface of contact. `bend` is the curvature
+  /// of the surface parallel to the wall through this centre.
   struct Sphere {
     Real centre, radius, bend;
   };
@@ -72,8 +77,9 @@ class Cap {
     const auto placed = surface().placed(motion);
     const std::vector<Real>& reference = surface().reference().area;
     Points points;
-    Real least = std::numeric_limits<Real>::max(), wet = 0, sum = 0;
+    Real least = std::numeric_limits<Real>::max(), sum = 0;
     points.top = -least;
+    points.wet = 0;
     for (std::size_t q = 0; q < reference.size(); ++q) {
       const auto point = static_cast<Index>(q);
       points.x.push_back(placed.place(point));
@@ -82,11 +88,11 @@ class Cap {
       const Real height = points.height.back();
       least = std::min(least, height);
       points.top = std::max(points.top, height);
-      if (height > contact_gap_) continue;
-      wet += points.area.back();
+      if (height > film_gap_) continue;
+      points.wet += points.area.back();
       sum += points.area.back() * height;
     }
-    points.film = wet > 0 ? sum / wet : least;
+    points.film = points.wet > 0 ? sum / points.wet : least;
     return points;
   }
 
@@ -116,24 +122,27 @@ class Cap {
     const Vec<D + 1> solution = solve_symmetric(normal, right);
     const Vec<D> c = solution.template head<D>();
     const auto [height, bend] = height_of_(mean + c, motion.time);
-    return {height - p.film, std::sqrt(solution[D] + c.squaredNorm()), bend};
+    return {height - p.film + line_(motion).depth, std::sqrt(solution[D] + c.squaredNorm()), bend};
   }
 
   const Body<D>& body_;
   HeightAbove<D> height_of_;
-  Real contact_gap_;
+  Real film_gap_;
+  LineAt line_;
   std::optional<ClosedSurface<D>> surface_;
 };
 
 }  // namespace
 
 template <int D>
-std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wetted_area) {
-  const auto radius = [area = std::move(wetted_area)](const Motion& motion) {
-    return D == 3 ? std::sqrt(area(motion) / std::numbers::pi) : area(motion) / 2;
+std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wetted_area,
+                                          LineAt line) {
+  const auto radius = [area = std::move(wetted_area),
+                       line = std::move(line)](const Motion& motion) {
+    const Real disk = D == 3 ? std::sqrt(area(motion) / std::numbers::pi) : area(motion) / 2;
+    return std::clamp(disk + line(motion).beyond, 0.0, 2 * disk);
   };
-  return {{"base_radius", dimension::length, "of a disk of the wetted area (2D: half the length)",
-           radius},
+  return {{"base_radius", dimension::length, "of the contact line (2D: half its distance)", radius},
           {"line_speed", dimension::velocity, "rate of the base radius",
            [radius](const Motion& motion) { return rate_of(radius, motion); }}};
 }
@@ -159,8 +168,8 @@ Real angle_of_cap(Real volume, Real height) {
 
 template <int D>
 std::vector<MeasureSource> cap_measures(const Body<D>& body, HeightAbove<D> height_of,
-                                        Real contact_gap, bool flat) {
-  const auto cap = std::make_shared<Cap<D>>(body, std::move(height_of), contact_gap);
+                                        Real film_gap, LineAt line, bool flat) {
+  const auto cap = std::make_shared<Cap<D>>(body, std::move(height_of), film_gap, std::move(line));
   constexpr Real degree = std::numbers::pi / 180;
   std::vector<MeasureSource> all{
       {"film", dimension::length,
@@ -169,19 +178,21 @@ std::vector<MeasureSource> cap_measures(const Body<D>& body, HeightAbove<D> heig
       {"contact_angle", dimension::degrees,
        "in degrees, of the sphere that fits the free surface best (2D: circle)",
        [cap](const Motion& motion) { return cap->angle(motion) / degree; }},
-      {"height", dimension::length, "of the apex of that sphere over the film",
+      {"height", dimension::length, "of the apex of that sphere over the wall",
        [cap](const Motion& motion) { return cap->height(motion); }}};
   if (flat)
     all.push_back({"contact_angle_vh", dimension::degrees,
-                   "in degrees, of the cap of this volume and height",
+                   "in degrees, of the cap of this height and volume, with the gap below it",
                    [cap](const Motion& motion) { return cap->angle_of_volume(motion) / degree; }});
   return all;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                              \
-  template std::vector<MeasureSource> front_measures<D>(std::function<Real(const Motion&)>); \
-  template Real angle_of_cap<D>(Real, Real);                                                 \
-  template std::vector<MeasureSource> cap_measures(const Body<D>&, HeightAbove<D>, Real, bool);
+#define MENISCUS_INSTANTIATE(D)                                                                  \
+  template std::vector<MeasureSource> front_measures<D>(std::function<Real(const Motion&)>,      \
+                                                        LineAt);                                 \
+  template Real angle_of_cap<D>(Real, Real);                                                     \
+  template std::vector<MeasureSource> cap_measures(const Body<D>&, HeightAbove<D>, Real, LineAt, \
+                                                   bool);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -34,6 +34,9 @@ struct ContactSurfaces {
                                                      ///< first body
   std::optional<TensionForm> tension_form = {};      ///< of its [[surface_tension]], if it has one
   std::optional<Real> gamma_beyond = {};             ///< surface tension of the second body, if any
+  bool rigid = false;                                ///< the other side is a rigid partner
+  int dimension = 3;
+  Real volume = 0;  ///< of the first body
 
   /// gamma, for a contact angle; throws InputError if the first body has no surface tension.
   Real tension() const;
@@ -55,21 +58,9 @@ class ContactModel {
   virtual std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
                                                   const ContactChoice& choice,
                                                   const ContactSurfaces& surfaces) const = 0;
-  /// True if the adhesion is a formula of the place.
-  virtual bool placed(const ContactSurfaces&) const { return false; }
-  /// Its characteristic numbers for flat surfaces.
-  virtual PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const = 0;
-  /// The largest adhesion between two bodies until `end`, which differs from flat() if it changes
-  /// with time.
-  virtual Real greatest_adhesion(const ContactSurfaces& surfaces, [[maybe_unused]] Real end) const {
-    return flat(false, surfaces).adhesion;
-  }
-  /// The pressure of flat surfaces at the smallest gap: a larger pressure overcomes the contact.
-  virtual Real greatest_pressure(bool rigid, const ContactSurfaces& surfaces) const = 0;
-  /// The lengths that it chose, as text; empty if flat() is a complete description.
-  virtual std::string described(const ContactSurfaces&, const UnitSystem&) const { return {}; }
-  /// A warning if the interaction may be wrong between these surfaces.
-  virtual std::optional<std::string> doubt(const ContactSurfaces& surfaces) const = 0;
+  /// The interaction of these surfaces if they are flat. Throws InputError if they lack what it
+  /// needs.
+  virtual std::shared_ptr<const Interaction> law(const ContactSurfaces& surfaces) const = 0;
 };
 
 template <int D>
@@ -92,9 +83,9 @@ using GapLaw = std::function<std::shared_ptr<const Interaction>(const ContactSur
 template <int D>
 std::unique_ptr<ContactModel<D>> gap_contact(GapLaw law);
 
-/// The field of a law e(d) of the distance d from a shape: S = -e(d) grad d and U = div S. A
-/// surface that faces the partner (n = -grad d) then has the energy S.n = e per area. Below the
-/// smallest gap the pressure grows linearly.
+/// The field of a law e(g) at the distance d from a shape, g = d + recess: S = -e(g) grad d and U =
+/// div S. A surface that faces the partner (n = -grad d) then has the energy S.n = e per area.
+/// Below the smallest gap the pressure grows linearly.
 template <int D>
 std::unique_ptr<RigidPartner<D>> distance_field(std::shared_ptr<const Interaction> law,
                                                 std::shared_ptr<const PartnerShape<D>> shape);

@@ -3,6 +3,7 @@
 // spreading drops.
 #include "features/contact/contact_advice.hpp"
 
+#include "physics/contact/bent_line.hpp"
 #include "physics/contact/contact_numbers.hpp"
 
 #include <fmt/core.h>
@@ -107,7 +108,7 @@ Approaching approaching(const BeginningContact<D>& contact, const Assembly<D>& a
   }
   const Real at_start = largest_speed(first, begin, other);
   const Real pull = std::max(0.0, pulled.dot(direction)),
-             way = std::max(0.0, contact.gap - contact.flat.equilibrium_gap),
+             way = std::max(0.0, contact.gap - contact.rest_gap),
              fallen = std::min(pull * end, std::sqrt(2 * pull * way));
   return {at_start, std::hypot(std::max(at_start, met), fallen)};
 }
@@ -157,15 +158,6 @@ Real tabor_number(const std::vector<TouchingBody>& solids, const PlaneContact& f
                    (2 * std::numbers::pi * flat.adhesion * curvature));
 }
 
-/// Size of the base of a cap with the contact angle theta. 2D: width over the square root of the
-/// area. 3D: radius over the cube root of the volume.
-template <int D>
-Real base_of_cap(Real theta) {
-  const Real c = std::cos(theta), s = std::sin(theta);
-  if constexpr (D == 2) return 2 * s / std::sqrt(theta - s * c);
-  return s / std::cbrt(std::numbers::pi / 3 * (2 - 3 * c + c * c * c));
-}
-
 }  // namespace
 
 template <int D>
@@ -185,8 +177,8 @@ void advise_on_spreading(const std::string& contact, const std::string& drop, Re
   const Real ohnesorge = mu / std::sqrt(whole.density * gamma * whole.radius);
   if (!(ohnesorge < calm)) return;
   if (const auto theta = contact_angle(adhesion, gamma)) {
-    const Real base = base_of_cap<D>(*theta) * std::pow(volume, 1.0 / D),
-               at_rest = D == 3 ? std::numbers::pi * base * base : base;
+    const Real base = base_of_cap(*theta, D) * std::pow(volume, 1.0 / D),
+               at_rest = D == 3 ? std::numbers::pi * base * base : 2 * base;
     if (at_rest < far * wetted_area(assembly.initial()->motion())) return;
   }
   const std::string more = mu > 0 ? fmt::format("{:.2g} times the viscosity", calm / ohnesorge)

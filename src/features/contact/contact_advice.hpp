@@ -19,6 +19,7 @@ struct BeginningContact {
   std::string name;
   std::vector<std::string> bodies;  ///< two, or one if the other side is a rigid partner
   PlaneContact flat;                ///< the interaction of flat surfaces
+  Real rest_gap;                    ///< distance of flat surfaces in equilibrium
   Real greatest_pressure;           ///< largest pressure that the contact of flat surfaces resists
   Real gap = 0;                     ///< smallest distance at the start
   std::shared_ptr<const PartnerShape<D>> partner = {};  ///< null: between two bodies

@@ -24,14 +24,20 @@ template <int D>
 ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
   Real facet = 0;
   for (const std::string& body : bodies) facet = std::max(facet, facet_size(assembly.body(body)));
-  const auto& X = assembly.body(bodies[0]).particles.X();
+  const Body<D>& first = assembly.body(bodies[0]);
+  Real volume = 0;
+  for (Index A = 0; A < first.size(); ++A) volume += first.cells.volume(A);
+  const auto& X = first.particles.X();
   const Vec<D> sum = std::accumulate(X.begin(), X.end(), Vec<D>(Vec<D>::Zero()));
   return {this->place,
           facet,
           assembly.of(bodies[0]).surface_energy,
           spatial<D>(sum / static_cast<Real>(X.size())),
           form_of_tension(assembly, bodies[0]),
-          bodies.size() > 1 ? assembly.of(bodies[1]).surface_energy : std::nullopt};
+          bodies.size() > 1 ? assembly.of(bodies[1]).surface_energy : std::nullopt,
+          partner.has_value(),
+          D,
+          volume};
 }
 
 template <int D>
@@ -79,9 +85,8 @@ std::string Contact<D>::overlap(const Assembly<D>& assembly) const {
       ": what presses harder than {:.3g} {} comes through this contact; a shorter {} or more {} "
       "hold more, slower or softer bodies press less, and more points than {} per facet or finer "
       "cells see a corner earlier",
-      model->greatest_pressure(partner.has_value(), surfaces(assembly)),
-      assembly.units().symbol(dimension::pressure), joined(lengths, ", "), joined(strengths, ", "),
-      points_chosen(assembly));
+      greatest_pressure(assembly), assembly.units().symbol(dimension::pressure),
+      joined(lengths, ", "), joined(strengths, ", "), points_chosen(assembly));
 }
 
 template <int D>

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <numbers>
+
 namespace meniscus::contact_table {
 
 /// Logs the number of contact points per facet and the error due to their distance.
@@ -34,12 +36,10 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
   note += fmt::format(
       ", equilibrium gap {:.4g} {} ({:.2g} of the size of the facets), peak traction {:.4g} {} at "
       "{:.4g} {}, stiffness {:.4g} {}",
-      flat.equilibrium_gap, unit(dimension::length),
-      flat.equilibrium_gap / surfaces(assembly).facet, flat.peak_traction,
-      unit(dimension::pressure), flat.peak_gap, unit(dimension::length), flat.stiffness,
-      unit({-2, -2, 1}));
-  if (const std::string more = model->described(surfaces(assembly), assembly.units());
-      !more.empty())
+      rest_gap(assembly), unit(dimension::length), rest_gap(assembly) / surfaces(assembly).facet,
+      flat.peak_traction, unit(dimension::pressure), peak_gap(assembly), unit(dimension::length),
+      flat.stiffness, unit({-2, -2, 1}));
+  if (const std::string more = law(assembly).described(assembly.units()); !more.empty())
     note += ", " + more;
   // In form `dissertation` the traction is normal to the wall and does no work on the contact line,
   // so there is no contact angle.
@@ -52,7 +52,7 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
       fmt::format("contact '{}': {:.1f} MB", name, 1e-6 * static_cast<Real>(term.bytes())));
   report_points(assembly);
   if (assembly.initial()) advise(beginning(term, assembly), assembly);
-  if (const auto doubt = model->doubt(surfaces(assembly)))
+  if (const auto doubt = law(assembly).doubt(surfaces(assembly).facet))
     assembly.warn(fmt::format("contact '{}': {}", name, *doubt));
   if (form == "dissertation")
     assembly.warn(fmt::format(
@@ -69,8 +69,8 @@ void Contact<D>::report(const ForceTerm& term, Assembly<D>& assembly) const {
 template <int D>
 BeginningContact<D> Contact<D>::beginning(const ForceTerm& term,
                                           const Assembly<D>& assembly) const {
-  BeginningContact<D> beginning{name, bodies, flat(assembly),
-                                model->greatest_pressure(partner.has_value(), surfaces(assembly))};
+  BeginningContact<D> beginning{name, bodies, flat(assembly), rest_gap(assembly),
+                                greatest_pressure(assembly)};
   const Motion motion = assembly.initial()->motion();
   for (const MeasureSource& measure : term.measures())
     if (measure.name == "gap") beginning.gap = measure.compute(motion);
@@ -81,32 +81,92 @@ BeginningContact<D> Contact<D>::beginning(const ForceTerm& term,
   return beginning;
 }
 
+/// The contact line of the drop at a motion. If the adhesion varies, it is that at the mean place
+/// of the particles.
+template <int D>
+LineAt Contact<D>::line(const Assembly<D>& assembly) const {
+  if (form == "dissertation") return [](const Motion&) { return BentLine(); };
+  const Real gamma = *assembly.of(bodies[0]).surface_energy, volume = surfaces(assembly).volume;
+  law(assembly);
+  if (!law_->pattern())
+    return
+        [line = bent_line(*law_, flat_.adhesion, gamma, volume, D)](const Motion&) { return line; };
+  return [law = law_, gamma, volume, &body = assembly.body(bodies[0]),
+          moved = partner_motion()](const Motion& motion) {
+    const auto u = body.part(motion.u);
+    Vec<D> mean = -moved.displacement(motion.time);
+    for (Index A = 0; A < body.size(); ++A)
+      for (int i = 0; i < D; ++i)
+        mean[i] += (at(body.particles.X(), A)[i] + at(u, A)[i]) / static_cast<Real>(body.size());
+    return bent_line(*law, (*law->pattern())(spatial<D>(mean), motion.time), gamma, volume, D);
+  };
+}
+
+/// Logs where the wall of a drop on a rigid partner is, and the sharp line as an alternative.
+template <int D>
+void Contact<D>::report_line(const LineAt& line, Assembly<D>& assembly) const {
+  if (!assembly.initial()) return;
+  const Motion begin = assembly.initial()->motion();
+  const BentLine at_rest = line(begin);
+  if (!(at_rest.radius > 0)) return;
+  const Real pi = std::numbers::pi, r = at_rest.radius, volume = surfaces(assembly).volume,
+             base = D == 3 ? pi * r * r : 2 * r;
+  const std::string unit = assembly.units().symbol(dimension::length);
+  assembly.note(fmt::format(
+      "contact '{}': at rest on a plane '{}' has a base of radius {:.4g} {}; angle, base and height "
+      "are read at the wall, {:.4g} {} below the film, whose gap changes lengths by {:+.2g} %",
+      name, bodies[0], r, unit, at_rest.depth, unit, 100.0 / D * at_rest.depth * base / volume));
+  const Real wet = assembly.measure_named(name + ".wetted_area")(begin);
+  if (wet > 0.3 * base && !law(assembly).pattern() && partner->shape->round())
+    assembly.note(fmt::format(
+        "contact '{}': '{}' begins on its wall: if it stays there and has a face there, a "
+        "[[wetted]] face has a sharp contact line, is more accurate and faster",
+        name, bodies[0]));
+}
+
 /// Adds the measures of a drop that wets a rigid partner.
 template <int D>
 void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
   if (!assembly.of(bodies[0]).surface_energy) return;
-  for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area")))
+  const LineAt line = this->line(assembly);
+  for (MeasureSource& source :
+       front_measures<D>(assembly.measure_named(name + ".wetted_area"), line))
     assembly.measure(name, std::move(source));
   assembly.wets({bodies[0],
                  {[shape = partner->shape, moved = partner_motion()](const Vec<D>& x, Real t) {
                     return shape->foot(x - moved.displacement(t)).distance;
                   },
-                  flat(assembly).peak_gap}});
+                  peak_gap(assembly)}});
+  report_line(line, assembly);
   if (partner->shape->flat() && assembly.initial() && assembly.is_dynamic())
     advise_on_spreading(name, bodies[0], flat(assembly).adhesion,
                         assembly.measure_named(name + ".wetted_area"), assembly);
   if (!partner->shape->round()) return;
+  constexpr Real part_of_film = 0.2;  // the energy of smooth_young has changed by 1 %
   for (MeasureSource& source : cap_measures<D>(
            assembly.body(bodies[0]),
            [shape = partner->shape, moved = partner_motion()](const Vec<D>&x, Real t) {
              const auto foot = shape->foot(x - moved.displacement(t));
              return WallHeight{foot.distance, foot.bend.trace() / (D - 1)};
            },
-           flat(assembly).peak_gap, partner->shape->flat()))
+           rest_gap(assembly) + part_of_film * (peak_gap(assembly) - rest_gap(assembly)), line,
+           partner->shape->flat()))
     if (source.name == "film")
       assembly.measure(name, std::move(source));
     else
       assembly.measure_of_cap(bodies[0], name, std::move(source), this->place);
+}
+
+/// The largest adhesion at the centre of the first body at a thousand times until the end.
+template <int D>
+Real Contact<D>::greatest_adhesion(const Assembly<D>& assembly) const {
+  constexpr int times = 1000;
+  Real greatest = flat(assembly).adhesion;
+  if (const AdhesionPattern* W = law(assembly).pattern())
+    for (int k = 0; k <= times; ++k)
+      greatest =
+          std::max(greatest, (*W)(surfaces(assembly).centre, k * assembly.end_time() / times));
+  return greatest;
 }
 
 /// True if the first body is a drop and the second is a solid.
@@ -123,7 +183,7 @@ template <int D>
 std::string Contact<D>::folding(const Assembly<D>& assembly) const {
   constexpr Real largest = 1.0 / 3, peak_of_chi = 1.875;
   const PlaneContact& flat = this->flat(assembly);
-  const Real W = model->greatest_adhesion(surfaces(assembly), assembly.end_time()),
+  const Real W = greatest_adhesion(assembly),
              range = peak_of_chi * flat.adhesion / flat.peak_traction;
   const Real mu = assembly.shear_modulus(bodies[1]), K = assembly.of(bodies[1]).bulk_modulus,
              E = 9 * K * mu / (3 * K + mu);
@@ -151,7 +211,8 @@ void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
                             "area in contact: energy of the interaction / adhesion",
                             [energy = assembly.measure_named(name + ".energy"), W = flat.adhesion](
                                 const Motion& motion) { return -energy(motion) / W; }});
-  for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area")))
+  for (MeasureSource& source : front_measures<D>(assembly.measure_named(name + ".wetted_area"),
+                                                 [](const Motion&) { return BentLine(); }))
     assembly.measure(name, std::move(source));
   for (MeasureSource& source :
        ridge_measures(assembly.body(bodies[0]), assembly.body(bodies[1]), flat.peak_gap))
@@ -160,7 +221,7 @@ void Contact<D>::measure_soft_wetting(Assembly<D>& assembly) const {
     assembly.warn(fmt::format("contact '{}': {}", name, why));
   // Each surface stores half of the energy of the contact.
   const Real tension = assembly.of(bodies[1]).surface_energy.value_or(0);
-  const Real half = model->greatest_adhesion(surfaces(assembly), assembly.end_time()) / 2;
+  const Real half = greatest_adhesion(assembly) / 2;
   if (up.empty() && tension < half)
     assembly.warn(fmt::format(
         "contact '{}': half of the adhesion, {:.4g} {}, is taken from the surface of '{}', whose "

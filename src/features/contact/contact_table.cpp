@@ -151,7 +151,7 @@ void Contact<D>::check(const Block& block, const BodyPlans<D>& planned) const {
 
 template <int D>
 void Contact<D>::build(Assembly<D>& assembly) const {
-  flat_.reset();
+  law_.reset();
   partner_motion_ = new_partner_motion();
   require_points_to_meet(assembly);
   std::unique_ptr<ForceTerm> term = this->term(assembly);
@@ -167,7 +167,7 @@ void Contact<D>::build(Assembly<D>& assembly) const {
   if (density == "referential" || form == "volume")
     for (const std::string& body : bodies)
       assembly.keep_reference(body, "its [[contact]] has beta per volume of the reference");
-  if (!partner && model->placed(surfaces(assembly)))
+  if (const auto* W = law(assembly).pattern(); !partner && W && W->depends_on_place())
     assembly.keep_reference(bodies[1], "the adhesion of its [[contact]] is a formula of it");
   assembly.add(std::move(term), name);
   assembly.contact({name, bodies, flat(assembly).adhesion});

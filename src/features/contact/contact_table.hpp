@@ -4,8 +4,10 @@
 #include "features/contact/contact_advice.hpp"
 #include "input/optional_rows.hpp"
 #include "input/ramp.hpp"
+#include "measure/wetting_measures.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "meniscus/scene/assembly.hpp"
+#include "physics/contact/adhesion.hpp"
 #include "physics/contact/contact_numbers.hpp"
 #include "physics/contact/points/contact_resolution.hpp"
 
@@ -98,15 +100,33 @@ struct Contact final : Load<D>, Keys {
  private:
   ContactChoice choice(const Assembly<D>& assembly) const;
   ContactSurfaces surfaces(const Assembly<D>& assembly) const;
-  /// Properties of the contact of flat surfaces. Computed once, because build() uses them many
-  /// times. Throws InputError if they are not finite.
-  const PlaneContact& flat(const Assembly<D>& assembly) const {
-    if (!flat_) {
-      flat_ = model->flat(partner.has_value(), surfaces(assembly));
-      require_finite(*flat_, this->place);
+  /// The interaction of flat surfaces and its properties. Computed once, because build() uses them
+  /// many times. Throws InputError if they are not finite.
+  const Interaction& law(const Assembly<D>& assembly) const {
+    if (!law_) {
+      law_ = model->law(surfaces(assembly));
+      flat_ = law_->flat();
+      require_finite(flat_, this->place);
     }
-    return *flat_;
+    return *law_;
   }
+  const PlaneContact& flat(const Assembly<D>& assembly) const {
+    law(assembly);
+    return flat_;
+  }
+  /// The pressure of flat surfaces at the smallest gap: a larger pressure overcomes the contact.
+  Real greatest_pressure(const Assembly<D>& assembly) const {
+    return law(assembly).at(law(assembly).least_gap()).pressure;
+  }
+  Real greatest_adhesion(const Assembly<D>& assembly) const;
+  /// Distances from the surface of the other side.
+  Real rest_gap(const Assembly<D>& assembly) const {
+    return flat(assembly).equilibrium_gap - law(assembly).recess();
+  }
+  Real peak_gap(const Assembly<D>& assembly) const {
+    return flat(assembly).peak_gap - law(assembly).recess();
+  }
+  LineAt line(const Assembly<D>& assembly) const;
   ContactResolution resolution(const Assembly<D>& assembly) const;
   int points_chosen(const Assembly<D>& assembly) const;
   std::unique_ptr<ForceTerm> term(const Assembly<D>& assembly) const;
@@ -119,6 +139,7 @@ struct Contact final : Load<D>, Keys {
   void report_points(Assembly<D>& assembly) const;
   StateCheck containment(const Assembly<D>& assembly) const;
   void report(const ForceTerm& term, Assembly<D>& assembly) const;
+  void report_line(const LineAt& line, Assembly<D>& assembly) const;
   void measure_wetting(Assembly<D>& assembly) const;
   void measure_soft_wetting(Assembly<D>& assembly) const;
   bool soft_wetting(const Assembly<D>& assembly) const;
@@ -127,7 +148,8 @@ struct Contact final : Load<D>, Keys {
   BeginningContact<D> beginning(const ForceTerm& term, const Assembly<D>& assembly) const;
 
   // Results of the last build.
-  mutable std::optional<PlaneContact> flat_;
+  mutable std::shared_ptr<const Interaction> law_;
+  mutable PlaneContact flat_;
   mutable std::optional<RigidMotion<D>> partner_motion_;
 };
 

@@ -26,7 +26,7 @@ PlaneState plane_state(const ContactLaw& law, Real beta_product, Real gap);
 /// The pair law between bodies with `beta_product` = beta1 beta2, as an interaction of surfaces.
 /// at() ignores the cut-off and uses the closed form, since the cut-off hardly changes the
 /// stiffness.
-class LennardJones final : public Interaction {
+class LennardJones : public Interaction {
  public:
   LennardJones(const ContactLaw& law, Real beta_product)
       : law_(law), uncut_(law), beta_product_(beta_product) {

@@ -47,6 +47,9 @@ class Interaction {
   virtual bool hardens() const { return true; }
   /// True if the interaction is exactly zero beyond range().
   virtual bool ends() const { return false; }
+  /// Distance from the surface of a rigid partner down to the surface inside it from which gaps
+  /// count.
+  virtual Real recess() const { return 0; }
   /// The exponent k of a pressure that falls as gap^-k beyond the peak of the traction; empty if it
   /// falls in another way.
   virtual std::optional<int> far_power() const { return std::nullopt; }
@@ -54,7 +57,10 @@ class Interaction {
   /// The adhesion W(x, t) of a rigid partner or ground, or W(t) between two bodies, as a factor of
   /// at(). Null if at() contains the adhesion. flat() uses the adhesion at one place.
   virtual const AdhesionPattern* pattern() const { return nullptr; }
-  /// Its lengths and formulas as text for the log; empty if flat() is a complete description.
+  /// Energy per length of the contact line that a drop is meant to have.
+  virtual Real line_tension() const { return 0; }
+  /// The lengths that it chose, and formulas, as text for the log; empty if flat() is a complete
+  /// description.
   virtual std::string described(const UnitSystem&) const { return {}; }
   /// A warning if the interaction may be wrong on facets of size `facet`.
   virtual std::optional<std::string> doubt([[maybe_unused]] Real facet) const {

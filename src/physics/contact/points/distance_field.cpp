@@ -16,16 +16,17 @@ class DistanceField final : public RigidPartner<D> {
                 std::shared_ptr<const PartnerShape<D>> shape)
       : law_(std::move(law)),
         shape_(std::move(shape)),
+        recess_(law_->recess()),
         core_(law_->least_gap()),
         at_core_(law_->at(core_)) {}
 
   RigidField<D> field(const Vec<D>& x) const override {
     const auto foot = shape_->foot(x);
-    const auto [e, p] = state(foot.distance);
+    const auto [e, p] = state(foot.distance + recess_);
     const Mat<D> nn = foot.normal * foot.normal.transpose();
     return {p - e * foot.bend.trace(), -e * foot.normal, p * nn - e * foot.bend};
   }
-  Real distance(const Vec<D>& x) const override { return shape_->foot(x).distance; }
+  Real distance(const Vec<D>& x) const override { return shape_->foot(x).distance + recess_; }
 
  private:
   struct State {
@@ -42,7 +43,7 @@ class DistanceField final : public RigidPartner<D> {
 
   std::shared_ptr<const Interaction> law_;
   std::shared_ptr<const PartnerShape<D>> shape_;
-  Real core_;
+  Real recess_, core_;
   PlaneState at_core_;
 };
 
@@ -76,32 +77,8 @@ class GapContact final : public ContactModel<D> {
                              plan.shape};
     return rigid_contact<D>({body, 1}, std::move(partner), law, choice);
   }
-  bool placed(const ContactSurfaces& surfaces) const override {
-    const auto law = law_(surfaces);
-    return law->pattern() && law->pattern()->depends_on_place();
-  }
-  PlaneContact flat(bool, const ContactSurfaces& surfaces) const override {
-    return law_(surfaces)->flat();
-  }
-  /// The largest adhesion of a thousand times, at the centre of the first body.
-  Real greatest_adhesion(const ContactSurfaces& surfaces, Real end) const override {
-    constexpr int times = 1000;
-    const auto law = law_(surfaces);
-    Real greatest = law->flat().adhesion;
-    if (const AdhesionPattern* W = law->pattern())
-      for (int k = 0; k <= times; ++k)
-        greatest = std::max(greatest, (*W)(surfaces.centre, k * end / times));
-    return greatest;
-  }
-  Real greatest_pressure(bool, const ContactSurfaces& surfaces) const override {
-    const auto law = law_(surfaces);
-    return law->at(law->least_gap()).pressure;
-  }
-  std::string described(const ContactSurfaces& surfaces, const UnitSystem& units) const override {
-    return law_(surfaces)->described(units);
-  }
-  std::optional<std::string> doubt(const ContactSurfaces& surfaces) const override {
-    return law_(surfaces)->doubt(surfaces.facet);
+  std::shared_ptr<const Interaction> law(const ContactSurfaces& surfaces) const override {
+    return law_(surfaces);
   }
 
  private:

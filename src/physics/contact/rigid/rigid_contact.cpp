@@ -486,12 +486,14 @@ Approach RigidContact<D>::fastest(const Motion& motion) const {
 
 template <int D>
 Failure RigidContact<D>::describe_overlap(const NearestPoint& nearest, Real time) const {
-  return {pair_.points[nearest.grade].particle_at(nearest.point),
-          fmt::format("surfaces overlap: the gap between '{}' and the rigid partner of contact "
-                      "'{}' is {:.4g}, least is {:.4g}{}",
-                      pair_.finest().body().name, name_, nearest.distance,
-                      pair_.interaction->least_gap(), time > 0 ? overlap_ : ""),
-          true};
+  return {
+      pair_.points[nearest.grade].particle_at(nearest.point),
+      fmt::format("surfaces overlap: the gap between '{}' and the rigid partner of contact "
+                  "'{}' is {:.4g}, least is {:.4g}{}",
+                  pair_.finest().body().name, name_, nearest.distance - pair_.interaction->recess(),
+                  pair_.interaction->least_gap() - pair_.interaction->recess(),
+                  time > 0 ? overlap_ : ""),
+      true};
 }
 
 /// Speed at which the points of a grade approach the partner. Only points within a distance below

@@ -198,6 +198,24 @@ struct Keys {
   }
 };
 
+/// The Lennard-Jones wall below the switched tensions.
+class SwitchedWall final : public LennardJones {
+ public:
+  SwitchedWall(const ContactLaw& law, Real switch_gap, Real degrees)
+      : LennardJones(law, 1), switch_gap_(switch_gap), degrees_(degrees) {}
+  std::string described(const UnitSystem& units) const override {
+    return fmt::format("wet below the gap {:.4g} {} at {:.4g} degrees by switched tensions",
+                       switch_gap_, units.symbol(dimension::length), degrees_);
+  }
+  std::optional<std::string> doubt(Real) const override {
+    return "legacy_switch loses energy whenever a triangle becomes wet or dry, and its traction is "
+           "not the gradient of an energy: it is for comparison with the dissertation";
+  }
+
+ private:
+  Real switch_gap_, degrees_;
+};
+
 template <int D>
 class Model final : public ContactModel<D> {
  public:
@@ -248,18 +266,8 @@ class Model final : public ContactModel<D> {
         body, plan, typename LegacySwitch<D>::Tensions{-line, line}, switch_gap(),
         rigid_contact<D>({body, 1}, std::move(partner), law_, choice));
   }
-  /// Equilibrium with the Lennard-Jones wall.
-  PlaneContact flat(bool, const ContactSurfaces&) const override { return plane_contact(law_, 1); }
-  Real greatest_pressure(bool, const ContactSurfaces&) const override {
-    return plane_state(law_, 1, law_.guard * law_.sigma0).pressure;
-  }
-  std::string described(const ContactSurfaces&, const UnitSystem& units) const override {
-    return fmt::format("wet below the gap {:.4g} {} at {:.4g} degrees by switched tensions",
-                       switch_gap(), units.symbol(dimension::length), k_.angle);
-  }
-  std::optional<std::string> doubt(const ContactSurfaces&) const override {
-    return "legacy_switch loses energy whenever a triangle becomes wet or dry, and its traction is "
-           "not the gradient of an energy: it is for comparison with the dissertation";
+  std::shared_ptr<const Interaction> law(const ContactSurfaces&) const override {
+    return std::make_shared<SwitchedWall>(law_, switch_gap(), k_.angle);
   }
 
  private:

@@ -137,30 +137,26 @@ class Model final : public ContactModel<D> {
   std::unique_ptr<ForceTerm> between(const Body<D>& first, const Body<D>& second,
                                      const ContactChoice& choice,
                                      const ContactSurfaces& surfaces) const override {
-    const ContactLaw cut = law(false, surfaces);
+    const ContactLaw cut = pair_law(false, surfaces);
     return contact_pair<D>({first, k_.beta}, {second, k_.beta_other}, cut, choice);
   }
   std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
                                           const ContactChoice& choice,
                                           const ContactSurfaces& surfaces) const override {
-    const ContactLaw uncut = law(true, surfaces);
+    const ContactLaw uncut = pair_law(true, surfaces);
     MovingPartner<D> partner{plan.shape->lennard_jones(uncut, k_.beta_other), plan.motion,
                              k_.beta_other, plan.velocity_step, plan.shape};
     return rigid_contact<D>({body, k_.beta}, std::move(partner), uncut, choice);
   }
-  PlaneContact flat(bool rigid, const ContactSurfaces& surfaces) const override {
-    return plane_contact(law(rigid, surfaces), k_.beta * k_.beta_other);
+  std::shared_ptr<const Interaction> law(const ContactSurfaces& surfaces) const override {
+    return std::make_shared<LennardJones>(pair_law(surfaces.rigid, surfaces),
+                                          k_.beta * k_.beta_other);
   }
-  Real greatest_pressure(bool rigid, const ContactSurfaces& surfaces) const override {
-    const LennardJones between(law(rigid, surfaces), k_.beta * k_.beta_other);
-    return between.at(between.least_gap()).pressure;
-  }
-  std::optional<std::string> doubt(const ContactSurfaces&) const override { return std::nullopt; }
 
  private:
   /// The law with numbers for these surfaces. Throws InputError if an angle is given for a body
   /// without surface tension.
-  ContactLaw law(bool rigid, const ContactSurfaces& surfaces) const {
+  ContactLaw pair_law(bool rigid, const ContactSurfaces& surfaces) const {
     ContactLaw law;
     law.kernel = D == 3 ? PairKernel::space : pair_kernel_named(k_.kernel);
     law.epsilon = scaled_ ? 1 : k_.epsilon;

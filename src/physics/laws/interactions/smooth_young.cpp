@@ -5,6 +5,7 @@
 #include "meniscus/error.hpp"
 #include "meniscus/physics/interaction_registry.hpp"
 #include "physics/contact/adhesion.hpp"
+#include "physics/contact/bent_line.hpp"
 
 #include <fmt/core.h>
 
@@ -21,13 +22,17 @@ namespace {
 ///   load).
 /// C is the larger of W and gamma + min(gamma, gamma_2) - W, the tension that is left of both
 /// surfaces; so the core also resists where adhesion is weak. If W varies, C is the largest W
-/// without complete wetting, 2 gamma. k = 100, or more for a short offset, so that a surface pulled
-/// into the well cannot pass through the wall.
+/// without complete wetting, 2 gamma. k = 100, or more between bodies of a short offset, so that a
+/// surface pulled into the well cannot pass through the other. A rigid partner lets the film rest
+/// at any offset: the gap then counts from a surface inside the partner, over which the film rests
+/// at half of the range or more.
 struct SmoothYoung final : Interaction {
   static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nrange = 0.3\n";
   std::optional<Expression> angle, work, actin;  // input values
   std::optional<Real> depth, film;
-  Real W = 0, ell = 0, g0 = 0;                     // adhesion, range, offset
+  Real tau = 0;                                    // line tension
+  Real W = 0, ell = 0, g0 = 0;                     // adhesion, range, gap of the film
+  Real below = 0;                                  // recess of the surface from which gaps count
   Real core = 0;                                   // C k
   Real W_below = 0;                                // W below the centre of the body, at the start
   std::shared_ptr<const AdhesionPattern> varying;  // if W varies; the member W is then 1
@@ -50,13 +55,22 @@ struct SmoothYoung final : Interaction {
         optional_row("range", &SmoothYoung::depth, dimension::length, range::positive,
                      "half the size of a facet",
                      "beyond the offset, over which the interaction acts"),
-        optional_row("offset", &SmoothYoung::film, dimension::length, range::positive,
-                     "quarter of the size of a facet", "gap at which the surface rests")};
+        optional_row("offset", &SmoothYoung::film, dimension::length, range::any, "by the angle",
+                     "gap at which the surface rests; > 0 between two bodies. The default lets a "
+                     "drop have its angle at the surface of a rigid partner: -1.3 to 0.3 ranges "
+                     "from 15 to 165 degrees, in 2D 0. Without surface tension and "
+                     "between two bodies it is a quarter of the size of a facet"),
+        real_row("line_tension", &SmoothYoung::tau, dimension::force, range::any,
+                 "energy per length of the contact line of a drop on a rigid partner in 3D; "
+                 "not beside offset",
+                 0.0)};
   }
   void check(const Block& block) const {
     if (angle.has_value() == work.has_value())
       block.problem("adhesion", angle ? "is given beside contact_angle; allowed is one of them"
                                       : "and contact_angle are missing; one of them is needed");
+    if (film && tau != 0)
+      block.problem("line_tension", "acts by the offset; allowed is one of them");
   }
 
   /// This law with numbers for the given surfaces. Throws InputError if an angle is given without
@@ -64,7 +78,6 @@ struct SmoothYoung final : Interaction {
   std::shared_ptr<const Interaction> fitted(const ContactSurfaces& surfaces) const {
     auto law = std::make_shared<SmoothYoung>(*this);
     law->ell = depth.value_or(surfaces.facet / 2);
-    law->g0 = film.value_or(surfaces.facet / 4);
     const AdhesionFormulas formulas{angle, work, actin};
     const AdhesionPattern pattern(formulas, angle ? surfaces.tension() : 0, law->ell);
     try {
@@ -76,11 +89,12 @@ struct SmoothYoung final : Interaction {
       throw InputError(fmt::format("{}: adhesion and actin are {:.4g} together{}; allowed is > 0",
                                    surfaces.place, law->W,
                                    formulas.constant() ? "" : " below the centre of the body"));
+    const Real gamma = surfaces.gamma.value_or(0);
+    law->place_film(surfaces, gamma);
     // At least_gap() the energy of the core is 1.6 C.
     const Real depth_of_core = 0.75 * law->g0 / law->ell;
     const Real k = std::max(100.0, 4.8 / (depth_of_core * depth_of_core * depth_of_core));
-    const Real gamma = surfaces.gamma.value_or(0),
-               left = gamma + std::min(gamma, surfaces.gamma_beyond.value_or(0)) - law->W;
+    const Real left = gamma + std::min(gamma, surfaces.gamma_beyond.value_or(0)) - law->W;
     law->core = k * std::max(law->W, formulas.constant() ? left : 2 * gamma);
     if (formulas.constant()) return law;
     law->varying = std::make_shared<AdhesionPattern>(pattern);
@@ -88,6 +102,29 @@ struct SmoothYoung final : Interaction {
     return law;
   }
 
+  /// Sets the gap of the film, and the recess. Throws InputError if the surfaces do not allow the
+  /// offset or the line tension.
+  void place_film(const ContactSurfaces& surfaces, Real gamma) {
+    if (tau != 0 && !(surfaces.rigid && surfaces.dimension == 3 && gamma > 0))
+      throw InputError(surfaces.place +
+                       ": line_tension is for drops with a surface tension on rigid partners in "
+                       "3D; allowed is to leave it out");
+    const Real usual = surfaces.facet / 4;
+    if (!surfaces.rigid) {
+      g0 = film.value_or(usual);
+      if (!(g0 > 0))
+        throw InputError(fmt::format("{}: offset is {:.4g} between two bodies; allowed is > 0",
+                                     surfaces.place, g0));
+      return;
+    }
+    g0 = ell / 2;
+    const auto by_angle = [&] {
+      return bent_line(*this, W, gamma, surfaces.volume, surfaces.dimension).depth;
+    };
+    const Real offset = film ? *film : gamma > 0 ? by_angle() : usual;
+    g0 = std::max(g0, offset);
+    below = g0 - offset;
+  }
   PlaneState at(Real gap) const override {
     const Real t = (gap - g0) / ell, s = 1 - t;
     if (t >= 1) return {0, 0, 0};
@@ -97,6 +134,8 @@ struct SmoothYoung final : Interaction {
   }
   Real range() const override { return g0 + ell; }
   Real least_gap() const override { return g0 / 4; }
+  Real recess() const override { return below; }
+  Real line_tension() const override { return tau; }
   bool hardens() const override { return false; }
   bool ends() const override { return true; }
   PlaneContact flat() const override {
@@ -108,7 +147,9 @@ struct SmoothYoung final : Interaction {
   const AdhesionPattern* pattern() const override { return varying.get(); }
   std::string described(const UnitSystem& units) const override {
     const std::string unit = units.symbol(dimension::length);
-    std::string text = fmt::format("range {:.4g} {}, offset {:.4g} {}", ell, unit, g0, unit);
+    std::string text = fmt::format(
+        "range {:.4g} {}{}, offset {:.4g} {}", ell, unit,
+        depth ? "" : " (half a facet: name `range` to keep it in finer bodies)", g0 - below, unit);
     if (varying) text += "; W varies and is that below the centre of the body at t = 0";
     return text;
   }
