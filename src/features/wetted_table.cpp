@@ -113,7 +113,7 @@ struct Wetted final : Load<D> {
         on.wetted.begin(), on.wetted.end(), [&](const auto& known) { return known.face == face; });
     auto hold = std::make_unique<WallHold<D>>(on, wetted, stiffness_of_hold(on, gamma));
     const WettingDrop<D> drop{
-        gamma, weight_of(assembly), assembly.of(body).other_body_forces,
+        gamma, assembly.weight(body), assembly.of(body).other_body_forces,
         assembly.measure_named(body + ".inner_pressure"),
         [&term = *hold](const Motion& motion) { return term.force_on_body(motion); }};
     assembly.add(std::move(hold), label());
@@ -148,16 +148,6 @@ struct Wetted final : Load<D> {
     const Real R = D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
                           : std::sqrt(volume / std::numbers::pi);
     return relative * gamma / (R * R);
-  }
-  std::function<Vec<D>(Real)> weight_of(const Assembly<D>& assembly) const {
-    const Body<D>& on = assembly.body(body);
-    const Real mass = std::accumulate(on.mass_integral.begin(), on.mass_integral.end(), 0.0);
-    return [accelerations = assembly.of(body).accelerations, mass](Real time) {
-      Vec<D> sum = Vec<D>::Zero();
-      for (const std::vector<Expression>& acceleration : accelerations)
-        for (int i = 0; i < D; ++i) sum[i] += mass * at(acceleration, i)({0, 0, 0}, time);
-      return sum;
-    };
   }
 };
 

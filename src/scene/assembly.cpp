@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 namespace meniscus {
@@ -155,6 +156,18 @@ Vec<D> Assembly<D>::acceleration(const std::string& name) const {
       force[i] += term->load_power({begin.time, begin.u, v, begin.fields});
   }
   return force / mass;
+}
+
+template <int D>
+std::function<Vec<D>(Real)> Assembly<D>::weight(const std::string& name) const {
+  const Body<D>& on = body(name);
+  const Real mass = std::accumulate(on.mass_integral.begin(), on.mass_integral.end(), 0.0);
+  return [accelerations = of(name).accelerations, mass](Real time) {
+    Vec<D> sum = Vec<D>::Zero();
+    for (const std::vector<Expression>& acceleration : accelerations)
+      for (int i = 0; i < D; ++i) sum[i] += mass * at(acceleration, i)({0, 0, 0}, time);
+    return sum;
+  };
 }
 
 template class Assembly<2>;

@@ -82,6 +82,8 @@ class Assembly {
   Real shear_modulus(const std::string& body) const;
   /// The acceleration of the whole body at the start, by the loads that were added so far.
   Vec<D> acceleration(const std::string& body) const;
+  /// The weight of a body at a time, by its body forces that are uniform.
+  std::function<Vec<D>(Real time)> weight(const std::string& body) const;
   /// Sentences for the log: decisions, and doubtful choices.
   void note(std::string sentence) { scene_.notes.push_back(std::move(sentence)); }
   void warn(std::string sentence) { scene_.warnings.push_back(std::move(sentence)); }

@@ -3,9 +3,11 @@
 #include "features/contact/contact_table.hpp"
 #include "measure/ridge_measures.hpp"
 #include "measure/wetting_measures.hpp"
+#include "measure/young_laplace.hpp"
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace meniscus::contact_table {
@@ -113,7 +115,8 @@ void Contact<D>::report_line(const LineAt& line, Assembly<D>& assembly) const {
              base = D == 3 ? pi * r * r : 2 * r;
   const std::string unit = assembly.units().symbol(dimension::length);
   assembly.note(fmt::format(
-      "contact '{}': at rest on a plane '{}' has a base of radius {:.4g} {}; angle, base and height "
+      "contact '{}': at rest on a plane '{}' has a base of radius {:.4g} {}; angle, base and "
+      "height "
       "are read at the wall, {:.4g} {} below the film, whose gap changes lengths by {:+.2g} %",
       name, bodies[0], r, unit, at_rest.depth, unit, 100.0 / D * at_rest.depth * base / volume));
   const Real wet = assembly.measure_named(name + ".wetted_area")(begin);
@@ -122,6 +125,31 @@ void Contact<D>::report_line(const LineAt& line, Assembly<D>& assembly) const {
         "contact '{}': '{}' begins on its wall: if it stays there and has a face there, a "
         "[[wetted]] face has a sharp contact line, is more accurate and faster",
         name, bodies[0]));
+}
+
+/// The contact angle of the profile of Young and Laplace with base, volume and weight of a drop. It
+/// is that of `sphere` where the weight is not normal to the wall, or if there is no such profile.
+template <int D>
+MeasureSource Contact<D>::angle_under_weight(const MeasureSource& sphere, const LineAt& line,
+                                             const Assembly<D>& assembly) const {
+  const auto angle = [of_sphere = sphere.compute, line,
+                      gamma = *assembly.of(bodies[0]).surface_energy,
+                      base_of = assembly.measure_named(name + ".base_radius"),
+                      volume_of = assembly.measure_named(bodies[0] + ".volume"),
+                      weight_at = assembly.weight(bodies[0]),
+                      up = partner->shape->foot(Vec<D>::Zero()).normal](const Motion& motion) {
+    constexpr Real degree = std::numbers::pi / 180;
+    const Real base = base_of(motion), area = D == 3 ? std::numbers::pi * base * base : 2 * base,
+               volume = volume_of(motion) + line(motion).depth * area;
+    const Vec<D> weight = weight_at(motion.time);
+    const Real down = -weight.dot(up);
+    if ((weight + down * up).norm() > 1e-9 * weight.norm()) return of_sphere(motion);
+    const Real theta = profile_on<D>(base, volume, down / (gamma * volume)).contact_angle;
+    return std::isnan(theta) ? of_sphere(motion) : theta / degree;
+  };
+  return {sphere.name, sphere.dimension,
+          "in degrees, of the profile of Young and Laplace with its base, volume and weight",
+          angle};
 }
 
 /// Adds the measures of a drop that wets a rigid partner.
@@ -142,6 +170,8 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
     advise_on_spreading(name, bodies[0], flat(assembly).adhesion,
                         assembly.measure_named(name + ".wetted_area"), assembly);
   if (!partner->shape->round()) return;
+  const bool weighs = partner->shape->flat() && !assembly.of(bodies[0]).accelerations.empty() &&
+                      !assembly.of(bodies[0]).other_body_forces;
   constexpr Real part_of_film = 0.2;  // the energy of smooth_young has changed by 1 %
   for (MeasureSource& source : cap_measures<D>(
            assembly.body(bodies[0]),
@@ -153,6 +183,9 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
            partner->shape->flat()))
     if (source.name == "film")
       assembly.measure(name, std::move(source));
+    else if (source.name == "contact_angle" && weighs)
+      assembly.measure_of_cap(bodies[0], name, angle_under_weight(source, line, assembly),
+                              this->place);
     else
       assembly.measure_of_cap(bodies[0], name, std::move(source), this->place);
 }

@@ -24,7 +24,8 @@ class GapLaw {
       : interaction_(std::move(interaction)),
         pattern_(interaction_->pattern()),
         range_(interaction_->range()),
-        rest_(interaction_->flat().equilibrium_gap) {
+        rest_(interaction_->flat().equilibrium_gap),
+        deepest_(interaction_->at(rest_).energy) {
     if (!up.empty()) up_ = Vec<D>::Map(up.data()).normalized();
   }
 
@@ -41,18 +42,20 @@ class GapLaw {
   Real adhesion(Real time) const {
     return pattern_ && !placed() ? (*pattern_)(Eigen::Vector3d::Zero(), time) : 1;
   }
+  /// Energy per area in full contact, of the factor 1 if the adhesion varies.
+  Real contact_energy() const { return deepest_; }
   /// True if the stiffness at that gap comes from the varying adhesion, not from the fixed core.
   bool varies_at(Real gap) const { return pattern_ && gap >= rest_; }
 
   struct Energy {
     Real value, slope;
-    Real unit;  ///< energy at unit adhesion, without the core
+    Real unit;  ///< energy without the core; if the adhesion varies at unit adhesion
   };
   /// Energy per area and its derivative: e Q with Q = 1 - t^3 (10 - 15 t + 6 t^2), where t grows
   /// from 0 to 1 over the last quarter of the range.
   Energy energy(Real gap, Real adhesion) const {
     PlaneState plane = interaction_->at(std::max(gap, interaction_->least_gap()));
-    const Real unit = gap < rest_ ? -1 : plane.energy;
+    const Real unit = gap < rest_ ? deepest_ : plane.energy;
     if (pattern_) plane = varied(plane, gap, adhesion);
     if (up_ && interaction_->ends()) return {plane.energy, -plane.pressure, unit};
     const Real t = std::max(0.0, 4 * gap / range_ - 3), s = 1 - t;
@@ -71,6 +74,7 @@ class GapLaw {
   std::shared_ptr<const Interaction> interaction_;
   const AdhesionPattern* pattern_;
   Real range_, rest_;  // range and equilibrium gap
+  Real deepest_;       // energy there
   std::optional<Vec<D>> up_;
 };
 

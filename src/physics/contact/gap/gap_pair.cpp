@@ -92,11 +92,12 @@ class GapPair final : public ForceTerm, public ContactVisits {
          [this](const Motion& motion) { return gap(motion); }},
         {"gap_per_spacing", dimension::none, "the same / distance of neighbouring points",
          [this](const Motion& motion) { return gap(motion) / spacing(); }}};
-    if (law_.pattern() && wets_)
-      all.push_back(
-          {"wetted_area", D == 3 ? dimension::area : dimension::length,
-           "area in full contact that has the energy of the interaction (2D: length)",
-           [this](const Motion& motion) { return -sum_of(motion, &GapForces<D>::unit_energy); }});
+    if (wets_)
+      all.push_back({"wetted_area", D == 3 ? dimension::area : dimension::length,
+                     "area in full contact that has the energy of the adhesion (2D: length)",
+                     [this](const Motion& motion) {
+                       return sum_of(motion, &GapForces<D>::unit_energy) / law_.contact_energy();
+                     }});
     for (int i = 0; i < D; ++i)
       all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the first body",
                      [this, i](const Motion& motion) {

@@ -14,8 +14,7 @@ OfCluster<D> results_of(const GapForces<D>& forces, Index c) {
   }
   for (Index lane = 0; lane < Lanes::width; ++lane) {
     const Index q = c * Lanes::width + lane;
-    at(results.point, lane) = {at(forces.foot, q), at(forces.stored, q),
-                               forces.unit.empty() ? 0 : at(forces.unit, q)};
+    at(results.point, lane) = {at(forces.foot, q), at(forces.stored, q), at(forces.unit, q)};
   }
   return results;
 }
@@ -30,7 +29,7 @@ void put(const OfCluster<D>& results, Index c, GapForces<D>& forces) {
     const Index q = c * Lanes::width + lane;
     at(forces.foot, q) = at(results.point, lane).foot;
     at(forces.stored, q) = at(results.point, lane).stored;
-    if (!forces.unit.empty()) at(forces.unit, q) = at(results.point, lane).unit;
+    at(forces.unit, q) = at(results.point, lane).unit;
   }
 }
 
@@ -44,7 +43,7 @@ GapForces<D>::GapForces(const GapSide<D>& side, const AdhesionPattern* pattern)
       S(T) {
   foot.resize(static_cast<std::size_t>(places.size));
   stored.resize(foot.size());
-  if (pattern) unit.resize(foot.size());
+  unit.resize(foot.size());
   if (pattern && pattern->depends_on_place()) W.resize(foot.size());
   pull.resize(others.corner.size());
   near.reserve(static_cast<std::size_t>(side.points.clusters()));
@@ -153,7 +152,7 @@ Gathered take_forces(const GapSide<D>& side, const ContactList<D>& list, const G
           }
           at(forces.foot, q) = foot;
           at(forces.stored, q) = area * e.value;
-          if (pattern) at(forces.unit, q) = area * e.unit;
+          at(forces.unit, q) = area * e.unit;
         }
       },
       4);

@@ -53,7 +53,7 @@ struct GapForces {
   AlignedVector<Lanes> T, S;                          ///< [cluster][i]: dE/dx, dE/dV
   std::vector<typename ContactFacets<D>::Foot> foot;  ///< [point] nearest point
   std::vector<Real> stored;                           ///< [point] energy
-  std::vector<Real> unit;          ///< [point] energy at unit adhesion without core; if W varies
+  std::vector<Real> unit;          ///< [point] energy without core; if W varies at W = 1
   std::vector<Real> W;             ///< [point] adhesion, if it depends on position
   std::vector<Vec<D>> pull;        ///< [corner] force
   std::vector<Index> near;         ///< clusters within the range; the list has more

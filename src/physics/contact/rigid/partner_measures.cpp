@@ -31,9 +31,7 @@ template <int D>
 Real wetted_area(const BodyAndPartner<D>& pair, const WallEffects<D>& effects,
                  const Motion& motion) {
   const PartnerLayers<D> uniform = layers_without_effects(pair, motion);
-  const Real energy =
-      effects.pattern() ? unit_energy(pair, effects, motion, uniform) : energy_of(pair, uniform);
-  return std::max(0.0, -energy / effects.adhesion());
+  return std::max(0.0, -unit_energy(pair, effects, motion, uniform) / effects.adhesion());
 }
 
 }  // namespace
@@ -150,7 +148,7 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
                      })});
     all.push_back(
         {"wetted_area", D == 3 ? dimension::area : dimension::length,
-         "area in full contact that has the energy of the interaction (2D: length)",
+         "area in full contact that has the energy of the adhesion (2D: length)",
          [&pair, &effects](const Motion& motion) { return wetted_area(pair, effects, motion); }});
   }
   if (effects.rubs())

@@ -49,10 +49,11 @@ class WallEffects {
   /// Energy per area in full contact for the factor W = 1.
   Real adhesion() const { return pattern_ ? 1 : flat_.adhesion; }
 
-  /// Energy, at unit adhesion, of a point at x with the area vector V and the field S. The core is
-  /// left out, because its strength is not proportional to W.
+  /// Energy of a point at x with the area vector V and the field S, if the adhesion varies at unit
+  /// adhesion. The core is left out: it belongs to the load, not to the area.
   Real unit_energy(const Vec<D>& x, Real distance, const Vec<D>& V, const Vec<D>& S) const {
-    return distance < flat_.equilibrium_gap ? surface_->foot(x).normal.dot(V) : S.dot(V);
+    return distance < flat_.equilibrium_gap ? adhesion() * surface_->foot(x).normal.dot(V)
+                                            : S.dot(V);
   }
 
   /// Adds the effects at `time` to the forces of four points.
