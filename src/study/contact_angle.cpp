@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Drops at rest on walls with a wetting interaction of finite range (wetting note 12): on planes,
-// on balls and in a cavity, with the range and the offset that the program chooses. Their contact
-// angle is that of Young, at any range and curvature.
+// on balls and in a cavity, with the range and the offset that the program chooses. They have
+// Young's contact angle at any range and curvature.
 #include "study/study.hpp"
 #include "study/support/scene_run.hpp"
 

@@ -102,7 +102,7 @@ TEST(BentLine, HasTheDepthOfAStraightLineInLargeDrops) {
   }
 }
 
-/// At the wall the angle is that of the modified Young law, cos theta - tau/(gamma r).
+/// At the wall the drop has the angle of the modified Young law, cos theta - tau/(gamma r).
 TEST(BentLine, ALineTensionShiftsTheWall) {
   const auto law = on_wall("range = 0.05\nline_tension = 0.1", 90, 1.26);
   const Real volume = std::pow(1.26 / base_of_cap(90 * degree, 3), 3);

@@ -127,8 +127,8 @@ void Contact<D>::report_line(const LineAt& line, Assembly<D>& assembly) const {
         name, bodies[0]));
 }
 
-/// The contact angle of the profile of Young and Laplace with base, volume and weight of a drop. It
-/// is that of `sphere` where the weight is not normal to the wall, or if there is no such profile.
+/// The contact angle of the profile of Young and Laplace with base, volume and weight of a drop.
+/// Where the weight is not normal to the wall, or without such a profile, it is the `sphere` angle.
 template <int D>
 MeasureSource Contact<D>::angle_under_weight(const MeasureSource& sphere, const LineAt& line,
                                              const Assembly<D>& assembly) const {
