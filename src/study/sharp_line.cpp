@@ -95,8 +95,9 @@ Case on_plane(Real angle, Real bond, int level) {
                               exact.free_area - std::cos(theta) * wetted_area +
                                   weight_of_all * exact.centroid)}};
           },
-          angle > 140   ? 2e-3
+          angle > 140   ? 2.5e-3
           : angle > 110 ? 4e-4
+          : bond > 2    ? 5e-4
                         : 3e-4};
 }
 
@@ -131,7 +132,7 @@ Case on_ball(Real angle, Real B, Real start, int level) {
             return {{"base", relative(v.at("wall.base_radius"), exact.base)},
                     {"energy", relative(v.at("surface_energy"), exact.energy)}};
           },
-          5e-4};
+          angle > 110 ? 1.5e-3 : 5e-4};
 }
 
 /// Between plates at the distance 1, from a cylinder. The force on a plate and the pressure are
