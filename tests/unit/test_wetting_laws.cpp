@@ -277,7 +277,7 @@ TEST(WettingLaws, WorkOfAdhesionThatJumpsIsBooked) {
 TEST(WettingLaws, TheCoreIsOneWhereHardlyAnythingAdheres) {
   const auto push = [](const std::string& adhesion) {
     Scene<3> scene = on_wall<3>("adhesion = " + adhesion + "\n" + young);
-    NodalVectors u(static_cast<std::size_t>(scene.system.size()), Lanes(0.0, 0.0, -0.11, 0.0));
+    NodalVectors u(static_cast<std::size_t>(scene.system.size()), Lanes(0.0, 0.0, -0.08, 0.0));
     const NodalVectors v = test::zeros(u);
     NodalVectors force = v;
     contact_of(scene).add_force({0, u, v}, force);

@@ -22,10 +22,10 @@ namespace {
 ///   load).
 /// C is the larger of W and gamma + min(gamma, gamma_2) - W, the tension that is left of both
 /// surfaces; so the core also resists where adhesion is weak. If W varies, C is the largest W
-/// without complete wetting, 2 gamma. k = 100, or more between bodies of a short offset, so that a
-/// surface pulled into the well cannot pass through the other. A rigid partner lets the film rest
-/// at any offset: the gap then counts from a surface inside the partner, over which the film rests
-/// at half of the range or more.
+/// without complete wetting, 2 gamma. k = 100, or more for a short offset, so that a surface pulled
+/// into the well cannot pass through the wall. On a rigid partner an offset by default, or not
+/// above 0, lets the film rest anywhere: the gap then counts from a surface inside the partner,
+/// over which the film rests at half of the range or more.
 struct SmoothYoung final : Interaction {
   static constexpr std::string_view example = "adhesion = 0.2\noffset = 0.2\nrange = 0.3\n";
   std::optional<Expression> angle, work, actin;  // input values
@@ -117,12 +117,12 @@ struct SmoothYoung final : Interaction {
                                      surfaces.place, g0));
       return;
     }
+    const bool by_angle = !film && gamma > 0;
     g0 = ell / 2;
-    const auto by_angle = [&] {
-      return bent_line(*this, W, gamma, surfaces.volume, surfaces.dimension).depth;
-    };
-    const Real offset = film ? *film : gamma > 0 ? by_angle() : usual;
-    g0 = std::max(g0, offset);
+    const Real offset = by_angle
+                            ? bent_line(*this, W, gamma, surfaces.volume, surfaces.dimension).depth
+                            : film.value_or(usual);
+    g0 = by_angle || offset <= 0 ? std::max(g0, offset) : offset;
     below = g0 - offset;
   }
   PlaneState at(Real gap) const override {
