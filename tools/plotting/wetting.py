@@ -35,6 +35,9 @@ class Wall:
         given = contact.get("contact_angle")
         changed = contact.get("actin", 0) != 0 or not isinstance(given, (int, float))
         self.angle = None if changed else np.radians(given)
+        # By default the surface of the wall is where the drop has its angle.
+        by_range = contact.get("interaction", "smooth_young") == "smooth_young"
+        self.has_angle = by_range and "offset" not in contact
 
     def heights(self, x):
         return (x - self.point) @ self.normal
@@ -80,7 +83,8 @@ class Profile:
         square = self.r[free] ** 2 + self.z[free] ** 2
         self.centre, rest = np.linalg.lstsq(rows, square, rcond=None)[0]
         self.radius = np.sqrt(rest + self.centre**2)
-        above = self.centre - self.film
+        self.level = 0 if wall.has_angle else self.film
+        above = self.centre - self.level
         self.base = np.sqrt(self.radius**2 - above**2) if abs(above) < self.radius else None
 
 
@@ -95,13 +99,13 @@ def profiles(run, wall, frames):
         axis.plot(p.r * factor, p.z * factor, ".", ms=3, color=color, label=label)
         polar = np.linspace(-np.pi / 2, np.pi / 2, 300)
         r, z = p.radius * np.cos(polar), p.centre + p.radius * np.sin(polar)
-        seen = z > p.film
+        seen = z > max(p.film, p.level)
         for side in (1, -1) if p.r.min() < 0 else (1,):
             axis.plot(side * r[seen] * factor, z[seen] * factor, lw=0.8, color=color)
     last = found[-1]
     if wall.angle is not None and last.base:
         size = 0.6 * last.radius
-        corner = np.array([last.base, last.film])
+        corner = np.array([last.base, last.level])
         ray = corner + size * np.array([-np.cos(wall.angle), np.sin(wall.angle)])
         wedge = np.array([corner - [size, 0], corner, ray]) * factor
         name = f"{np.degrees(wall.angle):.3g}° at the base of the circle"
@@ -131,7 +135,8 @@ def patches(run, wall, frames):
         seen.append((place[below][order], gap[below][order]))
     factor, unit = style.scale(run.length_unit, seen[-1][0])
     film = min(gap.min() for _, gap in seen)
-    shade = plt.Normalize(0, 4 * film * factor)
+    most = max(gap.max() for _, gap in seen)
+    shade = plt.Normalize(film * factor, (film + 0.3 * (most - film)) * factor)
     time_factor, time_unit = style.scale(run.time_unit, run.times)
     figure, axes = plt.subplots(
         1, len(frames), figsize=(1.75 * len(frames) + 1.1, 2.2), sharex=True, sharey=True,
