@@ -110,14 +110,21 @@ void Contact<D>::report_line(const LineAt& line, Assembly<D>& assembly) const {
   if (!assembly.initial()) return;
   const Motion begin = assembly.initial()->motion();
   const BentLine at_rest = line(begin);
-  if (!(at_rest.radius > 0)) return;
+  if (!(at_rest.radius > 0)) {
+    if (law(assembly).ends() && form != "dissertation")
+      assembly.warn(fmt::format(
+          "contact '{}': its range bends all of the surface of '{}', whose angle and base are read "
+          "at the film; expected is a range of less than a tenth of the drop",
+          name, bodies[0]));
+    return;
+  }
   const Real pi = std::numbers::pi, r = at_rest.radius, volume = surfaces(assembly).volume,
              base = D == 3 ? pi * r * r : 2 * r;
   const std::string unit = assembly.units().symbol(dimension::length);
   assembly.note(fmt::format(
-      "contact '{}': at rest on a plane '{}' has a base of radius {:.4g} {}; angle, base and "
-      "height "
-      "are read at the wall, {:.4g} {} below the film, whose gap changes lengths by {:+.2g} %",
+      "contact '{}': at rest on a plane the base of '{}' has the radius {:.4g} {}; angle, base and "
+      "height are read at the wall, {:.4g} {} below the film, whose gap changes lengths by {:+.2g} "
+      "%",
       name, bodies[0], r, unit, at_rest.depth, unit, 100.0 / D * at_rest.depth * base / volume));
   const Real wet = assembly.measure_named(name + ".wetted_area")(begin);
   if (wet > 0.3 * base && !law(assembly).pattern() && partner->shape->round())

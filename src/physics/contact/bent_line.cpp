@@ -16,7 +16,7 @@ constexpr Real pi = std::numbers::pi;
 
 /// The interaction as a function of the height h above the film, scaled to the adhesion W = w
 /// gamma.
-struct Pull {
+struct PullAtHeight {
   const Interaction& interaction;
   Real w;
   Real rest = interaction.flat().equilibrium_gap;
@@ -32,18 +32,18 @@ struct Pull {
 
 /// A point of the meridian: distance r from the axis, height h above the film, slope phi (0 along
 /// the film), and the area of full contact between the axis and this point.
-struct Meridian {
+struct MeridianPoint {
   Real r, h, phi, area;
 
-  Meridian moved(Real ds, const Meridian& rate) const {
+  MeridianPoint moved(Real ds, const MeridianPoint& rate) const {
     return {r + ds * rate.r, h + ds * rate.h, phi + ds * rate.phi, area + ds * rate.area};
   }
 };
 
 /// A cap whose sphere meets the wall, at the depth `depth` below the film, at the angle theta.
-class Cap {
+class BentCap {
  public:
-  Cap(const Pull& pull, Real theta, Real radius, int dimension)
+  BentCap(const PullAtHeight& pull, Real theta, Real radius, int dimension)
       : pull_(pull), theta_(theta), radius_(radius), dimension_(dimension) {
     const PlaneContact flat = pull.interaction.flat();
     unit_ = flat.peak_gap - flat.equilibrium_gap;
@@ -53,26 +53,27 @@ class Cap {
   Real range() const { return begin_; }
   /// The point at which the meridian is parallel to the film. Its height is range() if the sphere
   /// lies above the range, and - range() if it lies within or if the meridian falls below the film.
-  Meridian end(Real depth) const {
+  MeridianPoint end(Real depth) const {
     constexpr int most_steps = 20000;
     const Real centre = -sphere() * std::cos(theta_) - depth, above = (begin_ - centre) / sphere();
     if (!(std::abs(above) < 1)) return {0, above > 0 ? -begin_ : begin_, 0, 0};
-    Meridian now{sphere() * std::sqrt(1 - above * above), begin_, std::acos(-above), 0};
+    MeridianPoint now{sphere() * std::sqrt(1 - above * above), begin_, std::acos(-above), 0};
     for (int step = 0; step < most_steps && now.r > 0 && now.h > -begin_; ++step) {
       const Real ds = -(unit_ + std::max(0.0, now.h)) / 64;
-      const Meridian a = rate(now), b = rate(now.moved(ds / 2, a)), c = rate(now.moved(ds / 2, b)),
-                     d = rate(now.moved(ds, c));
-      const Meridian mean{(a.r + 2 * b.r + 2 * c.r + d.r) / 6, (a.h + 2 * b.h + 2 * c.h + d.h) / 6,
-                          (a.phi + 2 * b.phi + 2 * c.phi + d.phi) / 6,
-                          (a.area + 2 * b.area + 2 * c.area + d.area) / 6};
-      const Meridian next = now.moved(ds, mean);
+      const MeridianPoint a = rate(now), b = rate(now.moved(ds / 2, a)),
+                          c = rate(now.moved(ds / 2, b)), d = rate(now.moved(ds, c));
+      const MeridianPoint mean{(a.r + 2 * b.r + 2 * c.r + d.r) / 6,
+                               (a.h + 2 * b.h + 2 * c.h + d.h) / 6,
+                               (a.phi + 2 * b.phi + 2 * c.phi + d.phi) / 6,
+                               (a.area + 2 * b.area + 2 * c.area + d.area) / 6};
+      const MeridianPoint next = now.moved(ds, mean);
       if (next.phi <= 0) return now.moved(ds * now.phi / (now.phi - next.phi), mean);
       now = next;
     }
     return {0, -begin_, 0, 0};
   }
   /// Radius of a disk (2D: half of the length) of the area in full contact.
-  Real disk(const Meridian& film) const {
+  Real disk(const MeridianPoint& film) const {
     if (dimension_ == 2) return film.r - film.area;
     return std::sqrt(std::max(0.0, film.r * film.r - film.area / pi));
   }
@@ -80,14 +81,14 @@ class Cap {
  private:
   Real sphere() const { return radius_ / std::sin(theta_); }
   /// Derivatives along the meridian, by the balance of curvature, pressure and interaction.
-  Meridian rate(const Meridian& at) const {
+  MeridianPoint rate(const MeridianPoint& at) const {
     const auto [part, slope] = pull_.at(at.h);
     const Real round = dimension_ == 3 ? 1 : 0, c = std::cos(at.phi), s = std::sin(at.phi);
     return {c, s, (1 + round) / sphere() - round * s / at.r - pull_.w * slope,
             part * c * (dimension_ == 3 ? 2 * pi * at.r : 1)};
   }
 
-  Pull pull_;
+  PullAtHeight pull_;
   Real theta_, radius_;
   int dimension_;
   Real unit_, begin_;
@@ -95,7 +96,7 @@ class Cap {
 
 /// The depth at which the meridian ends on the film, by bisection: the deeper the wall, the lower
 /// the end. `shift` is the largest effect of a line tension. Empty if there is none.
-std::optional<Real> depth_of(const Cap& cap, Real shift) {
+std::optional<Real> depth_of(const BentCap& cap, Real shift) {
   constexpr int halvings = 50;
   Real low = -3 * cap.range() - shift, high = 1.5 * cap.range() + shift;
   if (!(cap.end(low).h > 0 && cap.end(high).h < 0)) return std::nullopt;
@@ -128,7 +129,7 @@ BentLine bent_line(const Interaction& interaction, Real adhesion, Real gamma, Re
     theta = std::acos(w - 1 - (tau == 0 ? 0 : tau / radius));
     if (!(theta > 0 && theta < pi)) return {};
   }
-  const Cap cap({interaction, w}, theta, radius, dimension);
+  const BentCap cap({interaction, w}, theta, radius, dimension);
   const std::optional<Real> depth = depth_of(cap, 2 * std::abs(tau) / std::sin(theta));
   if (!depth) return {};
   return {*depth, radius - cap.disk(cap.end(*depth)), radius};
