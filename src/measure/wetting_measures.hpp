@@ -13,9 +13,10 @@ namespace meniscus {
 /// The contact line at a motion.
 using LineAt = std::function<BentLine(const Motion&)>;
 
-/// Measures of a wetted area energy / adhesion (2D: length): base_radius, of the sharp line around
-/// it (2D: half the length), and line_speed, its rate. The radius is that of a disk of this area
-/// and the distance of the line from it. The rate is a central difference over 1e-4 of the radius.
+/// Measures of the contact line around a wetted area energy / adhesion (2D: length):
+///
+/// - base_radius: radius of a disk of this area (2D: half the length), plus BentLine::beyond.
+/// - line_speed: its rate, by a central difference over 1e-4 of the radius.
 template <int D>
 std::vector<MeasureSource> front_measures(std::function<Real(const Motion&)> wetted_area,
                                           LineAt line);

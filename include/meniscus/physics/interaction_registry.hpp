@@ -58,8 +58,8 @@ class ContactModel {
   virtual std::unique_ptr<ForceTerm> with_partner(const Body<D>& body, const PartnerPlan<D>& plan,
                                                   const ContactChoice& choice,
                                                   const ContactSurfaces& surfaces) const = 0;
-  /// The interaction of these surfaces if they are flat. Throws InputError if they lack what it
-  /// needs.
+  /// The interaction of these surfaces if they are flat. Throws InputError if they lack a surface
+  /// tension that it needs, or if a number of it is not allowed for them.
   virtual std::shared_ptr<const Interaction> law(const ContactSurfaces& surfaces) const = 0;
 };
 

@@ -127,7 +127,7 @@ std::vector<MeasureSource> measures_of(const BodyAndPartner<D>& pair, const Wall
       {"gap", dimension::length, "least distance of the points of the body from the partner",
        [&pair](const Motion& motion) { return gap_at(pair, motion) - pair.interaction->recess(); }},
       {"gap_per_spacing", dimension::none,
-       "distance from where the gap of the law begins / distance of neighbouring points",
+       "the gap as the law counts it / distance of neighbouring points",
        [&pair](const Motion& motion) { return gap_at(pair, motion) / pair.finest().spacing(); }}};
   for (int i = 0; i < D; ++i)
     all.push_back({std::string("force_") + "xyz"[i], dimension::force, "force on the body",
