@@ -121,6 +121,11 @@ struct Wetted final : Load<D> {
       assembly.add(meniscus::line_friction(on, wetted, line_friction), label());
     for (MeasureSource& source : wetted_measures(on, wetted, drop))
       assembly.measure(label(), std::move(source));
+    assembly.walls_of(body)->push_back([wetted](const Vec<D>& x, Real t) {
+      std::array<Real, D> y;
+      for (int i = 0; i < D; ++i) meniscus::at(y, i) = x[i];
+      return std::abs(wetted.wall_at(t).template foot<Real>(y).distance);
+    });
     assembly.keep_reference(body, "a wetted face stays on its wall only by its first reference");
   }
 

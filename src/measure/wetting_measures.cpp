@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wetted area of a drop on a wall, and its fit by a spherical cap.
+// Wetted area of a drop on a wall, and its contact angle by a spherical cap and by a profile.
 #include "measure/wetting_measures.hpp"
 
+#include "measure/profile_fit.hpp"
 #include "numbers/dense.hpp"
 #include "physics/surface/closed_surface.hpp"
 
@@ -10,10 +11,13 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace meniscus {
 namespace {
+
+constexpr Real degree = std::numbers::pi / 180;
 
 /// The rate of a length, by a central difference along the motion over a distance of 1e-4 of the
 /// length.
@@ -30,49 +34,19 @@ Real rate_of(const std::function<Real(const Motion&)>& length, const Motion& mot
   return (moved(dt) - moved(-dt)) / (2 * dt);
 }
 
+/// The surface of a drop near a wall.
 template <int D>
-class Cap {
+class NearWall {
  public:
-  Cap(const Body<D>& body, HeightAbove<D> height_of, Real film_gap, LineAt line)
-      : body_(body),
-        height_of_(std::move(height_of)),
-        film_gap_(film_gap),
-        line_(std::move(line)) {}
+  NearWall(const Body<D>& body, const DropOnWall<D>& wall, int per_direction)
+      : body_(body), wall_(wall), per_direction_(per_direction) {}
 
-  Real film(const Motion& motion) { return points(motion).film; }
-  Real angle(const Motion& motion) {
-    const auto [z, r, bend] = sphere(motion);
-    const Real cosine = (bend * (r * r + z * z) - 2 * z) / (2 * r * (1 - bend * z));
-    return std::acos(std::clamp(cosine, -1.0, 1.0));
-  }
-  Real height(const Motion& motion) {
-    const Sphere s = sphere(motion);
-    return s.centre + s.radius;
-  }
-  Real angle_of_volume(const Motion& motion) {
-    const Real slab = line_(motion).depth * points(motion).wet;
-    return angle_of_cap<D>(surface().placed(motion).size.volume + slab, height(motion));
-  }
-
- private:
   struct Points {
     std::vector<Vec<D>> x;
     std::vector<Real> area, height;
     Real film, top;
     Real wet;  ///< area of the film
   };
-  /// A sphere with the height of its centre above the surface of contact. `bend` is the curvature
-  /// of the surface parallel to the wall through this centre.
-  struct Sphere {
-    Real centre, radius, bend;
-  };
-
-  const ClosedSurface<D>& surface() {
-    constexpr int per_direction = 6;
-    if (!surface_) surface_.emplace(body_, SurfacePart::outer, per_direction);
-    return *surface_;
-  }
-
   Points points(const Motion& motion) {
     const auto placed = surface().placed(motion);
     const std::vector<Real>& reference = surface().reference().area;
@@ -84,23 +58,71 @@ class Cap {
       const auto point = static_cast<Index>(q);
       points.x.push_back(placed.place(point));
       points.area.push_back(placed.area_vector(point).norm() * reference[q]);
-      points.height.push_back(height_of_(points.x.back(), motion.time).height);
+      points.height.push_back(wall_.foot(points.x.back(), motion.time).distance);
       const Real height = points.height.back();
       least = std::min(least, height);
       points.top = std::max(points.top, height);
-      if (height > film_gap_) continue;
+      if (height > wall_.film_gap) continue;
       points.wet += points.area.back();
       sum += points.area.back() * height;
     }
     points.film = points.wet > 0 ? sum / points.wet : least;
     return points;
   }
+  const ClosedSurface<D>& surface() {
+    if (!surface_) surface_.emplace(body_, SurfacePart::outer, per_direction_);
+    return *surface_;
+  }
+  const Body<D>& body() const { return body_; }
+  const DropOnWall<D>& wall() const { return wall_; }
+
+ private:
+  const Body<D>& body_;
+  DropOnWall<D> wall_;
+  int per_direction_;
+  std::optional<ClosedSurface<D>> surface_;
+};
+
+/// The curvature at a foot of the surface at its distance: 0 above a plane, 1/r at the distance r
+/// from the centre of a ball, -1/r in a cavity.
+template <int D>
+Real curvature_of(const typename PartnerShape<D>::Foot& foot) {
+  return foot.bend.trace() / (D - 1);
+}
+
+/// The sphere (2D: circle) of a drop on a wall.
+template <int D>
+class Cap {
+ public:
+  Cap(const Body<D>& body, const DropOnWall<D>& wall) : near_(body, wall, 6) {}
+
+  Real film(const Motion& motion) { return near_.points(motion).film; }
+  Real angle(const Motion& motion) {
+    const auto [z, r, bend] = sphere(motion);
+    const Real cosine = (bend * (r * r + z * z) - 2 * z) / (2 * r * (1 - bend * z));
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
+  }
+  Real height(const Motion& motion) {
+    const Sphere s = sphere(motion);
+    return s.centre + s.radius;
+  }
+  Real angle_of_volume(const Motion& motion) {
+    const Real slab = near_.wall().line(motion).depth * near_.points(motion).wet;
+    return angle_of_cap<D>(near_.surface().placed(motion).size.volume + slab, height(motion));
+  }
+
+ private:
+  /// A sphere with the height of its centre above the surface of contact. `bend` is the curvature
+  /// of the surface parallel to the wall through this centre.
+  struct Sphere {
+    Real centre, radius, bend;
+  };
 
   /// Least-squares sphere from |x|^2 - 2 c.x - k, weighted by area, over the surface above 0.35 of
   /// the height. Positions count from their mean.
   Sphere sphere(const Motion& motion) {
     constexpr Real free_above = 0.35;
-    const Points p = points(motion);
+    const auto p = near_.points(motion);
     const Real least = p.film + free_above * (p.top - p.film);
     Vec<D> mean = Vec<D>::Zero();
     Real area = 0;
@@ -121,16 +143,61 @@ class Cap {
       }
     const Vec<D + 1> solution = solve_symmetric(normal, right);
     const Vec<D> c = solution.template head<D>();
-    const auto [height, bend] = height_of_(mean + c, motion.time);
-    return {height - p.film + line_(motion).depth, std::sqrt(solution[D] + c.squaredNorm()), bend};
+    const auto foot = near_.wall().foot(mean + c, motion.time);
+    return {foot.distance - p.film + near_.wall().line(motion).depth,
+            std::sqrt(solution[D] + c.squaredNorm()), curvature_of<D>(foot)};
   }
 
-  const Body<D>& body_;
-  HeightAbove<D> height_of_;
-  Real film_gap_;
-  LineAt line_;
-  std::optional<ClosedSurface<D>> surface_;
+  NearWall<D> near_;
 };
+
+/// The mean velocity of a body.
+template <int D>
+Vec<D> velocity_of_drop(const Body<D>& body, const Motion& motion) {
+  const auto v = body.part(motion.v);
+  Vec<D> momentum = Vec<D>::Zero();
+  Real mass = 0;
+  for (Index A = 0; A < body.size(); ++A) {
+    momentum += at(body.mass, A) * vector_at<D>(v, A);
+    mass += at(body.mass, A);
+  }
+  return momentum / mass;
+}
+
+/// The profile of a drop near a wall.
+template <int D>
+LineAngles angles_at(NearWall<D>& near, const Motion& motion) {
+  constexpr Real pi = std::numbers::pi;
+  const DropOnWall<D>& wall = near.wall();
+  const auto p = near.points(motion);
+  // The patches carry the bend near a wall on to where it has ended.
+  constexpr Real bent = 0.3;
+  const Real clear = std::max(wall.clear_gap, p.film + bent * (p.top - p.film));
+  std::vector<Vec<D>> x;
+  std::vector<Real> area;
+  Vec<D> mean = Vec<D>::Zero();
+  for (std::size_t q = 0; q < p.x.size(); ++q)
+    if (std::all_of(wall.walls->begin(), wall.walls->end(),
+                    [&](const auto& distance) { return distance(p.x[q], motion.time) > clear; })) {
+      x.push_back(p.x[q]);
+      area.push_back(p.area[q]);
+      mean += p.area[q] * p.x[q];
+    }
+  constexpr std::size_t fewest = D == 3 ? 30 : 12;
+  if (!(p.wet > 0) || x.size() < fewest) return {pi, pi, pi, 0};
+  mean /= std::accumulate(area.begin(), area.end(), 0.0);
+  const auto foot = wall.foot(mean, motion.time);
+  const Real above = foot.distance - p.film + wall.line(motion).depth, bend = curvature_of<D>(foot);
+  const Vec<D> n = foot.normal, bond = wall.bond(motion.time);
+  Vec<D> along = velocity_of_drop(near.body(), motion) - wall.velocity(motion.time);
+  along -= along.dot(n) * n;
+  if (along.norm() > 0)
+    along.normalize();
+  else
+    along = tangents_to<D>(n).col(0);
+  return fit_profile<D>(x, area, {mean - above * n, n, bend / (1 - bend * above)}, -bond.dot(n),
+                        along);
+}
 
 }  // namespace
 
@@ -167,10 +234,8 @@ Real angle_of_cap(Real volume, Real height) {
 }
 
 template <int D>
-std::vector<MeasureSource> cap_measures(const Body<D>& body, HeightAbove<D> height_of,
-                                        Real film_gap, LineAt line, bool flat) {
-  const auto cap = std::make_shared<Cap<D>>(body, std::move(height_of), film_gap, std::move(line));
-  constexpr Real degree = std::numbers::pi / 180;
+std::vector<MeasureSource> cap_measures(const Body<D>& body, const DropOnWall<D>& wall) {
+  const auto cap = std::make_shared<Cap<D>>(body, wall);
   std::vector<MeasureSource> all{
       {"film", dimension::length,
        "mean gap where the surface is in contact; least gap where it is not",
@@ -180,19 +245,38 @@ std::vector<MeasureSource> cap_measures(const Body<D>& body, HeightAbove<D> heig
        [cap](const Motion& motion) { return cap->angle(motion) / degree; }},
       {"height", dimension::length, "of the apex of that sphere over the wall",
        [cap](const Motion& motion) { return cap->height(motion); }}};
-  if (flat)
+  if (wall.flat)
     all.push_back({"contact_angle_vh", dimension::degrees,
                    "in degrees, of the cap of this height and volume, with the gap below it",
                    [cap](const Motion& motion) { return cap->angle_of_volume(motion) / degree; }});
   return all;
 }
 
-#define MENISCUS_INSTANTIATE(D)                                                                  \
-  template std::vector<MeasureSource> front_measures<D>(std::function<Real(const Motion&)>,      \
-                                                        LineAt);                                 \
-  template Real angle_of_cap<D>(Real, Real);                                                     \
-  template std::vector<MeasureSource> cap_measures(const Body<D>&, HeightAbove<D>, Real, LineAt, \
-                                                   bool);
+template <int D>
+std::vector<MeasureSource> profile_measures(const Body<D>& body, const DropOnWall<D>& wall) {
+  const auto near = std::make_shared<NearWall<D>>(body, wall, D == 3 ? 3 : 6);
+  const auto angle = [near](Real LineAngles::*of) {
+    return [near, of](const Motion& motion) { return angles_at(*near, motion).*of / degree; };
+  };
+  return {{"contact_angle", dimension::degrees,
+           "in degrees, of the profile that fits the free surface near the wall best",
+           angle(&LineAngles::mean)},
+          {"front_angle", dimension::degrees,
+           "contact angle in the direction in which the drop moves along the wall",
+           angle(&LineAngles::front)},
+          {"rear_angle", dimension::degrees, "contact angle in the opposite direction",
+           angle(&LineAngles::rear)},
+          {"angle_error", dimension::degrees,
+           "of the profile near the wall: its distance from the surface over its height",
+           angle(&LineAngles::error)}};
+}
+
+#define MENISCUS_INSTANTIATE(D)                                                             \
+  template std::vector<MeasureSource> front_measures<D>(std::function<Real(const Motion&)>, \
+                                                        LineAt);                            \
+  template Real angle_of_cap<D>(Real, Real);                                                \
+  template std::vector<MeasureSource> cap_measures(const Body<D>&, const DropOnWall<D>&);   \
+  template std::vector<MeasureSource> profile_measures(const Body<D>&, const DropOnWall<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)
 #undef MENISCUS_INSTANTIATE

@@ -65,6 +65,17 @@ std::optional<std::string> doubt_of_remap(const Simulation<D>& after, const Ledg
       exchanged, before.kinetic, kinetic);
 }
 
+/// True if the bodies have moved enough since the last remap for another one. At rest, remaps
+/// would go on for ever: each displaces the surface a little from rest, and its way back stretches
+/// the cells again (wetting note 9).
+template <int D>
+bool moves(const System<D>& system, const State& state) {
+  constexpr Real least_ratio = 10;
+  const Books& books = state.books;
+  return books.dissipated - books.dissipated_at_remap + take_ledger(system, state).kinetic >=
+         least_ratio * std::abs(books.last_remap);
+}
+
 }  // namespace
 
 template <int D>
@@ -116,13 +127,22 @@ void Epochs<D>::new_epoch(const Nodes& nodes) {
 }
 
 template <int D>
-bool Epochs<D>::due(const PlannedRemap& planned, Real before) const {
+bool Epochs<D>::due(const PlannedRemap& planned, Real before, Remapped& result) {
   const State& state = simulation_->state();
   const bool at_a_time = std::any_of(planned.times.begin(), planned.times.end(),
                                      [&](Real t) { return before < t && t <= state.time; });
   const bool looks = planned.condition > 0 && state.step % steps_between_looks(state.step) == 0;
   if (at_a_time || looks) simulation_->complete_state();
-  return at_a_time || (looks && planned.now(state.motion()) > planned.condition);
+  if (at_a_time || !looks || !(planned.now(state.motion()) > planned.condition)) return at_a_time;
+  if (moves(scene_->system, state)) return true;
+  if (!said_rest_)
+    result.notes.push_back(
+        fmt::format("t = {:.6g}: body '{}' keeps its reference at rest: kinetic energy, and heat "
+                    "since the last "
+                    "remap, are less than ten times the energy that it changed",
+                    state.time, planned.body));
+  said_rest_ = true;
+  return false;
 }
 
 template <int D>
@@ -149,7 +169,7 @@ typename Epochs<D>::Remapped Epochs<D>::advance() {
   Remapped result;
   const Real now = simulation_->state().time;
   for (const PlannedRemap& planned : std::vector<PlannedRemap>(scene_->remaps)) {
-    if (!due(planned, before)) continue;
+    if (!due(planned, before, result)) continue;
     const State& state = simulation_->state();
     const std::size_t b = number_of(scene_->system, planned.body);
     const std::string what = fmt::format("t = {:.6g}: body '{}'", now, planned.body);
@@ -162,6 +182,7 @@ typename Epochs<D>::Remapped Epochs<D>::advance() {
     try {
       new_epoch({{planned.body, seeds(planned, b)}});
       result.new_epoch = true;
+      said_rest_ = false;
       result.notes.push_back(fmt::format(
           "{} is remapped, epoch {}: the energy changes by {:.3g} {}", what,
           simulation_->state().epoch, simulation_->state().books.remapped - ledger.remapped,

@@ -49,11 +49,12 @@ class Epochs {
 
  private:
   void begin(Scene<D> built);
-  bool due(const PlannedRemap& planned, Real time_before) const;
+  bool due(const PlannedRemap& planned, Real time_before, Remapped& result);
   /// The new node positions of body number b.
   Seeds<D> seeds(const PlannedRemap& planned, std::size_t b) const;
 
   Plan<D> plan_;
+  bool said_rest_ = false;  // that bodies at rest keep their references, since the last remap
   std::unique_ptr<Scene<D>> scene_;
   std::unique_ptr<Simulation<D>> simulation_;
 };

@@ -155,8 +155,8 @@ void Simulation<D>::begin_after(Simulation& before, State state) {
   possible_at_ = before.possible_at_;
   surfaces_seen_ = before.surfaces_seen_;
   start(scene_.system, state_);
-  state_.books.remapped += take_ledger(scene_.system, state_).balance() -
-                           take_ledger(before.scene_.system, before.state_).balance();
+  state_.books.remap(take_ledger(scene_.system, state_).balance() -
+                     take_ledger(before.scene_.system, before.state_).balance());
   if (!stepper_->chooses_step()) controller_->begin(state_);
   audit_ = before.audit_;
   stepper_->begin(state_);

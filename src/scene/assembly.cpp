@@ -53,8 +53,11 @@ void Assembly<D>::record(const std::string& prefix, MeasureSource source) {
 
 template <int D>
 void Assembly<D>::measure_of_cap(const std::string& body, const std::string& prefix,
-                                 MeasureSource source, const std::string& place) {
-  caps_[body].push_back({prefix + "." + source.name, place});
+                                 MeasureSource source, const std::string& place,
+                                 std::optional<MeasureSource> otherwise) {
+  const std::string named = prefix + "." + source.name;
+  if (otherwise) otherwise->name = named;
+  caps_[body].push_back({named, place, std::move(otherwise)});
   measure(prefix, std::move(source));
 }
 
@@ -68,10 +71,12 @@ void Assembly<D>::withhold_caps() {
   };
   for (const auto& of_body : caps_) {
     const std::string& body = of_body.first;
-    const auto contacts = std::count_if(
+    const auto bodies = std::count_if(
         scene_.contacts.begin(), scene_.contacts.end(), [&](const ContactBetween& contact) {
-          return std::count(contact.bodies.begin(), contact.bodies.end(), body) > 0;
+          return contact.bodies.size() > 1 &&
+                 std::count(contact.bodies.begin(), contact.bodies.end(), body) > 0;
         });
+    const auto contacts = static_cast<std::size_t>(bodies) + walls_of(body)->size();
     if (contacts < 2) continue;
     const std::string why = fmt::format(
         "body '{}' has {} contacts, and the free surface of a drop between walls is no part of a "
@@ -79,6 +84,11 @@ void Assembly<D>::withhold_caps() {
         body, contacts);
     std::string all;
     for (const CapMeasure& cap : of_body.second) {
+      if (cap.otherwise) {
+        for (MeasureSource& m : scene_.measures)
+          if (m.name == cap.name) m = *cap.otherwise;
+        continue;
+      }
       if (is_asked_for(cap.name))
         throw InputError(fmt::format(
             "{}: '{}' is not measured: {}; leave it out of output.measures and of [expect]",

@@ -28,6 +28,12 @@ void Books::push(const Resultant& by, Real dt) {
   angular_impulses += dt * by.moment_size;
 }
 
+void Books::remap(Real change) {
+  remapped += change;
+  last_remap = change;
+  dissipated_at_remap = dissipated;
+}
+
 void Books::scale_momenta(Real factor) {
   momentum *= factor;
   angular_momentum *= factor;
@@ -49,6 +55,13 @@ void Books::archive(const Archive& a, int space_dimension) {
   a("dissipated", dissipated, energy);
   a("external_work", external_work, energy);
   a("remapped", remapped, energy);
+  // Without a remap, nothing is saved of the last.
+  if (a.is_reading()) last_remap = dissipated_at_remap = 0;
+  if (a.is_reading() ? a.has("last_remap") : last_remap != 0) {
+    const Archive last = a.in("last_remap");
+    last("energy", last_remap, energy);
+    last("dissipated", dissipated_at_remap, energy);
+  }
   a("heat", heat, power);
   a("external_power", external_power, power);
   a("load_power", load_power, power);

@@ -18,6 +18,8 @@ struct Books {
   Real dissipated = 0;                      ///< heat so far
   Real external_work = 0;                   ///< work from outside so far
   Real remapped = 0;                        ///< energy added by remaps so far
+  Real last_remap = 0;                      ///< energy added by the last remap
+  Real dissipated_at_remap = 0;             ///< heat until then
   Real heat = 0;                            ///< present power turned into heat
   Real external_power = 0, load_power = 0;  ///< present values, of Report and ForceTerm
   Resultant outside;                        ///< of Report
@@ -35,6 +37,8 @@ struct Books {
   /// Adds force dt to `momentum` and moment dt to `angular_momentum`. `by` holds the external force
   /// and moment that acted for the time dt.
   void push(const Resultant& by, Real dt);
+  /// Adds the energy change of a remap.
+  void remap(Real change);
   /// Accounts for velocities that were all multiplied by a factor, as by damping.
   void scale_momenta(Real factor);
   void archive(const Archive& a, int dimension);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Drops at rest on walls with a wetting interaction of finite range (wetting note 12): on planes,
-// on balls and in a cavity, with the range and the offset that the program chooses. They have
-// Young's contact angle at any range and curvature.
+// on balls and in a cavity, and between two plates, with the range and the offset that the program
+// chooses. They have Young's contact angle at any range and curvature.
 #include "study/study.hpp"
 #include "study/support/scene_run.hpp"
 
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace meniscus::contact_angle_study {
 namespace {
@@ -47,6 +48,44 @@ struct Case {
   }
 };
 
+/// A plane drop between two plates, 1.01 below and above the centre of the disk from which it
+/// begins.
+struct Bridge {
+  Real below, above;
+
+  std::string name() const {
+    return fmt::format("2D between plates, {:g} and {:g} degrees", below, above);
+  }
+  std::string text(int core) const {
+    std::string text = fmt::format(
+        "dimension = 2\n[time]\nviscosity = \"implicit\"\nend = 12\n"
+        "[[body]]\nname = \"drop\"\nshape = \"disk\"\nradius = 1\ncore = {}\nrings = {}\n"
+        "[body.material]\ntype = \"newtonian\"\ndensity = 1\nbulk_modulus = 151\nviscosity = 1\n"
+        "[[surface_tension]]\nbody = \"drop\"\ngamma = 1\n",
+        core, core / 2);
+    for (const auto& [plate, angle, side] :
+         {std::tuple{"below", below, -1.0}, std::tuple{"above", above, 1.0}})
+      text += fmt::format(
+          "[[contact]]\nname = \"{}\"\nbodies = [\"drop\"]\ncontact_angle = {}\n"
+          "partner = {{ type = \"half_space\", point = [0, {}], normal = [0, {}] }}\n",
+          plate, angle, 1.01 * side, -side);
+    return text;
+  }
+};
+
+Measurement run_bridge(const Bridge& bridge, int level) {
+  return study::measure_scene<2>(
+      bridge.text(2 * level), bridge.name(), level,
+      [&](const Scene<2>& scene, const Motion& motion, Measurement& result) {
+        for (const MeasureSource& m : scene.measures) {
+          if (m.name == "below.contact_angle")
+            result.errors.emplace_back("angle (degrees)", m.compute(motion) - bridge.below);
+          if (m.name == "above.contact_angle")
+            result.errors.emplace_back("other angle (degrees)", m.compute(motion) - bridge.above);
+        }
+      });
+}
+
 template <int D>
 Measurement run_case(const Case& c, int level) {
   const int core = D == 3 ? level : 2 * level;
@@ -78,6 +117,16 @@ std::vector<Case> cases(bool brief) {
   return all;
 }
 
+void run_bridges(StudyRun& study) {
+  for (const Bridge& bridge : {Bridge{90, 60}, Bridge{120, 90}})
+    for (const int level : study.levels()) {
+      study.record(run_bridge(bridge, level));
+      for (const auto& [what, error] : study.measurements().back().errors)
+        study.require(fmt::format("{}, level {}: {}", bridge.name(), level, what), error,
+                      {-0.5, 0.5});
+    }
+}
+
 void run(StudyRun& study) {
   study.finish_settings();
   for (const Case& c : cases(study.brief()))
@@ -88,6 +137,7 @@ void run(StudyRun& study) {
       study.require(fmt::format("{}, level {}: error of the angle", c.name(), level),
                     study.measurements().back().errors.front().second, {-allowed, allowed});
     }
+  run_bridges(study);
 }
 
 const bool registered = register_entry(

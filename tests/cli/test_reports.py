@@ -300,8 +300,8 @@ class Reports(ProgramTest):
         self.assertFalse((self.directory / "results").exists())
 
     def test_no_cap_between_plates(self):
-        """A drop between two plates is no spherical cap. Its contact angle is not measured, and the log gives
-        the reason."""
+        """A drop between two plates is no spherical cap. It has contact angles by its profile but no height, and
+        the log gives the reason."""
         text = """
         dimension = 2
         time.end = 0.01
@@ -325,13 +325,13 @@ class Reports(ProgramTest):
         sigma0 = 0.2
         partner = {{ type = "half_space", point = [0, {1.13 * side}], normal = [0, {-side}] }}
         """
-        text += '[output]\nmeasures = ["lower.film"]\n'
+        text += '[output]\nmeasures = ["lower.contact_angle"]\n'
         self.call("run", self.scene(text), "--output", "out")
         log = (self.directory / "out/run.log").read_text()
-        self.assertIn("not measured: lower.contact_angle, lower.height, lower.contact_angle_vh, upper.contact_angle", log)
+        self.assertIn("not measured: lower.height, lower.contact_angle_vh, upper.height, upper.contact_angle_vh", log)
         self.assertIn("body 'drop' has 2 contacts", log)
-        self.refused(["run", self.scene(text.replace("lower.film", "upper.contact_angle"))], 3, "scene.toml:",
-                     "'upper.contact_angle' is not measured: body 'drop' has 2 contacts", "output.measures")
+        self.refused(["run", self.scene(text.replace("lower.contact_angle", "upper.height"))], 3, "scene.toml:",
+                     "'upper.height' is not measured: body 'drop' has 2 contacts", "output.measures")
 
     def test_times_to_rest(self):
         """The number of steps that check expects of relax is one, and about right."""

@@ -327,6 +327,35 @@ TEST(Reseed, FindsTheConditionOfAHomogeneousDeformation) {
   EXPECT_NEAR(Distortion<3>(body).condition(epochs.simulation().state().u.data()), 4, 1e-9);
 }
 
+/// A plane drop spreads on a wall to 60 degrees. Remaps end when it has come to rest, although its
+/// cells go on to stretch beyond the condition.
+TEST(Reseed, EndsAtRest) {
+  Epochs<2> epochs = begun<2>(
+      "dimension = 2\n[time]\nviscosity = \"implicit\"\nend = 20\n[[body]]\nname = \"drop\"\n"
+      "shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n[body.material]\ntype = \"newtonian\"\n"
+      "density = 1\nbulk_modulus = 151\nviscosity = 1\n[[surface_tension]]\nbody = \"drop\"\n"
+      "gamma = 1\n[[contact]]\nname = \"wall\"\nbodies = [\"drop\"]\ncontact_angle = 60\n"
+      "range = 0.2\npartner = { type = \"half_space\", point = [0, -1.02], normal = [0, 1] }\n"
+      "[[remap]]\nbody = \"drop\"\ncondition = 1.5\n");
+  const auto condition = [&] {
+    return Distortion<2>(epochs.scene().system.bodies.front())
+        .condition(epochs.simulation().state().u.data());
+  };
+  Real last = 0;
+  int said = 0;
+  for (int step = 0; step < 5000 && !epochs.simulation().finished(); ++step) {
+    const auto remapped = epochs.advance();
+    if (remapped.new_epoch) last = epochs.simulation().state().time;
+    for (const std::string& note : remapped.notes)
+      said += note.find("'drop' keeps its reference at rest") != std::string::npos;
+  }
+  EXPECT_TRUE(epochs.simulation().finished());
+  EXPECT_GT(epochs.simulation().state().epoch, 2);
+  EXPECT_LT(last, 10);
+  EXPECT_GT(condition(), 1.5);
+  EXPECT_EQ(said, 1);
+}
+
 /// A drop that is drawn out is remapped automatically. Restarts from any state give the same bits.
 TEST(Reseed, IsDoneWhenTheConditionIsReachedAndRestartsWithTheSameBits) {
   const std::string text =

@@ -5,6 +5,7 @@
 #include "physics/loads/traction.hpp"
 #include "scene/scene.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -49,13 +50,13 @@ class Assembly {
   /// Like measure(), and the history always contains this measure.
   void record(const std::string& prefix, MeasureSource source);
   bool has_measure(const std::string& name) const;
-  /// Adds a measure that treats a body as a spherical cap on one wall. `place` is the place of the
-  /// contact in the scene.
+  /// Adds a measure that treats a body as a spherical cap on one wall, and the one of this name
+  /// for a body with more than one contact. `place` is the place of the contact in the scene.
   void measure_of_cap(const std::string& body, const std::string& prefix, MeasureSource source,
-                      const std::string& place);
-  /// Removes the cap measures of bodies with more than one contact, since the free surface between
-  /// two walls is no part of a sphere. Call this when all contacts are built. Throws InputError if
-  /// an output or expectation of the scene uses such a measure.
+                      const std::string& place, std::optional<MeasureSource> otherwise = {});
+  /// Replaces the cap measures of bodies with more than one contact or wall, since the free surface
+  /// between two walls is no part of a sphere, or removes them. Call this when all contacts are
+  /// built. Throws InputError if an output or expectation of the scene uses a removed measure.
   void withhold_caps();
   /// Adds a line of points, whose values are written to a file of its own.
   void line(ProbedLine line) { scene_.lines.push_back(std::move(line)); }
@@ -65,6 +66,14 @@ class Assembly {
   std::function<Real(const Motion&)> measure_named(const std::string& name) const;
   /// Registers the times or the condition at which a body is remapped.
   void remap(PlannedRemap planned) { scene_.remaps.push_back(std::move(planned)); }
+  /// The distances from the walls that a body touches. Contacts and wetted faces add theirs; the
+  /// list is complete when all loads are built.
+  using Walls = std::vector<std::function<Real(const Vec<D>& x, Real time)>>;
+  std::shared_ptr<Walls> walls_of(const std::string& body) {
+    std::shared_ptr<Walls>& walls = walls_[body];
+    if (!walls) walls = std::make_shared<Walls>();
+    return walls;
+  }
   /// Registers the contact line of a body on a rigid partner.
   void wets(Wetting<D> wetting) { scene_.wetting.push_back(std::move(wetting)); }
   /// Registers a rigid partner for output.
@@ -111,8 +120,10 @@ class Assembly {
   mutable NodalVectors rest_, sheared_;
   struct CapMeasure {
     std::string name, place;
+    std::optional<MeasureSource> otherwise;
   };
   std::map<std::string, std::vector<CapMeasure>> caps_;  // by body
+  std::map<std::string, std::shared_ptr<Walls>> walls_;  // by body
 };
 
 }  // namespace meniscus

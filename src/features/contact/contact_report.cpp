@@ -135,12 +135,12 @@ void Contact<D>::report_line(const LineAt& line, Assembly<D>& assembly) const {
 }
 
 /// The contact angle of the profile of Young and Laplace with base, volume and weight of a drop.
-/// Where the weight is not normal to the wall, or without such a profile, it is the `sphere` angle.
+/// Where the weight is not normal to the wall, or without such a profile, it is the angle `near`
+/// the wall.
 template <int D>
-MeasureSource Contact<D>::angle_under_weight(const MeasureSource& sphere, const LineAt& line,
+MeasureSource Contact<D>::angle_under_weight(const MeasureSource& near, const LineAt& line,
                                              const Assembly<D>& assembly) const {
-  const auto angle = [of_sphere = sphere.compute, line,
-                      gamma = *assembly.of(bodies[0]).surface_energy,
+  const auto angle = [of_part = near.compute, line, gamma = *assembly.of(bodies[0]).surface_energy,
                       base_of = assembly.measure_named(name + ".base_radius"),
                       volume_of = assembly.measure_named(bodies[0] + ".volume"),
                       weight_at = assembly.weight(bodies[0]),
@@ -150,11 +150,11 @@ MeasureSource Contact<D>::angle_under_weight(const MeasureSource& sphere, const 
                volume = volume_of(motion) + line(motion).depth * area;
     const Vec<D> weight = weight_at(motion.time);
     const Real down = -weight.dot(up);
-    if ((weight + down * up).norm() > 1e-9 * weight.norm()) return of_sphere(motion);
+    if ((weight + down * up).norm() > 1e-9 * weight.norm()) return of_part(motion);
     const Real theta = profile_on<D>(base, volume, down / (gamma * volume)).contact_angle;
-    return std::isnan(theta) ? of_sphere(motion) : theta / degree;
+    return std::isnan(theta) ? of_part(motion) : theta / degree;
   };
-  return {sphere.name, sphere.dimension,
+  return {near.name, near.dimension,
           "in degrees, of the profile of Young and Laplace with its base, volume and weight",
           angle};
 }
@@ -167,34 +167,59 @@ void Contact<D>::measure_wetting(Assembly<D>& assembly) const {
   for (MeasureSource& source :
        front_measures<D>(assembly.measure_named(name + ".wetted_area"), line))
     assembly.measure(name, std::move(source));
-  assembly.wets({bodies[0],
-                 {[shape = partner->shape, moved = partner_motion()](const Vec<D>& x, Real t) {
-                    return shape->foot(x - moved.displacement(t)).distance;
-                  },
-                  peak_gap(assembly)}});
+  const auto gap = [shape = partner->shape, moved = partner_motion()](const Vec<D>& x, Real t) {
+    return shape->foot(x - moved.displacement(t)).distance;
+  };
+  assembly.wets({bodies[0], {gap, peak_gap(assembly)}});
+  assembly.walls_of(bodies[0])->push_back(gap);
   report_line(line, assembly);
   if (partner->shape->flat() && assembly.initial() && assembly.is_dynamic())
     advise_on_spreading(name, bodies[0], flat(assembly).adhesion,
                         assembly.measure_named(name + ".wetted_area"), assembly);
-  if (!partner->shape->round()) return;
-  const bool weighs = partner->shape->flat() && !assembly.of(bodies[0]).accelerations.empty() &&
-                      !assembly.of(bodies[0]).other_body_forces;
-  constexpr Real part_of_film = 0.2;  // the energy of smooth_young has changed by 1 %
-  for (MeasureSource& source : cap_measures<D>(
-           assembly.body(bodies[0]),
-           [shape = partner->shape, moved = partner_motion()](const Vec<D>&x, Real t) {
-             const auto foot = shape->foot(x - moved.displacement(t));
-             return WallHeight{foot.distance, foot.bend.trace() / (D - 1)};
-           },
-           rest_gap(assembly) + part_of_film * (peak_gap(assembly) - rest_gap(assembly)), line,
-           partner->shape->flat()))
+  if (partner->shape->round()) measure_angles(line, assembly);
+}
+
+/// Adds the measures of the shape of a drop on a wall of constant curvature.
+template <int D>
+void Contact<D>::measure_angles(const LineAt& line, Assembly<D>& assembly) const {
+  // At this part of the film the energy of smooth_young has changed by 1 %.
+  constexpr Real part_of_film = 0.2;
+  const std::string& drop = bodies[0];
+  const Body<D>& body = assembly.body(drop);
+  const Real rest = rest_gap(assembly), peak = peak_gap(assembly);
+  const Real gamma = *assembly.of(drop).surface_energy, volume = surfaces(assembly).volume;
+  const auto moved = partner_motion();
+  const DropOnWall<D> wall{
+      [shape = partner->shape, moved](const Vec<D>& x, Real t) {
+        return shape->foot(x - moved.displacement(t));
+      },
+      rest + part_of_film * (peak - rest),
+      law(assembly).ends() ? law(assembly).range() - law(assembly).recess()
+                           : rest + 3 * (peak - rest),
+      line,
+      [moved, step = 1e-4 * assembly.end_time()](Real t) { return moved.velocity(t, step); },
+      [weight = assembly.weight(drop), gamma, volume](Real t) -> Vec<D> {
+        return weight(t) / (gamma * volume);
+      },
+      partner->shape->flat(),
+      assembly.walls_of(drop)};
+  std::optional<MeasureSource> near;
+  for (MeasureSource& source : profile_measures<D>(body, wall))
+    if (source.name == "contact_angle")
+      near = std::move(source);
+    else
+      assembly.measure(name, std::move(source));
+  const bool weighs =
+      wall.flat && !assembly.of(drop).accelerations.empty() && !assembly.of(drop).other_body_forces;
+  for (MeasureSource& source : cap_measures<D>(body, wall))
     if (source.name == "film")
       assembly.measure(name, std::move(source));
-    else if (source.name == "contact_angle" && weighs)
-      assembly.measure_of_cap(bodies[0], name, angle_under_weight(source, line, assembly),
-                              this->place);
+    else if (source.name == "contact_angle")
+      assembly.measure_of_cap(drop, name,
+                              weighs ? angle_under_weight(*near, line, assembly) : source,
+                              this->place, near);
     else
-      assembly.measure_of_cap(bodies[0], name, std::move(source), this->place);
+      assembly.measure_of_cap(drop, name, std::move(source), this->place);
 }
 
 /// The largest adhesion at the centre of the first body at a thousand times until the end.

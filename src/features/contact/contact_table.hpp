@@ -139,10 +139,11 @@ struct Contact final : Load<D>, Keys {
   void report_points(Assembly<D>& assembly) const;
   StateCheck containment(const Assembly<D>& assembly) const;
   void report(const ForceTerm& term, Assembly<D>& assembly) const;
-  MeasureSource angle_under_weight(const MeasureSource& sphere, const LineAt& line,
+  MeasureSource angle_under_weight(const MeasureSource& near, const LineAt& line,
                                    const Assembly<D>& assembly) const;
   void report_line(const LineAt& line, Assembly<D>& assembly) const;
   void measure_wetting(Assembly<D>& assembly) const;
+  void measure_angles(const LineAt& line, Assembly<D>& assembly) const;
   void measure_soft_wetting(Assembly<D>& assembly) const;
   bool soft_wetting(const Assembly<D>& assembly) const;
   std::string folding(const Assembly<D>& assembly) const;
