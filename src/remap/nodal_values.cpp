@@ -92,6 +92,9 @@ std::vector<Vec<D>> pre_images(const Body<D>& body, const NodalVector* u,
     if (*std::max_element(left.begin(), left.end()) <= round_off) return X;
   }
   const auto worst = std::max_element(left.begin(), left.end());
+  // Round-off is larger where shape functions are nearly undetermined.
+  constexpr Real bearable = 1e-10;
+  if (*worst <= bearable * spacing) return X;
   std::string place;
   for (int i = 0; i < D; ++i)
     place += fmt::format("{}{:.6g}", i ? ", " : "", at(x, worst - left.begin())[i]);

@@ -95,6 +95,8 @@ TEST(ContactResolution, FollowsGapAndFacet) {
   EXPECT_EQ(fine.enough_points(), 2);
   EXPECT_EQ(wide.enough_points(), 2);
   EXPECT_LE(rigid.enough_points(), 4);
+  for (const auto& [width, points] : {std::pair{1.0, 3}, {0.3, 4}, {0.2, 6}, {0.01, 6}})
+    EXPECT_EQ((ContactResolution{0.4, 0.25, true, width}.enough_points()), points) << width;
   EXPECT_EQ(hopeless.enough_points(), 8);
   EXPECT_TRUE(hopeless.points_miss(8));
   EXPECT_FALSE(coarse.points_miss(1));

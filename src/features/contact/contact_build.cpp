@@ -42,7 +42,9 @@ ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
 
 template <int D>
 ContactResolution Contact<D>::resolution(const Assembly<D>& assembly) const {
-  return {surfaces(assembly).facet, flat(assembly).equilibrium_gap, partner.has_value()};
+  const Real gap = flat(assembly).equilibrium_gap;
+  return {surfaces(assembly).facet, gap, partner.has_value(),
+          law(assembly).ends() ? law(assembly).range() - gap : 0};
 }
 
 template <int D>

@@ -20,6 +20,10 @@ Real ContactResolution::tangential_share(int points) const {
 
 int ContactResolution::enough_points() const {
   constexpr Real bearable = 1e-3;
+  if (rigid && width > 0) {
+    constexpr Real round_off = 1e-6;
+    return static_cast<int>(std::clamp(std::ceil(3 * facet / width - round_off), 3.0, 6.0));
+  }
   const int most = rigid ? 4 : 8;
   int points = 2;
   while (points < most && tangential_share(points) > bearable) ++points;

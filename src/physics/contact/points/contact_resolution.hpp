@@ -9,15 +9,17 @@ namespace meniscus {
 /// Contact points that are too far apart make surfaces rough: smooth bodies hold each other as if
 /// by friction and gain spin in collisions. Only the points of deformable sides count.
 struct ContactResolution {
-  Real facet;  ///< edge of the larger facets: (area / number)^(1/(D-1)) of a body
-  Real gap;    ///< equilibrium gap
-  bool rigid;  ///< true if the other side is a rigid partner
+  Real facet;      ///< edge of the larger facets: (area / number)^(1/(D-1)) of a body
+  Real gap;        ///< equilibrium gap
+  bool rigid;      ///< true if the other side is a rigid partner
+  Real width = 0;  ///< from the equilibrium gap to where the interaction is zero; 0: nowhere
 
   /// Bound of tangential force / normal force between balls, or of torque / (normal force x radius)
   /// of a ball on a plane, in any orientation, at 0.8 of the equilibrium gap. See roughness().
   Real tangential_share(int points) const;
   /// The smallest number of points, at least 2, with a tangential share below 1e-3. At most 8
-  /// (rigid: 4): beyond this finer facets are cheaper.
+  /// (rigid: 4): beyond this finer facets are cheaper. On a rigid partner whose interaction has a
+  /// width it is 3 to 6, so that three points lie in the width (wetting note 7).
   int enough_points() const;
   /// The largest spacing of points at which surfaces cannot pass through each other without a
   /// force.
