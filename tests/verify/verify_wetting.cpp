@@ -88,7 +88,7 @@ TEST(SessileDrop, HasTheProfileOfBashforthAndAdams) {
 }
 
 TEST(SessileDrop, FlowsToTheProfileOfBashforthAndAdams) {
-  expect_profile({"time.end=1000", "time.solver=\"newton\"", "time.force_tolerance=3e-5",
+  expect_profile({"time.end=1000", "time.solver=\"newton\"", "time.force_tolerance=1e-5",
                   "time.viscosity=\"explicit\""});
 }
 
