@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -41,9 +40,9 @@ template <int D>
 RoundDrop round_drop(const Scene<D>& scene, std::size_t number) {
   const Body<D>& body = scene.system.bodies[number];
   const SceneBody& own = scene.bodies[number];
-  Real volume = 0, fastest = 0;
+  const Real volume = body.volume();
+  Real fastest = 0;
   for (Index A = 0; A < body.size(); ++A) {
-    volume += body.cells.volume(A);
     const Lanes& v = at(scene.initial.v, body.first + A);
     fastest = std::max(fastest, sum(v * v));
   }
@@ -51,14 +50,8 @@ RoundDrop round_drop(const Scene<D>& scene, std::size_t number) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<Real>(values.size());
   };
   const Real mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
-  return {D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
-                 : std::sqrt(volume / std::numbers::pi),
-          own.tension->gamma,
-          mass / volume,
-          mean(own.viscosity),
-          own.bulk_modulus,
-          std::sqrt(fastest),
-          D - 1};
+  return {ball_radius<D>(volume), own.tension->gamma, mass / volume, mean(own.viscosity),
+          own.bulk_modulus,       std::sqrt(fastest), D - 1};
 }
 
 /// Magnitude of the sum of all body forces on a body. Empty if the sum is zero or if a body force
@@ -104,17 +97,16 @@ std::optional<Real> stable_step(const SceneInput& input) {
 template <int D>
 Real way_ahead(const Scene<D>& scene, const Body<D>& body, const State& state) {
   Vec<D> momentum = Vec<D>::Zero(), force = momentum;
-  Real mass = 0, volume = 0;
+  Real mass = 0;
   for (Index A = 0; A < body.size(); ++A) {
     mass += at(body.mass, A);
-    volume += body.cells.volume(A);
     for (int i = 0; i < D; ++i) {
       momentum[i] += at(body.mass, A) * at(state.v, body.first + A)[i];
       force[i] += at(state.force, body.first + A)[i];
     }
   }
   const Real T = scene.time.end;
-  return (momentum.norm() * T + force.norm() * T * T / 2) / mass / std::pow(volume, 1.0 / D);
+  return (momentum.norm() * T + force.norm() * T * T / 2) / mass / std::pow(body.volume(), 1.0 / D);
 }
 
 }  // namespace

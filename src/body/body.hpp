@@ -14,13 +14,22 @@
 #include "parallel/chunk_sums.hpp"
 #include "parallel/divided.hpp"
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 
 namespace meniscus {
 
 template <int D>
 struct CellRows;
+
+/// Radius of the ball (2D: disk) with this volume (area).
+template <int D>
+Real ball_radius(Real volume) {
+  return D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
+                : std::sqrt(volume / std::numbers::pi);
+}
 
 /// A body with its grid, nodal cells and masses. In arrays over all particles of a scene, its
 /// particles have the numbers first, ..., first + size() - 1.
@@ -63,6 +72,13 @@ struct Body {
   /// Volume of nodal cell A in the present reference, divided by its volume in the reference of the
   /// scene.
   Real volume_ratio(Index A) const { return reference ? at(reference->volume_ratio, A) : 1; }
+
+  /// Volume of all cells in the reference (2D: area).
+  Real volume() const {
+    Real sum = 0;
+    for (Index A = 0; A < size(); ++A) sum += cells.volume(A);
+    return sum;
+  }
 
   Index size() const { return particles.size(); }
   /// The values of this body in an array over the particles of all bodies.

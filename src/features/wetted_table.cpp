@@ -148,10 +148,7 @@ struct Wetted final : Load<D> {
   /// Stiff beside the pressure of the drop over its size, and soft beside the fluid.
   static Real stiffness_of_hold(const Body<D>& on, Real gamma) {
     constexpr Real relative = 100;
-    Real volume = 0;
-    for (Index A = 0; A < on.size(); ++A) volume += on.cells.volume(A);
-    const Real R = D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
-                          : std::sqrt(volume / std::numbers::pi);
+    const Real R = ball_radius<D>(on.volume());
     return relative * gamma / (R * R);
   }
 };

@@ -107,8 +107,7 @@ Real isoperimetric_ratio(Real area, Real volume) {
 
 template <int D>
 Real capillary_residual(std::span<const NodalVector> force, Real gamma, Real area, Real volume) {
-  const Real radius = D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
-                             : std::sqrt(volume / std::numbers::pi);
+  const Real radius = ball_radius<D>(volume);
   Real left = 0;
   for (const NodalVector& f : force) left += std::sqrt(sum(f * f));
   return left / ((D - 1) * gamma * area / radius);

@@ -145,9 +145,7 @@ Real Assembly<D>::find_shear_modulus(const std::string& name) const {
   };
   // The even part of the energy: a stressed reference adds a part that is linear in the shear.
   const Real energy = (strain_energy(small) + strain_energy(-small)) / 2;
-  Real volume = 0;
-  for (Index A = 0; A < sheared.size(); ++A) volume += sheared.cells.volume(A);
-  return 2 * (energy - strain_energy(0)) / (small * small * volume);
+  return 2 * (energy - strain_energy(0)) / (small * small * sheared.volume());
 }
 
 /// Acceleration of a body by its loads: their power on a uniform unit velocity along an axis is the

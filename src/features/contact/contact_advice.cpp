@@ -27,13 +27,11 @@ struct TouchingBody {
 template <int D>
 TouchingBody touching_body(const std::string& name, const Assembly<D>& assembly) {
   const Body<D>& body = assembly.body(name);
-  Real volume = 0;
-  for (Index A = 0; A < body.size(); ++A) volume += body.cells.volume(A);
+  const Real volume = body.volume();
   const Real mass = std::accumulate(body.mass.begin(), body.mass.end(), 0.0);
   const bool fluid = assembly.of(name).is_fluid();
   return {mass / volume, fluid ? 0 : assembly.shear_modulus(name), assembly.of(name).bulk_modulus,
-          D == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
-                 : std::sqrt(volume / std::numbers::pi)};
+          ball_radius<D>(volume)};
 }
 
 /// Mean velocity of the particles at the start. Coefficients are used instead of values, which is
@@ -168,9 +166,7 @@ void advise_on_spreading(const std::string& contact, const std::string& drop, Re
   const Real gamma = assembly.of(drop).surface_energy.value_or(0);
   const std::vector<Real>& viscosity = assembly.of(drop).viscosity;
   if (!(gamma > 0) || viscosity.empty() || adhesion < gamma) return;  // beyond 90 degrees
-  const Body<D>& body = assembly.body(drop);
-  Real volume = 0;
-  for (Index A = 0; A < body.size(); ++A) volume += body.cells.volume(A);
+  const Real volume = assembly.body(drop).volume();
   const TouchingBody whole = touching_body(drop, assembly);
   const Real mu = std::accumulate(viscosity.begin(), viscosity.end(), 0.0) /
                   static_cast<Real>(viscosity.size());

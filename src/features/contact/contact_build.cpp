@@ -25,8 +25,6 @@ ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
   Real facet = 0;
   for (const std::string& body : bodies) facet = std::max(facet, facet_size(assembly.body(body)));
   const Body<D>& first = assembly.body(bodies[0]);
-  Real volume = 0;
-  for (Index A = 0; A < first.size(); ++A) volume += first.cells.volume(A);
   const auto& X = first.particles.X();
   const Vec<D> sum = std::accumulate(X.begin(), X.end(), Vec<D>(Vec<D>::Zero()));
   return {this->place,
@@ -37,7 +35,7 @@ ContactSurfaces Contact<D>::surfaces(const Assembly<D>& assembly) const {
           bodies.size() > 1 ? assembly.of(bodies[1]).surface_energy : std::nullopt,
           partner.has_value(),
           D,
-          volume};
+          first.volume()};
 }
 
 template <int D>
