@@ -145,9 +145,8 @@ class Profile {
   Real curvature(const State& at, Real p) const {
     return p - bond_ * at[1] - curvature_of_parallel(at);
   }
-  /// Along the curve, a displacement n along the normal leaves the sum of the curvatures at each
-  /// place as it is if n'' + n' cos(angle)/r = (m^2/r^2 - the squares of both curvatures - bond
-  /// cos(angle)) n.
+  /// A displacement n along the normal does not change the sum of the curvatures at a place if
+  /// n'' + n' cos(angle)/r = (m^2/r^2 - the squares of both curvatures - bond cos(angle)) n.
   State rate(const State& at, Real p, int m) const {
     const Real c = std::cos(at[2]), bend = curvature(at, p), other = curvature_of_parallel(at),
                r = std::max(at[0], step_ / 2), spread = D == 3 ? c / r : 0,

@@ -23,12 +23,12 @@ struct LineAngles {
   Real error;  ///< root mean square distance of the surface from the fit / height of its points
 };
 
-/// Fits a surface that ends on a wall to points of a free surface, weighted by area: a surface of
-/// revolution about the normal of the wall (2D: a line that is symmetric about it), the sum of
-/// whose curvatures is p - bond z at the height z above the point of the wall, and small changes of
-/// it in directions phi from the axis as cos phi, sin phi, cos 2 phi and sin 2 phi (2D: opposite on
-/// both sides) that leave p as it is or add a gradient of p along the wall. phi counts from
-/// `along`, a unit vector normal to the normal. Derivation: wetting note 2.
+/// Fits a surface that ends on a wall to points of a free surface, weighted by area. It is a
+/// surface of revolution about the normal of the wall (2D: a line that is symmetric about it). The
+/// sum of its curvatures is p - bond z at the height z above the point of the wall. Small changes
+/// of it vary with the direction phi from the axis as cos phi, sin phi, cos 2 phi and sin 2 phi
+/// (2D: they are opposite on both sides). They have the same p, or add a gradient of p along the
+/// wall. phi counts from `along`, a unit vector normal to the normal. Derivation: wetting note 2.
 template <int D>
 LineAngles fit_profile(const std::vector<Vec<D>>& x, const std::vector<Real>& area,
                        const WallFrame<D>& wall, Real bond, const Vec<D>& along);
