@@ -2,8 +2,8 @@
 // Builds the bodies of a scene.
 #include "scene/build_body.hpp"
 
+#include "body/grid/curved_facets.hpp"
 #include "body/grid/ordering.hpp"
-#include "body/grid/straightened_facets.hpp"
 #include "body/surface/surface_points.hpp"
 #include "body/wall_supports.hpp"
 #include "meniscus/measure/measure_registry.hpp"
@@ -153,11 +153,17 @@ void report(const Body<D>& body, const typename Material<D>::Built& built,
         fmt::format("body '{}': the volume change is averaged over each nodal cell (volumetric = "
                     "\"cell_average\")",
                     name));
-  if (const Index straightened = straightened_facets(body.geometry); straightened > 0)
+  const CurvedFacets curved = curved_facets(body.geometry);
+  if (std::abs(curved.added_volume) > 1e-3)
+    assembly.note(fmt::format(
+        "body '{}': its surface is curved between the nodes of the mesh: its volume is {:.2g} % {} "
+        "than with straight facets (facets = \"flat\")",
+        name, std::abs(100 * curved.added_volume), curved.added_volume > 0 ? "more" : "less"));
+  if (curved.straightened > 0)
     assembly.warn(fmt::format(
         "body '{}': {} of {} facets of the mesh have a straight edge where the surface is curved, "
         "for a cell would fold otherwise; use smaller cells there, or facets = \"flat\"",
-        name, straightened, body.geometry.grid.facets.size()));
+        name, curved.straightened, body.geometry.grid.facets.size()));
   report_masses(name, built.mass, assembly);
   if (built.warning) assembly.warn(fmt::format("body '{}': {}", name, *built.warning));
   if (built.note) assembly.note(fmt::format("body '{}': {}", name, *built.note));

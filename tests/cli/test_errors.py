@@ -263,6 +263,8 @@ class Scenes(ProgramTest):
         """
         report = self.assert_refused(shell, "body[0].shape")
         self.assertEqual(len(report.splitlines()), 1, report)
+        wide = self.change(shell, ("thickness = 3", "thickness = 0.5"), ("spacing = 0.8", "spacing = 1e10"))
+        self.assert_refused(wide, "body[0].shape: the shape folds cell 0")
 
     def test_two_laws_on_a_surface(self):
         """Two laws of one kind on a surface are refused, since their measures would have equal names."""
@@ -672,6 +674,30 @@ class Failures(ProgramTest):
         self.assert_fails(PUSHED.replace("-60*x", "-80*x"), "the stable time step has collapsed from",
                           " % of the stiffness is that of the internal force of 'block': ", "finer cells",
                           "body 'block', particle ", "reference position", "now (", "dt = ", "step ", "t = ")
+
+    def test_steps_that_do_not_change_the_time(self):
+        """A force throws a disk so far that its shape is lost in round-off, where steps would be halved for
+        ever. Round-off decides whether steps or a folded cell end the run."""
+        text = SHEET[:SHEET.index("[time]")] + """
+        time.end = 0.004
+        [[body]]
+        name = "disk"
+        shape = "disk"
+        radius = 1
+        core = 3
+        rings = 2
+        material = { type = "neo_hookean", density = 1, mu = 1, lambda = 1 }
+        [[body_force]]
+        body = "disk"
+        acceleration = [0, 1e20]
+        [[contact]]
+        bodies = ["disk"]
+        adhesion = 0.01
+        partner = { type = "half_space", point = [0, -1.2], normal = [0, 1] }
+        """
+        message = self.assert_fails(text, "body 'disk', particle ", "reference position", "now (")
+        self.assertTrue("hardly change the time any more; the last that was refused: " in message or
+                        "J = det F = " in message, message)
 
     GRIPPED = SHEET[:SHEET.index("[output]")] + """
     [[body]]

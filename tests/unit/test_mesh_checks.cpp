@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refuses meshes whose cells overlap or do not form one body. Facets whose curvature would fold a
 // cell stay straight.
-#include "body/grid/straightened_facets.hpp"
+#include "body/grid/curved_facets.hpp"
 #include "body/surface/surface_points.hpp"
 #include "meniscus/error.hpp"
 #include "mesh_support.hpp"
@@ -184,10 +184,12 @@ std::string rounded_square() {
 TEST(MeshChecks, FacetsThatWouldFoldACellAreStraight) {
   const std::string file = test::written("rounded.msh", rounded_square());
   const Geometry<2> body = test::geometry_of_file<2>(file);
-  EXPECT_EQ(straightened_facets(body), 8) << "those of the arcs";
+  EXPECT_EQ(curved_facets(body).straightened, 8) << "those of the arcs";
   EXPECT_FALSE(body.grid.bulges.empty()) << "the others";
   const Geometry<2> flat = test::geometry_of_file<2>(file, "facets = 'flat'\n");
-  EXPECT_EQ(straightened_facets(flat), 0);
+  EXPECT_EQ(curved_facets(flat).straightened, 0);
+  EXPECT_EQ(curved_facets(flat).added_volume, 0);
+  EXPECT_NEAR(curved_facets(body).added_volume, volume(body.grid) / volume(flat.grid) - 1, 1e-14);
   EXPECT_TRUE(flat.grid.bulges.empty());
   EXPECT_NEAR(volume(flat.grid), 1 - 0.02 * 0.02 * (4 - 8 * std::sin(pi / 4) / 2), 1e-12);
   Real length = 0;

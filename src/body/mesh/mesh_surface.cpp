@@ -2,8 +2,8 @@
 // The surface of a mesh: names of its faces, and the nodes of its quadratic patches.
 #include "body/mesh/mesh_surface.hpp"
 
+#include "body/grid/curved_facets.hpp"
 #include "body/grid/simplex.hpp"
-#include "body/grid/straightened_facets.hpp"
 #include "body/mesh/mesh_pieces.hpp"
 #include "body/mesh/mesh_regions.hpp"
 #include "body/surface/quadratic_surface.hpp"
@@ -29,13 +29,13 @@ template <int D>
 class NamedSurface final : public Surface<D> {
  public:
   NamedSurface(std::shared_ptr<const Surface<D>> surface, std::vector<std::string> names,
-               Index straightened, std::shared_ptr<const MeshRegions> regions)
+               CurvedFacets curved, std::shared_ptr<const MeshRegions> regions)
       : surface_(std::move(surface)),
         names_(std::move(names)),
-        straightened_(straightened),
+        curved_(curved),
         regions_(std::move(regions)) {}
 
-  Index straightened() const { return straightened_; }
+  CurvedFacets curved() const { return curved_; }
   const MeshRegions* regions() const { return regions_.get(); }
 
   SurfacePoints<D> points(const Grid<D>& grid, int k, SurfacePart part) const override {
@@ -55,19 +55,18 @@ class NamedSurface final : public Surface<D> {
       for (const Index node : order)
         for (const Real share : regions_->at_node(node)) regions->share.push_back(share);
     }
-    return std::make_shared<NamedSurface>(surface_->renumbered(order), names_, straightened_,
+    return std::make_shared<NamedSurface>(surface_->renumbered(order), names_, curved_,
                                           std::move(regions));
   }
   std::shared_ptr<const Surface<D>> mapped(const SmoothMap<D>& map,
                                            const Grid<D>& grid) const override {
-    return std::make_shared<NamedSurface>(surface_->mapped(map, grid), names_, straightened_,
-                                          regions_);
+    return std::make_shared<NamedSurface>(surface_->mapped(map, grid), names_, curved_, regions_);
   }
 
  private:
   std::shared_ptr<const Surface<D>> surface_;
   std::vector<std::string> names_;
-  Index straightened_;
+  CurvedFacets curved_;
   std::shared_ptr<const MeshRegions> regions_;  // null: none
 };
 
@@ -305,17 +304,18 @@ Geometry<D> mesh_geometry(Grid<D> grid, const MeshSurface<D>& given, MeshFacets 
   if (!given.regions.empty())
     regions = std::make_shared<MeshRegions>(
         regions_of_cells(geometry.grid, given.regions, given.region_of));
-  geometry.surface = std::make_shared<NamedSurface<D>>(geometry.surface, std::move(names),
-                                                       static_cast<Index>(straightened.size()),
+  CurvedFacets curved{static_cast<Index>(straightened.size())};
+  if (!second_order) curved.added_volume = volume(geometry.grid) / volume(grid) - 1;
+  geometry.surface = std::make_shared<NamedSurface<D>>(geometry.surface, std::move(names), curved,
                                                        std::move(regions));
   if (geometry.surface->hollow()) geometry.director = outer_normal(geometry);
   return geometry;
 }
 
 template <int D>
-Index straightened_facets(const Geometry<D>& geometry) {
+CurvedFacets curved_facets(const Geometry<D>& geometry) {
   const auto* surface = dynamic_cast<const NamedSurface<D>*>(geometry.surface.get());
-  return surface ? surface->straightened() : 0;
+  return surface ? surface->curved() : CurvedFacets{};
 }
 
 template <int D>
@@ -326,7 +326,7 @@ const MeshRegions* mesh_regions(const Geometry<D>& geometry) {
 
 #define MENISCUS_INSTANTIATE(D)                                                   \
   template Geometry<D> mesh_geometry(Grid<D>, const MeshSurface<D>&, MeshFacets); \
-  template Index straightened_facets(const Geometry<D>&);                         \
+  template CurvedFacets curved_facets(const Geometry<D>&);                        \
   template const MeshRegions* mesh_regions(const Geometry<D>&);
 MENISCUS_INSTANTIATE(2)
 MENISCUS_INSTANTIATE(3)

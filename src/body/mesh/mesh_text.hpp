@@ -95,12 +95,12 @@ class MeshText {
     begin_word();
     fail("expected is the end of the line, behind which bytes begin");
   }
-  /// Moves on behind the next line that begins with `end`.
+  /// Moves on behind the next `end`, which stands on a line of its own or follows bytes at once.
   void skip_past(const std::string& end) {
     begin_word();
-    const std::size_t found = text_.find("\n" + end, at_ > 0 ? at_ - 1 : 0);
+    const std::size_t found = text_.find(end, at_);
     if (found == text_.npos) fail(fmt::format("the file ends; expected is {}", end));
-    const std::size_t next = found + 1 + end.size();
+    const std::size_t next = found + end.size();
     line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
                                          text_.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
     at_ = next;

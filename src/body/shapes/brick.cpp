@@ -95,8 +95,7 @@ Geometry<D> Brick<D>::geometry() const {
   std::vector<SurfacePatch<D>> planes;
   for (int k = 0; k < D; ++k) {
     edges[k] = at(size, k);
-    // The tolerance keeps a spacing that divides the edge from yielding one cell more.
-    const Real wanted = cells.empty() ? std::ceil(at(size, k) / spacing - 1e-9) : at(cells, k);
+    const Real wanted = cells.empty() ? cells_along(at(size, k), spacing) : at(cells, k);
     if (!(wanted >= 1 && wanted <= 1e6) || wanted != std::floor(wanted))
       throw InputError("the number of cells per direction must be whole, from 1 to 1e6");
     at(count, k) = static_cast<Index>(wanted);

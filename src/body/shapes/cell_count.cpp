@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meniscus {
 namespace {
@@ -20,6 +21,10 @@ Real least_of_ranks(Real bytes) {
 }
 
 }  // namespace
+
+Real cells_along(Real length, Real spacing) {
+  return std::max(std::ceil(length / spacing - 1e-9), 1.0);
+}
 
 template <int D>
 void require_affordable(Real cells, Real cells_per_particle) {

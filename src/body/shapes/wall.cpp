@@ -91,7 +91,7 @@ Geometry<3> make_wall(const Meridian& meridian, Real thickness, int layers, Real
                     thickness, meridian.smallest_radius));
   // A quarter of a great circle crosses as many cells as there are along an edge of a face of the
   // cube.
-  const Real cells = std::ceil(meridian.length / spacing - 1e-9);
+  const Real cells = cells_along(meridian.length, spacing);
   require_affordable<3>(6 * cells * cells * layers);
   Geometry<3> geometry =
       make_geometry<3>(cubed_shell(static_cast<int>(cells), layers - 1, unit_wall_inside),

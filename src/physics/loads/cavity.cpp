@@ -179,7 +179,7 @@ class Cavity final : public ForceTerm, public AssembledForce {
     return Failure{
         surface_.body().first + surface_.owner(gap.point),
         fmt::format("opposite inner faces of the cavity touch: their distance is {:.4g}. "
-                    "Deflate the cavity less, or make it higher",
+                    "Deflate the cavity less or more slowly (ramp), or make it higher",
                     gap.width)};
   }
 

@@ -123,6 +123,25 @@ void StepController<D>::respect_demand(State& state) {
   if (step_ > tolerated * allowed) step_ = margin * allowed;
 }
 
+/// The failure of a run whose steps have become so short that the time hardly grows; the particle
+/// is the fastest one. `dt`: the step.
+template <int D>
+StepError StepController<D>::time_stands_still(const State& state, Real dt) const {
+  struct Fastest {
+    Real square;
+    Index particle;
+    Fastest operator+(const Fastest& b) const { return b.square > square ? b : *this; }
+  };
+  const Fastest all = system_.sum_over_particles(Fastest{-1, 0}, [&](Index A) {
+    return Fastest{sum(at(state.v, A) * at(state.v, A)), A};
+  });
+  std::string cause = fmt::format("steps of {:.3g} hardly change the time any more", dt);
+  cause += rejected_.empty() ? ": surfaces come nearer faster than their contact can stop them"
+                             : "; the last that was refused: " + rejected_;
+  cause += "; slower motion or weaker loads are needed";
+  return StepError(system_.located({all.particle, std::move(cause)}, state.motion()));
+}
+
 template <int D>
 Real StepController<D>::next(State& state, Real end, Real accurate) {
   if (state.step >= next_check_) reconsider(state);
@@ -131,6 +150,8 @@ Real StepController<D>::next(State& state, Real end, Real accurate) {
   // case. The large forces of a field that starts away from its rest, such as a director, are not.
   const Real least_share = choice_.implicit_viscosity ? 1e-3 : state.fields.empty() ? 0.1 : 0.03;
   const Real dt = choice_.fixed ? step_ : std::min(step_, std::max(accurate, least_share * step_));
+  // Steps that each close a share of a gap, or that are halved again and again, never end.
+  if (!(dt > 1e-12 * state.time)) throw time_stands_still(state, dt);
   const Real left = end - state.time;
   if (left <= dt * (1 + 1e-9)) return left;
   if (left < 2 * dt) return left / 2;

@@ -34,11 +34,15 @@ class StepController {
   /// The next step. Unless it is fixed, it is at most `accurate`, but at least a tenth of the
   /// allowed step (a thousandth with implicit viscosity). The last two steps are shortened to end
   /// exactly at `end`. Throws SolveError if the stable step has fallen to a millionth of the first
-  /// one.
+  /// one, or the step to a share of the time so small that the time hardly grows.
   Real next(State& state, Real end, Real accurate = unbounded);
 
   /// Call this after a rejected step: the next steps are at most `dt`, until the next estimate.
-  void shorten(Real dt) { step_ = std::min(step_, dt); }
+  /// `cause`: why it was rejected.
+  void shorten(Real dt, const std::string& cause) {
+    step_ = std::min(step_, dt);
+    rejected_ = cause;
+  }
 
   const StableStep& stable() const { return stable_; }
   /// The step that stability and the terms allow.
@@ -57,6 +61,7 @@ class StepController {
   void plan_next_check(const State& state);
   Real allowed_step(const State& state) const;
   void respect_demand(State& state);
+  StepError time_stands_still(const State& state, Real dt) const;
 
   System<D>& system_;
   StableStepEstimator<D> estimator_;
@@ -66,6 +71,7 @@ class StepController {
   Real interval_ = 0;  ///< number of steps between estimates
   std::int64_t next_check_ = 0, last_check_ = 0;
   Real known_stiffness_ = 0;  ///< demand at the last estimate, which contains it
+  std::string rejected_;  ///< why the last rejected step was, for messages
   bool warned_ = false;
   std::optional<std::string> warning_;
 };
