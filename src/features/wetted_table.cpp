@@ -62,6 +62,8 @@ struct Wetted final : Load<D> {
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     if (!name.empty()) require_plain_name(block, name);
     FaceKeys{body, face, std::nullopt}.check(block, bodies);
+    if (face.empty())
+      block.problem("face", "is empty; expected is a face, as `meniscus check` lists them");
     if (contact_angle.has_value() == tension.has_value())
       block.problem("contact_angle", contact_angle ? "tension is given, too; allowed is one of them"
                                                    : "missing; give this or tension");

@@ -188,7 +188,7 @@ template <int D>
 void require_resolved_places(const Block& block, const Grid<D>& grid) {
   Real farthest = 0;
   for (const Vec<D>& X : grid.X) farthest = std::max(farthest, X.cwiseAbs().maxCoeff());
-  const std::string lost = lost_in_rounding(farthest, mean_spacing(grid), block.units());
+  const std::string lost = lost_in_rounding(farthest, shortest_edge(grid), block.units());
   if (!lost.empty()) block.problem(block.has("centre") ? "centre" : "shape", lost);
 }
 

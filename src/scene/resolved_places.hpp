@@ -12,18 +12,20 @@
 namespace meniscus {
 
 /// Forces come from differences of places. Why a body whose coordinates reach `farthest` cannot be
-/// computed, without its name; empty if it can.
-inline std::string lost_in_rounding(Real farthest, Real spacing, const UnitSystem& units) {
-  // Of a spacing: errors of forces, and of energies, are of this size.
+/// computed, without its name; empty if it can. `edge`: its shortest one of a cell.
+inline std::string lost_in_rounding(Real farthest, Real edge, const UnitSystem& units) {
+  // Of an edge: errors of forces, and of energies, are of this size.
   constexpr Real most = 1e-6;
   const Real rounding = std::numeric_limits<Real>::epsilon() * farthest;
-  if (rounding <= most * spacing) return "";
+  if (rounding <= most * edge) return "";
   const std::string unit = units.symbol(dimension::length);
   return fmt::format(
-      "its places reach {:.4g} {}, where numbers are {:.2g} {} apart; with its spacing of {:.4g} "
-      "{} they may reach {:.2g} {}; move it towards the origin",
-      farthest, unit, rounding, unit, spacing, unit,
-      most * spacing / std::numeric_limits<Real>::epsilon(), unit);
+      "its places reach {:.4g} {}, where numbers are {:.2g} {} apart; its shortest edge of a "
+      "cell is {:.4g} {}, with which they may reach {:.2g} {}; move it towards the origin, or make "
+      "its "
+      "cells more even",
+      farthest, unit, rounding, unit, edge, unit,
+      most * edge / std::numeric_limits<Real>::epsilon(), unit);
 }
 
 }  // namespace meniscus

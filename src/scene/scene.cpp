@@ -41,7 +41,7 @@ void set_initial_state(const Plan<D>& plan, Scene<D>& scene) {
       }
     }
     const std::string lost =
-        lost_in_rounding(farthest, mean_spacing(body.geometry.grid), scene.units);
+        lost_in_rounding(farthest, shortest_edge(body.geometry.grid), scene.units);
     if (!lost.empty())
       throw InputError(fmt::format("body '{}': initial_displacement: {}", body.name, lost));
   }

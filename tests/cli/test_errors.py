@@ -132,6 +132,8 @@ class Scenes(ProgramTest):
                                 "move it towards the origin")
         large = BLOCK.replace("[1, 1, 1]", "[1e12, 1e12, 1e12]\ncentre = [1e13, 0, 0]")
         self.call("check", self.scene(large[:large.index("[[body_force]]")]))
+        self.assert_refused(BLOCK.replace("[1, 1, 1]", "[1e11, 1e11, 1]"), "body[0].shape: its places reach 5e+10",
+                            "its shortest edge of a cell is 0.25 m", "make its cells more even")
 
     def test_held_without_a_face(self):
         """A whole surface is not held by mistake."""
