@@ -173,7 +173,7 @@ template <int D>
 void Simulation<D>::step_or_halve(Real dt) {
   constexpr int most_halvings = 6;
   keep(scene_.system, state_, before_);
-  std::string cause;
+  StepFailure rejected;
   for (int halvings = 0;; ++halvings) {
     last_step_ = dt;
     try {
@@ -181,13 +181,13 @@ void Simulation<D>::step_or_halve(Real dt) {
         stepper_->step(state_, dt);
       else
         stepper_->try_step(state_, dt);
-      if (halvings > 0) controller_->shorten(dt, cause);
+      if (halvings > 0) controller_->shorten(dt, rejected);
       return;
     } catch (StepError& e) {
       e.failure.halvings = halvings;
       if (!e.failure.of_step || halvings == most_halvings) throw;
       state_ = before_;
-      cause = e.failure.cause;
+      rejected = e.failure;
       dt /= 2;
     }
   }

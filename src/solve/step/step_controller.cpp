@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus {
 namespace {
@@ -123,10 +124,18 @@ void StepController<D>::respect_demand(State& state) {
   if (step_ > tolerated * allowed) step_ = margin * allowed;
 }
 
-/// The failure of a run whose steps have become so short that the time hardly grows; the particle
-/// is the fastest one. `dt`: the step.
+/// The failure of a run whose steps `dt` have become so short that the time does not grow: that of
+/// the last rejected step, or of the fastest particle.
 template <int D>
 StepError StepController<D>::time_stands_still(const State& state, Real dt) const {
+  const std::string cause = fmt::format("steps of {:.3g} do not change the time any more", dt);
+  if (rejected_) {
+    StepFailure failure = *rejected_;
+    failure.cause =
+        fmt::format("{}, for the step is halved again and again: {}", cause, failure.cause);
+    failure.halvings = 0;
+    return StepError(failure);
+  }
   struct Fastest {
     Real square;
     Index particle;
@@ -135,11 +144,11 @@ StepError StepController<D>::time_stands_still(const State& state, Real dt) cons
   const Fastest all = system_.sum_over_particles(Fastest{-1, 0}, [&](Index A) {
     return Fastest{sum(at(state.v, A) * at(state.v, A)), A};
   });
-  std::string cause = fmt::format("steps of {:.3g} hardly change the time any more", dt);
-  cause += rejected_.empty() ? ": surfaces come nearer faster than their contact can stop them"
-                             : "; the last that was refused: " + rejected_;
-  cause += "; slower motion or weaker loads are needed";
-  return StepError(system_.located({all.particle, std::move(cause)}, state.motion()));
+  return StepError(system_.located(
+      {all.particle, cause +
+                         ": surfaces come nearer faster than their contact can stop them; slower "
+                         "motion or weaker loads are needed"},
+      state.motion()));
 }
 
 template <int D>
@@ -151,7 +160,8 @@ Real StepController<D>::next(State& state, Real end, Real accurate) {
   const Real least_share = choice_.implicit_viscosity ? 1e-3 : state.fields.empty() ? 0.1 : 0.03;
   const Real dt = choice_.fixed ? step_ : std::min(step_, std::max(accurate, least_share * step_));
   // Steps that each close a share of a gap, or that are halved again and again, never end.
-  if (!(dt > 1e-12 * state.time)) throw time_stands_still(state, dt);
+  if (!(dt > 4 * std::numeric_limits<Real>::epsilon() * state.time))
+    throw time_stands_still(state, dt);
   const Real left = end - state.time;
   if (left <= dt * (1 + 1e-9)) return left;
   if (left < 2 * dt) return left / 2;

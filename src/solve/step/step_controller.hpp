@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Step control: a fraction of the stable step, or the fixed step of the scene.
 #pragma once
+#include "meniscus/error.hpp"
 #include "solve/step/time_step.hpp"
 
 #include <optional>
@@ -34,14 +35,13 @@ class StepController {
   /// The next step. Unless it is fixed, it is at most `accurate`, but at least a tenth of the
   /// allowed step (a thousandth with implicit viscosity). The last two steps are shortened to end
   /// exactly at `end`. Throws SolveError if the stable step has fallen to a millionth of the first
-  /// one, or the step to a share of the time so small that the time hardly grows.
+  /// one, or the step to a rounding of the time.
   Real next(State& state, Real end, Real accurate = unbounded);
 
   /// Call this after a rejected step: the next steps are at most `dt`, until the next estimate.
-  /// `cause`: why it was rejected.
-  void shorten(Real dt, const std::string& cause) {
+  void shorten(Real dt, const StepFailure& rejected) {
     step_ = std::min(step_, dt);
-    rejected_ = cause;
+    rejected_ = rejected;
   }
 
   const StableStep& stable() const { return stable_; }
@@ -70,8 +70,8 @@ class StepController {
   Real step_ = 0, first_limit_ = 0;
   Real interval_ = 0;  ///< number of steps between estimates
   std::int64_t next_check_ = 0, last_check_ = 0;
-  Real known_stiffness_ = 0;  ///< demand at the last estimate, which contains it
-  std::string rejected_;  ///< why the last rejected step was, for messages
+  Real known_stiffness_ = 0;             ///< demand at the last estimate, which contains it
+  std::optional<StepFailure> rejected_;  ///< the last one, for messages
   bool warned_ = false;
   std::optional<std::string> warning_;
 };
