@@ -56,6 +56,10 @@ struct Surface final : Load<D>, Keys {
   void check(const Block& block, const BodyPlans<D>& bodies) const override {
     require_body(block, bodies, body);
   }
+  void prepare(BodyPlans<D>& bodies) const override {
+    for (BodyPlan<D>& planned : bodies)
+      planned.pulled_along |= planned.settings.name == body && type == "varying_tension";
+  }
   /// Adds the term with its measures. Measures of a tension are named after the body alone,
   /// measures of other laws after the body and the type.
   void build(Assembly<D>& assembly) const override {

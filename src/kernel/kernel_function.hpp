@@ -14,11 +14,12 @@ enum class KernelFunction {
   quintic_spline,
   wendland_c2,
   wendland_c4,
-  quartic_spline
+  quartic_spline,
+  triweight
 };
 
-inline constexpr std::array<std::string_view, 5> kernel_function_names{
-    "cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4", "quartic_spline"};
+inline constexpr std::array<std::string_view, 6> kernel_function_names{
+    "cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4", "quartic_spline", "triweight"};
 
 /// Phi, alpha = Phi'/z and beta = Phi'' - Phi'/z: with u = (x - x_A)/|x - x_A|,
 /// Phi,i = alpha (x - x_A)_i / support^2 and Phi,ij = (alpha delta_ij + beta u_i u_j) / support^2.
@@ -86,7 +87,25 @@ struct QuarticSpline {
   }
 };
 
+/// (1 - z^2)^3, C2; phi(0) = 1. A particle weighs as the inverse square of its support, so that
+/// those of a fine layer weigh more than coarse ones behind it (drop steps).
+struct Triweight {
+  static constexpr bool weighs_by_support = true;
+  static KernelValue at(Lanes z) {
+    const Lanes t = max(1.0 - z * z, 0.0), t2 = t * t;
+    return {t * t2, -6.0 * t2, 24.0 * z * z * t};
+  }
+};
+
 }  // namespace kernel_function
+
+/// The factor of a kernel function whose support is H / ratio, H being the same for all particles
+/// around a point.
+template <class W>
+constexpr Real kernel_weight(Real ratio) {
+  if constexpr (requires { W::weighs_by_support; }) return ratio * ratio;
+  return 1;
+}
 
 /// Calls f with an object of the type of the kernel: it is chosen once, outside of all loops.
 template <class F>
@@ -100,6 +119,8 @@ decltype(auto) with_kernel_function(KernelFunction kernel_function, F&& f) {
       return f(kernel_function::WendlandC4{});
     case KernelFunction::quartic_spline:
       return f(kernel_function::QuarticSpline{});
+    case KernelFunction::triweight:
+      return f(kernel_function::Triweight{});
     case KernelFunction::cubic_spline:
       break;
   }

@@ -129,12 +129,13 @@ void ReproducingKernel<D, Degree>::evaluate_functions(const std::array<Vec<D>, 4
       s2 += at(kernel.s, i) * at(kernel.s, i);
     }
     const Real ratio = H / c.support;
+    const Real weight = kernel_weight<W>(ratio);
     const KernelValue w = W::at(sqrt(s2) * ratio);
-    kernel.phi = w.phi;
+    kernel.phi = w.phi * weight;
     if (order == Derivatives::none) continue;
-    kernel.a = w.alpha * (ratio * ratio);
+    kernel.a = w.alpha * (ratio * ratio * weight);
     if (order == Derivatives::first) continue;
-    kernel.b = w.beta * (ratio * ratio) / max(s2, 1e-300);
+    kernel.b = w.beta * (ratio * ratio * weight) / max(s2, 1e-300);
   }
   if (kernel_.size() > candidates.size()) kernel_.back() = Kernel{};  // adds zero to its pair
 }

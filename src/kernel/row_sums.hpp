@@ -20,6 +20,27 @@ NodalVector value_at(const PointRows<D>& rows, Index q, const NodalVector* field
   return even + odd;
 }
 
+/// The values of two fields at point q, in one pass over the row; the bits are those of value_at().
+template <int D>
+std::array<NodalVector, 2> values_at(const PointRows<D>& rows, Index q, const NodalVector* one,
+                                     const NodalVector* other) {
+  Lanes even[2] = {Lanes::zero(), Lanes::zero()}, odd[2] = {Lanes::zero(), Lanes::zero()};
+  const Real* N = rows.value.data() + at(rows.start, q);
+  const Index* A = rows.particle.data() + at(rows.start, q);
+  const Index* const end = rows.particle.data() + at(rows.start, q + 1);
+  for (; A + 1 < end; A += 2, N += 2) {
+    even[0] += N[0] * one[A[0]];
+    even[1] += N[0] * other[A[0]];
+    odd[0] += N[1] * one[A[1]];
+    odd[1] += N[1] * other[A[1]];
+  }
+  if (A != end) {
+    even[0] += *N * one[*A];
+    even[1] += *N * other[*A];
+  }
+  return {even[0] + odd[0], even[1] + odd[1]};
+}
+
 /// The gradient of the field at point q: column K is sum_A f_A N_A,K.
 template <int D>
 [[gnu::always_inline]] inline std::array<Lanes, D> gradient_at(const PointRows<D>& rows, Index q,

@@ -281,20 +281,24 @@ bool has_narrow_supports(const BodyPlan<D>& body) {
   return D == 3 && body.material && !body.material->fluid() && !body.curvature;
 }
 
-/// The length that supports are multiples of by default. A director shears a liquid at its surface,
-/// where growing supports would double the error (cells note 6).
+/// Kernel function and supports where the scene leaves them out. Liquids in 3D have few neighbours
+/// with large weights (performance note 3.2). Second derivatives of curvature, directors, tensions
+/// that pull along the surface, and sharp contact lines need more neighbours. A director in 2D
+/// shears a liquid at its surface, where supports that grow would double the error (cells note 6).
 template <int D>
-std::string default_support_length(const BodyPlan<D>& body) {
-  const bool sheared = D == 2 && body.material && body.material->carries_director();
-  return sheared || has_narrow_supports(body) ? "cells" : "neighbours";
+SupportDefaults default_supports(const BodyPlan<D>& body) {
+  const bool director = body.material && body.material->carries_director(),
+             few = D == 3 && body.material && body.material->fluid() && !director &&
+                   !body.curvature && !body.pulled_along && body.wetted.empty();
+  return {few ? "triweight" : "cubic_spline", has_narrow_supports(body) ? 1.5 : 1.8,
+          (D == 2 && director) || has_narrow_supports(body) ? "cells" : "neighbours"};
 }
 
 template <int D>
 void settle_supports(const Block& root, BodyPlans<D>& bodies) {
   const auto blocks = root.tables("body");
   for (std::size_t k = 0; k < bodies.size(); ++k)
-    bodies[k].settings.settle_support(blocks[k], has_narrow_supports(bodies[k]) ? 1.5 : 1.8,
-                                      default_support_length(bodies[k]));
+    bodies[k].settings.settle_support(blocks[k], default_supports(bodies[k]));
 }
 
 /// Expected memory of a body in bytes, during set-up and run, with integration "q_scni"; other

@@ -17,7 +17,9 @@ namespace meniscus {
 namespace {
 
 std::vector<std::string> kernel_functions() {
-  return {kernel_function_names.begin(), kernel_function_names.end()};
+  std::vector<std::string> names{"automatic"};
+  names.insert(names.end(), kernel_function_names.begin(), kernel_function_names.end());
+  return names;
 }
 
 /// True if a multiple of `every` lies in (before, now].
@@ -127,10 +129,13 @@ Rows<BodySettings> BodySettings::rows() {
           "moduli extended from inner cells to the boundary, so that they do not lock; automatic: "
           "cell_average for solids and for fluids with balanced surface tension, else full",
           "automatic"),
-      choice_row("window", &S::window, kernel_functions(), "kernel function of the shape functions",
-                 "cubic_spline"),
+      choice_row("window", &S::window, kernel_functions(),
+                 "kernel function of the shape functions; automatic: triweight for liquids in 3D "
+                 "without a director and a wetted face, unless their tension varies or has form = "
+                 "\"curvature\", else cubic_spline",
+                 "automatic"),
       optional_row("support_factor", &S::support_factor, dimension::none, support_factors,
-                   "1.5 for solids in 3D, else 1.8",
+                   "1.5 for solids in 3D and with window = \"triweight\", else 1.8",
                    "support of a particle / length of support_by; both are measured after a round "
                    "body, as an ellipsoid, is pressed back to a ball. 1.8 also for solids whose "
                    "surface tension has form = \"curvature\""),
@@ -152,15 +157,17 @@ Rows<BodySettings> BodySettings::rows() {
   };
 }
 
-void BodySettings::settle_support(const Block& block, Real factor, const std::string& by) {
+void BodySettings::settle_support(const Block& block, const SupportDefaults& otherwise) {
+  if (window == "automatic") window = otherwise.window;
   if (!support_factor)
-    support_factor = block.real("support_factor", dimension::none, support_factors, factor);
+    support_factor = block.real("support_factor", dimension::none, support_factors,
+                                window == "triweight" ? 1.5 : otherwise.factor);
   if (support_rank > 0 && support_by == "cells")
     block.problem(
         "support_rank",
         "is a rank of neighbours, which support_by = \"cells\" does not ask for; leave one "
         "of them out");
-  if (support_by == "automatic") support_by = support_rank > 0 ? "neighbours" : by;
+  if (support_by == "automatic") support_by = support_rank > 0 ? "neighbours" : otherwise.by;
 }
 
 Rows<SolidSettings> SolidSettings::rows() {

@@ -45,6 +45,13 @@ struct OutputSettings {
   bool frame_due(Real before, Real now, Real end) const;
 };
 
+/// Kernel function and supports of a body, where the scene leaves them out.
+struct SupportDefaults {
+  std::string window;
+  Real factor;  ///< with another kernel function than "triweight", whose factor is 1.5
+  std::string by;
+};
+
 /// The keys and inner tables of [[body]], except the keys of its shape.
 struct BodySettings {
   std::string name, integration, volumetric, window, support_by;
@@ -55,9 +62,9 @@ struct BodySettings {
   Real support_spacings = 0;           ///< > 0: the same support everywhere, x mean cell size
   std::vector<Expression> initial_displacement, initial_velocity;  ///< empty: zero
   static Rows<BodySettings> rows();
-  /// Sets support_factor and support_by if the scene leaves them out. The defaults depend on other
-  /// keys of the scene.
-  void settle_support(const Block& block, Real factor, const std::string& by);
+  /// Sets window, support_factor and support_by if the scene leaves them out. The defaults depend
+  /// on other keys of the scene.
+  void settle_support(const Block& block, const SupportDefaults& otherwise);
 };
 
 /// The keys that [body.material] of any solid may have in addition to the keys of its law.

@@ -97,8 +97,8 @@ Measurement spectrum(const std::string& method, Support support, int n) {
 }
 
 std::string body_keys(Support support) {
-  return fmt::format("support_factor = {}\nsupport_by = \"{}\"", support.factor,
-                     support.by_cells ? "cells" : "neighbours");
+  return fmt::format("window = \"cubic_spline\"\nsupport_factor = {}\nsupport_by = \"{}\"",
+                     support.factor, support.by_cells ? "cells" : "neighbours");
 }
 
 Measurement vibration(const std::string& method, Support support, int n) {

@@ -9,9 +9,9 @@
 namespace meniscus::test_kernel_function {
 namespace {
 
-constexpr std::array all_functions{KernelFunction::cubic_spline, KernelFunction::quintic_spline,
-                                   KernelFunction::wendland_c2, KernelFunction::wendland_c4,
-                                   KernelFunction::quartic_spline};
+constexpr std::array all_functions{KernelFunction::cubic_spline,   KernelFunction::quintic_spline,
+                                   KernelFunction::wendland_c2,    KernelFunction::wendland_c4,
+                                   KernelFunction::quartic_spline, KernelFunction::triweight};
 
 struct Values {
   Real phi, slope, bend;
@@ -35,6 +35,16 @@ TEST(KernelFunction, MatchesReference) {
     EXPECT_NEAR(got.slope, c.at("value").at("dphi_dz").get<Real>(), 1e-13);
     EXPECT_NEAR(got.bend, c.at("value").at("d2phi_dz2").get<Real>(), 1e-13);
   }
+}
+
+TEST(KernelFunction, TriweightIsTheCubeOfAParabola) {
+  for (const Real z : {0.0, 0.3, 0.5, 0.9}) {
+    const Values got = at_distance(KernelFunction::triweight, z);
+    EXPECT_NEAR(got.phi, std::pow(1 - z * z, 3), 1e-15);
+    EXPECT_NEAR(got.slope, -6 * z * std::pow(1 - z * z, 2), 1e-15);
+  }
+  EXPECT_EQ(kernel_weight<kernel_function::Triweight>(2), 4) << "1/support^2";
+  EXPECT_EQ(kernel_weight<kernel_function::CubicSpline>(2), 1);
 }
 
 /// Distances at which branches meet, and slightly beside them.

@@ -34,6 +34,7 @@ struct BodyPlan {
   bool in_order;              ///< false if the body cannot be made; its geometry is then a stand-in
   bool enclosed = false;      ///< Integration::enclosed, for fluids
   bool curvature = false;     ///< a term needs the curvature of its surface (second derivatives)
+  bool pulled_along = false;  ///< a term pulls along its surface, as a tension that varies
   bool loaded_faces = false;  ///< Body::loaded_faces
   std::vector<WettedFace<D>> wetted = {};  ///< Body::wetted
   SolidSettings solid = {};                ///< for solids

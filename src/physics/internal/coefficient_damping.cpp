@@ -27,8 +27,10 @@ class CoefficientDamping final : public ForceTerm {
   bool viscous() const override { return true; }
   std::optional<Real> potential(const Motion&) override { return 0; }
 
+  /// The places are those of the last add_force().
   void add_viscous(const Motion& motion, Forces force) override {
-    subtract_places(motion);
+    const Lanes* v = motion.v.data() + body_.first;
+    sum_slips([&](Index A) { at(slip_, A) = v[A] - value_at(body_.at_particles, A, v); });
     force.gather({rotations_.gathered_where_rows_are()}, motion,
                  [this](const Motion&, const Forces& all) {
                    add_damping(all);
@@ -48,8 +50,14 @@ class CoefficientDamping final : public ForceTerm {
                            });
   }
 
+  /// Positions are reproduced, so (I - N) x = (I - N) u.
   Report add_force(const Motion& motion, Forces force) override {
-    subtract_places(motion);
+    const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
+    sum_slips([&](Index A) {
+      const auto [at_u, at_v] = values_at(body_.at_particles, A, u, v);
+      at(slip_, A) = v[A] - at_v;
+      at(offset_, A) = u[A] - at_u;
+    });
     return force.gather({rotations_.gathered_where_rows_are()}, motion,
                         [this](const Motion& at_motion, const Forces& all) {
                           add_damping(all);
@@ -85,22 +93,18 @@ class CoefficientDamping final : public ForceTerm {
     }
   };
 
-  /// Sets slip_ to d and offset_ to e, and sums them. Positions are reproduced, so (I - N) x = (I -
-  /// N) u.
-  void subtract_places(const Motion& motion) {
-    const Lanes *u = motion.u.data() + body_.first, *v = motion.v.data() + body_.first;
+  /// Sums slips d and offsets e, after `set(A)` has set slip_ and offset_ of a particle.
+  template <class Set>
+  void sum_slips(const Set& set) {
     chunk_sums_.for_own_chunks([&](int chunk, Index begin, Index end) {
-      const PointRows<D>& rows = body_.at_particles;
       Rotation sum;
       for (Index A = begin; A < end; ++A) {
-        const Lanes d = v[A] - value_at(rows, A, v), e = u[A] - value_at(rows, A, u);
-        at(slip_, A) = d;
-        at(offset_, A) = e;
-        const Eigen::Vector3d x = spatial(e);
+        set(A);
+        const Eigen::Vector3d x = spatial(at(offset_, A));
         const Real c = at(rate_, A);
         sum =
             sum + Rotation{c * (x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose()),
-                           c * cross(x, spatial(d))};
+                           c * cross(x, spatial(at(slip_, A)))};
       }
       rotations_[chunk] = sum;
     });

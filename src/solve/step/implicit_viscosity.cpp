@@ -14,13 +14,13 @@ namespace meniscus {
 namespace {
 
 /// Largest residual, in the norm of the preconditioner and relative to sqrt(v . M v).
-constexpr Real tolerance = 3e-5;
+constexpr Real tolerance = 1e-4;
 /// Usually up to 200 iterations are needed; up to 1000 where stress points are nearly folded and
 /// F^-1 makes the viscosity stiff. A shorter step hardly changes the latter.
 constexpr int most_iterations = 2000;
 /// Number of steps after which the diagonal is computed again, which costs about as much as a
 /// force.
-constexpr std::int64_t longest_age = 20;
+constexpr std::int64_t longest_age = 100;
 
 /// Position of the coefficient of a particle.
 template <int D>

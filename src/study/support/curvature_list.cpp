@@ -61,7 +61,8 @@ std::vector<CurvatureMethod<D>> all_methods() {
   };
   for (const Places places : {at_points, at_nodes})
     for (const KernelFunction kernel_function :
-         {cubic, quintic, KernelFunction::wendland_c2, KernelFunction::wendland_c4}) {
+         {cubic, quintic, KernelFunction::wendland_c2, KernelFunction::wendland_c4,
+          KernelFunction::triweight}) {
       List<D> list(fmt::format("{}, {}",
                                at(kernel_function_names, static_cast<int>(kernel_function)),
                                places == at_points ? "points" : "nodes"));

@@ -164,7 +164,7 @@ StepDemand approach_demand(const Approach& approach, Real range) {
 }
 
 StepDemand contact_demand(const ContactInertia& contact, Real gap, const ClosingSpeed& closing) {
-  constexpr Real closed_in_a_step = 0.05;
+  const Real closed_in_a_step = contact.interaction.hardens() ? 0.05 : 0.1;
   StepDemand demand;
   if (!(gap > 0)) return demand;
   if (closing.speed > 0) demand.longest = closed_in_a_step * gap / closing.speed;
