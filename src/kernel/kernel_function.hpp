@@ -87,8 +87,8 @@ struct QuarticSpline {
   }
 };
 
-/// (1 - z^2)^3, C2; phi(0) = 1. A particle weighs as the inverse square of its support, so that
-/// those of a fine layer weigh more than coarse ones behind it (drop steps).
+/// (1 - z^2)^3, C2; phi(0) = 1. The function of a particle has the factor 1/support^2, so that
+/// particles of a fine layer weigh more than coarse ones behind it.
 struct Triweight {
   static constexpr bool weighs_by_support = true;
   static KernelValue at(Lanes z) {
@@ -99,8 +99,8 @@ struct Triweight {
 
 }  // namespace kernel_function
 
-/// The factor of a kernel function whose support is H / ratio, H being the same for all particles
-/// around a point.
+/// The factor of the kernel function of a particle with the support H / ratio. All particles around
+/// a point have one H.
 template <class W>
 constexpr Real kernel_weight(Real ratio) {
   if constexpr (requires { W::weighs_by_support; }) return ratio * ratio;

@@ -20,7 +20,7 @@ NodalVector value_at(const PointRows<D>& rows, Index q, const NodalVector* field
   return even + odd;
 }
 
-/// The values of two fields at point q, in one pass over the row; the bits are those of value_at().
+/// The values of two fields at point q, in one pass over the row; value_at() gives the same bits.
 template <int D>
 std::array<NodalVector, 2> values_at(const PointRows<D>& rows, Index q, const NodalVector* one,
                                      const NodalVector* other) {

@@ -281,10 +281,11 @@ bool has_narrow_supports(const BodyPlan<D>& body) {
   return D == 3 && body.material && !body.material->fluid() && !body.curvature;
 }
 
-/// Kernel function and supports where the scene leaves them out. Liquids in 3D have few neighbours
+/// Kernel function and supports where the scene leaves them out. In 3D, liquids have few neighbours
 /// with large weights (performance note 3.2). Second derivatives of curvature, directors, tensions
-/// that pull along the surface, and sharp contact lines need more neighbours. A director in 2D
-/// shears a liquid at its surface, where supports that grow would double the error (cells note 6).
+/// that pull along the surface, and sharp contact lines are inaccurate with so few. A director in
+/// 2D shears a liquid at its surface, where supports that grow would double the error (cells note
+/// 6).
 template <int D>
 SupportDefaults default_supports(const BodyPlan<D>& body) {
   const bool director = body.material && body.material->carries_director(),

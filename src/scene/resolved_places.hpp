@@ -12,9 +12,9 @@
 namespace meniscus {
 
 /// Forces come from differences of places. Why a body whose coordinates reach `farthest` cannot be
-/// computed, without its name; empty if it can. `edge`: its shortest one of a cell.
+/// computed, without its name; empty if it can. `edge`: the shortest edge of its cells.
 inline std::string lost_in_rounding(Real farthest, Real edge, const UnitSystem& units) {
-  // Of an edge: errors of forces, and of energies, are of this size.
+  // Largest rounding as a share of the edge; errors of forces and energies are about as large.
   constexpr Real most = 1e-6;
   const Real rounding = std::numeric_limits<Real>::epsilon() * farthest;
   if (rounding <= most * edge) return "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was made of the straight facets of a mesh.
+// How a mesh with straight facets was curved.
 #pragma once
 #include "body/shapes/geometry.hpp"
 
@@ -13,7 +13,7 @@ struct CurvedFacets {
       0;  ///< volume that curving adds, as a share of the volume with straight facets
 };
 
-/// What curving did to the facets of a mesh; nothing for meshes of second order and other shapes.
+/// The facets of a mesh of first order; zeros for meshes of second order and for other shapes.
 template <int D>
 CurvedFacets curved_facets(const Geometry<D>& geometry);
 

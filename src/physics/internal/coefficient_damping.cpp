@@ -27,7 +27,7 @@ class CoefficientDamping final : public ForceTerm {
   bool viscous() const override { return true; }
   std::optional<Real> potential(const Motion&) override { return 0; }
 
-  /// The places are those of the last add_force().
+  /// Uses the offsets of the last add_force().
   void add_viscous(const Motion& motion, Forces force) override {
     const Lanes* v = motion.v.data() + body_.first;
     sum_slips([&](Index A) { at(slip_, A) = v[A] - value_at(body_.at_particles, A, v); });

@@ -124,8 +124,8 @@ void StepController<D>::respect_demand(State& state) {
   if (step_ > tolerated * allowed) step_ = margin * allowed;
 }
 
-/// The failure of a run whose steps `dt` have become so short that the time does not grow: that of
-/// the last rejected step, or of the fastest particle.
+/// The error of a run whose steps `dt` have become so short that the time does not grow. It names
+/// the cause of the last rejected step, or the fastest particle.
 template <int D>
 StepError StepController<D>::time_stands_still(const State& state, Real dt) const {
   const std::string cause = fmt::format("steps of {:.3g} do not change the time any more", dt);
