@@ -90,8 +90,9 @@ TEST(Plan, SupportsAreAsWideAsTheirUseAsksFor) {
                     ball = "shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2",
                     tension = "[[surface_tension]]\nbody = \"body\"\ngamma = 1\nform = ";
   EXPECT_EQ(default_support<3>(cube, solid), 1.5);
-  EXPECT_EQ(default_support<3>(cube, example_liquid()), 1.5);
-  EXPECT_EQ(default_support<3>(cube + "\nwindow = \"cubic_spline\"", example_liquid()), 1.8);
+  EXPECT_EQ(default_support<3>(cube, example_liquid()), 1.8);
+  EXPECT_EQ(default_support<3>(ball, example_liquid()), 1.5);
+  EXPECT_EQ(default_support<3>(ball + "\nwindow = \"cubic_spline\"", example_liquid()), 1.8);
   EXPECT_EQ(default_support<3>(cube + "\nsupport_factor = 1.7", solid), 1.7);
   EXPECT_EQ(default_support<2>("shape = \"rectangle\"\ncells = [4, 4]\nsize = [1, 1]", solid), 1.8);
   EXPECT_EQ(default_support<3>(ball, solid, tension + "\"balanced\"\n"), 1.5);
@@ -99,7 +100,7 @@ TEST(Plan, SupportsAreAsWideAsTheirUseAsksFor) {
 }
 
 /// Performance note 3.2.
-TEST(Plan, LiquidsInSpaceHaveTheTriweightUnlessMoreThanValuesCount) {
+TEST(Plan, RoundLiquidsIn3DHaveTheTriweightUnlessMoreThanValuesCount) {
   const std::string ball = "shape = \"ball\"\nradius = 1\ncore = 2\nlayers = 2\n",
                     disk = "shape = \"disk\"\nradius = 1\ncore = 4\nrings = 2\n",
                     tension = "[[surface_tension]]\nbody = \"body\"\ngamma = 1\nform = ",
@@ -114,6 +115,10 @@ TEST(Plan, LiquidsInSpaceHaveTheTriweightUnlessMoreThanValuesCount) {
   EXPECT_EQ(window(tension + "\"curvature\"\n"), "cubic_spline");
   EXPECT_EQ(window(varies), "cubic_spline");
   EXPECT_EQ(settings_of<3>(ball, example_solid()).window, "cubic_spline");
+  EXPECT_EQ(settings_of<3>("shape = \"half_sphere\"\nradius = 1\ncore = 4\nlayers = 2\n",
+                           example_liquid())
+                .window,
+            "cubic_spline");
   EXPECT_EQ(settings_of<2>(disk, example_liquid()).window, "cubic_spline");
 }
 
