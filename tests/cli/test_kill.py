@@ -59,14 +59,16 @@ class Kill(ProgramTest):
         """Kills one run several times and continues it after each kill; in the full form, does this five times."""
         for seed in range(SEED, SEED + (5 if FULL else 1)):
             with self.subTest(seed=seed):
-                self.kill_one_run(seed, text, kills, *longer)
-                shutil.rmtree(self.directory / "out")
-                shutil.rmtree(self.directory / "whole")
+                try:
+                    self.kill_one_run(seed, text, kills, *longer)
+                finally:
+                    shutil.rmtree(self.directory / "out", ignore_errors=True)
+                    shutil.rmtree(self.directory / "whole", ignore_errors=True)
 
     def kill_one_run(self, seed, text, kills, *longer):
         random.seed(seed)
         file = self.scene(text)
-        longer = [*longer, "--set", "output.checkpoint_minutes=0.0003"]
+        longer = [*longer, "--set", "output.checkpoint_minutes=0.00003"]  # 2 ms: also in fast runs
         whole = state_of(self.call("run", file, "--output", "whole", *longer))
         size = (self.directory / "whole/history.csv").stat().st_size
         options = []
