@@ -99,6 +99,7 @@ void StepController<D>::reconsider(State& state) {
   }
   // Small changes are not made, because each change of step disturbs the energy balance a little.
   const Real wanted = std::min(choice_.safety * stable_.dt, state.demand.longest);
+  if (step_ < 0.9 * wanted) rejected_.reset();
   if (step_ > std::min(1.02 * wanted, stable_.dt) || step_ < 0.9 * wanted) step_ = wanted;
 }
 
