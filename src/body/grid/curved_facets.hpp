@@ -7,10 +7,10 @@ namespace meniscus {
 
 /// Facets of a mesh of first order, whose surface is curved between its nodes.
 struct CurvedFacets {
-  Index straightened =
-      0;  ///< facets that have a straight edge, because a cell would fold otherwise
-  Real added_volume =
-      0;  ///< volume that curving adds, as a share of the volume with straight facets
+  /// Facets that have a straight edge, because a cell would fold otherwise.
+  Index straightened = 0;
+  /// Volume that curving adds, as a share of the volume with straight facets.
+  Real added_volume = 0;
 };
 
 /// The facets of a mesh of first order; zeros for meshes of second order and for other shapes.

@@ -251,19 +251,6 @@ Real mean_spacing(const Grid<D>& grid) {
   return std::pow(is_simplex<D>(grid.cells.front()) ? simplices * V : V, 1.0 / D);
 }
 
-template <int D>
-Real shortest_edge(const Grid<D>& grid) {
-  Real shortest = std::numeric_limits<Real>::max();
-  for (const auto& cell : grid.cells)
-    for (int a = 0; a < Grid<D>::corners; ++a)
-      for (int k = 0; k < D; ++k) {
-        const Index one = at(cell, a), other = at(cell, a | (1 << k));
-        if (one != other)  // corners of simplices coincide
-          shortest = std::min(shortest, (at(grid.X, one) - at(grid.X, other)).norm());
-      }
-  return shortest;
-}
-
 namespace {
 
 /// Mean square of the diagonals of a cell; for a simplex, of the cube that consists of such
@@ -391,7 +378,6 @@ CellPoints<D> cell_gauss_points(const Grid<D>& grid, int k) {
   template NodeCells cells_of_nodes<D>(const Grid<D>&);                               \
   template Real volume(const Grid<D>&);                                               \
   template Real mean_spacing(const Grid<D>&);                                         \
-  template Real shortest_edge(const Grid<D>&);                                        \
   template Mat<D> mean_stretch(const Grid<D>&);                                       \
   template std::vector<Real> diagonals_around_nodes(const Grid<D>&, const Mat<D>&);   \
   template std::vector<Real> supports_by_cells(const Grid<D>&, const Mat<D>&, Real);  \

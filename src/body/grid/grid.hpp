@@ -162,10 +162,6 @@ Real volume(const Grid<D>& grid);
 template <int D>
 Real mean_spacing(const Grid<D>& grid);
 
-/// The shortest edge of a cell.
-template <int D>
-Real shortest_edge(const Grid<D>& grid);
-
 /// For each node the mean, over the cells around it, of the root mean square of their diagonals. In
 /// a lattice this is sqrt(D) spacings, also at the boundary. For simplices it is the diagonal of
 /// the cube (2D: square) that could be cut into such simplices. Lengths are measured after the
